@@ -1,0 +1,66 @@
+# `make demo` and `make test` need nothing but make and Python 3.11 or newer: each makes .venv first.
+# (On Windows make needs a POSIX shell too, as Git brings it; README.md has the commands without make.)
+
+.DEFAULT_GOAL := help
+.DELETE_ON_ERROR:
+
+VENV := .venv
+DEMO_SCENES ?= $(wordlist 1,4,$(sort $(wildcard scenes/*.yaml)))
+DEMO_FOLDER ?= out/demo
+
+# The newest Python that runs and can make an environment; only asked for where there is none yet.
+ifeq ($(OS),Windows_NT)
+PYTHON ?= py -3
+BIN := $(VENV)/Scripts
+else
+PYTHON ?= $(shell for python in python3.14 python3.13 python3.12 python3.11 python3 python; do \
+	"$$python" -c "import ensurepip, sys, venv; sys.exit(sys.version_info < (3, 11))" >/dev/null 2>&1 \
+	&& { echo "$$python"; break; }; done)
+BIN := $(VENV)/bin
+endif
+
+RUN := $(BIN)/python
+STAMP := $(VENV)/.installed
+
+.PHONY: help setup check test demo bench clean
+
+help:  ## list what make can do
+	@echo "make demo    render four scenes and a page that shows them, in $(DEMO_FOLDER)"
+	@echo "make test    run every test"
+	@echo "make check   formatting, lint, types, layers"
+	@echo "make bench   measure, print and write JSON"
+	@echo "make setup   make $(VENV) and install into it (the others do it when needed)"
+	@echo "make clean   remove $(VENV) and all that was made"
+
+setup: $(STAMP)
+	@:
+
+# An environment that still runs is kept; one whose Python is gone or too old is made anew.
+RUNS := "$(RUN)" -c "import sys; sys.exit(sys.version_info < (3, 11))" >/dev/null 2>&1
+ifneq ($(shell $(RUNS) && echo yes),yes)
+.PHONY: $(STAMP)
+endif
+
+$(STAMP): pyproject.toml
+	@$(RUNS) || $(or $(PYTHON),$(error no Python 3.11 or newer with venv and pip was found: install one, or say make PYTHON=...)) -m venv --clear $(VENV)
+	@echo "installing into $(VENV) (a minute, once)"
+	@"$(RUN)" -m pip --disable-pip-version-check -qq install --editable ".[dev]"
+	@"$(RUN)" -c "open('$(STAMP)', 'w').close()"
+
+check: $(STAMP)
+	"$(RUN)" -m ruff format --check .
+	"$(RUN)" -m ruff check .
+	"$(RUN)" -m mypy
+	"$(RUN)" -m pytest -q tests/test_layers.py
+
+test: $(STAMP)
+	"$(RUN)" -m pytest -q -n auto
+
+demo: $(STAMP)
+	@"$(RUN)" -m course demo --out $(DEMO_FOLDER) $(DEMO_SCENES)
+
+bench: $(STAMP)
+	"$(RUN)" -m benchmarks
+
+clean:
+	@"$(or $(PYTHON),python3)" -c "import shutil; [shutil.rmtree(f, True) for f in '$(VENV) build dist out .pytest_cache .mypy_cache .ruff_cache .hypothesis'.split()]"

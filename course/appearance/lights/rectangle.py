@@ -1,0 +1,48 @@
+"""A parallelogram: a cloud of point lights (by intensity) or a Lambertian emitter (by radiance)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from course.appearance.lights.sample import BEFORE_THE_LIGHT, Sample, inverse_square
+from course.core.types import Floats32
+from course.core.vectors import dot
+
+PointOnRectangle = Callable[[Floats32, Floats32, Floats32, Floats32], Floats32]
+
+
+@dataclass(frozen=True)
+class RectangleLight:
+    """Sampled uniformly by area.
+
+    Attributes
+    ----------
+    corner, edge_u, edge_v : (3,) float32
+    normal : (3,) float32 unit, the emitting side of a light by radiance; None for one by intensity
+    color : (3,) float32, I / pi, or radiance times area / pi
+    point_on_rectangle : the function of the soft_shadows module
+    """
+
+    name: str
+    corner: Floats32
+    edge_u: Floats32
+    edge_v: Floats32
+    normal: Floats32 | None
+    color: Floats32
+    point_on_rectangle: PointOnRectangle
+    width: int = 2
+    limit: float = BEFORE_THE_LIGHT
+
+    def sample(self, points: Floats32, u: Floats32 | None) -> Sample:
+        """See ``course.appearance.lights``."""
+        assert u is not None
+        to_light = self.point_on_rectangle(self.corner, self.edge_u, self.edge_v, u) - points
+        inverse_length, factor = inverse_square(to_light)
+        if self.normal is not None:
+            cosine = dot(self.normal[:, None], to_light)
+            cosine *= -inverse_length
+            factor *= np.maximum(cosine, 0, out=cosine)
+        return Sample(to_light, inverse_length, factor)

@@ -1,0 +1,43 @@
+"""One point on a light for each shading point."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from course.core.types import Floats32
+from course.core.vectors import dot
+
+BEFORE_THE_LIGHT = 1 - 1e-4
+"""Shadow rays end this share of the way to the light, so that a light's own surface doesn't block it."""
+
+
+@dataclass(frozen=True)
+class Sample:
+    """Directions to the light and what arrives from there.
+
+    Attributes
+    ----------
+    to_light : (3, n) or (3, 1) float32, from the shading point to the point on the light, not normalised
+    inverse_length : (n,) or (1,) float32, 1 over its length
+    factor : (n,) or (1,) float32
+        Irradiance of an unoccluded surface that faces the light, in units of the light's ``color``; 0 where the
+        light faces away.
+    """
+
+    to_light: Floats32
+    inverse_length: Floats32
+    factor: Floats32
+
+
+CLOSEST = 1e-7
+"""Distances below this, in the unit of the compiled scene, count as this: no light is infinitely bright."""
+
+
+def inverse_square(to_light: Floats32) -> tuple[Floats32, Floats32]:
+    """1 / d and 1 / d^2 of vectors (3, n), with d at least CLOSEST."""
+    squared = dot(to_light, to_light)
+    np.maximum(squared, np.float32(CLOSEST * CLOSEST), out=squared)
+    inverse = np.divide(np.float32(1), squared, out=squared)
+    return np.sqrt(inverse), inverse

@@ -1,0 +1,67 @@
+"""Materials as a table: one row for each property, one column for each material of the scene.
+
+The reflected radiance is Blinn-Phong over pi, so that ``color`` is the share of the light that a diffuse surface
+returns:  L = color (ambient La + diffuse E / pi) + specular (n . h)^exponent E / pi, with the irradiance E = I cos / d^2.
+A dielectric has no ambient and diffuse terms: what it doesn't reflect goes through it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from course.core.types import Floats32, Mask
+
+
+@dataclass(frozen=True)
+class MaterialTable:
+    """M materials.
+
+    Attributes
+    ----------
+    ambient, diffuse, specular, mirror : (3, M) float32
+        Factors of the terms; ambient and diffuse contain the colour.
+    exponent : (M,) float32
+    refraction_index : (M,) float32, 0 where the material is opaque
+    absorption : (3, M) float32 [1 / unit of the compiled scene]
+    emission : (3, M) float32 [W/(m^2 sr)], of the surfaces of lights
+    """
+
+    ambient: Floats32
+    diffuse: Floats32
+    specular: Floats32
+    exponent: Floats32
+    mirror: Floats32
+    refraction_index: Floats32
+    absorption: Floats32
+    emission: Floats32
+
+    @property
+    def shaded(self) -> Mask:
+        """(M,) which materials light from point-like sources makes visible."""
+        return np.asarray((self.diffuse.max(0) > 0) | (self.specular.max(0) > 0))
+
+    @property
+    def refracts(self) -> Mask:
+        """(M,) which materials are dielectrics."""
+        return np.asarray(self.refraction_index > 0)
+
+    @property
+    def mirrors(self) -> Mask:
+        """(M,) which materials reflect like a mirror."""
+        return np.asarray(self.mirror.max(0) > 0)
+
+
+class Lookup:
+    """Gathers properties for hits; where all materials agree, a single column serves all hits."""
+
+    def __init__(self, rows: Floats32) -> None:
+        self._rows = np.ascontiguousarray(rows)
+        self._same = bool((rows == rows[..., :1]).all())
+
+    def __call__(self, material: np.ndarray[tuple[int], np.dtype[np.uint16]]) -> Floats32:
+        """(3, n) or (3, 1) for rows of three, (n,) or (1,) for single rows."""
+        if self._same:
+            return self._rows[..., :1]
+        return self._rows.take(material, axis=-1)

@@ -1,0 +1,76 @@
+"""The command `course`: its subcommands, and what becomes of errors.
+
+Exit codes: 0 done, 1 refused (a mistake in the input, told in one message), 2 wrong usage,
+130 interrupted by Ctrl-C.
+"""
+
+from __future__ import annotations
+
+import sys
+from importlib import import_module
+from io import TextIOWrapper
+
+import click
+
+from course import __version__
+from course.cli.options import INTERRUPTED
+from course.errors import CourseError
+
+COMMANDS = ("render", "info", "schema", "demo")
+"""Each is the command of that name in the module of that name beside this file."""
+
+
+class Refusal(click.ClickException):
+    """A mistake in the input: one message on stderr, no traceback."""
+
+    exit_code = 1
+
+    def show(self, file: object = None) -> None:
+        """Print the message as compilers do."""
+        click.echo(f"error: {self.message}", err=True)
+
+
+class Commands(click.Group):
+    """Subcommands imported when they are called, and the one place where errors are caught."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """Return the names in the order in which they are listed."""
+        return list(COMMANDS)
+
+    def get_command(self, ctx: click.Context, name: str) -> click.Command | None:
+        """Import the command of that name."""
+        if name not in COMMANDS:
+            return None
+        command = getattr(import_module(f"course.cli.{name}"), name)
+        assert isinstance(command, click.Command)
+        return command
+
+    def invoke(self, ctx: click.Context) -> object:
+        """Run a command; what the user can mend becomes a message, anything else is a defect."""
+        try:
+            return super().invoke(ctx)
+        except (CourseError, NotImplementedError) as error:
+            raise Refusal(str(error)) from error
+        except MemoryError as error:
+            raise Refusal(f"not enough memory: {error}".removesuffix(": ")) from error
+        except KeyboardInterrupt:
+            click.echo("interrupted", err=True)
+            raise click.exceptions.Exit(INTERRUPTED) from None
+
+
+@click.group(
+    cls=Commands,
+    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
+    help="Penumbra: a course in distribution ray tracing.",
+)
+@click.version_option(__version__, prog_name="course")
+def commands() -> None:
+    """Hold the subcommands; it does nothing itself."""
+
+
+def main() -> None:
+    """Run the command line of this process."""
+    if isinstance(sys.stdout, TextIOWrapper):
+        # A title in Greek must not end a render on a console that can't show it.
+        sys.stdout.reconfigure(errors="replace")
+    commands(prog_name="course")

@@ -1,0 +1,56 @@
+"""Kinds of values that the command line takes besides click's own, and its exit code.
+
+Each function is the `callback` of an option: it gets the text and returns the value, or fails with
+what was expected. An option that was not given stays None.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from pathlib import Path
+
+import click
+
+INTERRUPTED = 130
+"""Exit code after Ctrl-C: 128 + SIGINT, as shells have it."""
+
+LARGEST_SIDE = 65536
+"""Pixels; the limit of `film.width` and `film.height` in a scene file."""
+
+
+def size(_ctx: click.Context, _option: click.Parameter, text: str | None) -> tuple[int, int] | None:
+    """Return (width, height) in pixels from WIDTHxHEIGHT."""
+    if text is None:
+        return None
+    match = re.fullmatch(r"([0-9]{1,5})[xX×]([0-9]{1,5})", text)
+    width, height = (int(match[1]), int(match[2])) if match else (0, 0)
+    if not (1 <= width <= LARGEST_SIDE and 1 <= height <= LARGEST_SIDE):
+        raise click.BadParameter(
+            f"{text!r} is not a size: expected WIDTHxHEIGHT in pixels, such as 640x480, "
+            f"each from 1 to {LARGEST_SIDE}"
+        )
+    return width, height
+
+
+def seconds(_ctx: click.Context, _option: click.Parameter, text: str | None) -> float | None:
+    """Return a length of time, finite and above 0."""
+    if text is None:
+        return None
+    try:
+        number = float(text)
+    except ValueError:
+        number = math.nan
+    if not (math.isfinite(number) and number > 0.0):
+        raise click.BadParameter(f"{text!r} is not a number of seconds > 0")
+    return number
+
+
+def json_path(_ctx: click.Context, _option: click.Parameter, text: str | None) -> Path | None:
+    """Return a file to write as JSON; its suffix is asked for lest a scene be written over."""
+    if text is None:
+        return None
+    path = Path(text)
+    if path.suffix.lower() != ".json":
+        raise click.BadParameter(f"{text!r} doesn't end in .json")
+    return path

@@ -1,0 +1,99 @@
+"""`course render SCENE`: a scene file in, a picture out."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import click
+
+from course.cli import options
+from course.cli.progress import progress_bar
+from course.cli.tables import print_sections, receipt_sections
+from course.imaging.atomic import check_writable, write_text
+
+SAMPLERS = ("sobol", "random", "jittered", "regular")
+
+
+@click.command()
+@click.argument("scene", metavar="SCENE", type=click.Path(path_type=Path))
+@click.option(
+    "-o",
+    "--out",
+    type=click.Path(path_type=Path),
+    help="Picture to write, .png (sRGB) or .exr (linear float).  [default: SCENE's name with .png]",
+)
+@click.option("--spp", type=click.IntRange(1, 65536), help="Samples a pixel.")
+@click.option(
+    "--size", metavar="WxH", callback=options.size, help="Size in pixels, such as 640x480."
+)
+@click.option("--sampler", type=click.Choice(SAMPLERS), help="Where the samples lie.")
+@click.option("--seed", type=click.IntRange(0, 2**32 - 1), help="Seed of every random choice.")
+@click.option(
+    "--threads", type=click.IntRange(1, 1024), help="Threads to use.  [default: every core]"
+)
+@click.option(
+    "--effects",
+    default="solutions",
+    show_default=True,
+    help="Whose functions to call: solutions, assignments, or a folder of modules.",
+)
+@click.option(
+    "--time-limit",
+    metavar="S",
+    callback=options.seconds,
+    help="Give the best picture in S seconds.",
+)
+@click.option(
+    "--receipt",
+    "receipt_path",
+    callback=options.json_path,
+    help="Write what the render cost as JSON.",
+)
+def render(
+    scene: Path,
+    out: Path | None,
+    spp: int | None,
+    size: tuple[int, int] | None,
+    sampler: str | None,
+    seed: int | None,
+    threads: int | None,
+    effects: str,
+    time_limit: float | None,
+    receipt_path: Path | None,
+) -> None:
+    """Render a scene file to a picture.
+
+    What the options leave open is as the scene file says. Ctrl-C ends early and keeps what there
+    is as NAME.partial.png.
+    """
+    from course import load_scene
+    from course import render as render_picture
+    from course.imaging.files import check_picture_path
+
+    out = Path(f"{scene.stem}.png") if out is None else out
+    check_picture_path(out)
+    if receipt_path is not None:
+        check_writable(receipt_path)
+    world = load_scene(scene, effects=effects)
+    with progress_bar(out.name) as progress:
+        picture = render_picture(
+            world,
+            spp=spp,
+            size=size,
+            sampler=sampler,
+            seed=seed,
+            threads=threads,
+            time_limit=time_limit,
+            progress=progress,
+        )
+    if picture.interrupted:
+        partial = out.with_name(f"{out.stem}.partial{out.suffix}")
+        picture.save(partial)
+        click.echo(f"interrupted: what there is was written to {partial}", err=True)
+        raise click.exceptions.Exit(options.INTERRUPTED)
+    picture.save(out)
+    receipt = picture.receipt.to_dict()
+    if receipt_path is not None:
+        write_text(receipt_path, json.dumps(receipt, indent=2, allow_nan=False) + "\n")
+    print_sections(str(out), receipt_sections(receipt))

@@ -1,0 +1,138 @@
+"""Tables of named values in sections: rich's on a terminal, aligned plain text elsewhere."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+import click
+
+Rows = Sequence[tuple[str, str]]
+Section = tuple[str, Rows]
+"""A heading, and under it labels with their values."""
+
+
+def print_sections(title: str, sections: Iterable[Section]) -> None:
+    """Print a table on stdout."""
+    sections = list(sections)
+    if sys.stdout.isatty():
+        _print_rich(title, sections)
+    else:
+        click.echo(plain_text(title, sections))
+
+
+def plain_text(title: str, sections: Sequence[Section]) -> str:
+    """Return the table as lines of text, headings and labels in columns."""
+    headings = max((len(heading) for heading, _ in sections), default=0)
+    labels = max((len(label) for _, rows in sections for label, _ in rows), default=0)
+    lines = [title]
+    for heading, rows in sections:
+        for number, (label, value) in enumerate(rows):
+            first = heading if number == 0 else ""
+            lines.append(f"  {first:<{headings}}  {label:<{labels}}  {value}".rstrip())
+    return "\n".join(lines)
+
+
+def _print_rich(title: str, sections: Sequence[Section]) -> None:
+    from rich.box import HORIZONTALS
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+    # Text, not str: what stands in square brackets in a file's name is no markup.
+    table = Table(box=HORIZONTALS, show_header=False, title_justify="left", border_style="dim")
+    table.title = Text(title, style="bold")
+    table.add_column(style="cyan", no_wrap=True)
+    table.add_column(no_wrap=True)
+    table.add_column(overflow="fold")
+    for heading, rows in sections:
+        for number, (label, value) in enumerate(rows):
+            first = heading if number == 0 else ""
+            last = number == len(rows) - 1
+            table.add_row(Text(first), Text(label), Text(value), end_section=last)
+    Console().print(table)
+
+
+def receipt_sections(receipt: Mapping[str, Any]) -> list[Section]:
+    """Arrange what a render cost.
+
+    Parameters
+    ----------
+    receipt : mapping
+        As `course.rendering.receipt.Receipt.to_dict` gives it.
+
+    Returns
+    -------
+    list of Section
+        Sections without a row are left out.
+    """
+    rays = receipt["rays"]
+    wall, threads = receipt["wall_seconds"], receipt["threads"]
+    spent, embree = wall * threads, receipt["embree_seconds"]
+    effects = receipt["effects"]
+    sections = [
+        ("rays", [*_counts(rays), *_total(rays, wall)]),
+        ("numbers", _counts(receipt["numbers"])),
+        (
+            "effects",
+            [
+                *(("called", name) for name in effects["called"]),
+                *((f"skipped {name}", reason) for name, reason in effects["skipped"].items()),
+            ],
+        ),
+        ("seconds", [(stage, f"{time:9.3f}") for stage, time in receipt["seconds"].items()]),
+        (
+            "time",
+            [
+                ("wall clock", f"{wall:9.3f} s on {count(threads, 'thread')}"),
+                ("inside Embree", f"{embree:9.3f} s, {_share(embree, spent)} of all threads' time"),
+            ],
+        ),
+    ]
+    return [(heading, rows) for heading, rows in sections if rows]
+
+
+def count(number: int, noun: str) -> str:
+    """Say how many: `count(1, "thread")` is "1 thread", `count(2, "thread")` "2 threads"."""
+    return f"{number:,} {noun}" if number == 1 else f"{number:,} {noun}s"
+
+
+def _counts(counts: Mapping[str, int]) -> list[tuple[str, str]]:
+    width = max((len(f"{number:,}") for number in counts.values()), default=0)
+    return [(name, f"{number:>{width},}") for name, number in counts.items() if number]
+
+
+def _total(rays: Mapping[str, int], wall: float) -> list[tuple[str, str]]:
+    total = sum(rays.values())
+    if total == 0 or wall <= 0.0:
+        return []
+    return [("a second", f"{total / wall / 1e6:.1f} million")]
+
+
+def _share(part: float, whole: float) -> str:
+    return f"{part / whole:.0%}" if whole > 0.0 else "none"
+
+
+def summary_sections(summary: Mapping[str, Mapping[str, object]]) -> list[Section]:
+    """Arrange what a scene says of itself.
+
+    Parameters
+    ----------
+    summary : mapping
+        Sections by heading, each a mapping of labels to values, as a scene's `summary` gives it.
+
+    Returns
+    -------
+    list of Section
+        Sections without a row are left out.
+    """
+    return [
+        (heading, [(label, _text(value)) for label, value in rows.items()])
+        for heading, rows in summary.items()
+        if rows
+    ]
+
+
+def _text(value: object) -> str:
+    return f"{value:,}" if isinstance(value, int) else str(value)

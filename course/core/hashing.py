@@ -1,0 +1,48 @@
+"""Integer hashing: the same well-mixed 32 bits for the same pixel, dimension and seed, anywhere and in any order."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from course.core.types import Words
+
+_GOLDEN = 0x9E3779B97F4A7C15
+_MASK64 = (1 << 64) - 1
+
+
+def mix(value: int) -> int:
+    """One 64-bit word mixed into another (the finaliser of SplitMix64; Steele, Lea & Flood 2014)."""
+    value = (value + _GOLDEN) & _MASK64
+    value = ((value ^ (value >> 30)) * 0xBF58476D1CE4E5B9) & _MASK64
+    value = ((value ^ (value >> 27)) * 0x94D049BB133111EB) & _MASK64
+    return value ^ (value >> 31)
+
+
+def combine(*keys: int) -> int:
+    """A 64-bit word that depends on every key and on their order; keys are non-negative integers."""
+    state = 0
+    for key in keys:
+        state = mix(state ^ (key & _MASK64))
+    return state
+
+
+def hash_words(keys: Words, salt: int) -> Words:
+    """A uniformly distributed 32-bit word for each key, independent from salt to salt.
+
+    Parameters
+    ----------
+    keys : (n,) uint32, for instance pixel numbers
+    salt : a 64-bit integer, for instance ``combine(seed, dimension)``
+
+    Returns
+    -------
+    (n,) uint32
+    """
+    state = keys.astype(np.uint64)
+    state *= np.uint64(_GOLDEN)
+    state += np.uint64(salt & _MASK64)
+    state ^= state >> np.uint64(30)
+    state *= np.uint64(0xBF58476D1CE4E5B9)
+    state ^= state >> np.uint64(27)
+    state *= np.uint64(0x94D049BB133111EB)
+    return (state >> np.uint64(32)).astype(np.uint32)

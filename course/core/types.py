@@ -1,0 +1,17 @@
+"""Names of the array types that the whole course shares."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.floating[Any]]
+"""A float32 or float64 array; which one is the caller's choice and is kept."""
+
+Floats32 = NDArray[np.float32]
+Floats64 = NDArray[np.float64]
+Words = NDArray[np.uint32]
+Indices = NDArray[np.intp]
+Mask = NDArray[np.bool_]

@@ -1,0 +1,120 @@
+"""Embree: batches of rays against triangles. The one file that imports embreex.
+
+What embreex does that one would not expect, and what is done about it here:
+
+- it takes (N, 3) float32 arrays but any strides, so the transpose of our (3, N) goes in without a copy, and one
+  origin shared by all rays as an array of stride 0;
+- it overwrites the ``dists`` array in place, so limits are passed as a number or as an array made for the call;
+- an occlusion query returns 0 for blocked and -1 for free;
+- meshes added after the first query are ignored, so the scene is complete before it is asked anything;
+- only robust mode finds every hit of rays through edges and vertices of a closed mesh.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from time import perf_counter
+
+import numpy as np
+from embreex.mesh_construction import TriangleMesh
+from embreex.rtcore_scene import EmbreeScene
+
+from course.core.types import Floats32, Indices, Mask
+
+
+@dataclass
+class QueryTime:
+    """Seconds spent inside Embree; each thread holds one of its own."""
+
+    seconds: float = 0.0
+
+
+@dataclass(frozen=True)
+class Intersections:
+    """Nearest hits of a batch of N rays.
+
+    Attributes
+    ----------
+    triangle : (N,) int32, -1 where the ray hits nothing
+    u, v : (N,) float32, barycentric: p = (1 - u - v) p0 + u p1 + v p2
+    t : (N,) float32, distance in lengths of the direction
+    """
+
+    triangle: np.ndarray[tuple[int], np.dtype[np.int32]]
+    u: Floats32
+    v: Floats32
+    t: Floats32
+
+
+class Accelerator:
+    """Triangles in Embree's hierarchy.
+
+    Parameters
+    ----------
+    vertices : (V, 3) float32
+    triangles : (T, 3) int32
+    """
+
+    def __init__(self, vertices: Floats32, triangles: Indices) -> None:
+        self._scene: EmbreeScene | None = None
+        if len(triangles) == 0:
+            return
+        scene = EmbreeScene(robust=True)
+        # Embree reads the arrays for as long as the scene lives.
+        self._mesh = TriangleMesh(
+            scene,
+            np.ascontiguousarray(vertices, np.float32),
+            np.ascontiguousarray(triangles, np.int32),
+        )
+        # The first query builds the hierarchy; do it now, in one thread.
+        away = np.full((1, 3), 4.0, np.float32)
+        scene.run(away, away, query="OCCLUDED")
+        self._scene = scene
+
+    def intersect(self, origin: Floats32, direction: Floats32, clock: QueryTime) -> Intersections:
+        """Nearest hit of each ray.
+
+        Parameters
+        ----------
+        origin : (3, N) or (3, 1) float32
+        direction : (3, N) float32, any length but 0
+        """
+        n = direction.shape[1]
+        if self._scene is None or n == 0:
+            nothing = np.zeros(n, np.float32)
+            return Intersections(np.full(n, -1, np.int32), nothing, nothing, nothing)
+        start = perf_counter()
+        found = self._scene.run(_rows(origin, n), direction.T, query="INTERSECT", output=True)
+        clock.seconds += perf_counter() - start
+        return Intersections(found["primID"], found["u"], found["v"], found["tfar"])
+
+    def unoccluded(
+        self, origin: Floats32, direction: Floats32, limit: float | Floats32, clock: QueryTime
+    ) -> Mask:
+        """Whether nothing lies between origin and origin + limit * direction.
+
+        Parameters
+        ----------
+        origin : (3, N) or (3, 1) float32
+        direction : (3, N) float32, any length but 0
+        limit : one distance for all rays, in lengths of the direction, or (N,) float32 (overwritten)
+
+        Returns
+        -------
+        (N,) bool
+        """
+        n = direction.shape[1]
+        if self._scene is None or n == 0:
+            return np.ones(n, np.bool_)
+        start = perf_counter()
+        blocked = self._scene.run(_rows(origin, n), direction.T, limit, query="OCCLUDED")
+        clock.seconds += perf_counter() - start
+        return blocked < 0  # type: ignore[no-any-return]
+
+
+def _rows(origin: Floats32, n: int) -> Floats32:
+    """(n, 3) view of the origins; one column is repeated by a stride of 0."""
+    if origin.shape[1] == n:
+        return origin.T
+    # broadcast_to would give a read-only view, which embreex refuses.
+    return np.lib.stride_tricks.as_strided(origin, (n, 3), (0, origin.strides[0]))

@@ -1,0 +1,207 @@
+"""Mesh files: PLY, OBJ, STL and GLB in, PLY out.
+
+A mesh leaves `read_mesh` checked: finite, every index in range, one triangle or more, unit normals.
+"""
+
+from __future__ import annotations
+
+import warnings
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from course.errors import GeometryError, OutputError
+from course.geometry.joining import join
+from course.geometry.mesh import Mesh
+from course.geometry.mesh_formats import FORMATS as PLAIN_FORMATS
+from course.geometry.mesh_formats import Part
+from course.geometry.mesh_glb import parse_glb
+from course.geometry.smooth_normals import smooth_normals
+from course.geometry.transforms import apply
+from course.geometry.welding import same
+
+FORMATS = {**PLAIN_FORMATS, ".glb": parse_glb}
+
+# Beyond this, squares of distances overflow float64; no unit makes a scene that large.
+FARTHEST = 1e150
+
+
+def read_mesh(path: Path) -> Mesh:
+    """Read a mesh file; several geometries in it become one mesh, in the file's own frame.
+
+    Normals and uv are the file's where it has them. Without normals, triangles that share a vertex
+    are smooth; vertices that only lie at the same place, as in every STL file, are smooth up to a
+    crease of 40 degrees (`smooth_normals`). Triangles without area are let through.
+
+    Parameters
+    ----------
+    path : Path
+        Ends in .ply, .obj, .stl or .glb, in capitals or not. No other file is read.
+
+    Raises
+    ------
+    GeometryError
+        Naming the file and the trouble: missing, a folder, empty, unreadable, no triangles, an
+        index out of range, a vertex or a normal that is not finite.
+    """
+    path = Path(path)
+    parse = FORMATS.get(path.suffix.lower())
+    if parse is None:
+        raise GeometryError(f"{path}: expected a file that ends in {', '.join(sorted(FORMATS))}")
+    data = _bytes(path)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        # NumPy before 2.3 only warns of text it can't read to the end, and goes on without it.
+        warnings.filterwarnings("error", message="string or file could not be read")
+        try:
+            parts = parse(data)
+        except MemoryError as error:
+            raise GeometryError(f"{path}: too large for this computer's memory") from error
+        except Exception as error:
+            raise GeometryError(
+                f"{path}: not a {path.suffix[1:].upper()} file that can be read: {_reason(error)}"
+            ) from error
+    if not parts:
+        raise GeometryError(f"{path}: no triangles")
+    meshes = []
+    for number, part in enumerate(parts):
+        name = str(path) if len(parts) == 1 else f"{path}: geometry {number}"
+        mesh = _checked(name, part)
+        try:
+            meshes.append(apply(mesh, part.transform))
+        except ValueError as error:
+            raise GeometryError(f"{name}: its node's {error}") from error
+    mesh = join(meshes)
+    return _merged(mesh) if path.suffix.lower() == ".stl" else mesh
+
+
+def save_ply(mesh: Mesh, path: Path) -> None:
+    """Write `mesh` as binary PLY: float32 vertices and normals, float64 uv (as s and t).
+
+    Raises
+    ------
+    OutputError
+        Where the file can't be written.
+    """
+    from trimesh import Trimesh
+    from trimesh.exchange.ply import export_ply
+
+    attributes: dict[str, Any] = {} if mesh.uv is None else {"s": mesh.uv[:, 0], "t": mesh.uv[:, 1]}
+    exported = export_ply(
+        Trimesh(
+            vertices=mesh.vertices,
+            faces=mesh.triangles,
+            vertex_normals=mesh.normals,
+            vertex_attributes=attributes,
+            process=False,
+        ),
+        vertex_normal=mesh.normals is not None,
+    )
+    try:
+        Path(path).write_bytes(exported)
+    except OSError as error:
+        raise OutputError(f"{path}: can't be written: {error.strerror or error}") from error
+
+
+def _bytes(path: Path) -> bytes:
+    try:
+        data = path.read_bytes()
+    except FileNotFoundError:
+        raise GeometryError(f"{path}: no such file") from None
+    except IsADirectoryError:
+        raise GeometryError(f"{path}: a folder, expected a mesh file") from None
+    except OSError as error:
+        # Windows reports a folder as a lack of permission.
+        trouble = "a folder, expected a mesh file" if path.is_dir() else f"{error.strerror}"
+        raise GeometryError(f"{path}: {trouble}") from error
+    except ValueError as error:
+        raise GeometryError(f"{path!r}: {error}") from error
+    if not data.strip():
+        raise GeometryError(f"{path}: the file is empty")
+    return data
+
+
+def _reason(error: Exception) -> str:
+    """Return an exception as one line; a KeyError's message alone is only the key."""
+    text = " ".join(str(error).split())
+    if type(error) in (ValueError, IndexError, NotImplementedError) and text:
+        return text
+    return f"{type(error).__name__} {text}".rstrip()
+
+
+def _checked(name: str, part: Part) -> Mesh:
+    """Return the mesh of `part`, in its own frame; GeometryError for what can't be used."""
+    vertices = np.array(part.vertices, np.float64)
+    if vertices.ndim != 2 or vertices.shape[1] != 3:
+        raise GeometryError(f"{name}: vertices have shape {vertices.shape}: expected (V, 3)")
+    _check_finite(name, "vertex", vertices)
+    far = np.abs(vertices).max(axis=1, initial=0.0) > FARTHEST
+    if far.any():
+        k = int(np.argmax(far))
+        raise GeometryError(f"{name}: vertex {k} is {_row(vertices, k)}: beyond {FARTHEST:g}")
+    triangles = part.triangles
+    outside = (triangles < 0) | (triangles >= len(vertices))
+    if outside.any():
+        t, corner = np.argwhere(outside)[0]
+        raise GeometryError(
+            f"{name}: triangle {t} refers to vertex {triangles[t, corner]}: "
+            f"out of range, there are {len(vertices)}, from 0"
+        )
+    if len(vertices) <= np.iinfo(np.int32).max:
+        triangles = triangles.astype(np.int32)
+    return Mesh(
+        vertices=vertices,
+        triangles=triangles,
+        normals=_normals(name, part, vertices),
+        uv=_uv(name, part, len(vertices)),
+    )
+
+
+def _normals(name: str, part: Part, vertices: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return unit normals: the file's, and computed ones where it has none or they are zero."""
+    if part.normals is None:
+        return smooth_normals(vertices, part.triangles)
+    normals = np.array(part.normals, np.float64)
+    if normals.shape != vertices.shape:
+        raise GeometryError(f"{name}: {len(normals)} normals for {len(vertices)} vertices")
+    _check_finite(name, "normal", normals)
+    largest = np.max(np.abs(normals), axis=1, keepdims=True)
+    if not np.all(largest > 0.0):
+        computed = smooth_normals(vertices, part.triangles)
+        normals = np.where(largest > 0.0, normals, computed)
+        largest = np.max(np.abs(normals), axis=1, keepdims=True)
+    normals /= largest
+    return np.asarray(normals / np.sqrt(np.sum(normals * normals, axis=1, keepdims=True)))
+
+
+def _uv(name: str, part: Part, count: int) -> NDArray[np.float64] | None:
+    if part.uv is None:
+        return None
+    uv = np.array(part.uv, np.float64)
+    # Some files carry a third texture coordinate, always 0.
+    if uv.ndim != 2 or len(uv) != count or uv.shape[1] < 2:
+        raise GeometryError(f"{name}: uv have shape {uv.shape}: expected ({count}, 2)")
+    uv = uv[:, :2].copy()
+    _check_finite(name, "uv", uv)
+    return uv
+
+
+def _merged(mesh: Mesh) -> Mesh:
+    """Return `mesh` with vertices equal in place and normal as one."""
+    assert mesh.normals is not None
+    first, vertex = same(*mesh.vertices.T, *mesh.normals.T)
+    triangles = vertex[mesh.triangles].astype(mesh.triangles.dtype)
+    return Mesh(mesh.vertices[first], triangles, mesh.normals[first])
+
+
+def _check_finite(name: str, noun: str, rows: NDArray[np.float64]) -> None:
+    bad = ~np.isfinite(rows).all(axis=1)
+    if bad.any():
+        k = int(np.argmax(bad))
+        raise GeometryError(f"{name}: {noun} {k} is {_row(rows, k)}: expected finite numbers")
+
+
+def _row(rows: NDArray[np.float64], k: int) -> str:
+    return "(" + ", ".join(f"{x:g}" for x in rows[k]) + ")"

@@ -1,0 +1,69 @@
+"""Tiles: the rectangles of pixels that are rendered at once.
+
+A batch of about 16 thousand rays keeps its arrays in the second-level cache; smaller ones pay for Python, larger ones
+for memory. So the number of pixels of a tile follows from the samples of each.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from course.core.types import Floats32, Words
+
+RAYS = 16384
+"""Camera rays in a batch."""
+
+
+@dataclass(frozen=True)
+class Tile:
+    """A rectangle of pixels, its upper left corner at (x, y)."""
+
+    number: int
+    x: int
+    y: int
+    width: int
+    height: int
+
+    @property
+    def size(self) -> int:
+        """How many pixels."""
+        return self.width * self.height
+
+    @property
+    def rows(self) -> slice:
+        """Rows of the picture."""
+        return slice(self.y, self.y + self.height)
+
+    @property
+    def columns(self) -> slice:
+        """Columns of the picture."""
+        return slice(self.x, self.x + self.width)
+
+    def pixel_numbers(self, picture_width: int) -> Words:
+        """(size,) number of each pixel in the picture, row by row."""
+        x = np.arange(self.x, self.x + self.width, dtype=np.uint32)
+        y = np.arange(self.y, self.y + self.height, dtype=np.uint32)
+        return (y[:, None] * np.uint32(picture_width) + x).ravel()
+
+    def corners(self) -> tuple[Floats32, Floats32]:
+        """x and y of each pixel's upper left corner, (size,) float32 each [pixels]."""
+        x = np.arange(self.x, self.x + self.width, dtype=np.float32)
+        y = np.arange(self.y, self.y + self.height, dtype=np.float32)
+        return np.tile(x, self.height), np.repeat(y, self.width)
+
+
+def tile_picture(width: int, height: int, samples: int) -> list[Tile]:
+    """Tiles that cover a picture, row by row, each with about RAYS rays at that many samples a pixel."""
+    pixels = max(RAYS // samples, 1)
+    tile_width = 1
+    while tile_width * tile_width < pixels:
+        tile_width *= 2
+    tile_height = max(pixels // tile_width, 1)
+    tiles = []
+    for y in range(0, height, tile_height):
+        for x in range(0, width, tile_width):
+            size = min(tile_width, width - x), min(tile_height, height - y)
+            tiles.append(Tile(len(tiles), x, y, *size))
+    return tiles

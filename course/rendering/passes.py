@@ -1,0 +1,73 @@
+"""Passes: the picture's samples in stretches, each over all tiles.
+
+Every stretch but the last has PASS samples, so the film's sums grow in the same steps whatever the total, and memory
+doesn't depend on it. Samplers that can't be extended place all their samples at once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from course.core.samplers import Sampler
+from course.imaging.tiles import Tile, tile_picture
+from course.scene.world import Settings
+
+PASS = 16
+"""Samples of each pixel in a whole pass of an extensible sampler."""
+
+
+@dataclass(frozen=True)
+class Work:
+    """One tile of one pass.
+
+    Attributes
+    ----------
+    order : number of the pass, for the film adds the passes of a tile in order
+    whole : whether the film keeps its sums
+    """
+
+    tile: Tile
+    order: int
+    first: int
+    samples: int
+    whole: bool
+
+
+def pass_size(settings: Settings, sampler: Sampler) -> int:
+    """Samples of each pixel in one pass."""
+    return min(settings.samples, PASS) if sampler.extensible else settings.samples
+
+
+def passes(settings: Settings, sampler: Sampler, done: int = 0) -> Iterator[Work]:
+    """The work of a render, pass by pass.
+
+    Parameters
+    ----------
+    done : samples that a film already holds, a multiple of PASS
+    """
+    size = pass_size(settings, sampler)
+    tiles = tile_picture(settings.width, settings.height, size)
+    for order, first in enumerate(range(done, settings.samples, size)):
+        samples = min(size, settings.samples - first)
+        for tile in tiles:
+            yield Work(
+                tile,
+                order,
+                first,
+                samples,
+                samples == size and size == PASS or not sampler.extensible,
+            )
+
+
+def preview(settings: Settings, samples: int) -> list[Work]:
+    """A quick pass that later ones replace, so that a picture is whole before it is good."""
+    return [
+        Work(tile, 0, 0, samples, False)
+        for tile in tile_picture(settings.width, settings.height, samples)
+    ]
+
+
+def kept_samples(samples: int) -> int:
+    """How many of a film's samples a longer render may keep: those of whole passes."""
+    return samples - samples % PASS

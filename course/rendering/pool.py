@@ -1,0 +1,152 @@
+"""Threads over tiles. Embree and NumPy's loops run without the interpreter lock, so threads are enough."""
+
+from __future__ import annotations
+
+import os
+import threading
+from collections.abc import Callable, Iterable
+from time import monotonic
+
+from course.imaging.film import Film
+from course.rendering.passes import Work
+from course.transport.counters import Counters
+from course.transport.tracing import Tracer
+
+TICK = 0.05
+"""Seconds between two looks of the main thread at progress and Ctrl-C."""
+
+
+def default_threads() -> int:
+    """As many as there are cores for this process."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0)) or 1
+    return os.cpu_count() or 1
+
+
+class Pool:
+    """Runs work on threads until it is done, the time is up, or somebody presses Ctrl-C.
+
+    Attributes
+    ----------
+    counters : of all threads, after each run
+    interrupted : Ctrl-C was pressed
+    """
+
+    def __init__(self, tracer: Tracer, film: Film, threads: int) -> None:
+        self._tracer = tracer
+        self._film = film
+        self._threads = threads
+        self.counters = Counters()
+        self.interrupted = False
+
+    def run(
+        self,
+        work: Iterable[Work],
+        deadline: float | None,
+        tick: Callable[[int], None] | None,
+    ) -> bool:
+        """Do the work in order; whether all of it was done.
+
+        Parameters
+        ----------
+        deadline : ``time.monotonic()`` after which no tile is begun
+        tick : called now and then from this thread with the number of tiles done so far
+        """
+        run = _Run(self._tracer, self._film, work, deadline)
+        threads = [
+            threading.Thread(target=run.worker, name=f"tiles-{number}", daemon=True)
+            for number in range(self._threads)
+        ]
+        for thread in threads:
+            thread.start()
+        try:
+            while not run.finished.wait(TICK) and any(thread.is_alive() for thread in threads):
+                if tick is not None:
+                    tick(run.done)
+        except KeyboardInterrupt:
+            self.interrupted = True
+        finally:
+            run.stop = True
+            for thread in threads:
+                thread.join()
+        if run.error is not None:
+            raise run.error
+        if tick is not None and not self.interrupted:
+            tick(run.done)
+        self.counters.add(run.counters)
+        return run.exhausted and not self.interrupted
+
+
+class _Run:
+    """The state that the threads of one run share, under one lock."""
+
+    def __init__(
+        self, tracer: Tracer, film: Film, work: Iterable[Work], deadline: float | None
+    ) -> None:
+        self._tracer = tracer
+        self._film = film
+        self._work = iter(work)
+        self._deadline = deadline
+        self._lock = threading.Lock()
+        self._working = 0
+        self._next_order: dict[int, int] = {}
+        self._early: dict[tuple[int, int], Callable[[], None]] = {}
+        self.counters = Counters()
+        self.finished = threading.Event()
+        self.exhausted = False
+        self.stop = False
+        self.done = 0
+        self.error: BaseException | None = None
+
+    def worker(self) -> None:
+        """Take work until there is none."""
+        counters = Counters()
+        with self._lock:
+            self._working += 1
+        try:
+            while (work := self._take()) is not None:
+                pixels, weight = self._tracer.render_tile(
+                    work.tile, work.first, work.samples, counters
+                )
+                counters.start()
+                self._add(work, pixels, weight)
+                counters.lap("film")
+        except BaseException as error:  # handed to the thread that waits
+            self.error = self.error or error
+            self.stop = True
+        with self._lock:
+            self.counters.add(counters)
+            self._working -= 1
+            if self._working == 0:
+                self.finished.set()
+
+    def _take(self) -> Work | None:
+        if self.stop or (self._deadline is not None and monotonic() > self._deadline):
+            return None
+        with self._lock:
+            work = next(self._work, None)
+            if work is None:
+                self.exhausted = True
+            return work
+
+    def _add(self, work: Work, pixels: object, weight: object) -> None:
+        """Into the film, the passes of a tile in their order even if a later one is finished first."""
+
+        def add() -> None:
+            self._film.add(
+                work.tile,
+                pixels,  # type: ignore[arg-type]
+                weight,  # type: ignore[arg-type]
+                work.first + work.samples,
+                work.whole,
+            )
+
+        tile = work.tile.number
+        with self._lock:
+            self._early[tile, work.order] = add
+            order = self._next_order.setdefault(tile, work.order)
+            while (ready := self._early.pop((tile, order), None)) is not None:
+                ready()
+                order += 1
+            self._next_order[tile] = order
+            self.done += 1

@@ -1,0 +1,41 @@
+"""The receipt: what a render has cost, and what it did without."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from typing import Any
+
+
+@dataclass(frozen=True)
+class Receipt:
+    """Counts and times of one render.
+
+    Attributes
+    ----------
+    rays : kind (camera, shadow, reflection, refraction) -> rays cast
+    numbers : dimension -> numbers drawn
+    effects : "called" -> list of functions, "skipped" -> name -> reason
+    seconds : stage -> seconds, summed over threads
+    embree_seconds : inside Embree, summed over threads
+    wall_seconds : from the call to the finished picture
+    threads : that rendered
+    samples : a pixel; the mean where pixels differ
+    pixels : of the picture
+    seed, version : what to repeat it with
+    """
+
+    rays: dict[str, int]
+    numbers: dict[str, int]
+    effects: dict[str, Any]
+    seconds: dict[str, float]
+    embree_seconds: float
+    wall_seconds: float
+    threads: int
+    samples: float
+    pixels: int
+    seed: int
+    version: str
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data, as written by ``course render --receipt``."""
+        return asdict(self)

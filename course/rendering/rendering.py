@@ -1,0 +1,299 @@
+"""Render a scene to a picture."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
+from time import monotonic
+from typing import TYPE_CHECKING
+
+from course import __version__
+from course.core.samplers import make_sampler
+from course.effects import Effects
+from course.errors import CourseError, EffectError, OutputError
+from course.imaging.film import Film
+from course.imaging.reconstruction import Reconstruction
+from course.rendering.passes import (
+    kept_samples,
+    pass_size,
+    passes,
+    preview,
+)
+from course.rendering.picture import Picture
+from course.rendering.pool import Pool, default_threads
+from course.rendering.receipt import Receipt
+from course.scene.compiling import compile_camera
+from course.scene.consistency import nearest_squares
+from course.scene.needs import Need, needs_of, skipped_modules
+from course.scene.scene import Scene
+from course.scene.world import Settings
+from course.transport.counters import Counters
+from course.transport.plan import Plan
+from course.transport.tracing import Tracer, make_tracer
+
+if TYPE_CHECKING:
+    from course.core.samplers import Sampler
+
+Progress = Callable[[float, bool], None]
+
+MOST_SAMPLES = 65536
+BYTES_A_PIXEL = 64
+"""Sums, weights, the picture itself, and its copies on the way to a file."""
+
+
+def render(
+    scene: Scene,
+    *,
+    spp: int | None = None,
+    size: tuple[int, int] | None = None,
+    sampler: str | None = None,
+    seed: int | None = None,
+    threads: int | None = None,
+    time_limit: float | None = None,
+    progress: Progress | None = None,
+    start: Picture | None = None,
+) -> Picture:
+    """Render a scene; what isn't given is as the scene file says.
+
+    Parameters
+    ----------
+    spp : samples a pixel
+    size : (width, height) [pixels]
+    sampler : "sobol", "random", "jittered" or "regular"
+    seed : chooses the random numbers
+    threads : how many; the picture doesn't depend on it
+    time_limit : seconds; the best picture in that time, with as many samples as fit (at most ``spp`` if that is given)
+    progress : called from this thread with the share done, and whether the whole picture has been covered once
+    start : a picture of the same scene and settings with fewer samples, to be continued
+
+    Returns
+    -------
+    Picture
+
+    Raises
+    ------
+    SceneError, EffectError, OutputError
+        For settings that don't fit together, functions that are not written yet, and pictures larger than memory.
+
+    Notes
+    -----
+    Ctrl-C ends the render with a picture whose ``interrupted`` is true. A picture is a function of scene, settings
+    and seed alone: the same bits for any number of threads.
+    """
+    began = monotonic()
+    settings = _settings(scene, spp, size, sampler, seed, time_limit)
+    _check_memory(settings)
+    needs = needs_of(scene.loaded, settings)
+    count = threads or default_threads()
+    try:
+        tracer = _tracer(scene, settings)
+        film = Film(settings.width, settings.height)
+        done = 0
+        if start is not None:
+            done = _check_start(start, settings, tracer.sampler)
+            film = start.film.continued(done)
+        pool = Pool(tracer, film, count)
+        if time_limit is None:
+            complete = _render_all(pool, tracer, settings, done, progress)
+        else:
+            deadline = began + time_limit
+            complete = _render_until(pool, tracer, settings, done, deadline, time_limit, progress)
+    except NotImplementedError as error:
+        raise _not_written(scene, needs, error) from error
+    wall = monotonic() - began
+    receipt = _receipt(scene, settings, needs, tracer.plan, pool.counters, film, count, wall)
+    return Picture(film, settings, receipt, complete, pool.interrupted)
+
+
+def _settings(
+    scene: Scene,
+    spp: int | None,
+    size: tuple[int, int] | None,
+    sampler: str | None,
+    seed: int | None,
+    time_limit: float | None,
+) -> Settings:
+    settings = scene.settings
+    if (
+        time_limit is not None
+        and spp is None
+        and (sampler or settings.sampler) in ("sobol", "random")
+    ):
+        spp = MOST_SAMPLES
+    changes = {
+        "samples": spp,
+        "width": size and size[0],
+        "height": size and size[1],
+        "sampler": sampler,
+        "seed": seed,
+    }
+    settings = replace(settings, **{k: v for k, v in changes.items() if v is not None})
+    if settings.width < 1 or settings.height < 1:
+        raise OutputError(f"a picture of {settings.width} x {settings.height} pixels has no pixels")
+    if settings.samples < 1:
+        raise CourseError(f"{settings.samples} samples a pixel: expected at least 1")
+    if settings.sampler in ("regular", "jittered"):
+        squares = nearest_squares(settings.samples)
+        if settings.samples not in squares:
+            raise CourseError(
+                f"the {settings.sampler} sampler needs a square number of samples, not "
+                f"{settings.samples}; the nearest are {' and '.join(map(str, squares))}"
+            )
+    return settings
+
+
+def _check_memory(settings: Settings) -> None:
+    needed = settings.width * settings.height * BYTES_A_PIXEL
+    if needed < 256e6:
+        return
+    import psutil
+
+    available = psutil.virtual_memory().available
+    if needed > available:
+        raise OutputError(
+            f"a picture of {settings.width} x {settings.height} needs about {needed / 1e9:.1f} GB of memory, "
+            f"{available / 1e9:.1f} GB are free; render a smaller one (--size)"
+        )
+
+
+def _tracer(scene: Scene, settings: Settings) -> Tracer:
+    effects = scene.effects
+    points = None if settings.sampler == "sobol" else _Supersampling(effects)
+    film = scene.loaded.description.film
+    reconstruction = Reconstruction(
+        effects.function("supersampling", "resolve") if settings.samples > 1 else None,
+        effects.function("supersampling", "gaussian_weights")
+        if film.filter == "gaussian"
+        else None,
+        film.sigma,
+    )
+    compiled = scene.compiled
+    return make_tracer(
+        compiled.world,
+        settings,
+        compile_camera(scene.loaded, compiled.frame, settings.width, settings.height),
+        make_sampler(settings.sampler, settings.seed, points),
+        reconstruction,
+    )
+
+
+class _Supersampling:
+    """The point patterns of the supersampling module, each looked up when it is first drawn from."""
+
+    def __init__(self, effects: Effects) -> None:
+        self.regular = partial(_call, effects, "regular")
+        self.random = partial(_call, effects, "random")
+        self.jittered = partial(_call, effects, "jittered")
+
+
+def _call(effects: Effects, name: str, *arguments: object) -> object:
+    return effects.function("supersampling", name)(*arguments)
+
+
+def _check_start(start: Picture, settings: Settings, sampler: Sampler) -> int:
+    """How many samples of the picture to continue can be kept."""
+    same = replace(start.settings, samples=settings.samples) == settings
+    if not same or not start.complete or start.settings.samples > settings.samples:
+        raise CourseError(
+            "only a complete picture of the same settings and fewer samples can be continued"
+        )
+    if not sampler.extensible:
+        raise CourseError(
+            f"the {settings.sampler} sampler places all its samples at once; start afresh"
+        )
+    return kept_samples(start.settings.samples)
+
+
+def _render_all(
+    pool: Pool, tracer: Tracer, settings: Settings, done: int, progress: Progress | None
+) -> bool:
+    work = list(passes(settings, tracer.sampler, done))
+    first_pass = sum(item.order == 0 for item in work)
+
+    def tick(count: int) -> None:
+        if progress is not None:
+            progress(count / max(len(work), 1), count >= first_pass)
+
+    return pool.run(work, None, tick)
+
+
+def _render_until(
+    pool: Pool,
+    tracer: Tracer,
+    settings: Settings,
+    done: int,
+    deadline: float,
+    time_limit: float,
+    progress: Progress | None,
+) -> bool:
+    """As many samples as fit: a preview first, so that every pixel has something, then whole passes."""
+
+    def tick(_count: int) -> None:
+        if progress is not None:
+            progress(min(1 - (deadline - monotonic()) / time_limit, 1.0), covered)
+
+    covered = False
+    size = pass_size(settings, tracer.sampler)
+    for quick in (1, 4):
+        # Where a whole pass surely fits, a preview only costs.
+        if size <= quick or done:
+            break
+        before = monotonic()
+        covered = pool.run(preview(settings, quick), deadline, tick) or covered
+        if pool.interrupted:
+            return False
+        seconds = monotonic() - before
+        if seconds * size / quick < 0.5 * (deadline - monotonic()):
+            break
+    finished = pool.run(passes(settings, tracer.sampler, done), deadline, tick)
+    return finished
+
+
+def _not_written(scene: Scene, needs: list[Need], error: NotImplementedError) -> EffectError:
+    """Which line of the scene asked for the function that says it isn't there yet."""
+    function = str(error).partition(":")[0]
+    for need in needs:
+        if need.function == function:
+            where = scene.loaded.document.where(need.asked_by)
+            keys = ".".join(map(str, need.asked_by))
+            return EffectError(
+                f"{error} ({scene.effects.folder / function.partition('.')[0]}.py); {where}: {keys} asks for it"
+            )
+    return EffectError(f"{error or 'a function is not written yet'} (in {scene.effects.folder})")
+
+
+def _receipt(
+    scene: Scene,
+    settings: Settings,
+    needs: list[Need],
+    plan: Plan,
+    counters: Counters,
+    film: Film,
+    threads: int,
+    wall: float,
+) -> Receipt:
+    samples = float(film.samples.mean())
+    skipped = {**skipped_modules(needs), **scene.compiled.world.skipped_lights}
+    if not plan.mirrors:
+        skipped["reflection"] = "no material mirrors, or the depth is 0"
+    if not plan.refracts:
+        skipped["refraction"] = "no material refracts, or the depth is 0"
+    if not plan.sees_environment:
+        skipped["environment"] = "it is black"
+    return Receipt(
+        rays=dict(counters.rays),
+        numbers=dict(counters.numbers),
+        effects={
+            "called": list(dict.fromkeys(need.function for need in needs)),
+            "skipped": skipped,
+        },
+        seconds=dict(counters.seconds),
+        embree_seconds=counters.embree.seconds,
+        wall_seconds=wall,
+        threads=threads,
+        samples=int(samples) if samples.is_integer() else samples,
+        pixels=settings.width * settings.height,
+        seed=settings.seed,
+        version=__version__,
+    )

@@ -1,0 +1,89 @@
+"""Compile a checked description into what is rendered: meshes read, moved to the frame, rounded to float32."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from course.appearance.environment import ConstantEnvironment
+from course.effects import Effects
+from course.geometry.surface import Part, build_surface
+from course.imaging.camera import Camera, make_camera
+from course.scene import description as d
+from course.scene.brightness import in_range
+from course.scene.description.values import rgb
+from course.scene.emitters import emitter_parts
+from course.scene.frame import Frame, frame_of
+from course.scene.instancing import object_mesh
+from course.scene.light_compiling import compile_lights
+from course.scene.loading import Loaded
+from course.scene.material_table import compile_materials
+from course.scene.world import World
+
+
+@dataclass(frozen=True)
+class Compiled:
+    """A world, and what its numbers were before they were compiled.
+
+    Attributes
+    ----------
+    frame : where the scene file's origin and unit went
+    triangles : of each object
+    """
+
+    world: World
+    frame: Frame
+    triangles: tuple[int, ...]
+
+
+def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
+    """Read the meshes and build everything that rays meet.
+
+    Raises
+    ------
+    SceneError
+        For what only shows when meshes are there; names file, line and key path.
+    """
+    scene, document = loaded.description, loaded.document
+    meshes = [
+        object_mesh(thing, number, document, loaded.path.parent)
+        for number, thing in enumerate(scene.objects)
+    ]
+    frame = frame_of(meshes)
+    names = list(scene.materials)
+    parts = [
+        Part(frame.mesh(mesh), names.index(thing.material))
+        for mesh, thing in zip(meshes, scene.objects, strict=True)
+    ]
+    emitters, emission = emitter_parts(scene.lights, frame, first_material=len(names))
+    materials = compile_materials(scene.materials, emission, frame)
+    lights, skipped = compile_lights(loaded, frame, effects)
+    ambient = np.zeros(3)
+    for light in scene.lights:
+        if isinstance(light, d.AmbientLight):
+            ambient += rgb(light.radiance)
+    world = World(
+        surface=build_surface(parts + emitters),
+        materials=materials,
+        lights=lights,
+        skipped_lights=skipped,
+        ambient=in_range(ambient, loaded, ("lights",), "ambient radiance"),
+        environment=ConstantEnvironment(
+            in_range(rgb(scene.environment.radiance), loaded, ("environment",), "radiance")
+        ),
+    )
+    return Compiled(world, frame, tuple(len(mesh.triangles) for mesh in meshes))
+
+
+def compile_camera(loaded: Loaded, frame: Frame, width: int, height: int) -> Camera:
+    """The camera for a picture of that size."""
+    camera = loaded.description.camera
+    return make_camera(
+        frame.position(camera.eye),
+        frame.position(camera.look_at),
+        np.array(camera.up) / np.abs(camera.up).max(),
+        np.radians(camera.vertical_fov),
+        width,
+        height,
+    )

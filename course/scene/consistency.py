@@ -1,0 +1,139 @@
+"""Checks that take more than one key: each names the key to change.
+
+Every value is of the right type and within its own range by now.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from course.scene.description.camera import CameraDescription
+from course.scene.description.lights import DirectionalLight, Light, RectangleLight, SphereLight
+from course.scene.description.objects import Object, TorusKnot
+from course.scene.description.sampler import SamplerDescription
+from course.scene.description.scene import SceneDescription
+from course.scene.description.transforms import Rotate, Scale, Transform
+from course.scene.description.values import Vector
+from course.scene.document import Document, KeyPath, suggest
+
+# Below these sines two directions are held to be one: a picture turned by a rounding error, or a
+# light without area.
+_PARALLEL_UP: Final = 1e-6
+_PARALLEL_EDGES: Final = 1e-9
+# Of the distance from the origin; float64 keeps 16 digits, and a view needs some of them.
+_SAME_POINT: Final = 1e-12
+
+
+def check_consistency(description: SceneDescription, document: Document) -> None:
+    """Check the values of a scene against each other.
+
+    Raises
+    ------
+    SceneError
+        For the first contradiction, by file, line, key path and value.
+    """
+    _check_camera(description.camera, document)
+    _check_sampler(description.sampler, document)
+    for index, light in enumerate(description.lights):
+        _check_light(light, ("lights", index), document)
+    for index, thing in enumerate(description.objects):
+        _check_object(thing, ("objects", index), description, document)
+
+
+def nearest_squares(samples: int) -> tuple[int, ...]:
+    """Return the one or two square numbers nearest to a number of samples, itself if it is one."""
+    root = math.isqrt(samples)
+    return (samples,) if root * root == samples else (root * root, (root + 1) ** 2)
+
+
+def _check_camera(camera: CameraDescription, document: Document) -> None:
+    eye, look_at = np.array(camera.eye), np.array(camera.look_at)
+    view = look_at - eye
+    farthest = max(np.abs(eye).max(), np.abs(look_at).max())
+    if np.abs(view).max() <= _SAME_POINT * farthest:
+        raise document.unexpected(
+            ("camera", "look_at"), "another point than camera.eye, to look towards"
+        )
+    _check_not_zero(camera.up, ("camera", "up"), document)
+    if _sine(view, np.array(camera.up)) < _PARALLEL_UP:
+        raise document.unexpected(
+            ("camera", "up"), "a direction that is not parallel to the view from eye to look_at"
+        )
+
+
+def _check_sampler(sampler: SamplerDescription, document: Document) -> None:
+    squares = nearest_squares(sampler.samples)
+    if sampler.type in {"regular", "jittered"} and len(squares) > 1:
+        raise document.unexpected(
+            ("sampler", "samples"),
+            f"a square number for the {sampler.type} sampler, "
+            f"such as {' or '.join(map(str, filter(None, squares)))}",
+        )
+
+
+def _check_light(light: Light, path: KeyPath, document: Document) -> None:
+    if isinstance(light, DirectionalLight):
+        _check_not_zero(light.direction, (*path, "direction"), document)
+    if isinstance(light, RectangleLight | SphereLight):
+        _check_emission(light, path, document)
+    if isinstance(light, RectangleLight):
+        _check_not_zero(light.edge_u, (*path, "edge_u"), document)
+        _check_not_zero(light.edge_v, (*path, "edge_v"), document)
+        if _sine(np.array(light.edge_u), np.array(light.edge_v)) < _PARALLEL_EDGES:
+            raise document.unexpected((*path, "edge_v"), "an edge that is not parallel to edge_u")
+
+
+def _check_emission(light: RectangleLight | SphereLight, path: KeyPath, document: Document) -> None:
+    given = [light.intensity is not None, light.radiance is not None]
+    if all(given):
+        raise document.error(path, "both intensity and radiance are given: expected one of them")
+    if not any(given):
+        raise document.error(
+            path, "intensity or radiance is missing: expected one of them, in W/sr or W/(m^2 sr)"
+        )
+    if isinstance(light, SphereLight) and light.radiance is not None and light.radius == 0:
+        raise document.unexpected(
+            (*path, "radius"),
+            "a number > 0 [world unit] for a light by radiance; a point has no area to emit from",
+        )
+
+
+def _check_object(
+    thing: Object, path: KeyPath, description: SceneDescription, document: Document
+) -> None:
+    if thing.material not in description.materials:
+        hint = suggest(thing.material, description.materials)
+        raise document.unexpected((*path, "material"), f"the name of one of the materials; {hint}")
+    if isinstance(thing, TorusKnot) and (divisor := math.gcd(thing.p, thing.q)) > 1:
+        raise document.error(
+            path,
+            f"p is {thing.p} and q is {thing.q}: expected numbers without a common divisor; "
+            f"these wind {divisor} times over the same curve",
+        )
+    for index, step in enumerate(thing.transform):
+        _check_step(step, (*path, "transform", index), document)
+
+
+def _check_step(step: Transform, path: KeyPath, document: Document) -> None:
+    if isinstance(step, Rotate):
+        _check_not_zero(step.rotate.axis, (*path, "rotate", "axis"), document)
+    if isinstance(step, Scale):
+        factors = step.scale if isinstance(step.scale, tuple) else (step.scale,)
+        if 0 in factors:
+            raise document.unexpected((*path, "scale"), "factors that are not 0")
+
+
+def _check_not_zero(vector: Vector, path: KeyPath, document: Document) -> None:
+    if not any(vector):
+        raise document.unexpected(path, "a vector that is not zero")
+
+
+def _sine(a: NDArray[np.float64], b: NDArray[np.float64]) -> float:
+    """Sine of the angle between two vectors, neither of them zero."""
+    # Divided by the largest component first, so that no square underflows or overflows.
+    a, b = a / np.abs(a).max(), b / np.abs(b).max()
+    return float(np.linalg.norm(np.cross(a, b)) / (np.linalg.norm(a) * np.linalg.norm(b)))

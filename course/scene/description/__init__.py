@@ -1,0 +1,78 @@
+"""The scene format: one frozen Struct for each map that a scene file may hold."""
+
+from __future__ import annotations
+
+from course.scene.description.camera import CameraDescription
+from course.scene.description.environment import ConstantEnvironment, Environment
+from course.scene.description.film import FilmDescription
+from course.scene.description.integrator import IntegratorDescription
+from course.scene.description.lights import (
+    AmbientLight,
+    DirectionalLight,
+    Light,
+    LightDescription,
+    PointLight,
+    RectangleLight,
+    SphereLight,
+)
+from course.scene.description.materials import Dielectric, MaterialDescription
+from course.scene.description.objects import (
+    Box,
+    Cone,
+    Cylinder,
+    Disk,
+    DisplacedSphere,
+    HeightField,
+    MeshFile,
+    Object,
+    ObjectDescription,
+    Quad,
+    Sphere,
+    Torus,
+    TorusKnot,
+)
+from course.scene.description.sampler import SamplerDescription
+from course.scene.description.scene import SceneDescription
+from course.scene.description.transforms import Rotate, Rotation, Scale, Transform, Translate
+from course.scene.description.values import Color, Reflectance, Vector, rgb
+
+__all__ = [
+    "AmbientLight",
+    "Box",
+    "CameraDescription",
+    "Color",
+    "Cone",
+    "ConstantEnvironment",
+    "Cylinder",
+    "Dielectric",
+    "DirectionalLight",
+    "Disk",
+    "DisplacedSphere",
+    "Environment",
+    "FilmDescription",
+    "HeightField",
+    "IntegratorDescription",
+    "Light",
+    "LightDescription",
+    "MaterialDescription",
+    "MeshFile",
+    "Object",
+    "ObjectDescription",
+    "PointLight",
+    "Quad",
+    "RectangleLight",
+    "Reflectance",
+    "Rotate",
+    "Rotation",
+    "SamplerDescription",
+    "Scale",
+    "SceneDescription",
+    "Sphere",
+    "SphereLight",
+    "Torus",
+    "TorusKnot",
+    "Transform",
+    "Translate",
+    "Vector",
+    "rgb",
+]

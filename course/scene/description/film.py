@@ -1,0 +1,22 @@
+"""`film`: the picture's size and how samples become pixels."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+import msgspec
+
+from course.scene.description.values import about
+
+
+class FilmDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """Size of the picture and its reconstruction filter."""
+
+    width: Annotated[int, about("Width of the picture.", "pixel", ge=1, le=65536)] = 640
+    height: Annotated[int, about("Height of the picture.", "pixel", ge=1, le=65536)] = 480
+    filter: Annotated[
+        Literal["box", "gaussian"], about("How the samples of a pixel are weighted.")
+    ] = "box"
+    sigma: Annotated[float, about("Standard deviation of the gaussian filter.", "pixel", gt=0)] = (
+        1 / 6
+    )

@@ -1,0 +1,137 @@
+"""`objects`: a union told apart by `shape`; y is up, and every shape is centred on the origin."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal, TypeAlias
+
+import msgspec
+
+from course.scene.description.transforms import Transform
+from course.scene.description.values import about
+
+_Length: TypeAlias = Annotated[float, msgspec.Meta(gt=0)]
+_Segments: TypeAlias = Annotated[int, about("Flat pieces around the axis.", ge=3, le=4096)]
+
+
+class ObjectDescription(
+    msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True, tag_field="shape"
+):
+    """The keys that all shapes share."""
+
+    material: Annotated[str, about("Name of one of the materials.", min_length=1)]
+    name: Annotated[str, about("Name for messages and tables.")] = ""
+    shading: Annotated[
+        Literal["smooth", "flat"], about("Interpolated normals, or one for each triangle.")
+    ] = "smooth"
+    transform: Annotated[
+        tuple[Transform, ...], about("Steps applied in order, the first one first.")
+    ] = ()
+
+
+class Quad(ObjectDescription, frozen=True, kw_only=True, tag="quad"):
+    """A rectangle in the plane of x and z; its normal is +y."""
+
+    width: Annotated[float, about("Extent along x.", "world unit", gt=0)] = 1.0
+    depth: Annotated[float, about("Extent along z.", "world unit", gt=0)] = 1.0
+
+
+class Box(ObjectDescription, frozen=True, kw_only=True, tag="box"):
+    """A box along the axes."""
+
+    size: Annotated[
+        tuple[_Length, _Length, _Length], about("Extents along x, y and z.", "world unit")
+    ] = (1.0, 1.0, 1.0)
+
+
+class Sphere(ObjectDescription, frozen=True, kw_only=True, tag="sphere"):
+    """A sphere of triangles with smooth normals."""
+
+    radius: Annotated[float, about("Radius.", "world unit", gt=0)] = 1.0
+    segments: _Segments = 64
+
+
+class Disk(ObjectDescription, frozen=True, kw_only=True, tag="disk"):
+    """A disk in the plane of x and z; its normal is +y."""
+
+    radius: Annotated[float, about("Radius.", "world unit", gt=0)] = 1.0
+    segments: _Segments = 64
+
+
+class Cylinder(ObjectDescription, frozen=True, kw_only=True, tag="cylinder"):
+    """A cylinder about y, with flat caps."""
+
+    radius: Annotated[float, about("Radius.", "world unit", gt=0)] = 0.5
+    height: Annotated[float, about("Extent along y.", "world unit", gt=0)] = 1.0
+    segments: _Segments = 64
+
+
+class Cone(ObjectDescription, frozen=True, kw_only=True, tag="cone"):
+    """A cone about y, its tip up, with a flat base."""
+
+    radius: Annotated[float, about("Radius of the base.", "world unit", gt=0)] = 0.5
+    height: Annotated[float, about("Extent along y.", "world unit", gt=0)] = 1.0
+    segments: _Segments = 64
+
+
+class Torus(ObjectDescription, frozen=True, kw_only=True, tag="torus"):
+    """A ring about y."""
+
+    radius: Annotated[float, about("Radius of the ring's middle line.", "world unit", gt=0)] = 1.0
+    tube: Annotated[float, about("Radius of the tube.", "world unit", gt=0)] = 0.25
+    segments: _Segments = 96
+    sides: Annotated[int, about("Flat pieces around the tube.", ge=3, le=4096)] = 48
+
+
+class TorusKnot(ObjectDescription, frozen=True, kw_only=True, tag="torus_knot"):
+    """A tube along the (p, q) knot on a torus; p and q have no common divisor."""
+
+    p: Annotated[int, about("Turns about the axis.", ge=1, le=64)] = 2
+    q: Annotated[int, about("Turns through the hole.", ge=1, le=64)] = 3
+    radius: Annotated[float, about("Radius of the torus.", "world unit", gt=0)] = 1.0
+    tube: Annotated[float, about("Radius of the tube.", "world unit", gt=0)] = 0.2
+    segments: Annotated[int, about("Flat pieces along the tube.", ge=3, le=16384)] = 512
+    sides: Annotated[int, about("Flat pieces around the tube.", ge=3, le=4096)] = 32
+
+
+class DisplacedSphere(ObjectDescription, frozen=True, kw_only=True, tag="displaced_sphere"):
+    """A bumpy ball: a sphere moved along its normal by a sum of smooth waves."""
+
+    radius: Annotated[float, about("Radius without the bumps.", "world unit", gt=0)] = 1.0
+    amplitude: Annotated[float, about("Height of the bumps.", "world unit", ge=0)] = 0.1
+    frequency: Annotated[float, about("Bumps around the ball.", gt=0)] = 6.0
+    segments: Annotated[int, about("Flat pieces around the axis.", ge=3, le=4096)] = 256
+    seed: Annotated[int, about("Chooses the waves.", ge=0, le=2**32 - 1)] = 0
+
+
+class HeightField(ObjectDescription, frozen=True, kw_only=True, tag="height_field"):
+    """Hills over the plane of x and z: a sum of smooth waves."""
+
+    size: Annotated[tuple[_Length, _Length], about("Extents along x and z.", "world unit")] = (
+        1.0,
+        1.0,
+    )
+    amplitude: Annotated[float, about("Height of the hills.", "world unit", ge=0)] = 0.1
+    frequency: Annotated[float, about("Waves across the field.", gt=0)] = 4.0
+    segments: Annotated[int, about("Cells along each side.", ge=1, le=4096)] = 128
+    seed: Annotated[int, about("Chooses the waves.", ge=0, le=2**32 - 1)] = 0
+
+
+class MeshFile(ObjectDescription, frozen=True, kw_only=True, tag="mesh"):
+    """A mesh from a PLY, OBJ, STL or GLB file."""
+
+    file: Annotated[str, about("Path of the file, relative to the scene file.", min_length=1)]
+
+
+Object: TypeAlias = (
+    Quad
+    | Box
+    | Sphere
+    | Disk
+    | Cylinder
+    | Cone
+    | Torus
+    | TorusKnot
+    | DisplacedSphere
+    | HeightField
+    | MeshFile
+)

@@ -1,0 +1,42 @@
+"""A whole scene file."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import msgspec
+
+from course.scene.description.camera import CameraDescription
+from course.scene.description.environment import ConstantEnvironment, Environment
+from course.scene.description.film import FilmDescription
+from course.scene.description.integrator import IntegratorDescription
+from course.scene.description.lights import Light
+from course.scene.description.materials import MaterialDescription
+from course.scene.description.objects import Object
+from course.scene.description.sampler import SamplerDescription
+from course.scene.description.values import about
+
+
+class SceneDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A scene for the Penumbra ray tracer."""
+
+    title: Annotated[str, about("What the picture shows.")] = ""
+    seed: Annotated[int, about("Chooses the random numbers.", ge=0, le=2**32 - 1)] = 0
+    camera: Annotated[CameraDescription, about("Where the picture is taken from.")]
+    film: Annotated[FilmDescription, about("Size of the picture and its filter.")] = (
+        FilmDescription()
+    )
+    sampler: Annotated[SamplerDescription, about("Number and pattern of samples.")] = (
+        SamplerDescription()
+    )
+    integrator: Annotated[IntegratorDescription, about("How far light is followed.")] = (
+        IntegratorDescription()
+    )
+    environment: Annotated[Environment, about("What a ray sees that hits nothing.")] = (
+        ConstantEnvironment()
+    )
+    materials: Annotated[
+        dict[str, MaterialDescription], about("What objects are made of, by name.")
+    ] = {}
+    lights: Annotated[tuple[Light, ...], about("The lights.")] = ()
+    objects: Annotated[tuple[Object, ...], about("The objects.")] = ()

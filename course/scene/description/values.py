@@ -1,0 +1,67 @@
+"""The kinds of value a scene file is made of: numbers with a unit and a range, vectors, colours."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, TypeAlias
+
+import msgspec
+import numpy as np
+from numpy.typing import NDArray
+
+Vector: TypeAlias = tuple[float, float, float]
+
+_Fraction: TypeAlias = Annotated[float, msgspec.Meta(ge=0, le=1)]
+_NotNegative: TypeAlias = Annotated[float, msgspec.Meta(ge=0)]
+
+_ThreeFractions: TypeAlias = Annotated[
+    tuple[_Fraction, ...], msgspec.Meta(min_length=3, max_length=3)
+]
+_ThreeNotNegative: TypeAlias = Annotated[
+    tuple[_NotNegative, ...], msgspec.Meta(min_length=3, max_length=3)
+]
+
+# A colour is a number, for grey, or red, green and blue; linear light, not sRGB. The three are a
+# tuple bounded in length, not tuple[F, F, F]: msgspec 0.22 crashes in the garbage collector on a
+# union of a bounded number and a tuple of fixed length.
+Reflectance: TypeAlias = _Fraction | _ThreeFractions
+Color: TypeAlias = _NotNegative | _ThreeNotNegative
+
+
+def about(
+    description: str,
+    unit: str | None = None,
+    *,
+    gt: float | None = None,
+    ge: float | None = None,
+    lt: float | None = None,
+    le: float | None = None,
+    min_length: int | None = None,
+) -> msgspec.Meta:
+    """Describe a key of the scene format, for the checks and for the JSON schema.
+
+    Parameters
+    ----------
+    description : str
+        One line, as the reference page shows it.
+    unit : str, optional
+        Written as ``x-unit`` in the schema. "world unit" is the scene's own unit of length.
+    gt, ge, lt, le : float, optional
+        Bounds: greater than, greater or equal, less than, less or equal.
+    min_length : int, optional
+        Least length of a text or list.
+    """
+    given = {"gt": gt, "ge": ge, "lt": lt, "le": le, "min_length": min_length}
+    bounds: dict[str, Any] = {key: value for key, value in given.items() if value is not None}
+    extra = None if unit is None else {"x-unit": unit}
+    return msgspec.Meta(description=description, extra_json_schema=extra, **bounds)
+
+
+def rgb(color: float | tuple[float, ...]) -> NDArray[np.float64]:
+    """Red, green and blue of a colour that may be given as one number.
+
+    Returns
+    -------
+    (3,) float64
+        In the colour's own unit; a number is repeated in all three channels.
+    """
+    return np.array(np.broadcast_to(np.asarray(color, dtype=np.float64), (3,)))

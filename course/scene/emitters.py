@@ -1,0 +1,46 @@
+"""Lights by radiance as surfaces that rays can see."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from course.core.types import Floats64
+from course.geometry import shapes
+from course.geometry.mesh import Mesh
+from course.geometry.surface import Part
+from course.scene.description import Light, RectangleLight, SphereLight
+from course.scene.description.values import rgb
+from course.scene.frame import Frame
+
+SEGMENTS = 128
+"""Around a visible sphere light; it lies inside the true sphere by at most 3e-4 radii."""
+
+
+def emitter_parts(
+    lights: Iterable[Light], frame: Frame, first_material: int
+) -> tuple[list[Part], list[Floats64]]:
+    """Meshes of the visible lights, and the radiance of the material that each of them gets.
+
+    Materials are numbered from ``first_material``.
+    """
+    parts: list[Part] = []
+    emission: list[Floats64] = []
+    for light in lights:
+        mesh = None
+        if isinstance(light, RectangleLight) and light.radiance is not None:
+            mesh = _rectangle(light)
+        elif isinstance(light, SphereLight) and light.radiance is not None:
+            ball = shapes.sphere(light.radius, SEGMENTS)
+            mesh = Mesh(ball.vertices + np.array(light.center), ball.triangles)
+        if mesh is not None and light.radiance is not None:  # type: ignore[union-attr]
+            parts.append(Part(frame.mesh(mesh), first_material + len(emission)))
+            emission.append(rgb(light.radiance))  # type: ignore[union-attr, arg-type]
+    return parts, emission
+
+
+def _rectangle(light: RectangleLight) -> Mesh:
+    corner, u, v = (np.array(x) for x in (light.corner, light.edge_u, light.edge_v))
+    vertices = np.stack((corner, corner + u, corner + u + v, corner + v))
+    return Mesh(vertices, np.array([[0, 1, 2], [0, 2, 3]]))

@@ -1,0 +1,75 @@
+"""In plain words, what the scene format expects at a place: `a number > 0 [world unit]`."""
+
+from __future__ import annotations
+
+from typing import Final
+
+from msgspec import inspect
+
+# Numbers by kind; the tuple kinds have items of one and the same type.
+Number = inspect.FloatType | inspect.IntType
+Sequence = inspect.TupleType | inspect.VarTupleType
+
+_NOUNS: Final = {inspect.FloatType: "number", inspect.IntType: "whole number"}
+
+
+def describe(kind: inspect.Type, unit: str | None = None) -> str:
+    """Say what a type of `msgspec.inspect` accepts, with range and unit."""
+    text = _describe(kind)
+    return f"{text} [{unit}]" if unit else text
+
+
+def item_type(kind: Sequence, index: int) -> inspect.Type:
+    """Type of one item of a list."""
+    if isinstance(kind, inspect.TupleType):
+        return kind.item_types[index]
+    return kind.item_type
+
+
+def fixed_length(kind: Sequence) -> int | None:
+    """How many items a list must have; None where any number will do."""
+    if isinstance(kind, inspect.TupleType):
+        return len(kind.item_types)
+    return kind.min_length if kind.min_length == kind.max_length else None
+
+
+def bounds(kind: Number) -> str:
+    """Range of a number as it follows the word number: ` > 0`, ` from 0 to 1`, or nothing."""
+    if kind.ge is not None and kind.le is not None:
+        return f" from {kind.ge:.12g} to {kind.le:.12g}"
+    signs = ((">", kind.gt), (">=", kind.ge), ("<", kind.lt), ("<=", kind.le))
+    parts = [f"{sign} {bound:.12g}" for sign, bound in signs if bound is not None]
+    return f" {' and '.join(parts)}" if parts else ""
+
+
+def _describe(kind: inspect.Type) -> str:
+    match kind:
+        case inspect.Metadata():
+            return _describe(kind.type)
+        case inspect.FloatType() | inspect.IntType():
+            return f"a {_NOUNS[type(kind)]}{bounds(kind)}"
+        case inspect.StrType():
+            return "a text that is not empty" if kind.min_length else "a text"
+        case inspect.LiteralType():
+            return either(sorted(map(str, kind.values)))
+        case inspect.NoneType():
+            return "null"
+        case inspect.TupleType() | inspect.VarTupleType():
+            return _describe_list(kind)
+        case inspect.UnionType():
+            return " or ".join(dict.fromkeys(map(_describe, kind.types)))
+        case _:
+            return "a map"
+
+
+def _describe_list(kind: Sequence) -> str:
+    length = fixed_length(kind)
+    item = item_type(kind, 0)
+    if length is None or not isinstance(item, inspect.FloatType | inspect.IntType):
+        return "a list"
+    return f"{length} {_NOUNS[type(item)]}s{bounds(item)}"
+
+
+def either(words: list[str]) -> str:
+    """Join alternatives: `a, b or c`."""
+    return " or ".join(filter(None, [", ".join(words[:-1]), words[-1]]))

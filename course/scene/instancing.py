@@ -1,0 +1,82 @@
+"""From object descriptions to meshes in the units of the scene file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from course.core.types import Floats64
+from course.errors import GeometryError, SceneError
+from course.geometry import shapes, transforms
+from course.geometry.mesh import Mesh
+from course.scene import description as d
+from course.scene.document import Document
+
+
+def object_mesh(thing: d.Object, number: int, document: Document, folder: Path) -> Mesh:
+    """The mesh of one object, transformed.
+
+    Raises
+    ------
+    SceneError
+        When a mesh file can't be used, or a shape or a transform is impossible; names the object's line.
+    """
+    path = ("objects", number)
+    try:
+        mesh = _local_mesh(thing, folder)
+        if thing.transform:
+            mesh = transforms.apply(
+                mesh, transforms.compose([_matrix(step) for step in thing.transform])
+            )
+    except (GeometryError, ValueError) as error:
+        key = (*path, "file") if isinstance(thing, d.MeshFile) else path
+        raise SceneError(f"{document.where(key)}: objects[{number}]: {error}") from error
+    if thing.shading == "flat":
+        mesh = Mesh(mesh.vertices, mesh.triangles, None, mesh.uv)
+    return mesh
+
+
+def _local_mesh(thing: d.Object, folder: Path) -> Mesh:
+    if isinstance(thing, d.MeshFile):
+        # trimesh behind it is heavy; a scene of named shapes never imports it.
+        from course.geometry.mesh_files import read_mesh
+
+        return read_mesh(folder / thing.file)
+    match thing:
+        case d.Quad():
+            return shapes.quad(thing.width, thing.depth)
+        case d.Box():
+            return shapes.box(thing.size)
+        case d.Sphere():
+            return shapes.sphere(thing.radius, thing.segments)
+        case d.Disk():
+            return shapes.disk(thing.radius, thing.segments)
+        case d.Cylinder():
+            return shapes.cylinder(thing.radius, thing.height, thing.segments)
+        case d.Cone():
+            return shapes.cone(thing.radius, thing.height, thing.segments)
+        case d.Torus():
+            return shapes.torus(thing.radius, thing.tube, thing.segments, thing.sides)
+        case d.TorusKnot():
+            return shapes.torus_knot(
+                thing.p, thing.q, thing.radius, thing.tube, thing.segments, thing.sides
+            )
+        case d.DisplacedSphere():
+            return shapes.displaced_sphere(
+                thing.radius, thing.amplitude, thing.frequency, thing.segments, thing.seed
+            )
+        case d.HeightField():
+            return shapes.height_field(
+                thing.size, thing.amplitude, thing.frequency, thing.segments, thing.seed
+            )
+
+
+def _matrix(step: d.Transform) -> Floats64:
+    match step:
+        case d.Translate():
+            return transforms.translate(np.array(step.translate))
+        case d.Scale():
+            return transforms.scale(np.broadcast_to(np.array(step.scale, np.float64), (3,)))
+        case d.Rotate():
+            return transforms.rotate(np.array(step.rotate.axis), step.rotate.degrees)

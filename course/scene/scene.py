@@ -1,0 +1,71 @@
+"""A scene, ready to be rendered as often and in as many ways as one likes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from course.effects import Effects
+from course.scene.compiling import Compiled, compile_scene
+from course.scene.loading import Loaded, load_description
+from course.scene.world import Settings
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A checked and compiled scene file, bound to the functions that render its effects.
+
+    Attributes
+    ----------
+    loaded : the description, and where each of its values stands
+    compiled : the world that rays meet
+    effects : the student functions
+    """
+
+    loaded: Loaded
+    compiled: Compiled
+    effects: Effects
+
+    @property
+    def path(self) -> Path:
+        """The scene file."""
+        return self.loaded.path
+
+    @property
+    def title(self) -> str:
+        """What the picture shows, as the file says; its name where it says nothing."""
+        return self.loaded.description.title or self.loaded.path.stem
+
+    @property
+    def settings(self) -> Settings:
+        """How the file wants to be rendered."""
+        scene = self.loaded.description
+        return Settings(
+            width=scene.film.width,
+            height=scene.film.height,
+            sampler=scene.sampler.type,
+            samples=scene.sampler.samples,
+            seed=scene.seed,
+            max_depth=scene.integrator.max_depth,
+            cutoff=scene.integrator.cutoff,
+        )
+
+
+def load_scene(path: str | Path, effects: str | Path | Effects = "solutions") -> Scene:
+    """Read, check and compile a scene file.
+
+    Parameters
+    ----------
+    path : the YAML file
+    effects : whose functions to call: "solutions", "assignments", or a folder of modules
+
+    Raises
+    ------
+    SceneError
+        The file, or a mesh it names, can't be rendered; the message names file, line and key path.
+    EffectError
+        The folder of functions or one of its modules is missing.
+    """
+    loaded = load_description(Path(path))
+    bound = effects if isinstance(effects, Effects) else Effects(effects)
+    return Scene(loaded, compile_scene(loaded, bound), bound)

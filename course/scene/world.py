@@ -1,0 +1,55 @@
+"""A scene compiled for rendering: moved to its own centre, scaled to unit size, in float32."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from course.appearance.environment import ConstantEnvironment
+from course.appearance.lights import Light
+from course.appearance.materials import MaterialTable
+from course.core.types import Floats32
+from course.geometry.surface import Surface
+
+
+@dataclass(frozen=True)
+class World:
+    """What one batch of rays meets.
+
+    Attributes
+    ----------
+    surface : all triangles
+    materials : their materials
+    lights : those that can light something; lights without power are left out
+    skipped_lights : name -> why it was left out
+    ambient : (3,) float32, sum of the ambient lights
+    environment : what rays see that hit nothing
+    """
+
+    surface: Surface
+    materials: MaterialTable
+    lights: tuple[Light, ...]
+    skipped_lights: dict[str, str]
+    ambient: Floats32
+    environment: ConstantEnvironment
+
+
+@dataclass(frozen=True)
+class Settings:
+    """How a scene is to be rendered: everything of the scene file that isn't the world.
+
+    Attributes
+    ----------
+    width, height : pixels
+    sampler : name of the sampler
+    samples : a pixel
+    max_depth : bounces after the camera ray
+    cutoff : bounced rays whose largest throughput channel is below this are dropped
+    """
+
+    width: int
+    height: int
+    sampler: str
+    samples: int
+    seed: int
+    max_depth: int
+    cutoff: float

@@ -1,0 +1,136 @@
+"""Rays that go on: mirrored and refracted, with what they will contribute, as long as that can be seen."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from course.appearance.fresnel import fresnel_and_cos_t, refract
+from course.core.types import Floats32, Indices
+from course.core.vectors import dot, reflect
+from course.geometry.hits import Hits
+from course.transport.paths import Rays
+from course.transport.plan import Lookups, Plan
+
+_OPEN = np.int16(-1)
+
+
+def bounced(
+    plan: Plan,
+    lookups: Lookups,
+    hits: Hits,
+    throughput: Floats32 | None,
+    path: Indices | None,
+    medium: np.ndarray[tuple[int], np.dtype[np.int16]] | None,
+    cutoff: float,
+) -> tuple[Rays | None, Rays | None]:
+    """Reflected and refracted rays of the hits; None where there are none.
+
+    Parameters
+    ----------
+    throughput : (3, n) float32 of the rays that hit, or None for 1
+    path : (n,) or None for all paths in order
+    medium : (n,) the material that the arriving ray travelled in, or None where nothing absorbs
+    """
+    reflectance = lookups.mirror(hits.material)
+    transmitted = None
+    if plan.refracts:
+        index = lookups.refraction_index(hits.material)
+        glass = index > 0
+        # Outside is vacuum: a ray that enters goes from 1 to the index, one that leaves from the index to 1.
+        safe = np.where(glass, index, np.float32(1))
+        eta = np.where(hits.entering, 1 / safe, safe)
+        cos_i = np.clip(-dot(hits.direction, hits.ns), 0, 1)
+        share, cos_t = fresnel_and_cos_t(cos_i, eta)
+        share *= glass
+        reflectance = reflectance + share
+        transmitted = _weight((1 - share) * glass, throughput)
+    reflected = _reflected(hits, _weight(reflectance, throughput), path, medium, cutoff)
+    if transmitted is None:
+        return reflected, None
+    return reflected, _refracted(hits, transmitted, cos_i, cos_t, eta, path, medium, cutoff)
+
+
+def _weight(factor: Floats32, throughput: Floats32 | None) -> Floats32:
+    return factor if throughput is None else factor * throughput
+
+
+def _visible(weight: Floats32, size: int, cutoff: float) -> Indices:
+    """Which columns of (3, size), (3, 1) or (size,) are worth a ray."""
+    largest = weight.max(axis=0) if weight.ndim == 2 else weight
+    if len(largest) < size:
+        return np.arange(size if largest[0] > cutoff else 0)
+    return np.flatnonzero(largest > cutoff)
+
+
+def _columns(weight: Floats32, which: Indices) -> Floats32:
+    """(3, n) throughputs of the chosen columns."""
+    if weight.ndim == 1:
+        return np.repeat(weight.take(which)[None], 3, axis=0)
+    if weight.shape[1] == 1:
+        return np.repeat(weight, len(which), axis=1)
+    return weight.take(which, axis=1)
+
+
+def _reflected(
+    hits: Hits,
+    weight: Floats32,
+    path: Indices | None,
+    medium: np.ndarray[tuple[int], np.dtype[np.int16]] | None,
+    cutoff: float,
+) -> Rays | None:
+    which = _visible(weight, hits.size, cutoff)
+    if len(which) == 0:
+        return None
+    mirrored = reflect(hits.direction.take(which, axis=1), hits.ns.take(which, axis=1))
+    ng = hits.ng.take(which, axis=1)
+    # An interpolated normal may mirror a ray into the surface; mirror it out again.
+    below = np.minimum(dot(mirrored, ng), 0)
+    if below.any():
+        below += below
+        mirrored -= below * ng
+    return Rays(
+        hits.above.take(which, axis=1),
+        mirrored,
+        _columns(weight, which),
+        which if path is None else path.take(which),
+        None if medium is None else medium.take(which),
+    )
+
+
+def _refracted(
+    hits: Hits,
+    weight: Floats32,
+    cos_i: Floats32,
+    cos_t: Floats32,
+    eta: Floats32,
+    path: Indices | None,
+    medium: np.ndarray[tuple[int], np.dtype[np.int16]] | None,
+    cutoff: float,
+) -> Rays | None:
+    which = _visible(weight, hits.size, cutoff)
+    if len(which) == 0:
+        return None
+    direction = refract(
+        hits.direction.take(which, axis=1),
+        hits.ns.take(which, axis=1),
+        cos_i.take(which),
+        cos_t.take(which),
+        eta.take(which),
+    )
+    ng = hits.ng.take(which, axis=1)
+    # ... and it may refract a ray back to where it came from; the same cure, to the far side.
+    above = np.maximum(dot(direction, ng), 0)
+    if above.any():
+        above += above
+        direction -= above * ng
+    inside = None
+    if medium is not None:
+        material = hits.material.take(which).astype(np.int16)
+        inside = np.where(hits.entering.take(which), material, _OPEN)
+    return Rays(
+        hits.below.take(which, axis=1),
+        direction,
+        _columns(weight, which),
+        which if path is None else path.take(which),
+        inside,
+    )

@@ -1,0 +1,53 @@
+"""Rays on their way, and the numbers that their paths draw."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from course.core.samplers import Block, Sampler
+from course.core.types import Floats32, Indices
+from course.transport.counters import Counters
+
+
+@dataclass(frozen=True)
+class Rays:
+    """A batch of rays, one column a ray.
+
+    Attributes
+    ----------
+    origin : (3, n) float32, or (3, 1) if they share it
+    direction : (3, n) float32, unit length
+    throughput : (3, n) float32, how much of what a ray brings reaches the film; None means all of it
+    path : (n,) number of the path in the block; None means one ray for each path, in order
+    medium : (n,) int16, material that the ray travels in, -1 in the open; None where nothing absorbs
+    """
+
+    origin: Floats32
+    direction: Floats32
+    throughput: Floats32 | None
+    path: Indices | None
+    medium: np.ndarray[tuple[int], np.dtype[np.int16]] | None = None
+
+    @property
+    def size(self) -> int:
+        """Number of rays."""
+        return self.direction.shape[1]
+
+
+@dataclass(frozen=True)
+class Draws:
+    """Draws the numbers of a block's paths, those that are asked for and no others."""
+
+    sampler: Sampler
+    block: Block
+    counters: Counters
+
+    def __call__(self, name: str, dimension: int, width: int, path: Indices | None) -> Floats32:
+        """(width, n) numbers for the given paths, or for all paths of the block."""
+        u = self.sampler.draw(self.block, dimension, width)
+        if path is not None:
+            u = u.take(path, axis=1)
+        self.counters.drew(name, u.size)
+        return u

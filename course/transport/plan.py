@@ -1,0 +1,104 @@
+"""The plan: what a scene needs, decided once before the first ray.
+
+A dimension that isn't in the plan is never drawn, a stage that isn't is never entered. The plan is also half of the
+receipt: which effects are called, and why the others are not.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from course.appearance.materials import Lookup
+from course.scene.world import Settings, World
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What one batch of rays goes through.
+
+    Attributes
+    ----------
+    shades : any material shows light from the lights
+    has_ambient : some surface has a visible ambient term
+    emits : some surface is a light that rays can see
+    specular : some material has a highlight
+    mirrors, refracts, absorbs : some reachable material does
+    sees_environment : the environment isn't black
+    max_depth : bounces that can happen in this scene
+    light_dimensions : for each light, its first dimension at depth 0; None if it needs no numbers
+    bounce_stride : how many dimensions one depth takes
+    """
+
+    shades: bool
+    has_ambient: bool
+    emits: bool
+    specular: bool
+    mirrors: bool
+    refracts: bool
+    absorbs: bool
+    sees_environment: bool
+    max_depth: int
+    light_dimensions: tuple[int | None, ...]
+    bounce_stride: int
+
+
+@dataclass(frozen=True)
+class Lookups:
+    """Gathers of the properties that the plan needs."""
+
+    ambient: Lookup
+    diffuse: Lookup
+    specular: Lookup
+    exponent: Lookup
+    mirror: Lookup
+    refraction_index: Lookup
+    absorption: Lookup
+    emission: Lookup
+
+
+PIXEL_WIDTH = 2
+
+
+def make_plan(world: World, settings: Settings) -> Plan:
+    """Look at the compiled scene and leave out what can't contribute."""
+    m = world.materials
+    mirrors = bool(m.mirrors.any()) and settings.max_depth > 0
+    refracts = bool(m.refracts.any()) and settings.max_depth > 0
+    dimension = PIXEL_WIDTH
+    light_dimensions: list[int | None] = []
+    for light in world.lights:
+        light_dimensions.append(dimension if light.width else None)
+        dimension += light.width
+    return Plan(
+        shades=bool(m.shaded.any()) and bool(world.lights),
+        has_ambient=bool((m.ambient * world.ambient[:, None]).any()),
+        emits=bool(m.emission.any()),
+        specular=bool(m.specular.any()),
+        mirrors=mirrors,
+        refracts=refracts,
+        absorbs=refracts and bool(m.absorption.any()),
+        sees_environment=not world.environment.black,
+        max_depth=settings.max_depth if mirrors or refracts else 0,
+        light_dimensions=tuple(light_dimensions),
+        bounce_stride=dimension - PIXEL_WIDTH,
+    )
+
+
+def make_lookups(world: World) -> Lookups:
+    """One gather for each property."""
+    m = world.materials
+    return Lookups(
+        *(
+            Lookup(rows)
+            for rows in (
+                m.ambient * world.ambient[:, None],
+                m.diffuse,
+                m.specular,
+                m.exponent,
+                m.mirror,
+                m.refraction_index,
+                m.absorption,
+                m.emission,
+            )
+        )
+    )

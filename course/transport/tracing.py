@@ -1,0 +1,216 @@
+"""One batch of rays, in a straight line: camera, then for each depth intersect, shade, bounce."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from course.core.samplers import Block, Sampler
+from course.core.types import Floats32, Indices
+from course.geometry.hits import Hits, find_hits
+from course.imaging.camera import Camera
+from course.imaging.reconstruction import Reconstruction
+from course.imaging.tiles import Tile
+from course.scene.world import Settings, World
+from course.transport.bounce import bounced
+from course.transport.counters import Counters
+from course.transport.direct import direct_light
+from course.transport.paths import Draws, Rays
+from course.transport.plan import PIXEL_WIDTH, Lookups, Plan, make_lookups, make_plan
+
+
+@dataclass(frozen=True)
+class Tracer:
+    """Everything that stays the same from batch to batch; shared by all threads, never written to."""
+
+    world: World
+    settings: Settings
+    camera: Camera
+    sampler: Sampler
+    reconstruction: Reconstruction
+    plan: Plan
+    lookups: Lookups
+
+    def render_tile(
+        self, tile: Tile, first: int, samples: int, counters: Counters
+    ) -> tuple[Floats32, Floats32 | float]:
+        """Colours (3, n) and weights of a tile's n pixels from one stretch of their samples."""
+        counters.start()
+        block = Block(tile.pixel_numbers(self.settings.width), first, samples, tile.number)
+        draws = Draws(self.sampler, block, counters)
+        offsets = draws("pixel", 0, PIXEL_WIDTH, None).reshape(2, tile.size, samples)
+        counters.lap("sampler")
+        x, y = tile.corners()
+        rays = Rays(
+            self.camera.origin[:, None],
+            self.camera.directions(
+                (x[:, None] + offsets[0]).ravel(), (y[:, None] + offsets[1]).ravel()
+            ),
+            None,
+            None,
+        )
+        counters.rays["camera"] += rays.size
+        counters.lap("camera")
+        radiance = self._trace(rays, block.size, draws, counters)
+        pixels = self.reconstruction.pixels(radiance.reshape(3, tile.size, samples), offsets)
+        counters.lap("film")
+        return pixels
+
+    def _trace(self, rays: Rays, paths: int, draws: Draws, counters: Counters) -> Floats32:
+        """Radiance (3, paths) that the camera rays and all that follow from them bring back."""
+        film = np.zeros((3, paths), np.float32)
+        for depth in range(self.plan.max_depth + 1):
+            found = self.world.surface.accelerator.intersect(
+                rays.origin, rays.direction, counters.embree
+            )
+            counters.lap("trace")
+            if self.plan.sees_environment:
+                self._add_environment(film, rays, found.triangle < 0)
+            hits = find_hits(self.world.surface, found, rays.direction)
+            if hits.size == 0:
+                counters.lap("hits")
+                break
+            throughput, path, medium = _of_hits(rays, hits)
+            if self.plan.absorbs:
+                throughput = self._absorbed(hits, throughput, medium)
+            counters.lap("hits")
+            radiance = self._shade(hits, path, depth, draws)
+            if radiance is not None:
+                if throughput is not None:
+                    radiance *= throughput
+                _add(film, path, radiance)
+            counters.lap("shade")
+            if depth == self.plan.max_depth:
+                break
+            reflected, refracted = bounced(
+                self.plan, self.lookups, hits, throughput, path, medium, self.settings.cutoff
+            )
+            if reflected is not None:
+                counters.rays["reflection"] += reflected.size
+            if refracted is not None:
+                counters.rays["refraction"] += refracted.size
+            counters.lap("bounce")
+            following = _together(reflected, refracted)
+            if following is None:
+                break
+            rays = following
+        return film
+
+    def _shade(self, hits: Hits, path: Indices | None, depth: int, draws: Draws) -> Floats32 | None:
+        """Radiance (3, n) that leaves the hits towards the viewer without another bounce."""
+        radiance = None
+        if self.plan.shades:
+            radiance = direct_light(self.world, self.plan, self.lookups, hits, path, depth, draws)
+        for wanted, lookup in (
+            (self.plan.has_ambient, self.lookups.ambient),
+            (self.plan.emits, self.lookups.emission),
+        ):
+            if not wanted:
+                continue
+            term = lookup(hits.material)
+            if lookup is self.lookups.emission:
+                term = term * hits.entering
+            elif term.shape[1] == 1:
+                term = np.repeat(term, hits.size, axis=1)
+            radiance = term if radiance is None else np.add(radiance, term, out=radiance)
+        return radiance
+
+    def _add_environment(self, film: Floats32, rays: Rays, missed: np.ndarray) -> None:  # type: ignore[type-arg]
+        which = np.flatnonzero(missed)
+        if len(which) == 0:
+            return
+        radiance = self.world.environment.radiance(rays.direction)
+        if rays.throughput is not None:
+            radiance = radiance * rays.throughput.take(which, axis=1)
+        elif radiance.shape[1] == 1:
+            radiance = np.repeat(radiance, len(which), axis=1)
+        _add(film, which if rays.path is None else rays.path.take(which), radiance)
+
+    def _absorbed(
+        self,
+        hits: Hits,
+        throughput: Floats32 | None,
+        medium: np.ndarray[tuple[int], np.dtype[np.int16]] | None,
+    ) -> Floats32 | None:
+        """Beer's law along the way just travelled: exp(-absorption t) for what crossed a dielectric.
+
+        A ray that hits the back of a dielectric came through it, whatever we believed (the camera may stand in
+        glass); one that hits anything else came through the medium it carries.
+        """
+        dielectric = self.world.materials.refracts.take(hits.material)
+        through = np.where(
+            ~hits.entering & dielectric, hits.material.astype(np.int16), np.int16(-1)
+        )
+        if medium is not None:
+            through = np.where(through < 0, medium, through)
+        which = np.flatnonzero(through >= 0)
+        if len(which) == 0:
+            return throughput
+        length = hits.t.take(which)
+        left = np.exp(-self.lookups.absorption(through.take(which)) * length)
+        result = np.ones((3, hits.size), np.float32) if throughput is None else throughput.copy()
+        result[:, which] *= left
+        return result
+
+
+def make_tracer(
+    world: World,
+    settings: Settings,
+    camera: Camera,
+    sampler: Sampler,
+    reconstruction: Reconstruction,
+) -> Tracer:
+    """Bind a compiled scene to what renders it."""
+    return Tracer(
+        world,
+        settings,
+        camera,
+        sampler,
+        reconstruction,
+        make_plan(world, settings),
+        make_lookups(world),
+    )
+
+
+def _of_hits(
+    rays: Rays, hits: Hits
+) -> tuple[Floats32 | None, Indices | None, np.ndarray[tuple[int], np.dtype[np.int16]] | None]:
+    """Throughput, path and medium of the rays that hit something."""
+    throughput, path, medium = rays.throughput, rays.path, rays.medium
+    if hits.ray is None:
+        return throughput, path, medium
+    return (
+        None if throughput is None else throughput.take(hits.ray, axis=1),
+        hits.ray if path is None else path.take(hits.ray),
+        None if medium is None else medium.take(hits.ray),
+    )
+
+
+def _add(film: Floats32, path: Indices | None, radiance: Floats32) -> None:
+    """Add radiance (3, n) to the paths it belongs to; several rays may belong to one path."""
+    if path is None:
+        film += radiance
+        return
+    for channel, values in zip(film, radiance, strict=True):
+        # bincount adds in the order of the rays, so the sum doesn't depend on what else is in the batch.
+        channel += np.bincount(path, values, minlength=len(channel))
+
+
+def _together(reflected: Rays | None, refracted: Rays | None) -> Rays | None:
+    """Both kinds in one batch: larger batches cost less than two small ones."""
+    if reflected is None or refracted is None:
+        return reflected or refracted
+    a, b = reflected, refracted
+    assert a.throughput is not None and b.throughput is not None
+    assert a.path is not None and b.path is not None
+    medium = None
+    if a.medium is not None and b.medium is not None:
+        medium = np.concatenate((a.medium, b.medium))
+    return Rays(
+        np.concatenate((a.origin, b.origin), axis=1),
+        np.concatenate((a.direction, b.direction), axis=1),
+        np.concatenate((a.throughput, b.throughput), axis=1),
+        np.concatenate((a.path, b.path)),
+        medium,
+    )

@@ -1,0 +1,33 @@
+"""Commands run in this process, in an empty folder, with a stand-in for the renderer."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+
+import course
+from course.cli.main import commands
+from tests.cli.stand_in import Engine
+
+
+@pytest.fixture
+def engine(monkeypatch: pytest.MonkeyPatch) -> Engine:
+    """The stand-in, in the places where commands find the real ones."""
+    stand_in = Engine()
+    monkeypatch.setitem(vars(course), "load_scene", stand_in.load_scene)
+    monkeypatch.setitem(vars(course), "render", stand_in.render)
+    return stand_in
+
+
+@pytest.fixture
+def run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., Result]:
+    """Run `course` with these arguments in an empty folder."""
+    monkeypatch.chdir(tmp_path)
+
+    def invoke(*arguments: str | Path) -> Result:
+        return CliRunner().invoke(commands, [str(argument) for argument in arguments])
+
+    return invoke

@@ -1,0 +1,200 @@
+"""`course render`: options in, one whole file out, and what is said when that can't be."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from click.testing import Result
+
+from course.errors import SceneError
+from tests.cli.stand_in import Engine
+
+Run = Callable[..., Result]
+
+
+def files(folder: Path) -> set[str]:
+    return {path.name for path in folder.iterdir()}
+
+
+def test_the_picture_has_the_scenes_name_and_lies_here(
+    run: Run, engine: Engine, tmp_path: Path
+) -> None:
+    result = run("render", Path("far", "box.yaml"))
+    assert result.exit_code == 0
+    assert files(tmp_path) == {"box.png"}
+    assert engine.loaded == [(Path("far", "box.yaml"), {"effects": "solutions"})]
+
+
+def test_what_options_leave_open_is_left_to_the_scene(run: Run, engine: Engine) -> None:
+    run("render", "box.yaml")
+    (options,) = engine.rendered
+    assert set(options) == {
+        "spp",
+        "size",
+        "sampler",
+        "seed",
+        "threads",
+        "time_limit",
+        "progress",
+    }
+    assert set(options.values()) == {None}
+
+
+def test_options_reach_the_renderer(run: Run, engine: Engine, tmp_path: Path) -> None:
+    options = "--spp 9 --size 64x48 --sampler jittered --seed 7 --threads 3 --time-limit 2.5"
+    result = run("render", "box.yaml", "-o", "a.EXR", "--effects", "assignments", *options.split())
+    assert result.exit_code == 0
+    assert engine.loaded[0][1] == {"effects": "assignments"}
+    assert engine.rendered == [
+        {
+            "spp": 9,
+            "size": (64, 48),
+            "sampler": "jittered",
+            "seed": 7,
+            "threads": 3,
+            "time_limit": 2.5,
+            "progress": None,
+        }
+    ]
+    assert files(tmp_path) == {"a.EXR"}
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        "--spp 0",
+        "--spp 65537",
+        "--spp many",
+        "--size 640",
+        "--size 640x0",
+        "--size 65537x1",
+        "--size -1x5",
+        "--size 1e2x5",
+        "--sampler halton",
+        "--seed -1",
+        "--seed 4294967296",
+        "--threads 0",
+        "--time-limit 0",
+        "--time-limit -1",
+        "--time-limit nan",
+        "--time-limit inf",
+        "--time-limit soon",
+        "--receipt box.yaml",
+        "--no-such-option",
+    ],
+)
+def test_wrong_usage_exits_2_and_renders_nothing(
+    run: Run, engine: Engine, tmp_path: Path, options: str
+) -> None:
+    result = run("render", "box.yaml", *options.split())
+    assert result.exit_code == 2
+    assert options.split()[0] in result.stderr
+    assert not engine.loaded
+    assert not files(tmp_path)
+
+
+@pytest.mark.usefixtures("engine")
+def test_the_limits_of_the_options_are_allowed(run: Run) -> None:
+    for options in (
+        "--spp 1 --size 65536x1 --seed 0 --threads 1 --time-limit 1e-3",
+        "--spp 65536 --size 1x65536 --seed 4294967295",
+    ):
+        assert run("render", "box.yaml", *options.split()).exit_code == 0
+
+
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        ("-o nowhere/a.png", "there is no folder nowhere"),
+        ("-o a.gif", "must end in .png or .exr"),
+        ("-o .", "must end in .png or .exr"),
+        ("--receipt nowhere/a.json", "there is no folder nowhere"),
+    ],
+)
+def test_a_place_that_cannot_be_is_told_before_the_work(
+    run: Run, engine: Engine, tmp_path: Path, options: str, told: str
+) -> None:
+    result = run("render", "box.yaml", *options.split())
+    assert result.exit_code == 1
+    assert result.stderr.startswith("error: ")
+    assert told in result.stderr
+    assert not engine.loaded
+    assert not files(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("error", "told"),
+    [
+        (SceneError("box.yaml:3: objects[0].radius is -1"), "box.yaml:3: objects[0].radius is -1"),
+        (NotImplementedError("thin_lens.lens_rays: not written yet"), "not written yet"),
+        (MemoryError(), "not enough memory"),
+        (MemoryError("3 TB"), "not enough memory: 3 TB"),
+    ],
+)
+def test_a_refusal_is_one_message_and_nothing_else(
+    run: Run, engine: Engine, tmp_path: Path, error: BaseException, told: str
+) -> None:
+    engine.error = error
+    result = run("render", "box.yaml", "--receipt", "cost.json")
+    assert result.exit_code == 1
+    assert result.stderr.startswith("error: ")
+    assert result.stderr.rstrip("\n").endswith(told)
+    assert result.stderr.count("\n") == 1
+    assert not result.stdout
+    assert not files(tmp_path)
+
+
+def test_a_defect_is_not_taken_for_a_mistake_of_the_user(run: Run, engine: Engine) -> None:
+    engine.error = ZeroDivisionError("a defect")
+    assert run("render", "box.yaml").exception is engine.error
+
+
+def test_ctrl_c_keeps_what_there_is_under_another_name(
+    run: Run, engine: Engine, tmp_path: Path
+) -> None:
+    (tmp_path / "a.exr").write_text("before")
+    engine.picture.interrupted, engine.picture.complete = True, False
+    result = run("render", "box.yaml", "-o", "a.exr", "--receipt", "cost.json")
+    assert result.exit_code == 130
+    assert "a.partial.exr" in result.stderr
+    assert files(tmp_path) == {"a.exr", "a.partial.exr"}
+    assert (tmp_path / "a.exr").read_text() == "before"
+
+
+def test_ctrl_c_without_a_picture_writes_nothing(run: Run, engine: Engine, tmp_path: Path) -> None:
+    engine.error = KeyboardInterrupt()
+    result = run("render", "box.yaml")
+    assert result.exit_code == 130
+    assert result.stderr == "interrupted\n"
+    assert not files(tmp_path)
+
+
+def test_a_time_limit_gives_the_picture_its_own_name(
+    run: Run, engine: Engine, tmp_path: Path
+) -> None:
+    engine.picture.complete = False
+    assert run("render", "box.yaml", "--time-limit", "1").exit_code == 0
+    assert files(tmp_path) == {"box.png"}
+
+
+def test_the_receipt_is_written_as_json(run: Run, engine: Engine, tmp_path: Path) -> None:
+    assert run("render", "box.yaml", "--receipt", "cost.json").exit_code == 0
+    written = json.loads((tmp_path / "cost.json").read_text())
+    assert written == engine.picture.receipt.to_dict()
+
+
+@pytest.mark.usefixtures("engine")
+def test_the_receipt_is_printed_as_plain_text_where_there_is_no_terminal(run: Run) -> None:
+    result = run("render", "box.yaml")
+    assert not result.stderr
+    lines = [line.split() for line in result.stdout.splitlines()]
+    assert lines[0] == ["box.png"]
+    assert ["rays", "camera", "4,915,200"] in lines
+    assert ["effects", "called", "supersampling.resolve"] in lines
+    assert "skipped thin_lens" in result.stdout
+    assert "the aperture is 0" in result.stdout
+    assert "reflection" not in result.stdout
+    assert result.stdout.isascii()

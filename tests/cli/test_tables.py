@@ -1,0 +1,65 @@
+"""Tables say the same on a terminal and elsewhere."""
+
+from __future__ import annotations
+
+import sys
+
+import pytest
+
+from course.cli import tables
+from tests.cli.stand_in import RECEIPT
+
+SECTIONS = [("rays", [("camera", "12"), ("shadow", "7")]), ("effects", [("[red]lens", "off")])]
+
+
+def test_plain_columns_line_up() -> None:
+    assert tables.plain_text("box.png", SECTIONS).splitlines() == [
+        "box.png",
+        "  rays     camera     12",
+        "           shadow     7",
+        "  effects  [red]lens  off",
+    ]
+
+
+def test_a_terminal_shows_the_same_words(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(sys.stdout, "isatty", lambda: True)
+    tables.print_sections("box [1].png", SECTIONS)
+    shown = capsys.readouterr().out
+    for word in ("box [1].png", "rays", "camera", "12", "shadow", "7", "[red]lens", "off"):
+        assert word in shown
+
+
+def test_a_receipt_leaves_out_what_was_not_used() -> None:
+    sections = dict(tables.receipt_sections(RECEIPT))
+    assert [label for label, _ in sections["rays"]] == [
+        "camera",
+        "shadow",
+        "refraction",
+        "a second",
+    ]
+    assert dict(sections["rays"])["a second"] == "19.4 million"
+
+
+def test_embrees_share_is_of_all_threads_time() -> None:
+    rows = dict(dict(tables.receipt_sections(RECEIPT))["time"])
+    assert "50% of all threads' time" in rows["inside Embree"]
+
+
+def test_a_receipt_of_nothing_divides_by_nothing() -> None:
+    empty = RECEIPT | {
+        "rays": {},
+        "numbers": {},
+        "effects": {"called": [], "skipped": {}},
+        "seconds": {},
+        "wall_seconds": 0.0,
+        "embree_seconds": 0.0,
+    }
+    assert [heading for heading, _ in tables.receipt_sections(empty)] == ["time"]
+    assert tables.plain_text("nothing", [])
+
+
+def test_counts_agree_with_their_noun() -> None:
+    assert tables.count(1, "thread") == "1 thread"
+    assert tables.count(12345, "sample") == "12,345 samples"

@@ -1,0 +1,136 @@
+"""Whatever a scene file holds, loading ends in a description or in a SceneError."""
+
+from __future__ import annotations
+
+import copy
+import json
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from course.errors import SceneError
+from course.scene.checking import find_mistake
+from course.scene.loading import load_description
+from course.scene.schema import json_schema
+from course.scene.yaml_tree import parse_document
+
+VALIDATOR = jsonschema.Draft202012Validator(json_schema())
+FUZZ = settings(
+    max_examples=100,
+    deadline=None,
+    derandomize=True,
+    suppress_health_check=[HealthCheck.function_scoped_fixture],
+)
+
+WORDS = ["material", "shape", "type", "box", "sphere", "radiance", "scale", "color", "<step>", "<<"]
+SCALARS = (
+    st.none()
+    | st.booleans()
+    | st.integers(-(10**6), 10**6)
+    | st.integers(0, 10**400)
+    | st.floats(allow_nan=False, allow_infinity=False)
+    | st.sampled_from(WORDS)
+    | st.text(max_size=8)
+)
+VALUES = st.recursive(
+    SCALARS,
+    lambda inner: (
+        st.lists(inner, max_size=4)
+        | st.dictionaries(st.sampled_from(WORDS) | st.text(max_size=5), inner, max_size=3)
+    ),
+    max_leaves=6,
+)
+MARKS = ["[", "]", "{", "}", ":", ", ", "- ", "&a ", "*a", "<<: ", "!", "\n", "  ", "'", '"', "\t"]
+BITS = st.sampled_from([*MARKS, ".nan", "1e999", "\0", "#", "---\n", "? ", "|", "%"]) | st.text(
+    max_size=4
+)
+
+
+@FUZZ
+@given(data=st.data())
+def test_a_scene_with_changed_values_loads_or_is_refused(
+    data: st.DataObject, good: str, tmp_path: Path
+) -> None:
+    tree = copy.deepcopy(parse_document(good.encode(), "good.yaml").data)
+    for _ in range(data.draw(st.integers(1, 3), label="changes")):
+        _change(tree, data)
+    # JSON is YAML, but for characters that YAML refuses as such.
+    _load_or_refuse(json.dumps(tree, ensure_ascii=True).encode(), tmp_path)
+
+
+@FUZZ
+@given(data=st.data())
+def test_a_scene_with_changed_text_loads_or_is_refused(
+    data: st.DataObject, good: str, tmp_path: Path
+) -> None:
+    text = good
+    for _ in range(data.draw(st.integers(1, 4), label="changes")):
+        start = data.draw(st.integers(0, len(text)))
+        end = data.draw(st.integers(start, min(start + 12, len(text))))
+        text = text[:start] + data.draw(BITS) + text[end:]
+    _load_or_refuse(text.encode("utf-8", "replace"), tmp_path)
+
+
+@FUZZ
+@given(content=st.binary(max_size=60))
+def test_bytes_load_or_are_refused(content: bytes, tmp_path: Path) -> None:
+    _load_or_refuse(content, tmp_path)
+
+
+def test_the_fuzz_can_load(good: str, tmp_path: Path) -> None:
+    assert _load_or_refuse(good.encode(), tmp_path)
+
+
+def _load_or_refuse(content: bytes, folder: Path) -> bool:
+    """Load a file; check what holds for every file, loaded or refused."""
+    path = folder / "fuzz.yaml"
+    path.write_bytes(content)
+    try:
+        loaded = load_description(path)
+    except SceneError as error:
+        message = str(error)
+        assert message.startswith(str(path))
+        assert message.removeprefix(str(path)).isprintable()
+        # The words are those of the course, never msgspec's.
+        assert "`" not in message.removeprefix(str(path)).split(" is ")[0]
+        assert "Expected" not in message
+        return False
+    assert find_mistake(loaded.document) is None
+    VALIDATOR.validate(loaded.document.data)
+    return True
+
+
+def _change(tree: Any, data: st.DataObject) -> None:
+    """Replace, remove, rename or add one value at a random place."""
+    place: Any = tree
+    while True:
+        keys = list(place) if isinstance(place, dict) else list(range(len(place)))
+        if not keys:
+            return
+        key = data.draw(st.sampled_from(keys))
+        inner = place[key]
+        if not isinstance(inner, dict | list) or not inner or data.draw(st.integers(0, 4)) == 0:
+            break
+        place = inner
+    match data.draw(st.sampled_from(["replace", "remove", "add", "rename"])):
+        case "replace":
+            place[key] = data.draw(VALUES)
+        case "remove":
+            del place[key]
+        case "add" if isinstance(place, dict):
+            place[data.draw(st.sampled_from(WORDS) | st.text(max_size=6))] = data.draw(VALUES)
+        case "add":
+            place.append(data.draw(VALUES))
+        case "rename" if isinstance(place, dict):
+            place[f"{key}{data.draw(st.text(max_size=2))}"] = place.pop(key)
+        case _:
+            place.insert(0, place[key])
+
+
+@pytest.fixture(autouse=True)
+def _no_leftovers(tmp_path: Path) -> None:
+    assert not list(tmp_path.iterdir())

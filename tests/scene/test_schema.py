@@ -1,0 +1,132 @@
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import pytest
+
+from course.scene.description.transforms import STEP
+from course.scene.loading import Loaded
+from course.scene.schema import json_schema
+from course.scene.yaml_tree import parse_document, read_document
+
+SCENES = sorted((Path(__file__).parents[2] / "scenes").glob("*.yaml"))
+
+
+@pytest.fixture(scope="module")
+def validator() -> jsonschema.Draft202012Validator:
+    return jsonschema.Draft202012Validator(json_schema())
+
+
+def test_the_schema_is_a_json_schema_with_a_name() -> None:
+    schema = json_schema()
+    jsonschema.Draft202012Validator.check_schema(schema)
+    assert schema["$schema"] == "https://json-schema.org/draft/2020-12/schema"
+    assert schema["$id"]
+    assert schema["title"] == "Penumbra scene"
+    text = json.dumps(schema, allow_nan=False)
+    assert STEP not in text
+    assert "discriminator" not in text
+
+
+def test_keys_carry_description_unit_range_and_default() -> None:
+    definitions = json_schema()["$defs"]
+    fov = definitions["CameraDescription"]["properties"]["vertical_fov"]
+    assert fov.pop("description")
+    assert fov == {
+        "x-unit": "degree",
+        "type": "number",
+        "exclusiveMinimum": 0,
+        "maximum": 180,
+        "default": 40.0,
+    } or fov == {
+        "x-unit": "degree",
+        "type": "number",
+        "exclusiveMinimum": 0,
+        "exclusiveMaximum": 180,
+        "default": 40.0,
+    }
+    for name, definition in definitions.items():
+        assert definition["description"], name
+        assert definition["additionalProperties"] is False, name
+
+
+def test_every_reference_in_the_schema_leads_somewhere() -> None:
+    schema = json_schema()
+    for reference in _references(schema):
+        assert reference.removeprefix("#/$defs/") in schema["$defs"]
+
+
+def test_the_schema_accepts_the_whole_format(
+    good: str, validator: jsonschema.Draft202012Validator
+) -> None:
+    validator.validate(parse_document(good.encode(), "good.yaml").data)
+
+
+@pytest.mark.skipif(not SCENES, reason="no scenes shipped yet")
+@pytest.mark.parametrize("path", SCENES, ids=lambda path: path.name)
+def test_the_schema_accepts_the_shipped_scenes(
+    path: Path, validator: jsonschema.Draft202012Validator
+) -> None:
+    validator.validate(read_document(path).data)
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("look_at:", "look_att:"),
+        ("  eye: [0, 1, 5]\n", ""),
+        ("  eye: [0, 1, 5]\n", "  eye: [0, 1]\n"),
+        ("vertical_fov: 35", "vertical_fov: 0"),
+        ("vertical_fov: 35", "vertical_fov: 180"),
+        ("width: 64", "width: 1.5"),
+        ("width: 64", "width: 70000"),
+        ("color: [1, 0, 0]", "color: [1, 0, 2]"),
+        ("color: [1, 0, 0]", "color: [1, 0]"),
+        ("color: [1, 0, 0]", "color: red"),
+        ("shape: torus,", "shape: tors,"),
+        ("shape: disk, ", ""),
+        ("type: constant, ", ""),
+        ("type: point", "type: pint"),
+        ("size: [1, 2, 3]", "size: [1, 0, 3]"),
+        ("- scale: -2", "- move: -2"),
+        ("- scale: -2", "- {scale: 2, translate: [0, 0, 0]}"),
+        ("- scale: -2", "- {}"),
+        (", radiance: 5", ""),
+        (", radiance: 5", ", radiance: 5, intensity: 5"),
+        ("file: bunny.ply", "file: ''"),
+    ],
+)
+def test_the_schema_refuses_what_loading_refuses(
+    good: str,
+    refusal_of: Callable[[str, str], str],
+    validator: jsonschema.Draft202012Validator,
+    old: str,
+    new: str,
+) -> None:
+    assert refusal_of(old, new)
+    assert not validator.is_valid(parse_document(good.replace(old, new).encode(), "a").data)
+
+
+@pytest.mark.parametrize("emission", ["intensity: null, radiance: 5", "intensity: 1"])
+def test_an_emission_of_null_counts_as_not_given(
+    good: str,
+    load: Callable[[str], Loaded],
+    validator: jsonschema.Draft202012Validator,
+    emission: str,
+) -> None:
+    text = good.replace("radiance: 5}", f"{emission}}}")
+    load(text)
+    validator.validate(parse_document(text.encode(), "a").data)
+
+
+def _references(node: Any) -> list[str]:
+    if isinstance(node, list):
+        return [found for item in node for found in _references(item)]
+    if isinstance(node, dict):
+        own = [node["$ref"]] if "$ref" in node else []
+        return own + [found for item in node.values() for found in _references(item)]
+    return []

@@ -1,0 +1,157 @@
+"""Imports in course/ run downwards only; read from the source, so that no import can hide."""
+
+from __future__ import annotations
+
+import ast
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+COURSE = ROOT / "course"
+
+FLOORS = {
+    "errors": 0,
+    "effects": 0,
+    "core": 0,
+    "geometry": 1,
+    "appearance": 2,
+    "imaging": 2,
+    "scene": 3,
+    "rendering": 4,
+    "transport": 4,
+    "cli": 5,
+    "grading": 5,
+    "benchmarking": 5,
+    # The front door: `from course import render`, and `python -m course`.
+    "__init__": 5,
+    "__main__": 5,
+}
+STRANGERS = {frozenset({"appearance", "imaging"})}
+"""Neighbours on one floor that know nothing of each other."""
+
+
+def modules() -> list[tuple[str, Path]]:
+    """Every module of the package by its dotted name."""
+    found = []
+    for path in sorted(COURSE.rglob("*.py")):
+        parts = path.relative_to(ROOT).with_suffix("").parts
+        found.append((".".join(parts).removesuffix(".__init__"), path))
+    return found
+
+
+NAMES = {name for name, _ in modules()}
+
+
+def part(module: str) -> str:
+    """Where in the house a module is: "geometry" for course.geometry.mesh."""
+    _, _, rest = module.partition(".")
+    return rest.partition(".")[0] or "__init__"
+
+
+def imports(source: str) -> Iterator[tuple[int, str]]:
+    """Line and dotted name of each import, those in functions and under TYPE_CHECKING too."""
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.Import):
+            for alias in node.names:
+                yield node.lineno, alias.name
+        elif isinstance(node, ast.ImportFrom):
+            assert node.level == 0, f"line {node.lineno}: a relative import"
+            for alias in node.names:
+                inner = f"{node.module}.{alias.name}"
+                if inner == "course.__version__":
+                    continue  # a constant, there before anything else of the package
+                yield node.lineno, inner if inner in NAMES else str(node.module)
+        elif (
+            isinstance(node, ast.Call)
+            and isinstance(node.func, ast.Name | ast.Attribute)
+            and (node.func.id if isinstance(node.func, ast.Name) else node.func.attr)
+            in {"import_module", "__import__"}
+            and node.args
+            and isinstance(node.args[0], ast.Constant)
+        ):
+            yield node.lineno, str(node.args[0].value)
+
+
+def breaches(module: str, source: str) -> list[str]:
+    """What a module imports though it must not."""
+    here = part(module)
+    found = []
+    for line, name in imports(source):
+        where = f"{module}, line {line}: imports {name}"
+        top = name.partition(".")[0]
+        if top in {"assignments", "solutions"}:
+            found.append(f"{where}; the folder of effects is chosen when a scene is loaded")
+        elif top == "course":
+            there = part(name)
+            if FLOORS[there] > FLOORS[here]:
+                found.append(f"{where}, from floor {FLOORS[here]} up to floor {FLOORS[there]}")
+            elif frozenset({here, there}) in STRANGERS:
+                found.append(f"{where}; {here} and {there} stand side by side")
+        elif FLOORS[here] == 0 and top != "numpy" and top not in sys.stdlib_module_names:
+            found.append(f"{where}; floor 0 needs NumPy only")
+    return found
+
+
+def test_every_file_of_the_course_has_a_floor() -> None:
+    assert {part(name) for name in NAMES} <= FLOORS.keys()
+
+
+@pytest.mark.parametrize(("module", "path"), modules(), ids=[name for name, _ in modules()])
+def test_imports_run_downwards_only(module: str, path: Path) -> None:
+    assert not breaches(module, path.read_text(encoding="utf-8"))
+
+
+def test_parts_never_import_each_other_in_a_circle() -> None:
+    uses: dict[str, set[str]] = {name: set() for name in FLOORS}
+    for module, path in modules():
+        for _, name in imports(path.read_text(encoding="utf-8")):
+            if name.partition(".")[0] == "course" and part(name) != part(module):
+                uses[part(module)].add(part(name))
+    for name, used in uses.items():
+        assert not [other for other in used if name in uses[other]]
+
+
+def test_one_file_knows_embree() -> None:
+    users = {
+        module
+        for module, path in modules()
+        for _, name in imports(path.read_text(encoding="utf-8"))
+        if name.partition(".")[0] == "embreex"
+    }
+    assert len(users) == 1
+    assert all(part(user) == "geometry" for user in users)
+
+
+@pytest.mark.parametrize(
+    ("module", "source", "told"),
+    [
+        ("course.geometry.mesh", "import course.cli.main", "from floor 1 up to floor 5"),
+        ("course.geometry.mesh", "def f():\n    from course.render import tiles", "up to floor 4"),
+        (
+            "course.core.vectors",
+            "if TYPE_CHECKING:\n    from course.geometry.mesh import Mesh",
+            "line 2: imports course.geometry.mesh, from floor 0 up to floor 1",
+        ),
+        ("course.scene.loading", "from course import render", "up to floor"),
+        ("course.scene.loading", "import_module('course.rendering.tiles')", "up to floor 4"),
+        ("course.imaging.files", "import course.appearance.lights", "stand side by side"),
+        ("course.effects", "import solutions.supersampling", "chosen when a scene is loaded"),
+        ("course.effects", "importlib.import_module('solutions')", "chosen when a scene is loaded"),
+        ("course.core.vectors", "import scipy", "NumPy only"),
+    ],
+)
+def test_a_breach_is_told(module: str, source: str, told: str) -> None:
+    (message,) = breaches(module, source)
+    assert told in message
+
+
+def test_what_is_below_may_be_imported() -> None:
+    source = (
+        "import math\nimport numpy as np\nfrom course.errors import CourseError\nimport trimesh"
+    )
+    assert not breaches("course.geometry.mesh_files", source)
+    assert not breaches("course.cli.render", "from course.rendering.tiles import tiles")
+    assert not breaches("course.rendering.receipt", "from course import __version__")

@@ -1,0 +1,59 @@
+"""What `from course import ...` gives, and what it costs."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from importlib.metadata import version
+
+import pytest
+
+import course
+
+PUBLIC = {
+    "CourseError",
+    "EffectError",
+    "GeometryError",
+    "OutputError",
+    "Picture",
+    "Scene",
+    "SceneError",
+    "__version__",
+    "load_scene",
+    "render",
+}
+
+
+def in_a_new_process(code: str) -> None:
+    subprocess.run([sys.executable, "-W", "error", "-c", code], check=True)
+
+
+def test_the_public_names_are_these() -> None:
+    assert set(course.__all__) == PUBLIC
+    assert set(dir(course)) >= PUBLIC
+
+
+@pytest.mark.parametrize("name", sorted(PUBLIC))
+def test_each_public_name_is_there(name: str) -> None:
+    assert getattr(course, name)
+
+
+def test_another_name_is_not() -> None:
+    with pytest.raises(AttributeError, match="no attribute 'raytrace'"):
+        _ = course.raytrace
+
+
+def test_the_version_is_that_of_the_package() -> None:
+    assert course.__version__ == version("penumbra-course")
+
+
+def test_the_package_costs_nothing_until_it_is_used() -> None:
+    in_a_new_process("import sys, course; assert not {'numpy', 'click', 'yaml'} & {*sys.modules}")
+
+
+@pytest.mark.parametrize(
+    "first",
+    ["", "import course.render", "import course.rendering.receipt", "import course.cli.main"],
+)
+def test_render_is_a_function_whatever_was_imported_before(first: str) -> None:
+    in_a_new_process(f"{first}\nfrom course import load_scene, render\nassert callable(render)")
