@@ -51,6 +51,7 @@ check: $(STAMP)
 	"$(RUN)" -m ruff format --check .
 	"$(RUN)" -m ruff check .
 	"$(RUN)" -m mypy
+	"$(RUN)" -m course release --check
 	"$(RUN)" -m pytest -q tests/test_layers.py
 
 test: $(STAMP)

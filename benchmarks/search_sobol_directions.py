@@ -104,6 +104,7 @@ def t_value(a: list[int], b: list[int], log2: int) -> int:
 
 
 def cost(candidate: list[int], chosen: list[list[int]]) -> float:
+    """Weighted sum of squared t-values of a new dimension with the chosen ones."""
     number = len(chosen)
     total = 0.0
     for other, columns in enumerate(chosen):
@@ -117,6 +118,7 @@ def cost(candidate: list[int], chosen: list[list[int]]) -> float:
 
 
 def main() -> None:
+    """Search, and print the module."""
     rng = random.Random(1984)
     polynomials = [p for degree in range(1, 10) for p in primitive_polynomials(degree)]
     chosen = [[1 << (BITS - 1 - k) for k in range(BITS)]]

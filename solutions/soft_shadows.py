@@ -31,8 +31,8 @@ def light_grid(corner, edge_u, edge_v, k):
     Task: soft_shadows.light_grid.
     """
     _check_single(corner=corner, edge_u=edge_u, edge_v=edge_v)
-    if k < 1:
-        raise ValueError(f"k must be at least 1, got {k}")
+    if not k >= 1:
+        raise ValueError(f"k must be >= 1, got {k}")
     ### BEGIN SOLUTION
     centre = (np.arange(k) + 0.5) / k
     a, b = np.meshgrid(centre, centre)
@@ -64,7 +64,10 @@ def point_on_rectangle(corner, edge_u, edge_v, u):
     _check_batch("u", u, 2)
     ### BEGIN SOLUTION
     corner, edge_u, edge_v = (_column(x, u.dtype) for x in (corner, edge_u, edge_v))
-    return corner + edge_u * u[0] + edge_v * u[1]
+    points = edge_u * u[0]
+    points += corner
+    points += edge_v * u[1]
+    return points
     ### END SOLUTION
 
 
@@ -84,7 +87,7 @@ def point_on_sphere(center, radius, u):
     Raises
     ------
     ValueError
-        An argument has another shape, or radius < 0.
+        An argument has another shape, or radius is not a finite number >= 0.
 
     Task: soft_shadows.point_on_sphere. Source: Archimedes' hat box: z is uniform on a sphere.
     """
@@ -92,12 +95,12 @@ def point_on_sphere(center, radius, u):
     _check_batch("u", u, 2)
     _check_radius(radius)
     ### BEGIN SOLUTION
-    z = 1 - 2 * u[0]
-    # r^2 = 1 - z^2, without the cancellation near the poles.
-    r = 2 * np.sqrt(u[0] * (1 - u[0]))
+    radius = u.dtype.type(radius)
+    z = radius * (1 - 2 * u[0])
+    # The circle at that height: r^2 = radius^2 - z^2, without the cancellation near the poles.
+    r = radius * (2 * np.sqrt(u[0] * (1 - u[0])))
     phi = u.dtype.type(2 * np.pi) * u[1]
     points = np.stack((r * np.cos(phi), r * np.sin(phi), z))
-    points *= u.dtype.type(radius)
     points += _column(center, u.dtype)
     return points
     ### END SOLUTION
@@ -119,7 +122,7 @@ def point_in_ball(center, radius, u):
     Raises
     ------
     ValueError
-        An argument has another shape, or radius < 0.
+        An argument has another shape, or radius is not a finite number >= 0.
 
     Task: soft_shadows.point_in_ball.
     """
@@ -128,8 +131,10 @@ def point_in_ball(center, radius, u):
     _check_radius(radius)
     ### BEGIN SOLUTION
     # The volume inside radius r grows with r^3.
-    direction = point_on_sphere((0, 0, 0), 1, u[:2])
-    return _column(center, u.dtype) + direction * (u.dtype.type(radius) * np.cbrt(u[2]))
+    points = point_on_sphere((0, 0, 0), 1, u[:2])
+    points *= u.dtype.type(radius) * np.cbrt(u[2])
+    points += _column(center, u.dtype)
+    return points
     ### END SOLUTION
 
 
@@ -146,12 +151,13 @@ def point_on_facing_disk(center, radius, point, u):
 
     Returns
     -------
-    (3, N) [m]; a point at the centre itself gets a disk of some orientation
+    (3, N) [m], of the dtype of point and u, or NumPy's promotion of the two
+        A point at the centre itself gets a disk of some orientation
 
     Raises
     ------
     ValueError
-        An argument has another shape, or radius < 0.
+        An argument has another shape, or radius is not a finite number >= 0.
 
     Task: soft_shadows.point_on_facing_disk. Source: Duff et al., "Building an orthonormal basis, revisited", 2017.
     """
@@ -161,26 +167,32 @@ def point_on_facing_disk(center, radius, point, u):
     _check_radius(radius)
     ### BEGIN SOLUTION
     dtype = np.result_type(point, u)
-    axis = _column(center, dtype) - point
+    # Halved before the difference, and scaled before the squares: neither overflows.
+    axis = _column(center, dtype) / 2 - point / dtype.type(2)
     largest = np.abs(axis).max(axis=0)
-    axis = axis / np.where(largest > 0, largest, 1)  # before squaring: no overflow
+    axis /= np.where(largest > 0, largest, 1)
     length = np.sqrt((axis * axis).sum(axis=0))
     x, y, z = axis / np.where(length > 0, length, 1)
-    z = np.where(length > 0, z, 1)
-    sign = np.copysign(np.ones_like(z), z)
-    a = -1 / (sign + z)
-    b = x * y * a
-    tangent = np.stack((1 + sign * x * x * a, sign * b, -sign * x))
-    bitangent = np.stack((b, sign + y * y * a, -y))
+    # The disk in its own plane, and its (a, b, 0) in the basis of Duff et al. about (x, y, z).
     r = dtype.type(radius) * np.sqrt(u[0])
     phi = dtype.type(2 * np.pi) * u[1]
-    return _column(center, dtype) + r * np.cos(phi) * tangent + r * np.sin(phi) * bitangent
+    a, b = r * np.cos(phi), r * np.sin(phi)
+    sign = np.copysign(dtype.type(1), z)
+    down = sign * x * a + y * b
+    share = down / (sign + z)
+    points = np.stack((a - x * share, sign * b - y * share, -down))
+    points += _column(center, dtype)
+    return points
     ### END SOLUTION
 
 
+### BEGIN SOLUTION
 def _column(point, dtype):
     """A single point as a (3, 1) column of the batch's dtype."""
     return np.asarray(point, dtype).reshape(3, 1)
+
+
+### END SOLUTION
 
 
 def _check_single(**points):
@@ -197,5 +209,5 @@ def _check_batch(name, array, rows, columns=None):
 
 
 def _check_radius(radius):
-    if not radius >= 0:
-        raise ValueError(f"radius must not be negative, got {radius}")
+    if not 0 <= radius < np.inf:
+        raise ValueError(f"radius must be finite and >= 0, got {radius}")

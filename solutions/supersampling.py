@@ -44,7 +44,7 @@ def regular(k, n):
 
 
 def random(k, n, rng):
-    """k * k independent uniform points in each of n pixels.
+    """Independent uniform points, k * k of them in each of n pixels.
 
     Parameters
     ----------
@@ -81,7 +81,7 @@ def jittered(k, n, rng):
     Returns
     -------
     (2, n, k * k) float32 in [0, 1)
-        Cells row by row, x fastest.
+        Cells row by row, x fastest. A point may be rounded to its cell's border.
 
     Raises
     ------
@@ -109,7 +109,7 @@ def gaussian_weights(offsets, sigma=1 / 6):
     offsets : (2, n, s) floating
         Where the samples lie in their pixels, in [0, 1).
     sigma : float > 0 [pixels]
-        The default puts the pixel's edge at 3 sigma.
+        The default puts the pixel's edge at 3 sigma. However small or large it is, the weights are finite.
 
     Returns
     -------
@@ -127,8 +127,8 @@ def gaussian_weights(offsets, sigma=1 / 6):
     if np.ndim(offsets) != 3 or len(offsets) != 2:
         raise ValueError(f"offsets must have shape (2, n, s), got {np.shape(offsets)}")
     ### BEGIN SOLUTION
-    # Scaled before squaring: r^2 / sigma^2 doesn't overflow where sigma^2 would vanish.
-    scaled = (offsets - offsets.dtype.type(0.5)) / offsets.dtype.type(sigma)
+    # Below 1e-18 every sigma gives the same weights, 1 in the very centre and 0 elsewhere; there sigma^2 would vanish.
+    scaled = (offsets - 0.5) * offsets.dtype.type(1 / max(sigma, 1e-18))
     return np.exp(-0.5 * (scaled[0] ** 2 + scaled[1] ** 2))
     ### END SOLUTION
 
@@ -143,7 +143,7 @@ def resolve(radiance, weights):
 
     Returns
     -------
-    (3, n), of the dtype of the arguments
+    (3, n), of the dtype of the arguments, or NumPy's promotion of the two
         Where a pixel's weights sum to exactly zero, the plain mean; 0 where there are no samples.
 
     Raises
@@ -160,21 +160,22 @@ def resolve(radiance, weights):
             f"weights must have shape {np.shape(radiance)[1:]}, got {np.shape(weights)}"
         )
     ### BEGIN SOLUTION
-    samples = radiance.shape[2]
     dtype = np.result_type(radiance, weights)
-    if samples == 0:
-        return np.zeros(radiance.shape[:2], dtype)
-    total = weights.sum(axis=1)
+    total = np.einsum("ns->n", weights, dtype=dtype)
+    if not np.isfinite(total).all():  # their sum overflowed
+        weights = weights / np.maximum(np.abs(weights).max(axis=1, keepdims=True), 1)
+        total = np.einsum("ns->n", weights, dtype=dtype)
     unweighted = total == 0
     if unweighted.any():
         weights = np.where(unweighted[:, None], 1, weights)
-        total = np.where(unweighted, samples, total)
-    return np.einsum("cns,ns->cn", radiance, weights, dtype=dtype) / total.astype(dtype)
+        total = np.where(unweighted, weights.shape[1], total)
+    # Shares of 1, not weights: their products with the radiance neither overflow nor vanish.
+    return np.einsum("cns,ns->cn", radiance, weights / total[:, None], dtype=dtype)
     ### END SOLUTION
 
 
 def _check_counts(k, n):
-    if k < 1:
-        raise ValueError(f"k must be at least 1, got {k}")
-    if n < 0:
-        raise ValueError(f"n must not be negative, got {n}")
+    if not k >= 1:
+        raise ValueError(f"k must be >= 1, got {k}")
+    if not n >= 0:
+        raise ValueError(f"n must be >= 0, got {n}")

@@ -1,7 +1,10 @@
 """Materials as a table: one row for each property, one column for each material of the scene.
 
 The reflected radiance is Blinn-Phong over pi, so that ``color`` is the share of the light that a diffuse surface
-returns:  L = color (ambient La + diffuse E / pi) + specular (n . h)^exponent E / pi, with the irradiance E = I cos / d^2.
+returns, with the irradiance E = I cos / d^2:
+
+    L = color (ambient La + diffuse E / pi) + specular (n . h)^exponent E / pi
+
 A dielectric has no ambient and diffuse terms: what it doesn't reflect goes through it.
 """
 
@@ -11,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from course.core.types import Floats32, Mask
+from course.core.types import Floats32, Mask, Materials
 
 
 @dataclass(frozen=True)
@@ -60,7 +63,7 @@ class Lookup:
         self._rows = np.ascontiguousarray(rows)
         self._same = bool((rows == rows[..., :1]).all())
 
-    def __call__(self, material: np.ndarray[tuple[int], np.dtype[np.uint16]]) -> Floats32:
+    def __call__(self, material: Materials) -> Floats32:
         """(3, n) or (3, 1) for rows of three, (n,) or (1,) for single rows."""
         if self._same:
             return self._rows[..., :1]

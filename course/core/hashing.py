@@ -26,23 +26,23 @@ def combine(*keys: int) -> int:
     return state
 
 
-def hash_words(keys: Words, salt: int) -> Words:
-    """A uniformly distributed 32-bit word for each key, independent from salt to salt.
+def hash_words(keys: Words, *salts: int) -> Words:
+    """Uniformly distributed 32-bit words, independent from key to key and from salt to salt.
 
     Parameters
     ----------
     keys : (n,) uint32, for instance pixel numbers
-    salt : a 64-bit integer, for instance ``combine(seed, dimension)``
+    salts : 64-bit integers, for instance ``combine(seed, dimension)`` for some dimensions
 
     Returns
     -------
-    (n,) uint32
+    (len(salts), n) uint32
     """
-    state = keys.astype(np.uint64)
-    state *= np.uint64(_GOLDEN)
-    state += np.uint64(salt & _MASK64)
+    state = keys.astype(np.uint64) * np.uint64(_GOLDEN)
+    state = state + np.array([salt & _MASK64 for salt in salts], np.uint64)[:, None]
     state ^= state >> np.uint64(30)
     state *= np.uint64(0xBF58476D1CE4E5B9)
     state ^= state >> np.uint64(27)
     state *= np.uint64(0x94D049BB133111EB)
-    return (state >> np.uint64(32)).astype(np.uint32)
+    state >>= np.uint64(32)
+    return state.astype(np.uint32)

@@ -15,3 +15,12 @@ Floats64 = NDArray[np.float64]
 Words = NDArray[np.uint32]
 Indices = NDArray[np.intp]
 Mask = NDArray[np.bool_]
+
+Numbers = NDArray[np.int32]
+"""Numbers of triangles, as Embree gives them."""
+
+Materials = NDArray[np.uint16]
+"""Numbers of materials."""
+
+Media = NDArray[np.int16]
+"""Material numbers of the media that rays travel in, -1 in the open."""

@@ -11,14 +11,10 @@ from course.core.types import Floats
 
 
 def dot(a: Floats, b: Floats) -> Floats:
-    """Scalar product of columns, (3, N) x (3, N) -> (N,); either may be (3, 1).
-
-    Three products and two sums on whole rows are faster than einsum, which walks columns.
-    """
-    result = a[0] * b[0]
-    result += a[1] * b[1]
-    result += a[2] * b[2]
-    return result
+    """Scalar product of columns, (3, N) x (3, N) -> (N,); either may be (3, 1)."""
+    # One call instead of five: calls are what two threads wait for each other in.
+    product: Floats = np.einsum("ij,ij->j", a, b)
+    return product
 
 
 def cross(a: Floats, b: Floats) -> Floats:

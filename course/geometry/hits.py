@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from course.core.types import Floats32, Indices, Mask
+from course.core.gathering import gather
+from course.core.types import Floats32, Indices, Mask, Materials, Numbers
 from course.core.vectors import dot
 from course.geometry.embree import Intersections
 from course.geometry.surface import Surface
@@ -19,37 +20,45 @@ class Hits:
     Attributes
     ----------
     ray : (n,) index of the ray in its batch, or None when every ray hit something
-    material : (n,) uint16
-    p : (3, n) float32, the point
-    direction : (3, n) float32, of the ray that came in
-    ng, ns : (3, n) float32, unit geometric and shading normals, both on the incoming side
-    above, below : (3, n) float32, where rays leave from on the incoming and on the far side
-    raised : (3, n) float32, where shadow rays leave from: ``above`` plus the bulge of a smooth mesh
-    entering : (n,) bool, the ray comes from outside (it looks at the front of the triangle)
+    triangle : (n,) int32, u, v : (n,) float32, which point of which triangle
     t : (n,) float32, distance along the ray
+    material : (n,) uint16
+    direction : (3, n) float32, of the ray that came in
+    p : (3, n) float32, the point
+    ng, ns : (3, n) float32, unit geometric and shading normals, both on the incoming side
+    step : (3, n) float32, from the point to where rays leave on the incoming side
+    above : (3, n) float32, p + step
+    side : (n,) float32, 1 where the ray meets the front of the triangle, -1 where it meets the back
     """
 
     ray: Indices | None
-    material: np.ndarray[tuple[int], np.dtype[np.uint16]]
-    p: Floats32
+    triangle: Numbers
+    u: Floats32
+    v: Floats32
+    t: Floats32
+    material: Materials
     direction: Floats32
+    p: Floats32
     ng: Floats32
     ns: Floats32
-    above: Floats32
-    raised: Floats32
-    entering: Mask
-    t: Floats32
     step: Floats32
-
-    @property
-    def below(self) -> Floats32:
-        """Where refracted rays leave from: the same step to the far side."""
-        return self.p - self.step
+    above: Floats32
+    side: Floats32
 
     @property
     def size(self) -> int:
         """Number of hits."""
-        return self.p.shape[1]
+        return len(self.t)
+
+    @property
+    def entering(self) -> Mask:
+        """(n,) whether the ray comes from outside, the side that the front of the triangle looks to."""
+        return np.asarray(self.side > 0)
+
+    @property
+    def below(self) -> Floats32:
+        """(3, n) where refracted rays leave from: the same step to the far side."""
+        return self.p - self.step
 
 
 def find_hits(surface: Surface, found: Intersections, direction: Floats32) -> Hits:
@@ -67,8 +76,12 @@ def find_hits(surface: Surface, found: Intersections, direction: Floats32) -> Hi
         triangle, u, v, t = triangle.take(hit), u.take(hit), v.take(hit), t.take(hit)
         direction = direction.take(hit, axis=1)
 
+    normal = gather(surface.normal_offset, triangle)
+    ng, offset, inset = normal[:3], normal[3], normal[4]
+    u, v = _inside(u, v, inset)
+
     # From the corners, not origin + t * direction: its error is that of the triangle, however far the camera.
-    corner = surface.corner_edges.take(triangle, axis=1)
+    corner = gather(surface.corner_edges, triangle)
     p = corner[3:6]
     p *= u
     edge = corner[6:9]
@@ -76,24 +89,51 @@ def find_hits(surface: Surface, found: Intersections, direction: Floats32) -> Hi
     p += edge
     p += corner[0:3]
 
-    normal = surface.normal_offset.take(triangle, axis=1)
-    ng, offset = normal[:3], normal[3]
     facing = dot(ng, direction)
-    entering = facing < 0
     side = np.copysign(np.float32(1), -facing)
     ng *= side
     step = ng * offset
-    above = p + step
 
-    ns, raised = ng, above
-    if surface.corner_normals is not None and surface.bulge is not None:
-        ns = _interpolated(surface.corner_normals.take(triangle, axis=1), u, v)
+    ns = ng
+    if surface.corner_normals is not None:
+        ns = _interpolated(gather(surface.corner_normals, triangle), u, v)
         ns *= side
         _turn_to_viewer(ns, direction)
-        raised = above + ns * _bulge(surface.bulge.take(triangle, axis=1), u, v, side)
-    return Hits(
-        ray, surface.material.take(triangle), p, direction, ng, ns, above, raised, entering, t, step
-    )
+    material = surface.material.take(triangle)
+    return Hits(ray, triangle, u, v, t, material, direction, p, ng, ns, step, p + step, side)
+
+
+def bulge(surface: Surface, hits: Hits, which: Indices) -> Floats32:
+    """Height of the round surface above the triangle at some of the hits, on the incoming side.
+
+    Parameters
+    ----------
+    which : (m,) which hits
+
+    Returns
+    -------
+    (m,) float32, never negative; see ``course.geometry.surface``
+    """
+    if surface.bulge is None:
+        return np.zeros(len(which), np.float32)
+    u, v = hits.u.take(which), hits.v.take(which)
+    w = 1 - u - v
+    height = dot(gather(surface.bulge, hits.triangle.take(which)), np.stack((w * u, w * v, u * v)))
+    height *= hits.side.take(which)
+    return np.maximum(height, 0, out=height)
+
+
+def _inside(u: Floats32, v: Floats32, inset: Floats32) -> tuple[Floats32, Floats32]:
+    """Barycentrics moved off the triangle's edges, all three to at least about ``inset``."""
+    u, v = np.maximum(u, inset), np.maximum(v, inset)
+    excess = u + v
+    excess += inset
+    excess -= 1
+    np.maximum(excess, 0, out=excess)
+    excess *= np.float32(0.5)
+    u -= excess
+    v -= excess
+    return u, v
 
 
 def _interpolated(rows: Floats32, u: Floats32, v: Floats32) -> Floats32:
@@ -122,20 +162,3 @@ def _turn_to_viewer(ns: Floats32, direction: Floats32) -> None:
         np.maximum(squared, np.float32(1e-20), out=squared)
         bent *= 1 / np.sqrt(squared)
         ns[:, wrong] = bent
-
-
-def _bulge(k: Floats32, u: Floats32, v: Floats32, side: Floats32) -> Floats32:
-    """Height of the round surface above the triangle on the incoming side, (n,); never below it."""
-    w = 1 - u
-    w -= v
-    h = w * u
-    h *= k[0]
-    term = w
-    term *= v
-    term *= k[1]
-    h += term
-    term = u * v
-    term *= k[2]
-    h += term
-    h *= side
-    return np.maximum(h, 0, out=h)

@@ -1,4 +1,4 @@
-"""All triangles of a scene as rows of float32, ready to be gathered by triangle number.
+"""All triangles of a scene as tables of float32, a row a triangle, ready to be gathered by triangle number.
 
 The scene has been moved and scaled to [-1, 1] before (``course.scene.frame``), in float64; float32 begins here.
 
@@ -19,10 +19,12 @@ terminator", Ray Tracing Gems II, ch. 4, moves the point to the tangent planes i
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
 
 import numpy as np
 
-from course.core.types import Floats32, Floats64, Indices
+from course.core.types import Floats32, Floats64, Indices, Materials
 from course.geometry.embree import Accelerator
 from course.geometry.mesh import Mesh
 
@@ -43,6 +45,13 @@ error in height is about 2^-24 length / height times its length.
 MOST = 1024.0
 """The offset never grows by more than this."""
 
+INSET = 4.0
+"""Rays leave from at least this many offsets inside the triangle's edges.
+
+In an acute concave corner a point above one wall, next to the edge, lies behind the other wall; this far from the edge
+it is still inside for dihedral angles down to atan(1 / INSET) = 14 degrees.
+"""
+
 
 @dataclass(frozen=True)
 class Part:
@@ -58,11 +67,11 @@ class Surface:
 
     Attributes
     ----------
-    corner_edges : (9, T) float32, rows p0, e1, e2
-    normal_offset : (4, T) float32, rows ng (unit) and the distance by which rays leave the surface
-    corner_normals : (9, T) float32, rows n0, n1 - n0, n2 - n0; or None when every triangle is flat
-    bulge : (3, T) float32, rows k01 / 2, k02 / 2, k12 / 2; or None when every triangle is flat
-    uv : (6, T) float32, rows uv0, uv1 - uv0, uv2 - uv0; or None
+    corner_edges : (T, 9) float32, p0, e1, e2
+    normal_offset : (T, 5) float32, ng (unit), the distance by which rays leave the surface, and the least
+        barycentric that they leave from
+    corner_normals : (T, 9) float32, n0, n1 - n0, n2 - n0; or None when every triangle is flat
+    bulge : (T, 3) float32, k01 / 2, k02 / 2, k12 / 2; or None when every triangle is flat
     material : (T,) uint16 material numbers
     accelerator : the same triangles in Embree
     """
@@ -71,13 +80,13 @@ class Surface:
     normal_offset: Floats32
     corner_normals: Floats32 | None
     bulge: Floats32 | None
-    material: np.ndarray[tuple[int], np.dtype[np.uint16]]
+    material: Materials
     accelerator: Accelerator
 
     @property
     def size(self) -> int:
         """Number of triangles."""
-        return self.corner_edges.shape[1]
+        return len(self.corner_edges)
 
 
 def build_surface(parts: list[Part]) -> Surface:
@@ -99,7 +108,14 @@ def build_surface(parts: list[Part]) -> Surface:
     has_area = length > 0
     ng[has_area] /= length[has_area, None]
     ng[~has_area] = (0, 1, 0)
-    offset = OFFSET * np.abs(p).max(axis=(1, 2), initial=0) * _thinness(e1, e2, length)
+    longest = np.max([(e * e).sum(1) for e in (e1, e2, e2 - e1)], axis=0, initial=0)
+    # Longest edge over the height on it, and with it the smallest height, sqrt(longest) / ratio.
+    ratio = np.divide(longest, length, out=np.ones_like(longest), where=has_area)
+    offset = OFFSET * np.abs(p).max(axis=(1, 2), initial=0) * np.clip(ratio / SLIVER, 1, MOST)
+    height = np.divide(np.sqrt(longest), ratio, out=np.ones_like(longest), where=ratio > 0)
+    inset = np.minimum(
+        np.divide(INSET * offset, height, out=np.ones_like(height), where=height > 0), 1 / 3
+    )
     count = np.arange(len(triangles))
     material = np.repeat(
         np.array([part.material for part in parts], np.uint16), [len(c.triangles) for c in corners]
@@ -112,25 +128,18 @@ def build_surface(parts: list[Part]) -> Surface:
         n0, d1, d2 = n[:, 0], n[:, 1] - n[:, 0], n[:, 2] - n[:, 0]
         k01, k02 = (e1 * d1).sum(1), (e2 * d2).sum(1)
         k12 = ((e2 - e1) * (d2 - d1)).sum(1)
-        corner_normals = _rows(n0, d1, d2)
-        bulge = np.ascontiguousarray(np.stack((k01, k02, k12)) / 2, np.float32)
+        corner_normals = _table(n0, d1, d2)
+        bulge = _table(np.stack((k01, k02, k12), axis=1) / 2)
     keep = count[has_area]
     accelerator = Accelerator(vertices, triangles[keep])
     return Surface(
-        corner_edges=_rows(p0, e1, e2)[:, keep],
-        normal_offset=_rows(ng, offset[:, None])[:, keep],
-        corner_normals=None if corner_normals is None else corner_normals[:, keep],
-        bulge=None if bulge is None else bulge[:, keep],
+        corner_edges=_table(p0, e1, e2)[keep],
+        normal_offset=_table(ng, offset[:, None], inset[:, None])[keep],
+        corner_normals=None if corner_normals is None else corner_normals[keep],
+        bulge=None if bulge is None else bulge[keep],
         material=material[keep],
         accelerator=accelerator,
     )
-
-
-def _thinness(e1: Floats64, e2: Floats64, twice_area: Floats64) -> Floats64:
-    """(T,) factor of the offset: 1 for well-shaped triangles, growing with length over height of slivers."""
-    longest = np.max([(e * e).sum(1) for e in (e1, e2, e2 - e1)], axis=0, initial=0)
-    ratio = np.divide(longest, twice_area, out=np.ones_like(longest), where=twice_area > 0)
-    return np.clip(ratio / SLIVER, 1, MOST)
 
 
 class _Corners:
@@ -150,12 +159,12 @@ class _Corners:
 
 def _spans(corners: list[_Corners]) -> list[slice]:
     ends = np.cumsum([0, *(len(c.triangles) for c in corners)])
-    return [slice(int(a), int(b)) for a, b in zip(ends[:-1], ends[1:], strict=True)]
+    return [slice(int(a), int(b)) for a, b in pairwise(ends)]
 
 
-def _concatenate(arrays: list[np.ndarray], empty: tuple[int, ...]) -> np.ndarray:  # type: ignore[type-arg]
+def _concatenate(arrays: list[Any], empty: tuple[int, ...]) -> Any:
     return np.concatenate(arrays) if arrays else np.zeros(empty, np.float32)
 
 
-def _rows(*columns: Floats64) -> Floats32:
-    return np.ascontiguousarray(np.concatenate(columns, axis=1).T, np.float32)
+def _table(*columns: Floats64) -> Floats32:
+    return np.ascontiguousarray(np.concatenate(columns, axis=1), np.float32)

@@ -22,17 +22,17 @@ class Camera:
     ----------
     origin : (3,) float32
     right, up, forward : (3,) float32, an orthonormal basis
-    corner : (3,) float64, direction to the picture's upper left corner, forward component 1
-    step_x, step_y : (3,) float64, how far the direction moves from pixel to pixel
+    corner : (3,) float32, direction to the picture's upper left corner, forward component 1
+    step_x, step_y : (3,) float32, how far the direction moves from pixel to pixel
     """
 
     origin: Floats32
     right: Floats32
     up: Floats32
     forward: Floats32
-    corner: Floats64
-    step_x: Floats64
-    step_y: Floats64
+    corner: Floats32
+    step_x: Floats32
+    step_y: Floats32
 
     def directions(self, x: Floats32, y: Floats32) -> Floats32:
         """Unit directions through picture points.
@@ -45,18 +45,11 @@ class Camera:
         -------
         (3, N) float32
         """
-        corner, step_x, step_y = (
-            a.astype(np.float32) for a in (self.corner, self.step_x, self.step_y)
-        )
-        direction = np.empty((3, len(x)), np.float32)
-        for row in range(3):
-            np.multiply(x, step_x[row], out=direction[row])
-            direction[row] += corner[row]
-            direction[row] += y * step_y[row]
-        length = dot(direction, direction)
-        np.sqrt(length, out=length)
-        np.divide(np.float32(1), length, out=length)
-        direction *= length
+        direction = self.step_x[:, None] * x
+        direction += self.corner[:, None]
+        direction += self.step_y[:, None] * y
+        length = np.sqrt(dot(direction, direction))
+        direction *= np.divide(np.float32(1), length, out=length)
         return direction
 
 
@@ -79,8 +72,11 @@ def make_camera(
     pixel = 2 * half_height / height
     corner = forward - right * (pixel * width / 2) + true_up * half_height
     return Camera(
-        *(a.astype(np.float32) for a in (eye, right, true_up, forward)),
-        corner=corner,
-        step_x=right * pixel,
-        step_y=-true_up * pixel,
+        origin=eye.astype(np.float32),
+        right=right.astype(np.float32),
+        up=true_up.astype(np.float32),
+        forward=forward.astype(np.float32),
+        corner=corner.astype(np.float32),
+        step_x=(right * pixel).astype(np.float32),
+        step_y=(-true_up * pixel).astype(np.float32),
     )

@@ -59,7 +59,7 @@ class Film:
         self.samples[rows, columns] = samples
 
     def continued(self, samples: int) -> Film:
-        """This film as the start of a longer render: the sums of ``samples`` whole-pass samples, shared."""
+        """A copy as the start of a longer render, holding the sums of the first ``samples`` samples."""
         film = Film(self.width, self.height)
         film._sum[:] = self._sum
         film._weight[:] = self._weight

@@ -12,7 +12,7 @@ import numpy as np
 
 from course.core.types import Floats32, Words
 
-RAYS = 16384
+RAYS = 32768
 """Camera rays in a batch."""
 
 
@@ -48,7 +48,7 @@ class Tile:
         return (y[:, None] * np.uint32(picture_width) + x).ravel()
 
     def corners(self) -> tuple[Floats32, Floats32]:
-        """x and y of each pixel's upper left corner, (size,) float32 each [pixels]."""
+        """Column and row of each pixel's upper left corner, (size,) float32 each [pixels]."""
         x = np.arange(self.x, self.x + self.width, dtype=np.float32)
         y = np.arange(self.y, self.y + self.height, dtype=np.float32)
         return np.tile(x, self.height), np.repeat(y, self.width)
@@ -61,9 +61,11 @@ def tile_picture(width: int, height: int, samples: int) -> list[Tile]:
     while tile_width * tile_width < pixels:
         tile_width *= 2
     tile_height = max(pixels // tile_width, 1)
-    tiles = []
+    tiles: list[Tile] = []
     for y in range(0, height, tile_height):
         for x in range(0, width, tile_width):
             size = min(tile_width, width - x), min(tile_height, height - y)
             tiles.append(Tile(len(tiles), x, y, *size))
+    # The small ones at the edges last: threads that run out of work wait for less.
+    tiles.sort(key=lambda tile: -tile.size)
     return tiles

@@ -50,14 +50,9 @@ def passes(settings: Settings, sampler: Sampler, done: int = 0) -> Iterator[Work
     tiles = tile_picture(settings.width, settings.height, size)
     for order, first in enumerate(range(done, settings.samples, size)):
         samples = min(size, settings.samples - first)
+        whole = samples == PASS or not sampler.extensible
         for tile in tiles:
-            yield Work(
-                tile,
-                order,
-                first,
-                samples,
-                samples == size and size == PASS or not sampler.extensible,
-            )
+            yield Work(tile, order, first, samples, whole)
 
 
 def preview(settings: Settings, samples: int) -> list[Work]:

@@ -7,6 +7,7 @@ import threading
 from collections.abc import Callable, Iterable
 from time import monotonic
 
+from course.core.types import Floats32
 from course.imaging.film import Film
 from course.rendering.passes import Work
 from course.transport.counters import Counters
@@ -90,7 +91,8 @@ class _Run:
         self._lock = threading.Lock()
         self._working = 0
         self._next_order: dict[int, int] = {}
-        self._early: dict[tuple[int, int], Callable[[], None]] = {}
+        self._early: dict[tuple[int, int], tuple[Work, Floats32, Floats32 | float]] = {}
+        self._adding: set[int] = set()
         self.counters = Counters()
         self.finished = threading.Event()
         self.exhausted = False
@@ -111,7 +113,7 @@ class _Run:
                 counters.start()
                 self._add(work, pixels, weight)
                 counters.lap("film")
-        except BaseException as error:  # handed to the thread that waits
+        except BaseException as error:  # noqa: BLE001 - handed to the thread that waits
             self.error = self.error or error
             self.stop = True
         with self._lock:
@@ -129,24 +131,24 @@ class _Run:
                 self.exhausted = True
             return work
 
-    def _add(self, work: Work, pixels: object, weight: object) -> None:
+    def _add(self, work: Work, pixels: Floats32, weight: Floats32 | float) -> None:
         """Into the film, the passes of a tile in their order even if a later one is finished first."""
-
-        def add() -> None:
-            self._film.add(
-                work.tile,
-                pixels,  # type: ignore[arg-type]
-                weight,  # type: ignore[arg-type]
-                work.first + work.samples,
-                work.whole,
-            )
-
         tile = work.tile.number
         with self._lock:
-            self._early[tile, work.order] = add
-            order = self._next_order.setdefault(tile, work.order)
-            while (ready := self._early.pop((tile, order), None)) is not None:
-                ready()
-                order += 1
-            self._next_order[tile] = order
+            self._early[tile, work.order] = (work, pixels, weight)
+            # Somebody who is adding to this tile now will see this pass when done with the one before.
+            if tile in self._adding:
+                return
+            self._adding.add(tile)
+            order = self._next_order.get(tile, 0)
+        while True:
+            with self._lock:
+                ready = self._early.pop((tile, order), None)
+                if ready is None:
+                    self._next_order[tile] = order
+                    self._adding.discard(tile)
+                    return
+            item, pixels, weight = ready
+            self._film.add(item.tile, pixels, weight, item.first + item.samples, item.whole)
+            order += 1
             self.done += 1

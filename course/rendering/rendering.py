@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from functools import partial
 from time import monotonic
 from typing import TYPE_CHECKING
 
 from course import __version__
 from course.core.samplers import make_sampler
-from course.effects import Effects
 from course.errors import CourseError, EffectError, OutputError
 from course.imaging.film import Film
 from course.imaging.reconstruction import Reconstruction
@@ -84,7 +82,7 @@ def render(
     began = monotonic()
     settings = _settings(scene, spp, size, sampler, seed, time_limit)
     _check_memory(settings)
-    needs = needs_of(scene.loaded, settings)
+    needs = needs_of(scene.loaded, settings, scene.compiled.world.materials)
     count = threads or default_threads()
     try:
         tracer = _tracer(scene, settings)
@@ -121,14 +119,15 @@ def _settings(
         and (sampler or settings.sampler) in ("sobol", "random")
     ):
         spp = MOST_SAMPLES
-    changes = {
-        "samples": spp,
-        "width": size and size[0],
-        "height": size and size[1],
-        "sampler": sampler,
-        "seed": seed,
-    }
-    settings = replace(settings, **{k: v for k, v in changes.items() if v is not None})
+    width, height = size or (settings.width, settings.height)
+    settings = replace(
+        settings,
+        samples=settings.samples if spp is None else spp,
+        width=width,
+        height=height,
+        sampler=sampler or settings.sampler,
+        seed=settings.seed if seed is None else seed,
+    )
     if settings.width < 1 or settings.height < 1:
         raise OutputError(f"a picture of {settings.width} x {settings.height} pixels has no pixels")
     if settings.samples < 1:
@@ -159,7 +158,9 @@ def _check_memory(settings: Settings) -> None:
 
 def _tracer(scene: Scene, settings: Settings) -> Tracer:
     effects = scene.effects
-    points = None if settings.sampler == "sobol" else _Supersampling(effects)
+    place = None
+    if settings.sampler != "sobol":
+        place = effects.function("supersampling", settings.sampler)
     film = scene.loaded.description.film
     reconstruction = Reconstruction(
         effects.function("supersampling", "resolve") if settings.samples > 1 else None,
@@ -173,22 +174,9 @@ def _tracer(scene: Scene, settings: Settings) -> Tracer:
         compiled.world,
         settings,
         compile_camera(scene.loaded, compiled.frame, settings.width, settings.height),
-        make_sampler(settings.sampler, settings.seed, points),
+        make_sampler(settings.sampler, settings.seed, place),
         reconstruction,
     )
-
-
-class _Supersampling:
-    """The point patterns of the supersampling module, each looked up when it is first drawn from."""
-
-    def __init__(self, effects: Effects) -> None:
-        self.regular = partial(_call, effects, "regular")
-        self.random = partial(_call, effects, "random")
-        self.jittered = partial(_call, effects, "jittered")
-
-
-def _call(effects: Effects, name: str, *arguments: object) -> object:
-    return effects.function("supersampling", name)(*arguments)
 
 
 def _check_start(start: Picture, settings: Settings, sampler: Sampler) -> int:
@@ -246,8 +234,7 @@ def _render_until(
         seconds = monotonic() - before
         if seconds * size / quick < 0.5 * (deadline - monotonic()):
             break
-    finished = pool.run(passes(settings, tracer.sampler, done), deadline, tick)
-    return finished
+    return pool.run(passes(settings, tracer.sampler, done), deadline, tick)
 
 
 def _not_written(scene: Scene, needs: list[Need], error: NotImplementedError) -> EffectError:
@@ -260,7 +247,9 @@ def _not_written(scene: Scene, needs: list[Need], error: NotImplementedError) ->
             return EffectError(
                 f"{error} ({scene.effects.folder / function.partition('.')[0]}.py); {where}: {keys} asks for it"
             )
-    return EffectError(f"{error or 'a function is not written yet'} (in {scene.effects.folder})")
+    return EffectError(
+        f"{str(error) or 'a function is not written yet'} (in {scene.effects.folder})"
+    )
 
 
 def _receipt(

@@ -14,7 +14,7 @@ def summarize(scene: Scene) -> dict[str, dict[str, object]]:
     description, settings = scene.loaded.description, scene.settings
     compiled, world = scene.compiled, scene.compiled.world
     plan = make_plan(world, settings)
-    needs = needs_of(scene.loaded, settings)
+    needs = needs_of(scene.loaded, settings, scene.compiled.world.materials)
     frame = compiled.frame
     dimensions = {"pixel": "2 numbers a sample"}
     for light in world.lights:

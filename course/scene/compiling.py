@@ -58,7 +58,7 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
     ]
     emitters, emission = emitter_parts(scene.lights, frame, first_material=len(names))
     materials = compile_materials(scene.materials, emission, frame)
-    lights, skipped = compile_lights(loaded, frame, effects)
+    lights, skipped = compile_lights(loaded, frame, effects, materials)
     ambient = np.zeros(3)
     for light in scene.lights:
         if isinstance(light, d.AmbientLight):

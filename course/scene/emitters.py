@@ -28,15 +28,11 @@ def emitter_parts(
     parts: list[Part] = []
     emission: list[Floats64] = []
     for light in lights:
-        mesh = None
-        if isinstance(light, RectangleLight) and light.radiance is not None:
-            mesh = _rectangle(light)
-        elif isinstance(light, SphereLight) and light.radiance is not None:
-            ball = shapes.sphere(light.radius, SEGMENTS)
-            mesh = Mesh(ball.vertices + np.array(light.center), ball.triangles)
-        if mesh is not None and light.radiance is not None:  # type: ignore[union-attr]
-            parts.append(Part(frame.mesh(mesh), first_material + len(emission)))
-            emission.append(rgb(light.radiance))  # type: ignore[union-attr, arg-type]
+        if not isinstance(light, RectangleLight | SphereLight) or light.radiance is None:
+            continue
+        mesh = _rectangle(light) if isinstance(light, RectangleLight) else _sphere(light)
+        parts.append(Part(frame.mesh(mesh), first_material + len(emission)))
+        emission.append(rgb(light.radiance))
     return parts, emission
 
 
@@ -44,3 +40,8 @@ def _rectangle(light: RectangleLight) -> Mesh:
     corner, u, v = (np.array(x) for x in (light.corner, light.edge_u, light.edge_v))
     vertices = np.stack((corner, corner + u, corner + u + v, corner + v))
     return Mesh(vertices, np.array([[0, 1, 2], [0, 2, 3]]))
+
+
+def _sphere(light: SphereLight) -> Mesh:
+    ball = shapes.sphere(light.radius, SEGMENTS)
+    return Mesh(ball.vertices + np.array(light.center), ball.triangles)

@@ -13,6 +13,7 @@ from course.appearance.lights import (
     RectangleLight,
     SphereLight,
 )
+from course.appearance.materials import MaterialTable
 from course.core.types import Floats32, Floats64
 from course.effects import Effects
 from course.errors import SceneError
@@ -20,11 +21,12 @@ from course.scene import description as d
 from course.scene.brightness import in_range
 from course.scene.description.values import rgb
 from course.scene.frame import Frame
+from course.scene.light_power import given, why_dark
 from course.scene.loading import Loaded
 
 
 def compile_lights(
-    loaded: Loaded, frame: Frame, effects: Effects
+    loaded: Loaded, frame: Frame, effects: Effects, materials: MaterialTable
 ) -> tuple[tuple[Light, ...], dict[str, str]]:
     """Lights that light something, and name -> reason for those that don't."""
     lights: list[Light] = []
@@ -33,28 +35,12 @@ def compile_lights(
         name = f"light {number}"
         if isinstance(light, d.AmbientLight):
             continue
-        if not _power(light).any():
-            skipped[name] = "it has no power"
+        reason = why_dark(light, materials)
+        if reason:
+            skipped[name] = reason
             continue
         lights.append(_compiled(light, name, number, loaded, frame, effects))
     return tuple(lights), skipped
-
-
-def _power(light: d.Light) -> Floats64:
-    match light:
-        case d.PointLight():
-            return rgb(light.intensity)
-        case d.DirectionalLight():
-            return rgb(light.irradiance)
-        case d.RectangleLight() | d.SphereLight():
-            return rgb(_given(light.intensity, light.radiance))
-        case d.AmbientLight():
-            return rgb(light.radiance)
-
-
-def _given(*colors: float | tuple[float, ...] | None) -> float | tuple[float, ...]:
-    """The one of two alternatives that the file gives."""
-    return next(color for color in colors if color is not None)
 
 
 def _compiled(
@@ -111,7 +97,7 @@ def _area_power(light: d.RectangleLight | d.SphereLight, frame: Frame, area: flo
     """Intensity in compiled units, or radiance times compiled area."""
     if light.radiance is not None:
         return rgb(light.radiance) * area
-    return rgb(_given(light.intensity)) / frame.scale / frame.scale
+    return rgb(given(light.intensity)) / frame.scale / frame.scale
 
 
 def _single(x: Floats64) -> Floats32:

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from course.appearance.materials import MaterialTable
 from course.effects import MODULES
 from course.scene import description as d
 from course.scene.document import KeyPath
+from course.scene.light_power import why_dark
 from course.scene.loading import Loaded
 from course.scene.world import Settings
 
@@ -25,7 +27,7 @@ class Need:
     asked_by: KeyPath
 
 
-def needs_of(loaded: Loaded, settings: Settings) -> list[Need]:
+def needs_of(loaded: Loaded, settings: Settings, materials: MaterialTable) -> list[Need]:
     """Every function that rendering with these settings calls, in the order of the pipeline."""
     scene = loaded.description
     needs = []
@@ -36,6 +38,8 @@ def needs_of(loaded: Loaded, settings: Settings) -> list[Need]:
     if settings.samples > 1:
         needs.append(Need("supersampling.resolve", ("sampler", "samples")))
     for number, light in enumerate(scene.lights):
+        if why_dark(light, materials):
+            continue
         if isinstance(light, d.RectangleLight):
             needs.append(Need("soft_shadows.point_on_rectangle", ("lights", number)))
         elif isinstance(light, d.SphereLight) and light.radius > 0:
@@ -45,7 +49,7 @@ def needs_of(loaded: Loaded, settings: Settings) -> list[Need]:
 
 _REASONS = {
     "supersampling": "one Sobol sample a pixel needs no pattern and no mean",
-    "soft_shadows": "no light has a size",
+    "soft_shadows": "no light that has a size lights anything",
 }
 
 

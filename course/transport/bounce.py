@@ -5,13 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from course.appearance.fresnel import fresnel_and_cos_t, refract
-from course.core.types import Floats32, Indices
+from course.core.types import Floats32, Indices, Media
 from course.core.vectors import dot, reflect
 from course.geometry.hits import Hits
-from course.transport.paths import Rays
+from course.transport.paths import OPEN, Rays
 from course.transport.plan import Lookups, Plan
-
-_OPEN = np.int16(-1)
 
 
 def bounced(
@@ -20,7 +18,7 @@ def bounced(
     hits: Hits,
     throughput: Floats32 | None,
     path: Indices | None,
-    medium: np.ndarray[tuple[int], np.dtype[np.int16]] | None,
+    medium: Media | None,
     cutoff: float,
 ) -> tuple[Rays | None, Rays | None]:
     """Reflected and refracted rays of the hits; None where there are none.
@@ -31,6 +29,8 @@ def bounced(
     path : (n,) or None for all paths in order
     medium : (n,) the material that the arriving ray travelled in, or None where nothing absorbs
     """
+    if plan.absorbs and medium is None:
+        medium = np.full(hits.size, OPEN)
     reflectance = lookups.mirror(hits.material)
     transmitted = None
     if plan.refracts:
@@ -75,7 +75,7 @@ def _reflected(
     hits: Hits,
     weight: Floats32,
     path: Indices | None,
-    medium: np.ndarray[tuple[int], np.dtype[np.int16]] | None,
+    medium: Media | None,
     cutoff: float,
 ) -> Rays | None:
     which = _visible(weight, hits.size, cutoff)
@@ -104,7 +104,7 @@ def _refracted(
     cos_t: Floats32,
     eta: Floats32,
     path: Indices | None,
-    medium: np.ndarray[tuple[int], np.dtype[np.int16]] | None,
+    medium: Media | None,
     cutoff: float,
 ) -> Rays | None:
     which = _visible(weight, hits.size, cutoff)
@@ -126,7 +126,7 @@ def _refracted(
     inside = None
     if medium is not None:
         material = hits.material.take(which).astype(np.int16)
-        inside = np.where(hits.entering.take(which), material, _OPEN)
+        inside = np.where(hits.entering.take(which), material, OPEN)
     return Rays(
         hits.below.take(which, axis=1),
         direction,

@@ -9,9 +9,9 @@ from __future__ import annotations
 import numpy as np
 
 from course.appearance.lights import Light
-from course.core.types import Floats32, Indices
+from course.core.types import Floats32, Indices, Mask
 from course.core.vectors import dot
-from course.geometry.hits import Hits
+from course.geometry.hits import Hits, bulge
 from course.scene.world import World
 from course.transport.counters import Counters
 from course.transport.paths import Draws
@@ -39,7 +39,7 @@ def direct_light(
         u = None
         if first is not None:
             u = draws(light.name, first + depth * plan.bounce_stride, light.width, path)
-        lit = _irradiance(world, light, hits, u, draws.counters)
+        lit = _irradiance(world, plan, light, hits, u, draws.counters)
         if lit is None:
             continue
         which, irradiance, to_light, inverse_length = lit
@@ -58,33 +58,70 @@ def direct_light(
 
 
 def _irradiance(
-    world: World, light: Light, hits: Hits, u: Floats32 | None, counters: Counters
+    world: World, plan: Plan, light: Light, hits: Hits, u: Floats32 | None, counters: Counters
 ) -> tuple[Indices, Floats32, Floats32, Floats32] | None:
     """Which hits the light reaches, its irradiance there, and the way to the light.
 
-    Only hits that face the light, and that the light faces, cast a shadow ray.
+    Only hits that can show light, face the light, and are faced by it cast a shadow ray.
     """
-    sample = light.sample(hits.raised, u)
+    sample = light.sample(hits.above, u)
     strength = dot(hits.ns, sample.to_light)
     strength *= sample.inverse_length
     strength *= sample.factor
+    if not plan.all_shade:
+        strength *= world.materials.shaded.take(hits.material)
     which = np.flatnonzero(strength > 0)
     if len(which) == 0:
         return None
-    origin, to_light, inverse_length = hits.raised, sample.to_light, sample.inverse_length
+    origin, to_light, inverse_length = hits.above, sample.to_light, sample.inverse_length
     if len(which) < hits.size:
         strength = strength.take(which)
         origin = origin.take(which, axis=1)
         if to_light.shape[1] > 1:
             to_light = to_light.take(which, axis=1)
             inverse_length = inverse_length.take(which)
-    towards = to_light
-    if towards.shape[1] != len(which):
-        towards = np.repeat(towards, len(which), axis=1)
-    free = world.surface.accelerator.unoccluded(origin, towards, light.limit, counters.embree)
-    counters.rays["shadow"] += len(which)
-    strength *= free
+    strength *= _sees(world, light, hits, which, origin, to_light, counters)
     return which, strength, to_light, inverse_length
+
+
+def _sees(
+    world: World,
+    light: Light,
+    hits: Hits,
+    which: Indices,
+    origin: Floats32,
+    to_light: Floats32,
+    counters: Counters,
+) -> Mask:
+    """Whether nothing stands between some of the hits and the light.
+
+    Where a facet of a smooth mesh faces away from a light that its shading normal faces, the shadow ray starts from
+    the round surface above the facet, provided that the way up there is free.
+    """
+    accelerator = world.surface.accelerator
+    counters.rays["shadow"] += len(which)
+    if to_light.shape[1] != len(which):
+        to_light = np.repeat(to_light, len(which), axis=1)
+    if world.surface.bulge is None:
+        return accelerator.unoccluded(origin, to_light, light.limit, counters.embree)
+    ng = hits.ng if len(which) == hits.size else hits.ng.take(which, axis=1)
+    turned = np.flatnonzero(dot(ng, to_light) <= 0)
+    height = bulge(world.surface, hits, which.take(turned))
+    raised = np.flatnonzero(height)
+    if len(raised) == 0:
+        return accelerator.unoccluded(origin, to_light, light.limit, counters.embree)
+    turned = turned.take(raised)
+    up = hits.ns.take(which.take(turned), axis=1) * height.take(raised)
+    foot = origin.take(turned, axis=1)
+    counters.rays["shadow"] += len(turned)
+    way_up = accelerator.unoccluded(foot, up, 1.0, counters.embree)
+    origin, to_light = origin.copy(), to_light.copy()
+    origin[:, turned] = foot + up
+    if light.limit <= 1:
+        to_light[:, turned] -= up
+    free = accelerator.unoccluded(origin, to_light, light.limit, counters.embree)
+    free[turned] &= way_up
+    return free
 
 
 def _highlight(

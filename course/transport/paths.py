@@ -7,8 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from course.core.samplers import Block, Sampler
-from course.core.types import Floats32, Indices
+from course.core.types import Floats32, Indices, Media
 from course.transport.counters import Counters
+
+OPEN = np.int16(-1)
+"""The medium of rays that travel in no dielectric."""
 
 
 @dataclass(frozen=True)
@@ -21,19 +24,19 @@ class Rays:
     direction : (3, n) float32, unit length
     throughput : (3, n) float32, how much of what a ray brings reaches the film; None means all of it
     path : (n,) number of the path in the block; None means one ray for each path, in order
-    medium : (n,) int16, material that the ray travels in, -1 in the open; None where nothing absorbs
+    medium : (n,) int16, material that the ray travels in, OPEN outside; None where nothing absorbs, and for camera rays
     """
 
     origin: Floats32
     direction: Floats32
     throughput: Floats32 | None
     path: Indices | None
-    medium: np.ndarray[tuple[int], np.dtype[np.int16]] | None = None
+    medium: Media | None = None
 
     @property
     def size(self) -> int:
         """Number of rays."""
-        return self.direction.shape[1]
+        return int(self.direction.shape[1])
 
 
 @dataclass(frozen=True)

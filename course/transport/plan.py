@@ -19,6 +19,7 @@ class Plan:
     Attributes
     ----------
     shades : any material shows light from the lights
+    all_shade : every material does
     has_ambient : some surface has a visible ambient term
     emits : some surface is a light that rays can see
     specular : some material has a highlight
@@ -30,6 +31,7 @@ class Plan:
     """
 
     shades: bool
+    all_shade: bool
     has_ambient: bool
     emits: bool
     specular: bool
@@ -71,6 +73,7 @@ def make_plan(world: World, settings: Settings) -> Plan:
         dimension += light.width
     return Plan(
         shades=bool(m.shaded.any()) and bool(world.lights),
+        all_shade=bool(m.shaded.all()),
         has_ambient=bool((m.ambient * world.ambient[:, None]).any()),
         emits=bool(m.emission.any()),
         specular=bool(m.specular.any()),

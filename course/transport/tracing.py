@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from course.core.samplers import Block, Sampler
-from course.core.types import Floats32, Indices
+from course.core.types import Floats32, Indices, Mask, Media
 from course.geometry.hits import Hits, find_hits
 from course.imaging.camera import Camera
 from course.imaging.reconstruction import Reconstruction
@@ -16,7 +16,7 @@ from course.scene.world import Settings, World
 from course.transport.bounce import bounced
 from course.transport.counters import Counters
 from course.transport.direct import direct_light
-from course.transport.paths import Draws, Rays
+from course.transport.paths import OPEN, Draws, Rays
 from course.transport.plan import PIXEL_WIDTH, Lookups, Plan, make_lookups, make_plan
 
 
@@ -116,7 +116,7 @@ class Tracer:
             radiance = term if radiance is None else np.add(radiance, term, out=radiance)
         return radiance
 
-    def _add_environment(self, film: Floats32, rays: Rays, missed: np.ndarray) -> None:  # type: ignore[type-arg]
+    def _add_environment(self, film: Floats32, rays: Rays, missed: Mask) -> None:
         which = np.flatnonzero(missed)
         if len(which) == 0:
             return
@@ -131,7 +131,7 @@ class Tracer:
         self,
         hits: Hits,
         throughput: Floats32 | None,
-        medium: np.ndarray[tuple[int], np.dtype[np.int16]] | None,
+        medium: Media | None,
     ) -> Floats32 | None:
         """Beer's law along the way just travelled: exp(-absorption t) for what crossed a dielectric.
 
@@ -139,9 +139,7 @@ class Tracer:
         glass); one that hits anything else came through the medium it carries.
         """
         dielectric = self.world.materials.refracts.take(hits.material)
-        through = np.where(
-            ~hits.entering & dielectric, hits.material.astype(np.int16), np.int16(-1)
-        )
+        through = np.where(~hits.entering & dielectric, hits.material.astype(np.int16), OPEN)
         if medium is not None:
             through = np.where(through < 0, medium, through)
         which = np.flatnonzero(through >= 0)
@@ -173,9 +171,7 @@ def make_tracer(
     )
 
 
-def _of_hits(
-    rays: Rays, hits: Hits
-) -> tuple[Floats32 | None, Indices | None, np.ndarray[tuple[int], np.dtype[np.int16]] | None]:
+def _of_hits(rays: Rays, hits: Hits) -> tuple[Floats32 | None, Indices | None, Media | None]:
     """Throughput, path and medium of the rays that hit something."""
     throughput, path, medium = rays.throughput, rays.path, rays.medium
     if hits.ray is None:
@@ -193,8 +189,8 @@ def _add(film: Floats32, path: Indices | None, radiance: Floats32) -> None:
         film += radiance
         return
     for channel, values in zip(film, radiance, strict=True):
-        # bincount adds in the order of the rays, so the sum doesn't depend on what else is in the batch.
-        channel += np.bincount(path, values, minlength=len(channel))
+        # In the order of the rays, so the sum doesn't depend on what else is in the batch.
+        np.add.at(channel, path, values)
 
 
 def _together(reflected: Rays | None, refracted: Rays | None) -> Rays | None:
@@ -202,8 +198,10 @@ def _together(reflected: Rays | None, refracted: Rays | None) -> Rays | None:
     if reflected is None or refracted is None:
         return reflected or refracted
     a, b = reflected, refracted
-    assert a.throughput is not None and b.throughput is not None
-    assert a.path is not None and b.path is not None
+    assert a.throughput is not None
+    assert b.throughput is not None
+    assert a.path is not None
+    assert b.path is not None
     medium = None
     if a.medium is not None and b.medium is not None:
         medium = np.concatenate((a.medium, b.medium))

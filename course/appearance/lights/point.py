@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from course.appearance.lights.sample import BEFORE_THE_LIGHT, Sample, inverse_square
+from course.appearance.lights.sample import TO_A_POINT, Sample, inverse_square
 from course.core.types import Floats32
 
 
@@ -16,7 +16,7 @@ class PointLight:
     position: Floats32
     color: Floats32
     width: int = 0
-    limit: float = BEFORE_THE_LIGHT
+    limit: float = TO_A_POINT
 
     def sample(self, points: Floats32, u: Floats32 | None) -> Sample:
         """See ``course.appearance.lights``."""

@@ -9,8 +9,11 @@ import numpy as np
 from course.core.types import Floats32
 from course.core.vectors import dot
 
-BEFORE_THE_LIGHT = 1 - 1e-4
-"""Shadow rays end this share of the way to the light, so that a light's own surface doesn't block it."""
+TO_A_POINT = 1 - 2.0**-20
+"""How far shadow rays go to a point that belongs to no surface, as a share of the way."""
+
+TO_A_SURFACE = 1 - 1e-4
+"""... and to a point on the triangles of a visible light, which must not block their own light."""
 
 
 @dataclass(frozen=True)

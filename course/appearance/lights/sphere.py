@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from course.appearance.lights.sample import BEFORE_THE_LIGHT, Sample, inverse_square
+from course.appearance.lights.sample import TO_A_POINT, TO_A_SURFACE, Sample, inverse_square
 from course.core.types import Floats32
 from course.core.vectors import dot
 
@@ -34,7 +34,11 @@ class SphereLight:
     color: Floats32
     point_on_sphere: PointOnSphere
     width: int = 2
-    limit: float = BEFORE_THE_LIGHT
+
+    @property
+    def limit(self) -> float:
+        """How far along ``to_light`` a blocker counts."""
+        return TO_A_POINT if not self.emitter else TO_A_SURFACE
 
     def sample(self, points: Floats32, u: Floats32 | None) -> Sample:
         """See ``course.appearance.lights``."""

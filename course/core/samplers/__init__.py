@@ -6,6 +6,7 @@ A sampler has a ``name``, says whether its points may be extended from n to 2n s
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Protocol
 
 from course.core.samplers.block import Block
@@ -14,7 +15,6 @@ from course.core.samplers.stratified import (
     JitteredSampler,
     RandomSampler,
     RegularSampler,
-    Supersampling,
 )
 from course.core.types import Floats32
 
@@ -27,14 +27,22 @@ class Sampler(Protocol):
     name: str
     extensible: bool
 
-    def draw(self, block: Block, dimension: int, width: int) -> Floats32: ...
+    def draw(self, block: Block, dimension: int, width: int) -> Floats32:
+        """(width, block.size) float32 numbers in [0, 1) for consecutive dimensions."""
+        ...
 
 
-def make_sampler(name: str, seed: int, functions: Supersampling | None) -> Sampler:
-    """The sampler of that name; all but ``sobol`` place their points with the supersampling module."""
-    if name == "sobol":
+def make_sampler(name: str, seed: int, place: Callable[..., Floats32] | None) -> Sampler:
+    """The sampler of that name.
+
+    Parameters
+    ----------
+    place : the function of the supersampling module that has the sampler's name; ``sobol`` needs none
+    """
+    if place is None:
         return SobolSampler(seed)
-    if functions is None:
-        raise ValueError(f"the {name} sampler needs the supersampling module")
-    kinds = {"random": RandomSampler, "jittered": JitteredSampler, "regular": RegularSampler}
-    return kinds[name](seed, functions)
+    if name == "random":
+        return RandomSampler(seed, place)
+    if name == "jittered":
+        return JitteredSampler(seed, place)
+    return RegularSampler(seed, place)

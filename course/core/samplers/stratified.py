@@ -7,8 +7,9 @@ ever pair the pixel's corner with the light's corner (Cook 1984, section 4.2).
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import isqrt
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -19,16 +20,14 @@ from course.core.types import Floats32
 if TYPE_CHECKING:
     from numpy.random import Generator
 
+Place = Callable[[int, int], Floats32]
+"""supersampling.regular: (k, n) -> (2, n, k * k)."""
+
+PlaceAtRandom = Callable[[int, int, "Generator"], Floats32]
+"""supersampling.random and jittered: (k, n, rng) -> (2, n, k * k)."""
+
 PIXEL = 0
 """The pixel's two dimensions are the first ones of every path."""
-
-
-class Supersampling(Protocol):
-    """The functions of the `supersampling` module that place points in a pixel."""
-
-    def regular(self, k: int, n: int) -> Floats32: ...
-    def random(self, k: int, n: int, rng: Generator) -> Floats32: ...
-    def jittered(self, k: int, n: int, rng: Generator) -> Floats32: ...
 
 
 class RandomSampler:
@@ -37,16 +36,16 @@ class RandomSampler:
     name = "random"
     extensible = True
 
-    def __init__(self, seed: int, functions: Supersampling) -> None:
+    def __init__(self, seed: int, place: PlaceAtRandom) -> None:
         self._seed = seed
-        self._functions = functions
+        self._place = place
 
     def draw(self, block: Block, dimension: int, width: int) -> Floats32:
         """See SobolSampler.draw."""
         rng = generator(self._seed, dimension, block)
         if dimension == PIXEL:
             k = isqrt(block.samples - 1) + 1
-            points = self._functions.random(k, len(block.pixels), rng)[..., : block.samples]
+            points = self._place(k, len(block.pixels), rng)[..., : block.samples]
             return points.reshape(2, block.size)
         return rng.random((width, block.size), np.float32)
 
@@ -57,9 +56,9 @@ class JitteredSampler:
     name = "jittered"
     extensible = False
 
-    def __init__(self, seed: int, functions: Supersampling) -> None:
+    def __init__(self, seed: int, place: PlaceAtRandom) -> None:
         self._seed = seed
-        self._functions = functions
+        self._place = place
 
     def draw(self, block: Block, dimension: int, width: int) -> Floats32:
         """See SobolSampler.draw; block.samples is a square number."""
@@ -67,7 +66,7 @@ class JitteredSampler:
         k = isqrt(block.samples)
         n = len(block.pixels)
         if dimension == PIXEL:
-            return self._functions.jittered(k, n, rng).reshape(2, block.size)
+            return self._place(k, n, rng).reshape(2, block.size)
         strata = np.arange(block.samples, dtype=np.float32)
         if width == 2:
             cell = rng.permuted(np.broadcast_to(strata, (n, block.samples)), axis=1)
@@ -89,16 +88,16 @@ class RegularSampler:
     name = "regular"
     extensible = False
 
-    def __init__(self, seed: int, functions: Supersampling) -> None:
+    def __init__(self, seed: int, place: Place) -> None:
         self._seed = seed
-        self._functions = functions
+        self._place = place
 
     def draw(self, block: Block, dimension: int, width: int) -> Floats32:
         """See SobolSampler.draw; block.samples is a square number."""
         k = isqrt(block.samples)
         n = len(block.pixels)
         if dimension == PIXEL:
-            return self._functions.regular(k, n).reshape(2, block.size)
+            return self._place(k, n).reshape(2, block.size)
         strata = np.arange(block.samples)
         if block.samples > 1:
             # One order for the whole picture: whatever the grid misses, it misses in every pixel.

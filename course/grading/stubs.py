@@ -1,0 +1,246 @@
+"""Stubs: what a solution leaves when its regions are taken out.
+
+- A region in a public function becomes a TODO and a NotImplementedError, both with the task's id, ``module.function``.
+- A region at module level vanishes. It holds the helpers and constants that only the solution uses.
+- An import that nothing uses any more vanishes by itself; NumPy stays, for students write with it.
+
+A solution is refused rather than published in part: each public function has a region, and whatever else stands
+outside the regions must be used by what the students get, as the checks of shape and range are.
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TypeGuard
+
+from course.grading.regions import Region, SolutionError, find_regions
+
+_KEPT = {"np", "annotations"}
+"""Imported names that a stub keeps even where it doesn't use them."""
+
+
+@dataclass(frozen=True)
+class Stub:
+    """A module as students get it.
+
+    Attributes
+    ----------
+    module : str
+    text : str
+        The whole file.
+    tasks : tuple of str
+        Ids of what is to be written, "module.function", in the order of the file.
+    """
+
+    module: str
+    text: str
+    tasks: tuple[str, ...]
+
+    def written(self, text: str) -> list[str]:
+        """Tasks of which a student's copy of this file has the function, but no longer its error."""
+        return [
+            task
+            for task in self.tasks
+            if re.search(rf"^def {task.partition('.')[2]}\b", text, re.MULTILINE)
+            and _not_written(task) not in text
+        ]
+
+
+def make_stubs(folder: Path) -> list[Stub]:
+    """Make the stub of each solution in a folder, in the order of their names.
+
+    Raises
+    ------
+    SolutionError
+        The folder isn't there or is empty, a file can't be read, or as `make_stub` does.
+    """
+    files = [path for path in sorted(folder.glob("*.py")) if not path.stem.startswith("_")]
+    if not files:
+        raise SolutionError(f"{folder}: there are no solutions (*.py) to make stubs from")
+    return [make_stub(_read(path), path.stem, str(Path(folder.name, path.name))) for path in files]
+
+
+def make_stub(text: str, module: str, file: str) -> Stub:
+    """Make a stub from the text of a solution.
+
+    Parameters
+    ----------
+    text : str
+    module : str
+        First half of the tasks' ids.
+    file : str
+        What error messages call the text.
+
+    Raises
+    ------
+    SolutionError
+        A region is not as `find_regions` wants it, cuts a statement in two or stands where no task
+        is; or something of the solution would be published.
+    """
+    regions = find_regions(text, file)
+    tree = _parse(text, file)
+    _check_cuts(tree, regions, file)
+    owners = [_owner(tree, region, file) for region in regions]
+    _check_functions(tree, regions, owners, file)
+
+    lines = text.split("\n")
+    for region, owner in reversed([*zip(regions, owners, strict=True)]):
+        if owner is None:
+            _remove(lines, region.begin, region.end)
+        else:
+            task = f"{module}.{owner}"
+            lines[region.begin - 1 : region.end] = [
+                f"{region.indent}# TODO {task}: write your solution here",
+                f"{region.indent}raise {_not_written(task)}",
+            ]
+    _remove_unused_imports(lines, file)
+    stub = "\n".join(lines).strip("\n") + "\n"
+    _check_leftovers(tree, _parse(stub, file), file)
+    # Names once each, though a function may have several regions.
+    tasks = dict.fromkeys(f"{module}.{owner}" for owner in owners if owner is not None)
+    return Stub(module, stub, tuple(tasks))
+
+
+def _not_written(task: str) -> str:
+    return f'NotImplementedError("{task}: not written yet")'
+
+
+def _read(path: Path) -> str:
+    try:
+        return path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise SolutionError(f"{path}: can't be read: {error}") from error
+
+
+def _parse(text: str, file: str) -> ast.Module:
+    try:
+        return ast.parse(text)
+    except (SyntaxError, ValueError) as error:
+        line = getattr(error, "lineno", None) or 1
+        raise SolutionError(f"{file}:{line}: not Python: {error}") from error
+
+
+def _first_line(node: ast.stmt) -> int:
+    if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
+        return min([node.lineno, *(decorator.lineno for decorator in node.decorator_list)])
+    return node.lineno
+
+
+def _check_cuts(tree: ast.Module, regions: list[Region], file: str) -> None:
+    """Refuse a region that holds part of a statement, or that stands in a text."""
+    for node in ast.walk(tree):
+        if not isinstance(node, ast.stmt):
+            continue
+        first, last = _first_line(node), node.end_lineno or node.lineno
+        holds_statements = hasattr(node, "body") or hasattr(node, "cases")
+        for region in regions:
+            apart = last < region.begin or region.end < first
+            within = region.begin < first and last < region.end
+            around = holds_statements and first < region.begin
+            if not (apart or within or around):
+                raise SolutionError(
+                    f"{file}:{region.begin}: the region cuts the statement of line {first} in two"
+                )
+
+
+def _owner(tree: ast.Module, region: Region, file: str) -> str | None:
+    """Name of the public function in which a region stands; None for one at module level."""
+    if not region.indent:
+        return None
+    before = [node for node in tree.body if _first_line(node) < region.begin]
+    if before and _is_task(before[-1]):
+        return before[-1].name
+    raise SolutionError(
+        f"{file}:{region.begin}: a region stands in a public function or at module level"
+    )
+
+
+def _is_task(node: ast.stmt) -> TypeGuard[ast.FunctionDef]:
+    return isinstance(node, ast.FunctionDef) and not node.name.startswith("_")
+
+
+def _check_functions(
+    tree: ast.Module, regions: list[Region], owners: list[str | None], file: str
+) -> None:
+    """Refuse a public function that students would get whole, or not at all."""
+    for node in filter(_is_task, tree.body):
+        if any(region.begin < node.lineno < region.end for region in regions):
+            raise SolutionError(
+                f"{file}:{node.lineno}: {node.name} stands inside a region, so no stub would have it"
+            )
+        if node.name not in owners:
+            raise SolutionError(
+                f"{file}:{node.lineno}: {node.name} has no region, so its stub would be the solution"
+            )
+
+
+def _remove(lines: list[str], first: int, last: int) -> None:
+    """Remove lines counted from 1; of the blank ones around them the longer run stays."""
+    start, stop = first - 1, last
+    while start > 0 and not lines[start - 1].strip():
+        start -= 1
+    while stop < len(lines) and not lines[stop].strip():
+        stop += 1
+    lines[start:stop] = [""] * max(first - 1 - start, stop - last)
+
+
+def _remove_unused_imports(lines: list[str], file: str) -> None:
+    tree = _parse("\n".join(lines), file)
+    used = set(_names(tree)) | _KEPT
+    for node in reversed(tree.body):
+        if not isinstance(node, ast.Import | ast.ImportFrom):
+            continue
+        kept = [a for a in node.names if (a.asname or a.name.partition(".")[0]) in used]
+        if not kept:
+            _remove(lines, node.lineno, node.end_lineno or node.lineno)
+        elif kept != node.names:
+            node.names = kept
+            lines[node.lineno - 1 : node.end_lineno] = [ast.unparse(node)]
+
+
+def _check_leftovers(solution: ast.Module, stub: ast.Module, file: str) -> None:
+    """Refuse helpers and constants that only the solution uses: they are part of it."""
+    uses: dict[str, set[str]] = {}
+    reached: set[str] = set()
+    for node in stub.body:
+        names = [] if _is_task(node) else _defined(node)
+        for name in names:
+            uses.setdefault(name, set()).update(_names(node))
+        if not names:
+            reached.update(_names(node))
+    new = reached
+    while new:
+        new = set().union(*(uses.get(name, ()) for name in new)) - reached
+        reached |= new
+    for node in solution.body:
+        for name in _defined(node):
+            if name in uses and name not in reached:
+                raise SolutionError(
+                    f"{file}:{node.lineno}: {name} serves nothing but the solution: "
+                    "put it in a region at module level"
+                )
+
+
+def _defined(node: ast.stmt) -> list[str]:
+    """Names that a definition or an assignment makes."""
+    match node:
+        case ast.FunctionDef() | ast.AsyncFunctionDef() | ast.ClassDef():
+            return [node.name]
+        case ast.Assign() | ast.AnnAssign():
+            return [n.id for n in ast.walk(node) if _is_name(n) and isinstance(n.ctx, ast.Store)]
+    return []
+
+
+def _names(node: ast.AST) -> Iterator[str]:
+    """Names that are read anywhere in a piece of code."""
+    for inner in ast.walk(node):
+        if _is_name(inner) and isinstance(inner.ctx, ast.Load):
+            yield inner.id
+
+
+def _is_name(node: ast.AST) -> TypeGuard[ast.Name]:
+    return isinstance(node, ast.Name)

@@ -1,0 +1,83 @@
+"""What tests of student-facing functions share: where the functions are, and how they are judged.
+
+Every statistical test draws from a fixed seed, so it never fails by chance twice; FALSE_FAIL is how probable it was
+that a right function fails it with a seed that nobody has tried.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from itertools import product
+from math import prod
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.special import chdtri, ndtri
+
+from course.effects import PROJECT, Effects
+
+SOLUTIONS = Effects(PROJECT / "solutions")
+
+FALSE_FAIL = 1e-6
+"""Of each statistical comparison."""
+
+Array = NDArray[np.floating]
+
+
+def unit(rows: int, n: int, dtype: type = np.float32, seed: int = 0) -> Array:
+    """Uniform (rows, n) numbers in [0, 1)."""
+    return np.random.default_rng(seed).random((rows, n), dtype)
+
+
+def worst_units(rows: int, dtype: type) -> Array:
+    """Every combination of the ends of [0, 1), of their neighbours and of the middle, a column each."""
+    last = np.nextafter(dtype(1), dtype(0))
+    sampler_last = 1 - 2.0**-24
+    ends = [0.0, np.finfo(dtype).smallest_subnormal, 0.5, sampler_last, last]
+    return np.array([*product(ends, repeat=rows)], dtype).T
+
+
+def frozen(array: ArrayLike) -> Array:
+    """A copy that can't be written to."""
+    copy = np.array(array)
+    copy.flags.writeable = False
+    return copy
+
+
+def scattered(array: Array) -> Array:
+    """The same values, in memory that is contiguous along no axis."""
+    wide = np.zeros(tuple(3 * size for size in array.shape), array.dtype)
+    view = wide[tuple(slice(1, None, 3) for _ in array.shape)]
+    view[...] = array
+    return view
+
+
+def assert_uniform(values: Array, cells: tuple[int, ...]) -> None:
+    """Points (d, N) fill the unit cube evenly: Pearson's chi-squared test over a grid of cells."""
+    d, n = values.shape
+    assert len(cells) == d
+    assert values.min() >= 0
+    assert values.max() <= 1
+    expected = n / prod(cells)
+    assert expected >= 20, "too few points for the chi-squared distribution"
+    index = np.minimum((values.T * cells).astype(int), np.array(cells) - 1)
+    counts = np.bincount(np.ravel_multi_index(tuple(index.T), cells), minlength=prod(cells))
+    statistic = ((counts - expected) ** 2).sum() / expected
+    assert statistic < chdtri(prod(cells) - 1, FALSE_FAIL), statistic
+
+
+def assert_mean(values: Array, mean: float, variance: float) -> None:
+    """N independent values have that mean: a two-sided z-test with their known variance."""
+    off = (values.astype(float).mean() - mean) / np.sqrt(variance / values.size)
+    assert abs(off) < -ndtri(FALSE_FAIL / 2), off
+
+
+@contextmanager
+def global_random_state_untouched() -> Iterator[None]:
+    """Nothing draws from, or seeds, NumPy's hidden generator."""
+    before = np.random.get_state(legacy=False)  # noqa: NPY002
+    yield
+    after = np.random.get_state(legacy=False)  # noqa: NPY002
+    assert before["state"]["pos"] == after["state"]["pos"]
+    assert (before["state"]["key"] == after["state"]["key"]).all()

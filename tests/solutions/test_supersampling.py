@@ -1,0 +1,347 @@
+"""Antialiasing: point patterns of a pixel, Gaussian weights, and the weighted mean."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from tests.solutions.contract import (
+    SOLUTIONS,
+    Array,
+    assert_mean,
+    assert_uniform,
+    frozen,
+    global_random_state_untouched,
+    scattered,
+)
+
+regular = SOLUTIONS.function("supersampling", "regular")
+random = SOLUTIONS.function("supersampling", "random")
+jittered = SOLUTIONS.function("supersampling", "jittered")
+gaussian_weights = SOLUTIONS.function("supersampling", "gaussian_weights")
+resolve = SOLUTIONS.function("supersampling", "resolve")
+
+PATTERNS: dict[str, Callable[[int, int, int], Array]] = {
+    "regular": lambda k, n, _seed: regular(k, n),
+    "random": lambda k, n, seed: random(k, n, np.random.default_rng(seed)),
+    "jittered": lambda k, n, seed: jittered(k, n, np.random.default_rng(seed)),
+}
+DTYPES = [np.float32, np.float64]
+
+pattern = pytest.mark.parametrize("name", PATTERNS)
+dtypes = pytest.mark.parametrize("dtype", DTYPES)
+
+
+def cells(k: int) -> Array:
+    """Column and row of each cell, (2, k * k): row by row, x fastest."""
+    number = np.arange(k * k)
+    return np.array([number % k, number // k])
+
+
+def exact_mean(radiance: Array, weights: Array) -> Array:
+    """The weighted mean in float64."""
+    radiance, weights = radiance.astype(float), weights.astype(float)
+    return (radiance * weights).sum(axis=2) / weights.sum(axis=1)
+
+
+def batch(n: int, s: int, dtype: type = np.float32, seed: int = 0) -> tuple[Array, Array]:
+    """Radiance and weights."""
+    rng = np.random.default_rng(seed)
+    return rng.random((3, n, s), dtype), rng.random((n, s), dtype)
+
+
+# ---------------------------------------------------------------- patterns
+
+
+@pattern
+@pytest.mark.parametrize(("k", "n"), [(1, 1), (1, 7), (4, 5), (3, 0), (1, 0), (256, 1)])
+def test_patterns_have_k_squared_float32_points_in_each_pixel(name: str, k: int, n: int) -> None:
+    points = PATTERNS[name](k, n, 1)
+    assert points.shape == (2, n, k * k)
+    assert points.dtype == np.float32
+    assert ((points >= 0) & (points <= 1)).all()
+
+
+@pattern
+@pytest.mark.parametrize("number", [np.int64, np.uint16])
+def test_numpy_integers_are_integers(name: str, number: type) -> None:
+    assert (PATTERNS[name](number(3), number(2), 1) == PATTERNS[name](3, 2, 1)).all()
+
+
+@pattern
+@pytest.mark.parametrize(("k", "n", "told"), [(0, 1, "k"), (-1, 1, "k"), (2, -1, "n")])
+def test_patterns_refuse_counts_out_of_range(name: str, k: int, n: int, told: str) -> None:
+    got = {"k": k, "n": n}[told]
+    with pytest.raises(ValueError, match=rf"^{told} must be >= \d, got {got}$"):
+        PATTERNS[name](k, n, 1)
+
+
+@pattern
+def test_patterns_leave_the_global_random_state_alone(name: str) -> None:
+    with global_random_state_untouched():
+        PATTERNS[name](4, 100, 1)
+
+
+@pytest.mark.parametrize("name", ["random", "jittered"])
+def test_random_patterns_are_functions_of_their_generator(name: str) -> None:
+    assert (PATTERNS[name](4, 9, 1) == PATTERNS[name](4, 9, 1)).all()
+    assert (PATTERNS[name](4, 9, 1) != PATTERNS[name](4, 9, 2)).any()
+
+
+@pytest.mark.parametrize("k", [1, 2, 3, 4, 7, 16, 255])
+def test_regular_points_are_the_cell_centres_row_by_row_in_every_pixel(k: int) -> None:
+    points = regular(k, 3)
+    centres = (cells(k) + 0.5) / k
+    assert np.abs(points - centres[:, None]).max() <= 2.0**-24
+    assert (points < 1).all()
+
+
+def test_one_regular_point_is_exactly_the_pixels_centre() -> None:
+    assert (regular(1, 5) == 0.5).all()
+
+
+def test_random_points_are_uniform_in_the_pixel() -> None:
+    points = random(4, 10_000, np.random.default_rng(2))
+    assert (points < 1).all()
+    assert_uniform(points.reshape(2, -1), (32, 32))
+
+
+def test_random_points_of_a_pixel_are_independent_of_each_other() -> None:
+    points = random(2, 40_000, np.random.default_rng(3))
+    for a, b in [(0, 1), (0, 2), (0, 3), (1, 2)]:
+        assert_uniform(np.stack((points[0, :, a], points[0, :, b])), (16, 16))
+        assert_uniform(np.stack((points[0, :, a], points[1, :, b])), (16, 16))
+
+
+def test_random_points_of_neighbouring_pixels_are_independent() -> None:
+    points = random(1, 80_000, np.random.default_rng(4))[:, :, 0]
+    assert_uniform(np.stack((points[0, 0::2], points[0, 1::2])), (16, 16))
+
+
+@pytest.mark.parametrize("k", [1, 2, 3, 5, 16, 100])
+def test_jittered_points_lie_one_in_each_cell_row_by_row(k: int) -> None:
+    points = jittered(k, 50, np.random.default_rng(5)).astype(float) * k
+    inside = points - cells(k)[:, None]
+    rounding = k * 2.0**-23
+    assert inside.min() >= -rounding
+    assert inside.max() <= 1 + rounding
+
+
+def test_jittered_points_are_uniform_in_their_cells_and_independent_between_them() -> None:
+    k = 3
+    points = jittered(k, 20_000, np.random.default_rng(6)).astype(float) * k
+    inside = np.clip(points - cells(k)[:, None], 0, 1)  # float32 rounding at a cell's border
+    assert_uniform(inside.reshape(2, -1), (16, 16))
+    for a, b in [(0, 1), (0, k), (4, 5)]:
+        assert_uniform(np.stack((inside[0, :, a], inside[0, :, b])), (16, 16))
+        assert_uniform(np.stack((inside[0, :, a], inside[1, :, b])), (16, 16))
+    assert_uniform(np.stack((inside[0, 0::2, 0], inside[0, 1::2, 0])), (16, 16))
+
+
+@pytest.mark.parametrize("k", [2, 8])
+def test_jittered_mean_has_the_variance_of_stratified_sampling(k: int) -> None:
+    # The mean of k^2 x's, each uniform in a cell of width 1 / k: variance 1 / (12 k^4), not 1 / (12 k^2).
+    # Over n pixels the mean square has a relative standard deviation of less than sqrt(2 / n), which is 1%.
+    means = jittered(k, 20_000, np.random.default_rng(7)).astype(float).mean(axis=2)
+    assert_mean(means, 0.5, 1 / (12 * k**4))
+    assert means[0].var() == pytest.approx(1 / (12 * k**4), rel=0.05)
+
+
+# ---------------------------------------------------------------- Gaussian weights
+
+
+@dtypes
+@pytest.mark.parametrize("sigma", [0.05, 1 / 6, 0.5, 1, 20.0])
+def test_gaussian_weights_are_the_gaussian_of_the_distance_to_the_centre(
+    dtype: type, sigma: float
+) -> None:
+    offsets = np.random.default_rng(1).random((2, 40, 9), dtype)
+    r2 = ((offsets.astype(float) - 0.5) ** 2).sum(axis=0)
+    weights = gaussian_weights(offsets, sigma)
+    assert weights.dtype == dtype
+    # An exponent x carries its own rounding into the result: exp(x) has a relative error of |x| eps.
+    exponent = r2 / (2 * sigma**2)
+    error = np.abs(weights - np.exp(-exponent))
+    tiny = np.finfo(dtype).tiny
+    assert (error <= 8 * (1 + exponent) * np.finfo(dtype).eps * np.exp(-exponent) + tiny).all()
+
+
+def test_gaussian_weights_reach_the_pixels_edge_at_three_sigma_by_default() -> None:
+    offsets = np.array([[[0.5, 0.0, 0.5, 0.0]], [[0.5, 0.5, 1.0, 0.0]]])
+    expected = [[1.0, math.exp(-4.5), math.exp(-4.5), math.exp(-9)]]
+    assert gaussian_weights(offsets) == pytest.approx(np.array(expected), rel=1e-14)
+
+
+@dtypes
+@pytest.mark.parametrize("sigma", [1e-300, 1e-45, 1e-20, 1e-9, 1e9, 1e45, 1e300, math.inf])
+def test_gaussian_weights_are_right_for_the_smallest_and_the_largest_sigma(
+    dtype: type, sigma: float
+) -> None:
+    off_centre = [0.0, 0.4, np.nextafter(dtype(0.5), dtype(0)), 1 - 2.0**-24]
+    offsets = np.full((2, 1, 5), 0.5, dtype)
+    offsets[0, 0, 1:] = off_centre
+    weights = gaussian_weights(offsets, sigma)
+    assert np.isfinite(weights).all()
+    assert weights[0, 0] == 1
+    # Half a unit in the last place below 0.5 is 2^-25 or 2^-54: a sigma of 1e-9 sees it in float32.
+    visible = sigma > 1 or (sigma == 1e-9 and dtype is np.float64)
+    assert weights[0, 1] == (1 if sigma > 1 else 0)
+    assert weights[0, 3] == (1 if visible else 0)
+
+
+@dtypes
+@pytest.mark.parametrize("scalar", [float, np.float32, np.float64, np.longdouble])
+def test_sigma_does_not_change_the_dtype(dtype: type, scalar: type) -> None:
+    offsets = np.random.default_rng(1).random((2, 4, 3), dtype)
+    assert gaussian_weights(offsets, scalar(0.25)).dtype == dtype
+    assert gaussian_weights(offsets, np.array(0.25)).dtype == dtype
+
+
+@pytest.mark.parametrize("sigma", [0, -1.0, math.nan, -math.inf])
+def test_a_sigma_out_of_range_is_refused(sigma: float) -> None:
+    with pytest.raises(ValueError, match=f"^sigma must be > 0, got {sigma}$"):
+        gaussian_weights(np.zeros((2, 1, 1), np.float32), sigma)
+
+
+@pytest.mark.parametrize("shape", [(2, 5), (3, 4, 5), (2, 3, 4, 5), (0, 4, 5), (4, 5, 2), ()])
+def test_offsets_of_another_shape_are_refused(shape: tuple[int, ...]) -> None:
+    with pytest.raises(ValueError, match="offsets") as caught:
+        gaussian_weights(np.zeros(shape, np.float32))
+    assert str(caught.value) == f"offsets must have shape (2, n, s), got {shape}"
+
+
+@pytest.mark.parametrize(("n", "s"), [(0, 4), (3, 0), (0, 0)])
+def test_no_offsets_have_no_weights(n: int, s: int) -> None:
+    weights = gaussian_weights(np.zeros((2, n, s), np.float32))
+    assert weights.shape == (n, s)
+    assert weights.dtype == np.float32
+
+
+# ---------------------------------------------------------------- resolve
+
+
+@pytest.mark.parametrize("radiance_dtype", DTYPES)
+@pytest.mark.parametrize("weights_dtype", DTYPES)
+def test_resolve_is_the_weighted_mean_in_the_promoted_dtype(
+    radiance_dtype: type, weights_dtype: type
+) -> None:
+    radiance, _ = batch(50, 9, radiance_dtype, 1)
+    _, weights = batch(50, 9, weights_dtype, 2)
+    mean = resolve(radiance, weights)
+    assert mean.shape == (3, 50)
+    assert mean.dtype == np.promote_types(radiance_dtype, weights_dtype)
+    assert np.abs(mean - exact_mean(radiance, weights)).max() <= 9 * np.finfo(mean.dtype).eps
+
+
+@dtypes
+def test_resolve_does_not_depend_on_the_weights_scale(dtype: type) -> None:
+    radiance, weights = batch(20, 16, dtype)
+    expected = exact_mean(radiance, weights)
+    # 1e-30 and 1e30; and where the least float is in sight: whole multiples of it, sixteen of the greatest.
+    largest, least = np.finfo(dtype).max, np.finfo(dtype).smallest_subnormal
+    for scaled in (weights * dtype(1e-30), weights * dtype(1e30), weights * largest):
+        assert resolve(radiance, scaled) == pytest.approx(expected, rel=1e-5)
+    counts = np.ceil(weights * 5)
+    assert resolve(radiance, counts * least) == pytest.approx(
+        exact_mean(radiance, counts), rel=1e-5
+    )
+
+
+@dtypes
+@pytest.mark.parametrize("size", [1e-38, 1e-30, 1e30, 3e38])
+def test_resolve_of_equal_radiance_is_that_radiance(dtype: type, size: float) -> None:
+    _, weights = batch(20, 9, dtype)
+    radiance = np.full((3, 20, 9), size, dtype)
+    assert resolve(radiance, weights) == pytest.approx(radiance[:, :, 0], rel=1e-6)
+
+
+def test_resolve_of_single_samples_is_those_samples() -> None:
+    radiance, weights = batch(100, 1)
+    assert (resolve(radiance, weights + np.float32(1e-3)) == radiance[:, :, 0]).all()
+
+
+def test_resolve_gives_black_for_black_and_keeps_colours_apart() -> None:
+    radiance, weights = batch(10, 4)
+    radiance[1] = 0
+    mean = resolve(radiance, weights)
+    assert (mean[1] == 0).all()
+    assert (mean[[0, 2]] > 0).all()
+
+
+@dtypes
+def test_weights_that_sum_to_zero_give_the_plain_mean_in_their_pixels_only(dtype: type) -> None:
+    radiance, weights = batch(4, 8, dtype)
+    weights[1] = 0
+    weights[2] = [1, -1, 2, -2, 0.5, -0.5, 0, 0]
+    mean = resolve(radiance, weights)
+    assert mean.dtype == dtype
+    for pixel in (1, 2):
+        assert mean[:, pixel] == pytest.approx(radiance[:, pixel].mean(axis=1), rel=1e-6)
+    expected = exact_mean(radiance[:, [0, 3]], weights[[0, 3]])
+    assert mean[:, [0, 3]] == pytest.approx(expected, rel=1e-6)
+
+
+@pytest.mark.parametrize(("n", "s"), [(0, 4), (3, 0), (0, 0)])
+@dtypes
+def test_no_samples_give_black_and_no_pixels_give_none(dtype: type, n: int, s: int) -> None:
+    mean = resolve(np.zeros((3, n, s), dtype), np.zeros((n, s), dtype))
+    assert mean.shape == (3, n)
+    assert mean.dtype == dtype
+    assert (mean == 0).all()
+
+
+def test_resolve_is_accurate_for_the_most_samples_that_a_scene_may_ask_for() -> None:
+    radiance, weights = batch(2, 65536)
+    assert resolve(radiance, weights) == pytest.approx(exact_mean(radiance, weights), rel=1e-4)
+
+
+@pytest.mark.parametrize("shape", [(4, 5), (4, 2, 5), (3, 2, 5, 1), (3,), ()])
+def test_radiance_of_another_shape_is_refused(shape: tuple[int, ...]) -> None:
+    with pytest.raises(ValueError, match="radiance") as caught:
+        resolve(np.zeros(shape, np.float32), np.zeros((2, 5), np.float32))
+    assert str(caught.value) == f"radiance must have shape (3, n, s), got {shape}"
+
+
+@pytest.mark.parametrize("shape", [(2, 4), (5, 2), (10,), (1, 5), (2, 1), (3, 2, 5), ()])
+def test_weights_that_do_not_match_the_radiance_are_refused(shape: tuple[int, ...]) -> None:
+    with pytest.raises(ValueError, match="weights") as caught:
+        resolve(np.zeros((3, 2, 5), np.float32), np.zeros(shape, np.float32))
+    assert str(caught.value) == f"weights must have shape (2, 5), got {shape}"
+
+
+# ---------------------------------------------------------------- arrays as they come
+
+BATCHES: dict[str, tuple[Callable[..., Array], list[Array]]] = {
+    "gaussian_weights": (gaussian_weights, [np.random.default_rng(1).random((2, 6, 5))]),
+    "resolve": (resolve, [*batch(6, 5, np.float64)]),
+    "resolve, zero weights": (resolve, [batch(6, 5, np.float64)[0], np.zeros((6, 5))]),
+    "resolve, huge weights": (resolve, [batch(6, 5, np.float64)[0], np.full((6, 5), 1e308)]),
+}
+
+
+@pytest.mark.parametrize("name", BATCHES)
+def test_inputs_may_be_read_only_and_stay_untouched(name: str) -> None:
+    function, arrays = BATCHES[name]
+    locked = [frozen(array) for array in arrays]
+    result = function(*locked)
+    assert all((a == b).all() for a, b in zip(locked, arrays, strict=True))
+    # A result that shares memory with an input would change it when the engine goes on with it.
+    assert not any(np.shares_memory(result, array) for array in locked)
+
+
+@pytest.mark.parametrize("name", BATCHES)
+def test_inputs_may_lie_in_memory_in_any_way(name: str) -> None:
+    function, arrays = BATCHES[name]
+    expected = function(*arrays)
+    for layout in (scattered, np.asfortranarray):
+        assert function(*(layout(a) for a in arrays)) == pytest.approx(expected, rel=1e-12)
+
+
+@pytest.mark.parametrize("name", BATCHES)
+def test_weights_and_means_leave_the_global_random_state_alone(name: str) -> None:
+    function, arrays = BATCHES[name]
+    with global_random_state_untouched():
+        function(*arrays)
