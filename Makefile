@@ -5,7 +5,7 @@
 .DELETE_ON_ERROR:
 
 VENV := .venv
-DEMO_SCENES ?= $(wordlist 1,4,$(sort $(wildcard scenes/*.yaml)))
+DEMO_SCENES ?= $(addprefix scenes/,$(addsuffix .yaml,still_life knots hills hall_of_mirrors))
 DEMO_FOLDER ?= out/demo
 
 # The newest Python that runs and can make an environment; only asked for where there is none yet.

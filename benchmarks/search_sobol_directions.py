@@ -16,8 +16,10 @@ import sys
 
 DIMENSIONS = 64
 BITS = 32
-MAX_LOG2 = 9
-DRAWS = 1500
+DRAWS = 300
+PAIR_SIZES = (2, 3, 4, 5, 6, 7, 8, 9)
+FOUR_SIZES = (4, 6, 8)
+"""Logarithms of the numbers of points for which t-values are counted."""
 
 
 def primitive_polynomials(degree: int) -> list[int]:
@@ -82,38 +84,56 @@ def rows(columns: list[int], log2: int) -> list[int]:
     ]
 
 
-def t_value(a: list[int], b: list[int], log2: int) -> int:
-    """Quality of the pair's first 2^log2 points: 0 is perfect stratification in every dyadic shape."""
-    rows_a, rows_b = rows(a, log2), rows(b, log2)
-    best = log2
-    for from_a in range(log2 + 1):
-        basis: dict[int, int] = {}
-        independent = 0
-        for row in rows_a[:from_a] + rows_b[: log2 - from_a]:
-            while row:
-                top = row.bit_length()
-                if top not in basis:
-                    basis[top] = row
-                    break
-                row ^= basis[top]
-            if not row:
+def t_value(forms: list[list[int]], log2: int) -> int:
+    """Quality of the first 2^log2 points in some dimensions: 0 is perfect stratification in every dyadic shape.
+
+    ``forms`` holds the ``rows`` of each dimension.
+    """
+    for strength in range(log2, 0, -1):
+        shapes = _compositions(strength, len(forms))
+        if all(
+            _independent([row for rows_, n in zip(forms, shape, strict=True) for row in rows_[:n]])
+            for shape in shapes
+        ):
+            return log2 - strength
+    return log2
+
+
+def _compositions(total: int, parts: int) -> list[tuple[int, ...]]:
+    if parts == 1:
+        return [(total,)]
+    return [
+        (first, *rest)
+        for first in range(total + 1)
+        for rest in _compositions(total - first, parts - 1)
+    ]
+
+
+def _independent(forms: list[int]) -> bool:
+    basis: dict[int, int] = {}
+    for form in forms:
+        row = form
+        while row:
+            top = row.bit_length()
+            if top not in basis:
+                basis[top] = row
                 break
-            independent += 1
-        best = min(best, independent)
-    return log2 - best
+            row ^= basis[top]
+        if not row:
+            return False
+    return True
 
 
-def cost(candidate: list[int], chosen: list[list[int]]) -> float:
-    """Weighted sum of squared t-values of a new dimension with the chosen ones."""
-    number = len(chosen)
+def cost(pair: list[list[int]], chosen: list[list[int]]) -> float:
+    """Weighted sum of squared t-values of a new pair: by itself, with the pixel's pair, and with its neighbours."""
     total = 0.0
-    for other, columns in enumerate(chosen):
-        partner = number % 2 == 1 and other == number - 1
-        weight = 20.0 if partner else 3.0 if other < 4 else 1.0 if number - other < 10 else 0.0
-        if weight:
-            total += weight * sum(
-                t_value(columns, candidate, log2) ** 2 for log2 in range(2, MAX_LOG2 + 1)
-            )
+    for log2 in PAIR_SIZES:
+        total += 20 * t_value([rows(c, log2) for c in pair], log2) ** 2
+        for columns in pair:
+            for other in chosen[:4] + chosen[4:][-6:]:
+                total += t_value([rows(columns, log2), rows(other, log2)], log2) ** 2
+    for log2 in FOUR_SIZES:
+        total += 15 * t_value([rows(c, log2) for c in chosen[:2] + pair], log2) ** 2
     return total
 
 
@@ -121,20 +141,23 @@ def main() -> None:
     """Search, and print the module."""
     rng = random.Random(1984)
     polynomials = [p for degree in range(1, 10) for p in primitive_polynomials(degree)]
-    chosen = [[1 << (BITS - 1 - k) for k in range(BITS)]]
-    table = [(0, [])]
-    for polynomial in polynomials[: DIMENSIONS - 1]:
-        degree = polynomial.bit_length() - 1
-        best = None
-        for _ in range(DRAWS if degree > 2 else 8):
-            initial = [2 * rng.randrange(1 << k) + 1 for k in range(degree)]
-            columns = directions(polynomial, initial)
+    # The first pair is a (0, 2)-sequence: the radical inverse and the polynomial x + 1.
+    table: list[tuple[int, list[int]]] = [(0, []), (polynomials[0], [1])]
+    chosen = [[1 << (BITS - 1 - k) for k in range(BITS)], directions(polynomials[0], [1])]
+    for first in range(2, DIMENSIONS, 2):
+        pair = polynomials[first - 1 : first + 1]
+        best: tuple[float, list[list[int]], list[list[int]]] | None = None
+        for _ in range(DRAWS):
+            initial = [
+                [2 * rng.randrange(1 << k) + 1 for k in range(p.bit_length() - 1)] for p in pair
+            ]
+            columns = [directions(p, m) for p, m in zip(pair, initial, strict=True)]
             price = cost(columns, chosen)
             if best is None or price < best[0]:
                 best = (price, initial, columns)
         assert best is not None
-        chosen.append(best[2])
-        table.append((polynomial, best[1]))
+        chosen += best[2]
+        table += zip(pair, best[1], strict=True)
         print(len(chosen), best[0], file=sys.stderr, flush=True)
     print('"""Primitive polynomials and initial direction numbers, one Sobol dimension a row.\n')
     print(

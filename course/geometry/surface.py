@@ -35,7 +35,7 @@ Hit points are computed from barycentrics, so their error, like that of Embree's
 place (2^-24) of the triangle's coordinates; measured in tests/geometry/test_surface.py.
 """
 
-SLIVER = 64.0
+SLIVER = 8.0
 """Length over height from which on a triangle's offset grows in proportion.
 
 Embree's plane of a long thin triangle is tilted by the rounding of a cross product of nearly parallel edges: the

@@ -61,7 +61,7 @@ def make_stubs(folder: Path) -> list[Stub]:
     files = [path for path in sorted(folder.glob("*.py")) if not path.stem.startswith("_")]
     if not files:
         raise SolutionError(f"{folder}: there are no solutions (*.py) to make stubs from")
-    return [make_stub(_read(path), path.stem, str(Path(folder.name, path.name))) for path in files]
+    return [make_stub(_read(path), path.stem, f"{folder.name}/{path.name}") for path in files]
 
 
 def make_stub(text: str, module: str, file: str) -> Stub:
@@ -85,7 +85,7 @@ def make_stub(text: str, module: str, file: str) -> Stub:
     tree = _parse(text, file)
     _check_cuts(tree, regions, file)
     owners = [_owner(tree, region, file) for region in regions]
-    _check_functions(tree, regions, owners, file)
+    _check_tasks(tree, regions, owners, file)
 
     lines = text.split("\n")
     for region, owner in reversed([*zip(regions, owners, strict=True)]):
@@ -97,9 +97,9 @@ def make_stub(text: str, module: str, file: str) -> Stub:
                 f"{region.indent}# TODO {task}: write your solution here",
                 f"{region.indent}raise {_not_written(task)}",
             ]
-    _remove_unused_imports(lines, file)
+    _remove_unused_imports(lines, _parse("\n".join(lines), f"{file} (without its regions)"))
     stub = "\n".join(lines).strip("\n") + "\n"
-    _check_leftovers(tree, _parse(stub, file), file)
+    _check_leftovers(tree, ast.parse(stub), file)
     # Names once each, though a function may have several regions.
     tasks = dict.fromkeys(f"{module}.{owner}" for owner in owners if owner is not None)
     return Stub(module, stub, tuple(tasks))
@@ -163,7 +163,7 @@ def _is_task(node: ast.stmt) -> TypeGuard[ast.FunctionDef]:
     return isinstance(node, ast.FunctionDef) and not node.name.startswith("_")
 
 
-def _check_functions(
+def _check_tasks(
     tree: ast.Module, regions: list[Region], owners: list[str | None], file: str
 ) -> None:
     """Refuse a public function that students would get whole, or not at all."""
@@ -188,8 +188,7 @@ def _remove(lines: list[str], first: int, last: int) -> None:
     lines[start:stop] = [""] * max(first - 1 - start, stop - last)
 
 
-def _remove_unused_imports(lines: list[str], file: str) -> None:
-    tree = _parse("\n".join(lines), file)
+def _remove_unused_imports(lines: list[str], tree: ast.Module) -> None:
     used = set(_names(tree)) | _KEPT
     for node in reversed(tree.body):
         if not isinstance(node, ast.Import | ast.ImportFrom):
@@ -212,9 +211,9 @@ def _check_leftovers(solution: ast.Module, stub: ast.Module, file: str) -> None:
             uses.setdefault(name, set()).update(_names(node))
         if not names:
             reached.update(_names(node))
-    new = reached
+    new = set(reached)
     while new:
-        new = set().union(*(uses.get(name, ()) for name in new)) - reached
+        new = {used for name in new for used in uses.get(name, ())} - reached
         reached |= new
     for node in solution.body:
         for name in _defined(node):

@@ -1,0 +1,1 @@
+"""Measurements: what the engine costs, printed as a table and written as JSON."""

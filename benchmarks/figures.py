@@ -1,0 +1,61 @@
+"""One measured figure, and the table of all."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from typing import Any
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A measurement and its goal.
+
+    Attributes
+    ----------
+    name : what was measured
+    value : the median
+    low, high : the range over the repetitions
+    goal : what it should reach; at most, or at least if ``at_least``
+    """
+
+    name: str
+    value: float
+    low: float
+    high: float
+    goal: float
+    at_least: bool = False
+
+    @property
+    def reached(self) -> bool:
+        """Whether the median meets the goal."""
+        return self.value >= self.goal if self.at_least else self.value <= self.goal
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data."""
+        return {**asdict(self), "reached": self.reached}
+
+
+def print_figures(figures: list[Figure]) -> None:
+    """A table on the terminal."""
+    from rich.console import Console
+    from rich.table import Table
+
+    table = Table(title="engine benchmark, ratios within this run")
+    for column in ("figure", "median", "range", "goal", ""):
+        table.add_column(column, justify="left" if column == "figure" else "right")
+    for f in figures:
+        sign = "≥" if f.at_least else "≤"
+        table.add_row(
+            f.name,
+            f"{f.value:.2f}",
+            f"{f.low:.2f} .. {f.high:.2f}",
+            f"{sign} {f.goal:g}",
+            "[green]reached[/]" if f.reached else "[red]missed[/]",
+        )
+    Console(width=110).print(table)
+
+
+def summary(name: str, values: list[float], goal: float, *, at_least: bool = False) -> Figure:
+    """The figure of repeated measurements."""
+    ordered = sorted(values)
+    return Figure(name, ordered[len(ordered) // 2], ordered[0], ordered[-1], goal, at_least)

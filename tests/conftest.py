@@ -1,0 +1,64 @@
+"""Scenes said in a line, and the rays that a camera should cast, worked out apart from the engine in float64."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from course import Scene, load_scene
+
+MakeScene = Callable[..., Scene]
+PixelRays = Callable[[Scene], tuple[NDArray[np.float64], NDArray[np.float64]]]
+
+
+@pytest.fixture
+def make_scene(tmp_path: Path) -> MakeScene:
+    """A scene from the values of its file; what isn't given is small and plain."""
+
+    def make(**parts: Any) -> Scene:
+        description: dict[str, Any] = {
+            "camera": {"eye": [0, 0, 4], "look_at": [0, 0, 0]},
+            "film": {"width": 32, "height": 32},
+            "sampler": {"type": "sobol", "samples": 4},
+            "materials": {"grey": {}},
+            "objects": [],
+            "lights": [],
+        }
+        description.update(parts)
+        path = tmp_path / "scene.yaml"
+        path.write_text(json.dumps(description), encoding="utf-8")
+        return load_scene(path)
+
+    return make
+
+
+@pytest.fixture
+def pixel_rays() -> PixelRays:
+    """The eye (3,) and the unit directions (3, H, W) through the middles of the pixels, float64."""
+
+    def rays(scene: Scene) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        description = scene.loaded.description
+        camera, film = description.camera, description.film
+        eye = np.array(camera.eye)
+        forward = np.array(camera.look_at) - eye
+        forward /= np.linalg.norm(forward)
+        right = np.cross(forward, camera.up)
+        right /= np.linalg.norm(right)
+        up = np.cross(right, forward)
+        half = np.tan(np.radians(camera.vertical_fov) / 2)
+        y = half * (1 - 2 * (np.arange(film.height) + 0.5) / film.height)
+        x = half * (2 * (np.arange(film.width) + 0.5) - film.width) / film.height
+        direction = (
+            forward[:, None, None]
+            + right[:, None, None] * x[None, None, :]
+            + up[:, None, None] * y[None, :, None]
+        )
+        return eye, direction / np.linalg.norm(direction, axis=0)
+
+    return rays

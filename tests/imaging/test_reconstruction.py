@@ -1,0 +1,71 @@
+"""Reconstruction: what a pixel makes of its samples, through functions that may be a student's."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from course.effects import Effects
+from course.errors import EffectError
+from course.imaging.reconstruction import Reconstruction
+
+EFFECTS = Effects("solutions")
+RESOLVE = EFFECTS.function("supersampling", "resolve")
+GAUSSIAN = EFFECTS.function("supersampling", "gaussian_weights")
+
+
+def samples(n: int = 20, s: int = 16) -> tuple[np.ndarray, np.ndarray]:
+    rng = np.random.default_rng(4)
+    return rng.random((3, n, s), np.float32), rng.random((2, n, s), np.float32)
+
+
+def test_the_box_filter_is_the_mean() -> None:
+    radiance, offsets = samples()
+    mean, weight = Reconstruction(RESOLVE, None, 1 / 6).pixels(radiance, offsets)
+    assert np.allclose(mean, radiance.astype(float).mean(axis=2), rtol=1e-6)
+    assert weight == 16
+    assert mean.dtype == np.float32
+
+
+@pytest.mark.parametrize("sigma", [0.05, 1 / 6, 3.0])
+def test_the_gaussian_filter_weighs_by_the_distance_from_the_middle(sigma: float) -> None:
+    radiance, offsets = samples()
+    mean, weight = Reconstruction(RESOLVE, GAUSSIAN, sigma).pixels(radiance, offsets)
+    squared = ((offsets.astype(float) - 0.5) ** 2).sum(axis=0)
+    w = np.exp(-squared / (2 * sigma**2))
+    assert np.allclose(mean, (radiance * w).sum(axis=2) / w.sum(axis=1), rtol=1e-4)
+    assert np.allclose(weight, w.sum(axis=1), rtol=1e-4)
+
+
+def test_a_single_sample_is_the_pixel() -> None:
+    radiance, offsets = samples(s=1)
+    mean, weight = Reconstruction(None, None, 1 / 6).pixels(radiance, offsets)
+    assert np.array_equal(mean, radiance[:, :, 0])
+    assert weight == 1
+
+
+def test_stretches_of_samples_add_up_to_the_whole() -> None:
+    radiance, offsets = samples(s=32)
+    one = Reconstruction(RESOLVE, GAUSSIAN, 1 / 6)
+    whole, _ = one.pixels(radiance, offsets)
+    halves = [one.pixels(radiance[:, :, h], offsets[:, :, h]) for h in (slice(16), slice(16, 32))]
+    total = sum(weight for _, weight in halves)
+    assert np.allclose(sum(mean * weight for mean, weight in halves) / total, whole, rtol=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("answer", "told"),
+    [(np.zeros((4, 20)), r"\(4, 20\)"), (None, "NoneType"), (np.zeros(3), r"\(3,\)")],
+)
+def test_a_function_that_returns_another_shape_is_named(answer: object, told: str) -> None:
+    radiance, offsets = samples()
+
+    def wrong(*_arguments: object) -> object:
+        return answer
+
+    for name, one in (
+        ("resolve", Reconstruction(wrong, None, 1.0)),  # type: ignore[arg-type]
+        ("gaussian_weights", Reconstruction(RESOLVE, wrong, 1.0)),  # type: ignore[arg-type]
+    ):
+        with pytest.raises(EffectError, match=f"supersampling.{name} returned {told}"):
+            one.pixels(radiance, offsets)

@@ -1,0 +1,52 @@
+"""Tiles: they cover the picture once, and hold about one batch of rays."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from course.imaging.tiles import RAYS, Tile, tile_picture
+
+PICTURES = [(1, 1), (7, 5), (64, 64), (640, 480), (33, 200), (1, 1000), (1000, 1)]
+
+
+@pytest.mark.parametrize(("width", "height"), PICTURES)
+@pytest.mark.parametrize("samples", [1, 3, 16, 64, 1024, 65536])
+def test_tiles_cover_every_pixel_once(width: int, height: int, samples: int) -> None:
+    if width * height * samples > 2e8:
+        width, height = min(width, 60), min(height, 50)
+    count = np.zeros((height, width), int)
+    for tile in tile_picture(width, height, samples):
+        assert tile.size > 0
+        count[tile.rows, tile.columns] += 1
+    assert (count == 1).all()
+
+
+@pytest.mark.parametrize("samples", [1, 2, 3, 4, 7, 16, 100, 1000, 16384, 65536])
+def test_a_tile_holds_at_most_one_batch_and_at_least_half_of_one(samples: int) -> None:
+    tiles = tile_picture(512 if samples < 1000 else 64, 256 if samples < 1000 else 8, samples)
+    largest = max(tile.size for tile in tiles)
+    assert largest * samples <= max(RAYS, samples)
+    assert largest * samples > min(RAYS / 2, samples / 2)
+
+
+def test_every_tile_has_a_number_of_its_own_and_small_ones_come_last() -> None:
+    tiles = tile_picture(100, 100, 16)
+    assert sorted(tile.number for tile in tiles) == list(range(len(tiles)))
+    sizes = [tile.size for tile in tiles]
+    assert sizes == sorted(sizes, reverse=True)
+
+
+def test_pixels_are_numbered_row_by_row_and_corners_go_with_them() -> None:
+    tile = Tile(3, 5, 2, 4, 3)
+    numbers = tile.pixel_numbers(10)
+    x, y = tile.corners()
+    assert numbers.tolist() == [25, 26, 27, 28, 35, 36, 37, 38, 45, 46, 47, 48]
+    assert numbers.dtype == np.uint32
+    assert x.dtype == y.dtype == np.float32
+    assert np.array_equal(y * 10 + x, numbers)
+
+
+def test_the_last_pixel_of_the_largest_picture_has_its_number() -> None:
+    tile = Tile(0, 65535, 65535, 1, 1)
+    assert tile.pixel_numbers(65536).tolist() == [2**32 - 1]
