@@ -129,7 +129,11 @@ def test_one_file_knows_embree() -> None:
     ("module", "source", "told"),
     [
         ("course.geometry.mesh", "import course.cli.main", "from floor 1 up to floor 5"),
-        ("course.geometry.mesh", "def f():\n    from course.render import tiles", "up to floor 4"),
+        (
+            "course.geometry.mesh",
+            "def f():\n    from course.rendering import tiles",
+            "up to floor 4",
+        ),
         (
             "course.core.vectors",
             "if TYPE_CHECKING:\n    from course.geometry.mesh import Mesh",

@@ -8,7 +8,7 @@ import numpy as np
 
 from course.core.gathering import gather
 from course.core.types import Floats32, Indices, Mask, Materials, Numbers
-from course.core.vectors import dot
+from course.core.vectors import cross, dot
 from course.geometry.embree import Intersections
 from course.geometry.surface import Surface
 
@@ -77,8 +77,7 @@ def find_hits(surface: Surface, found: Intersections, direction: Floats32) -> Hi
         direction = direction.take(hit, axis=1)
 
     normal = gather(surface.normal_offset, triangle)
-    ng, offset, inset = normal[:3], normal[3], normal[4]
-    u, v = _inside(u, v, inset)
+    ng, offset = normal[:3], normal[3]
 
     # From the corners, not origin + t * direction: its error is that of the triangle, however far the camera.
     corner = gather(surface.corner_edges, triangle)
@@ -88,6 +87,7 @@ def find_hits(surface: Surface, found: Intersections, direction: Floats32) -> Hi
     edge *= v
     p += edge
     p += corner[0:3]
+    _pull_off_edges(surface, p, triangle, u, v, normal[4:])
 
     facing = dot(ng, direction)
     side = np.copysign(np.float32(1), -facing)
@@ -123,17 +123,25 @@ def bulge(surface: Surface, hits: Hits, which: Indices) -> Floats32:
     return np.maximum(height, 0, out=height)
 
 
-def _inside(u: Floats32, v: Floats32, inset: Floats32) -> tuple[Floats32, Floats32]:
-    """Barycentrics moved off the triangle's edges, all three to at least about ``inset``."""
-    u, v = np.maximum(u, inset), np.maximum(v, inset)
-    excess = u + v
-    excess += inset
-    excess -= 1
-    np.maximum(excess, 0, out=excess)
-    excess *= np.float32(0.5)
-    u -= excess
-    v -= excess
-    return u, v
+def _pull_off_edges(
+    surface: Surface, p: Floats32, triangle: Numbers, u: Floats32, v: Floats32, inset: Floats32
+) -> None:
+    """Move the few points that lie next to an edge inwards, at right angles to it, in place."""
+    w = 1 - u
+    w -= v
+    near = np.flatnonzero((w < inset[0]) | (u < inset[1]) | (v < inset[2]))
+    if len(near) == 0:
+        return
+    table = surface.corner_edges[triangle.take(near)].T.astype(np.float64)
+    e1, e2 = table[3:6], table[6:9]
+    ng = surface.normal_offset[triangle.take(near), :3].T.astype(np.float64)
+    twice_area = dot(cross(e1, e2), ng)
+    moved = p[:, near].astype(np.float64)
+    for edge, barycentric, least in zip((e2 - e1, -e2, e1), (w, u, v), inset, strict=True):
+        # Twice the area over the edge's length is the height; over its square it makes the inward normal a unit one.
+        lacking = np.maximum(least.take(near) - barycentric.take(near), 0)
+        moved += cross(ng, edge) * (lacking * twice_area / dot(edge, edge))
+    p[:, near] = moved
 
 
 def _interpolated(rows: Floats32, u: Floats32, v: Floats32) -> Floats32:

@@ -45,11 +45,11 @@ error in height is about 2^-24 length / height times its length.
 MOST = 1024.0
 """The offset never grows by more than this."""
 
-INSET = 4.0
+INSET = 2.0
 """Rays leave from at least this many offsets inside the triangle's edges.
 
 In an acute concave corner a point above one wall, next to the edge, lies behind the other wall; this far from the edge
-it is still inside for dihedral angles down to atan(1 / INSET) = 14 degrees.
+it is still inside for dihedral angles down to atan(1 / INSET) = 27 degrees.
 """
 
 
@@ -68,8 +68,8 @@ class Surface:
     Attributes
     ----------
     corner_edges : (T, 9) float32, p0, e1, e2
-    normal_offset : (T, 5) float32, ng (unit), the distance by which rays leave the surface, and the least
-        barycentric that they leave from
+    normal_offset : (T, 7) float32, ng (unit), the distance by which rays leave the surface, and the barycentrics
+        w, u, v below which a point counts as next to an edge
     corner_normals : (T, 9) float32, n0, n1 - n0, n2 - n0; or None when every triangle is flat
     bulge : (T, 3) float32, k01 / 2, k02 / 2, k12 / 2; or None when every triangle is flat
     material : (T,) uint16 material numbers
@@ -108,13 +108,13 @@ def build_surface(parts: list[Part]) -> Surface:
     has_area = length > 0
     ng[has_area] /= length[has_area, None]
     ng[~has_area] = (0, 1, 0)
-    longest = np.max([(e * e).sum(1) for e in (e1, e2, e2 - e1)], axis=0, initial=0)
-    # Longest edge over the height on it, and with it the smallest height, sqrt(longest) / ratio.
-    ratio = np.divide(longest, length, out=np.ones_like(longest), where=has_area)
+    edges = np.stack([np.linalg.norm(e, axis=1) for e in (e2 - e1, e2, e1)], axis=1)
+    longest = edges.max(axis=1, initial=0)
+    ratio = np.divide(longest**2, length, out=np.ones_like(longest), where=has_area)
     offset = OFFSET * np.abs(p).max(axis=(1, 2), initial=0) * np.clip(ratio / SLIVER, 1, MOST)
-    height = np.divide(np.sqrt(longest), ratio, out=np.ones_like(longest), where=ratio > 0)
+    # A barycentric is the distance from its edge over the height on that edge, which is twice the area over its length.
     inset = np.minimum(
-        np.divide(INSET * offset, height, out=np.ones_like(height), where=height > 0), 1 / 3
+        INSET * offset[:, None] * edges / np.where(has_area, length, 1)[:, None], 1 / 3
     )
     count = np.arange(len(triangles))
     material = np.repeat(
@@ -134,7 +134,7 @@ def build_surface(parts: list[Part]) -> Surface:
     accelerator = Accelerator(vertices, triangles[keep])
     return Surface(
         corner_edges=_table(p0, e1, e2)[keep],
-        normal_offset=_table(ng, offset[:, None], inset[:, None])[keep],
+        normal_offset=_table(ng, offset[:, None], inset)[keep],
         corner_normals=None if corner_normals is None else corner_normals[keep],
         bulge=None if bulge is None else bulge[keep],
         material=material[keep],

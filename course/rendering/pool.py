@@ -11,7 +11,7 @@ from course.core.types import Floats32
 from course.imaging.film import Film
 from course.rendering.passes import Work
 from course.transport.counters import Counters
-from course.transport.tracing import Tracer
+from course.transport.tracing import CancelledError, Tracer
 
 TICK = 0.05
 """Seconds between two looks of the main thread at progress and Ctrl-C."""
@@ -108,11 +108,13 @@ class _Run:
         try:
             while (work := self._take()) is not None:
                 pixels, weight = self._tracer.render_tile(
-                    work.tile, work.first, work.samples, counters
+                    work.tile, work.first, work.samples, counters, lambda: self.stop
                 )
                 counters.start()
                 self._add(work, pixels, weight)
                 counters.lap("film")
+        except CancelledError:
+            pass
         except BaseException as error:  # noqa: BLE001 - handed to the thread that waits
             self.error = self.error or error
             self.stop = True
@@ -151,4 +153,5 @@ class _Run:
             item, pixels, weight = ready
             self._film.add(item.tile, pixels, weight, item.first + item.samples, item.whole)
             order += 1
-            self.done += 1
+            with self._lock:
+                self.done += 1

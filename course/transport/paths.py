@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -38,6 +39,22 @@ class Rays:
         """Number of rays."""
         return int(self.direction.shape[1])
 
+    def halves(self) -> tuple[Rays, Rays]:
+        """The second and the first half, each a batch of its own."""
+        middle = self.size // 2
+        path = np.arange(self.size) if self.path is None else self.path
+
+        def part(columns: slice) -> Rays:
+            return Rays(
+                self.origin if self.origin.shape[1] == 1 else self.origin[:, columns],
+                self.direction[:, columns],
+                None if self.throughput is None else self.throughput[:, columns],
+                path[columns],
+                None if self.medium is None else self.medium[columns],
+            )
+
+        return part(slice(middle, None)), part(slice(middle))
+
 
 @dataclass(frozen=True)
 class Draws:
@@ -46,6 +63,7 @@ class Draws:
     sampler: Sampler
     block: Block
     counters: Counters
+    cancelled: Callable[[], bool]
 
     def __call__(self, name: str, dimension: int, width: int, path: Indices | None) -> Floats32:
         """(width, n) numbers for the given paths, or for all paths of the block."""
@@ -54,3 +72,24 @@ class Draws:
             u = u.take(path, axis=1)
         self.counters.drew(name, u.size)
         return u
+
+
+def together(reflected: Rays | None, refracted: Rays | None) -> Rays | None:
+    """Both kinds in one batch: one large batch costs less than two small ones."""
+    if reflected is None or refracted is None:
+        return reflected or refracted
+    a, b = reflected, refracted
+    assert a.throughput is not None
+    assert b.throughput is not None
+    assert a.path is not None
+    assert b.path is not None
+    medium = None
+    if a.medium is not None and b.medium is not None:
+        medium = np.concatenate((a.medium, b.medium))
+    return Rays(
+        np.concatenate((a.origin, b.origin), axis=1),
+        np.concatenate((a.direction, b.direction), axis=1),
+        np.concatenate((a.throughput, b.throughput), axis=1),
+        np.concatenate((a.path, b.path)),
+        medium,
+    )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,13 +12,20 @@ from course.core.types import Floats32, Indices, Mask, Media
 from course.geometry.hits import Hits, find_hits
 from course.imaging.camera import Camera
 from course.imaging.reconstruction import Reconstruction
-from course.imaging.tiles import Tile
+from course.imaging.tiles import RAYS, Tile
 from course.scene.world import Settings, World
 from course.transport.bounce import bounced
 from course.transport.counters import Counters
 from course.transport.direct import direct_light
-from course.transport.paths import OPEN, Draws, Rays
+from course.transport.paths import OPEN, Draws, Rays, together
 from course.transport.plan import PIXEL_WIDTH, Lookups, Plan, make_lookups, make_plan
+
+LARGEST_BATCH = 4 * RAYS
+"""Rays followed at once."""
+
+
+class CancelledError(Exception):
+    """Nobody waits for this tile any more."""
 
 
 @dataclass(frozen=True)
@@ -33,12 +41,23 @@ class Tracer:
     lookups: Lookups
 
     def render_tile(
-        self, tile: Tile, first: int, samples: int, counters: Counters
+        self,
+        tile: Tile,
+        first: int,
+        samples: int,
+        counters: Counters,
+        cancelled: Callable[[], bool] = lambda: False,
     ) -> tuple[Floats32, Floats32 | float]:
-        """Colours (3, n) and weights of a tile's n pixels from one stretch of their samples."""
+        """Colours (3, n) and weights of a tile's n pixels from one stretch of their samples.
+
+        Raises
+        ------
+        CancelledError
+            Soon after ``cancelled`` has begun to say so.
+        """
         counters.start()
         block = Block(tile.pixel_numbers(self.settings.width), first, samples, tile.number)
-        draws = Draws(self.sampler, block, counters)
+        draws = Draws(self.sampler, block, counters, cancelled)
         offsets = draws("pixel", 0, PIXEL_WIDTH, None).reshape(2, tile.size, samples)
         counters.lap("sampler")
         x, y = tile.corners()
@@ -57,45 +76,58 @@ class Tracer:
         counters.lap("film")
         return pixels
 
-    def _trace(self, rays: Rays, paths: int, draws: Draws, counters: Counters) -> Floats32:
+    def _trace(self, camera_rays: Rays, paths: int, draws: Draws, counters: Counters) -> Floats32:
         """Radiance (3, paths) that the camera rays and all that follow from them bring back."""
         film = np.zeros((3, paths), np.float32)
-        for depth in range(self.plan.max_depth + 1):
-            found = self.world.surface.accelerator.intersect(
-                rays.origin, rays.direction, counters.embree
-            )
-            counters.lap("trace")
-            if self.plan.sees_environment:
-                self._add_environment(film, rays, found.triangle < 0)
-            hits = find_hits(self.world.surface, found, rays.direction)
-            if hits.size == 0:
-                counters.lap("hits")
-                break
-            throughput, path, medium = _of_hits(rays, hits)
-            if self.plan.absorbs:
-                throughput = self._absorbed(hits, throughput, medium)
-            counters.lap("hits")
-            radiance = self._shade(hits, path, depth, draws)
-            if radiance is not None:
-                if throughput is not None:
-                    radiance *= throughput
-                _add(film, path, radiance)
-            counters.lap("shade")
-            if depth == self.plan.max_depth:
-                break
-            reflected, refracted = bounced(
-                self.plan, self.lookups, hits, throughput, path, medium, self.settings.cutoff
-            )
-            if reflected is not None:
-                counters.rays["reflection"] += reflected.size
-            if refracted is not None:
-                counters.rays["refraction"] += refracted.size
-            counters.lap("bounce")
-            following = _together(reflected, refracted)
-            if following is None:
-                break
-            rays = following
+        # Glass may double the rays at each depth. Batches that outgrow the cache are split, and the last one put on
+        # the pile is followed to its end first, so that memory grows with the depth and not with its power of two.
+        pile = [(0, camera_rays)]
+        while pile:
+            if draws.cancelled():
+                raise CancelledError
+            depth, rays = pile.pop()
+            if rays.size > LARGEST_BATCH:
+                pile += [(depth, part) for part in rays.halves()]
+                continue
+            following = self._follow(rays, depth, film, draws, counters)
+            if following is not None:
+                pile.append((depth + 1, following))
         return film
+
+    def _follow(
+        self, rays: Rays, depth: int, film: Floats32, draws: Draws, counters: Counters
+    ) -> Rays | None:
+        """One depth: what the rays bring is added to the film, and the rays that go on are returned."""
+        accelerator = self.world.surface.accelerator
+        found = accelerator.intersect(rays.origin, rays.direction, counters.embree)
+        counters.lap("trace")
+        if self.plan.sees_environment:
+            self._add_environment(film, rays, found.triangle < 0)
+        hits = find_hits(self.world.surface, found, rays.direction)
+        throughput, path, medium = _of_hits(rays, hits)
+        if self.plan.absorbs:
+            throughput = self._absorbed(hits, throughput, medium)
+        counters.lap("hits")
+        if hits.size == 0:
+            return None
+        radiance = self._shade(hits, path, depth, draws)
+        if radiance is not None:
+            if throughput is not None:
+                radiance *= throughput
+            _add(film, path, radiance)
+        counters.lap("shade")
+        if depth == self.plan.max_depth:
+            return None
+        reflected, refracted = bounced(
+            self.plan, self.lookups, hits, throughput, path, medium, self.settings.cutoff
+        )
+        if reflected is not None:
+            counters.rays["reflection"] += reflected.size
+        if refracted is not None:
+            counters.rays["refraction"] += refracted.size
+        following = together(reflected, refracted)
+        counters.lap("bounce")
+        return following
 
     def _shade(self, hits: Hits, path: Indices | None, depth: int, draws: Draws) -> Floats32 | None:
         """Radiance (3, n) that leaves the hits towards the viewer without another bounce."""
@@ -191,24 +223,3 @@ def _add(film: Floats32, path: Indices | None, radiance: Floats32) -> None:
     for channel, values in zip(film, radiance, strict=True):
         # In the order of the rays, so the sum doesn't depend on what else is in the batch.
         np.add.at(channel, path, values)
-
-
-def _together(reflected: Rays | None, refracted: Rays | None) -> Rays | None:
-    """Both kinds in one batch: larger batches cost less than two small ones."""
-    if reflected is None or refracted is None:
-        return reflected or refracted
-    a, b = reflected, refracted
-    assert a.throughput is not None
-    assert b.throughput is not None
-    assert a.path is not None
-    assert b.path is not None
-    medium = None
-    if a.medium is not None and b.medium is not None:
-        medium = np.concatenate((a.medium, b.medium))
-    return Rays(
-        np.concatenate((a.origin, b.origin), axis=1),
-        np.concatenate((a.direction, b.direction), axis=1),
-        np.concatenate((a.throughput, b.throughput), axis=1),
-        np.concatenate((a.path, b.path)),
-        medium,
-    )

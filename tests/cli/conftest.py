@@ -19,6 +19,7 @@ def engine(monkeypatch: pytest.MonkeyPatch) -> Engine:
     stand_in = Engine()
     monkeypatch.setitem(vars(course), "load_scene", stand_in.load_scene)
     monkeypatch.setitem(vars(course), "render", stand_in.render)
+    monkeypatch.setattr("course.rendering.summary.summarize", lambda scene: scene.summary())
     return stand_in
 
 

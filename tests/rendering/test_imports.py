@@ -1,0 +1,85 @@
+"""A small scene pays for nothing that it doesn't use: what its process imports."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+NEVER = {"skimage", "scipy", "trimesh", "psutil", "rich", "networkx", "hypothesis"}
+"""Too heavy, and of no use for a scene of named shapes."""
+
+BOX: dict[str, Any] = {
+    "camera": {"eye": [1, 2, 4], "look_at": [0, 0, 0]},
+    "film": {"width": 64, "height": 64},
+    "materials": {"grey": {}},
+    "lights": [{"type": "point", "position": [2, 4, 3], "intensity": 50}],
+    "objects": [{"shape": "box", "material": "grey"}],
+}
+
+
+def imported(folder: Path, scene: dict[str, Any], *options: str) -> set[str]:
+    """Every module that `python -m course render` of a scene imports, by its full name."""
+    (folder / "box.yaml").write_text(json.dumps(scene), encoding="utf-8")
+    done = subprocess.run(
+        [sys.executable, "-X", "importtime", "-m", "course", "render", "box.yaml", *options],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    lines = [line for line in done.stderr.splitlines() if line.startswith("import time:")]
+    return {line.rpartition("|")[2].strip() for line in lines}
+
+
+def roots(modules: set[str]) -> set[str]:
+    return {name.partition(".")[0] for name in modules}
+
+
+def test_one_box_imports_no_heavy_library_and_no_module_of_effects_it_does_not_call(
+    tmp_path: Path,
+) -> None:
+    modules = imported(tmp_path, BOX)
+    assert (tmp_path / "box.png").exists()
+    assert {"numpy", "embreex", "course"} <= roots(modules), "the list is the right one"
+    assert not roots(modules) & NEVER
+    # No random number is drawn, no mesh read, no EXR written.
+    assert not modules & {"numpy.random", "course.geometry.mesh_files", "OpenEXR", "jsonschema"}
+
+
+@pytest.mark.parametrize(
+    ("change", "options", "effects"),
+    [
+        ({}, ("--spp", "1"), set()),
+        ({}, (), {"supersampling"}),
+        (
+            {"lights": [{"type": "sphere", "center": [2, 4, 3], "radius": 1, "intensity": 9}]},
+            (),
+            {"supersampling", "soft_shadows"},
+        ),
+        (
+            {"lights": [{"type": "sphere", "center": [2, 4, 3], "radius": 1, "intensity": 0}]},
+            ("--spp", "1"),
+            set(),
+        ),
+    ],
+)
+def test_a_module_of_effects_is_imported_when_the_scene_calls_it(
+    tmp_path: Path, change: dict[str, Any], options: tuple[str, ...], effects: set[str]
+) -> None:
+    (tmp_path / "box.yaml").write_text(json.dumps(BOX | change), encoding="utf-8")
+    code = (
+        "import json, sys\n"
+        "from course.cli.main import commands\n"
+        "commands(sys.argv[1:], standalone_mode=False)\n"
+        "json.dump([n for n in sys.modules if n.startswith('course_effects')], open('m.json', 'w'))\n"
+    )
+    arguments = ["render", "box.yaml", *options]
+    subprocess.run([sys.executable, "-c", code, *arguments], cwd=tmp_path, check=True)
+    names = json.loads((tmp_path / "m.json").read_text())
+    assert {name.rpartition(".")[2] for name in names} == effects

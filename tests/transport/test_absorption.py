@@ -1,0 +1,169 @@
+"""Beer's law: light fades by exp(-absorption * length) inside a dielectric, and nowhere else."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from course import Scene, render
+
+MakeScene = Callable[..., Scene]
+PixelRays = Callable[[Scene], tuple[NDArray[np.float64], NDArray[np.float64]]]
+
+ABSORPTION = np.array([0.2, 1.0, 4.0])
+EXACT = {"max_depth": 40, "cutoff": 0}
+WHITE = {"type": "constant", "radiance": 1}
+
+
+def glass(index: float = 1.0, absorption: Any = None) -> dict[str, Any]:
+    a = ABSORPTION.tolist() if absorption is None else absorption
+    return {"dielectric": {"refraction_index": index, "absorption": a}}
+
+
+def slab(thickness: float) -> dict[str, Any]:
+    return {"shape": "box", "material": "glass", "size": [50, thickness, 50]}
+
+
+def close(
+    linear: NDArray[np.float32], expected: NDArray[np.float64], tolerance: float = 1e-5
+) -> None:
+    assert np.allclose(linear, expected, rtol=0, atol=tolerance)
+
+
+@pytest.mark.parametrize("thickness", [0.01, 0.3, 2.0])
+def test_a_slab_without_reflection_absorbs_by_its_slant_thickness(
+    make_scene: MakeScene, pixel_rays: PixelRays, thickness: float
+) -> None:
+    scene = make_scene(
+        camera={"eye": [0, 4, 3], "look_at": [0, 0, 0], "vertical_fov": 60},
+        sampler={"type": "regular", "samples": 1},
+        objects=[slab(thickness)],
+        materials={"glass": glass()},
+        environment=WHITE,
+        integrator=EXACT,
+    )
+    _, direction = pixel_rays(scene)
+    length = thickness / np.abs(direction[1])
+    # The rays start and end 2^-19 of the half extent, 25, beside the surface: 5e-5 of absorption 4.
+    close(render(scene).linear, np.exp(-length[..., None] * ABSORPTION), 6e-4)
+
+
+@pytest.mark.parametrize("index", [1.5, 2.0])
+def test_a_slab_seen_head_on_sums_all_its_inner_reflections(
+    make_scene: MakeScene, index: float
+) -> None:
+    thickness = 0.5
+    scene = make_scene(
+        camera={"eye": [0, 4, 0], "look_at": [0, 0, 0], "up": [0, 0, 1], "vertical_fov": 0.1},
+        objects=[{"shape": "box", "material": "glass", "size": [2, thickness, 2]}],
+        materials={"glass": glass(index)},
+        environment=WHITE,
+        integrator=EXACT,
+    )
+    f = ((index - 1) / (index + 1)) ** 2
+    e = np.exp(-ABSORPTION * thickness)
+    transmitted = (1 - f) ** 2 * e / (1 - f**2 * e**2)
+    reflected = f + f * (1 - f) ** 2 * e**2 / (1 - f**2 * e**2)
+    close(render(scene).linear, np.broadcast_to(transmitted + reflected, (32, 32, 3)), 3e-5)
+
+
+def test_a_camera_inside_glass_looks_through_it(
+    make_scene: MakeScene, pixel_rays: PixelRays
+) -> None:
+    scene = make_scene(
+        camera={"eye": [0, 0, 0.25], "look_at": [0, 0, -1], "vertical_fov": 30},
+        sampler={"type": "regular", "samples": 1},
+        objects=[{"shape": "box", "material": "glass", "size": [2, 2, 2]}],
+        materials={"glass": glass()},
+        environment=WHITE,
+        integrator=EXACT,
+    )
+    _, direction = pixel_rays(scene)
+    length = 1.25 / np.abs(direction[2])
+    close(render(scene).linear, np.exp(-length[..., None] * ABSORPTION), 3e-5)
+
+
+@pytest.mark.parametrize("gap", [0.25, 0.75])
+def test_an_opaque_thing_inside_glass_is_seen_through_the_glass(
+    make_scene: MakeScene, gap: float
+) -> None:
+    inner = {"shape": "box", "material": "white", "size": [9, 2 - 2 * gap, 9]}
+    outer = {"shape": "box", "material": "glass", "size": [10, 2, 10]}
+    scene = make_scene(
+        camera={"eye": [0, 4, 0], "look_at": [0, 0, 0], "up": [0, 0, 1], "vertical_fov": 0.1},
+        objects=[outer, inner],
+        materials={"glass": glass(), "white": {"color": 1}},
+        lights=[{"type": "ambient", "radiance": 1}],
+        integrator=EXACT,
+    )
+    close(render(scene).linear, np.broadcast_to(np.exp(-ABSORPTION * gap), (32, 32, 3)), 1e-4)
+
+
+def test_a_mirror_inside_glass_is_seen_through_twice_the_glass(make_scene: MakeScene) -> None:
+    mirror = {"shape": "quad", "material": "mirror", "width": 9, "depth": 9}
+    outer = {"shape": "box", "material": "glass", "size": [10, 2, 10]}
+    scene = make_scene(
+        camera={"eye": [0, 4, 0], "look_at": [0, 0, 0], "up": [0, 0, 1], "vertical_fov": 0.1},
+        objects=[outer, mirror],
+        materials={"glass": glass(), "mirror": {"mirror": 1}},
+        environment=WHITE,
+        integrator=EXACT,
+    )
+    close(render(scene).linear, np.broadcast_to(np.exp(-ABSORPTION * 2), (32, 32, 3)), 1e-4)
+
+
+def test_light_does_not_fade_outside_of_glass(make_scene: MakeScene) -> None:
+    # Two panes far apart: the way between them costs nothing.
+    def panes(distance: float) -> NDArray[np.float32]:
+        objects = [slab(0.3) | {"transform": [{"translate": [0, y, 0]}]} for y in (0, -distance)]
+        scene = make_scene(
+            camera={"eye": [0, 4, 0], "look_at": [0, 0, 0], "up": [0, 0, 1], "vertical_fov": 0.1},
+            objects=objects,
+            materials={"glass": glass()},
+            environment=WHITE,
+            integrator=EXACT,
+        )
+        return render(scene).linear
+
+    expected = np.broadcast_to(np.exp(-ABSORPTION * 0.6), (32, 32, 3))
+    for distance in (1.0, 20.0):
+        close(panes(distance), expected, 6e-4)
+
+
+def test_absorption_counts_in_the_units_of_the_scene_file(make_scene: MakeScene) -> None:
+    for k in (1e-9, 1.0, 1e9):
+        scene = make_scene(
+            camera={"eye": [0, 4 * k, 0], "look_at": [0, 0, 0], "up": [0, 0, 1]}
+            | {"vertical_fov": 0.1},
+            objects=[{"shape": "box", "material": "glass", "size": [2 * k, 0.5 * k, 2 * k]}],
+            materials={"glass": glass(1.0, (ABSORPTION / k).tolist())},
+            environment=WHITE,
+            integrator=EXACT,
+        )
+        expected = np.broadcast_to(np.exp(-ABSORPTION * 0.5), (32, 32, 3))
+        close(render(scene).linear, expected, 3e-5)
+
+
+def test_glass_that_lets_nothing_through_is_black_and_finite(make_scene: MakeScene) -> None:
+    scene = make_scene(
+        camera={"eye": [0, 4, 0], "look_at": [0, 0, 0], "up": [0, 0, 1], "vertical_fov": 0.1},
+        objects=[slab(0.3)],
+        materials={"glass": glass(1.0, 1e300)},
+        environment=WHITE,
+        integrator=EXACT,
+    )
+    assert not render(scene).linear.any()
+
+
+def test_clear_glass_absorbs_nothing(make_scene: MakeScene) -> None:
+    scene = make_scene(
+        objects=[{"shape": "sphere", "material": "glass"}],
+        materials={"glass": glass(1.0, 0)},
+        environment=WHITE,
+        integrator=EXACT,
+    )
+    close(render(scene).linear, np.ones((32, 32, 3)), 1e-6)
