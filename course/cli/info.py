@@ -20,7 +20,8 @@ from course.cli.tables import print_sections, summary_sections
 def info(scene: Path, effects: str) -> None:
     """Say what a scene holds and what rendering it will call.
 
-    Nothing is rendered. Effects that the scene does not need are listed with the reason.
+    Nothing is rendered. Effects that the scene does not need are listed with the reason, objects
+    with where they lie, in the units of the file, and hints tell what is probably not meant.
     """
     from course import load_scene
     from course.rendering.summary import summarize

@@ -70,12 +70,16 @@ def render(
     from course import load_scene
     from course import render as render_picture
     from course.imaging.files import check_picture_path
+    from course.scene.needs import why_black
 
     out = Path(f"{scene.stem}.png") if out is None else out
     check_picture_path(out)
     if receipt_path is not None:
         check_writable(receipt_path)
     world = load_scene(scene, effects=effects)
+    black = why_black(world)
+    if black:
+        click.echo(f"hint: {scene}: {black}", err=True)
     with progress_bar(out.name) as progress:
         picture = render_picture(
             world,

@@ -20,7 +20,7 @@ import numpy as np
 from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
 
-from course.core.types import Floats32, Indices, Mask, Numbers
+from course.core.types import Floats32, Mask, Numbers
 
 
 @dataclass
@@ -56,7 +56,7 @@ class Accelerator:
     triangles : (T, 3) int32
     """
 
-    def __init__(self, vertices: Floats32, triangles: Indices) -> None:
+    def __init__(self, vertices: Floats32, triangles: Numbers) -> None:
         self._scene: EmbreeScene | None = None
         if len(triangles) == 0:
             return

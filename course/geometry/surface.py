@@ -19,12 +19,11 @@ terminator", Ray Tracing Gems II, ch. 4, moves the point to the tangent planes i
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
-from typing import Any
 
 import numpy as np
 
-from course.core.types import Floats32, Floats64, Indices, Materials
+from course.core.types import Floats, Floats32, Materials, Numbers
+from course.core.vectors import cross, dot
 from course.geometry.embree import Accelerator
 from course.geometry.mesh import Mesh
 
@@ -94,77 +93,75 @@ def build_surface(parts: list[Part]) -> Surface:
 
     Triangles that have no area in float32 are left out: no ray can hit them.
     """
-    corners = [_Corners(part) for part in parts]
-    smooth = any(c.normals is not None for c in corners)
-    vertices = _concatenate([c.vertices for c in corners], (0, 3))
-    first = np.cumsum([0, *(len(c.vertices) for c in corners)])
-    triangles = _concatenate(
-        [c.triangles + start for c, start in zip(corners, first, strict=False)], (0, 3)
-    ).astype(np.int32)
-    p = vertices.astype(np.float64)[triangles]
-    p0, e1, e2 = p[:, 0], p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]
-    ng = np.cross(e1, e2)
-    length = np.linalg.norm(ng, axis=1)
-    has_area = length > 0
-    ng[has_area] /= length[has_area, None]
-    ng[~has_area] = (0, 1, 0)
-    edges = np.stack([np.linalg.norm(e, axis=1) for e in (e2 - e1, e2, e1)], axis=1)
-    longest = edges.max(axis=1, initial=0)
-    ratio = np.divide(longest**2, length, out=np.ones_like(longest), where=has_area)
-    offset = OFFSET * np.abs(p).max(axis=(1, 2), initial=0) * np.clip(ratio / SLIVER, 1, MOST)
-    # A barycentric is the distance from its edge over the height on that edge, which is twice the area over its length.
-    inset = np.minimum(
-        INSET * offset[:, None] * edges / np.where(has_area, length, 1)[:, None], 1 / 3
+    smooth = any(part.mesh.normals is not None for part in parts)
+    tables = [_tables(part, smooth) for part in parts]
+    if not tables:
+        tables = [_tables(Part(Mesh(np.zeros((0, 3)), np.zeros((0, 3), np.intp)), 0), smooth)]
+    first = np.cumsum([0, *(len(table.vertices) for table in tables)])
+    vertices = np.concatenate([table.vertices for table in tables])
+    triangles = np.concatenate(
+        [table.triangles + start for table, start in zip(tables, first[:-1], strict=True)]
     )
-    count = np.arange(len(triangles))
-    material = np.repeat(
-        np.array([part.material for part in parts], np.uint16), [len(c.triangles) for c in corners]
-    )
-    corner_normals = bulge = None
-    if smooth:
-        n = _concatenate(
-            [c.normals_or(ng, i) for c, i in zip(corners, _spans(corners), strict=True)], (0, 3, 3)
-        )
-        n0, d1, d2 = n[:, 0], n[:, 1] - n[:, 0], n[:, 2] - n[:, 0]
-        k01, k02 = (e1 * d1).sum(1), (e2 * d2).sum(1)
-        k12 = ((e2 - e1) * (d2 - d1)).sum(1)
-        corner_normals = _table(n0, d1, d2)
-        bulge = _table(np.stack((k01, k02, k12), axis=1) / 2)
-    keep = count[has_area]
-    accelerator = Accelerator(vertices, triangles[keep])
     return Surface(
-        corner_edges=_table(p0, e1, e2)[keep],
-        normal_offset=_table(ng, offset[:, None], inset)[keep],
-        corner_normals=None if corner_normals is None else corner_normals[keep],
-        bulge=None if bulge is None else bulge[keep],
-        material=material[keep],
-        accelerator=accelerator,
+        corner_edges=np.concatenate([table.corner_edges for table in tables]),
+        normal_offset=np.concatenate([table.normal_offset for table in tables]),
+        corner_normals=np.concatenate([t.corner_normals for t in tables]) if smooth else None,
+        bulge=np.concatenate([table.bulge for table in tables]) if smooth else None,
+        material=np.concatenate([table.material for table in tables]),
+        accelerator=Accelerator(vertices, triangles),
     )
 
 
-class _Corners:
-    """A part's arrays, rounded to float32 once, so that every later number agrees with Embree's vertices."""
+@dataclass(frozen=True)
+class _Tables:
+    """One part's share of the surface; the last two are empty where no part is smooth."""
 
-    def __init__(self, part: Part) -> None:
-        self.vertices: Floats32 = part.mesh.vertices.astype(np.float32)
-        self.triangles: Indices = part.mesh.triangles.astype(np.intp)
-        self.normals: Floats64 | None = part.mesh.normals
-
-    def normals_or(self, ng: Floats64, span: slice) -> Floats64:
-        """(T, 3, 3) normals at the corners, the geometric ones where the part is flat."""
-        if self.normals is None:
-            return np.repeat(ng[span, None, :], 3, axis=1)
-        return self.normals[self.triangles]
+    vertices: Floats32
+    triangles: Numbers
+    corner_edges: Floats32
+    normal_offset: Floats32
+    material: Materials
+    corner_normals: Floats32
+    bulge: Floats32
 
 
-def _spans(corners: list[_Corners]) -> list[slice]:
-    ends = np.cumsum([0, *(len(c.triangles) for c in corners)])
-    return [slice(int(a), int(b)) for a, b in pairwise(ends)]
+def _tables(part: Part, smooth: bool) -> _Tables:
+    mesh = part.mesh
+    # Rounded to float32 once, so that every number below agrees with Embree's vertices.
+    vertices = mesh.vertices.astype(np.float32)
+    p = np.ascontiguousarray(np.moveaxis(vertices.astype(np.float64)[mesh.triangles], 0, 2))
+    ng = cross(p[1] - p[0], p[2] - p[0])
+    has_area = np.flatnonzero(dot(ng, ng) > 0)
+    triangles = mesh.triangles[has_area]
+    p, ng = p[:, :, has_area], ng[:, has_area]
+    e1, e2 = p[1] - p[0], p[2] - p[0]
+    twice_area = np.sqrt(dot(ng, ng))
+    ng /= twice_area
+    edges = np.sqrt(np.stack([dot(e, e) for e in (e2 - e1, e2, e1)]))
+    longest = edges.max(axis=0, initial=0)
+    thinness = np.clip(longest * longest / twice_area / SLIVER, 1, MOST)
+    offset = OFFSET * np.abs(p).max(axis=(0, 1), initial=0) * thinness
+    # A barycentric is the distance from its edge over the height on that edge, which is twice the area over its length.
+    inset = np.minimum(INSET * offset * edges / twice_area, 1 / 3)
+    corner_normals, bulge = np.zeros((2, 0, 0), np.float32)
+    if smooth:
+        n = np.repeat(ng[None], 3, axis=0)
+        if mesh.normals is not None:
+            n = np.moveaxis(mesh.normals[triangles], 0, 2)
+        d1, d2 = n[1] - n[0], n[2] - n[0]
+        corner_normals = _table(n[0], d1, d2)
+        bulge = _table(np.stack((dot(e1, d1), dot(e2, d2), dot(e2 - e1, d2 - d1))) / 2)
+    return _Tables(
+        vertices,
+        triangles.astype(np.int32),
+        _table(p[0], e1, e2),
+        _table(ng, offset[None], inset),
+        np.full(len(triangles), part.material, np.uint16),
+        corner_normals,
+        bulge,
+    )
 
 
-def _concatenate(arrays: list[Any], empty: tuple[int, ...]) -> Any:
-    return np.concatenate(arrays) if arrays else np.zeros(empty, np.float32)
-
-
-def _table(*columns: Floats64) -> Floats32:
-    return np.ascontiguousarray(np.concatenate(columns, axis=1), np.float32)
+def _table(*rows: Floats) -> Floats32:
+    """Rows of a triangle's numbers, (k, T) float64 together, as a table (T, k) float32."""
+    return np.ascontiguousarray(np.concatenate(rows).T, np.float32)

@@ -4,9 +4,17 @@ from __future__ import annotations
 
 from collections import Counter
 
-from course.scene.needs import needs_of, skipped_modules
+import numpy as np
+
+from course.scene.document import spell
+from course.scene.instancing import object_mesh
+from course.scene.material_table import returned_share
+from course.scene.needs import needs_of, skipped_modules, why_black
 from course.scene.scene import Scene
 from course.transport.plan import make_plan
+
+MOST_OBJECTS = 20
+"""Objects that are listed one by one."""
 
 
 def summarize(scene: Scene) -> dict[str, dict[str, object]]:
@@ -37,6 +45,7 @@ def summarize(scene: Scene) -> dict[str, dict[str, object]]:
             "center": "{:g} {:g} {:g}".format(*frame.center),
             "half extent": f"{frame.scale:g}",
         },
+        "bounds": _bounds(scene),
         "lights": {str(kind): number for kind, number in kinds.items()},
         "sampled": dict(dimensions),
         "effects": {
@@ -46,4 +55,49 @@ def summarize(scene: Scene) -> dict[str, dict[str, object]]:
             },
             **{f"skips {name}": reason for name, reason in skipped.items()},
         },
+        "hints": _hints(scene),
     }
+
+
+def _bounds(scene: Scene) -> dict[str, object]:
+    """Where each object lies, in the units of the file, for those who want to place another."""
+    loaded = scene.loaded
+    things = loaded.description.objects
+    rows = []
+    for number, thing in enumerate(things[:MOST_OBJECTS]):
+        # Made again, not kept since compiling: a render has no use for them.
+        mesh = object_mesh(thing, number, loaded.document, loaded.path.parent)
+        corners = mesh.vertices[mesh.triangles.ravel()]
+        low, high = corners.min(axis=0), corners.max(axis=0)
+        # What is left of a zero after a turn would hide it.
+        noise = 1e-12 * max(np.abs(low).max(), np.abs(high).max())
+        spans = [
+            f"{axis} {a if abs(a) > noise else 0:g}..{b if abs(b) > noise else 0:g}"
+            for axis, a, b in zip("xyz", low, high, strict=True)
+        ]
+        label = f"{number} {thing.name or thing.__struct_config__.tag}"
+        rows.append((label, [thing.material, f"{len(mesh.triangles):,} triangles", *spans]))
+    widths = [max(map(len, column)) for column in zip(*(cells for _, cells in rows), strict=True)]
+    listed: dict[str, object] = {
+        label: "  ".join(f"{cell:<{width}}" for cell, width in zip(cells, widths, strict=True))
+        for label, cells in rows
+    }
+    more = len(things) - len(rows)
+    return listed | ({f"and {more:,} more": ""} if more else {})
+
+
+def _hints(scene: Scene) -> dict[str, object]:
+    """What can be rendered, but is probably not meant."""
+    description, document = scene.loaded.description, scene.loaded.document
+    hints: dict[str, object] = {}
+    for name, material in description.materials.items():
+        share = returned_share(material)
+        if share.max() > 1.0 + 1e-9:
+            path = ("materials", name)
+            rest = "1 (reflected and refracted)" if material.dielectric else "color * diffuse"
+            numbers = ", ".join(f"{channel:g}" for channel in share)
+            hints[spell(path)] = (
+                f"{document.where(path)}: returns more light than it gets: {rest} + mirror is [{numbers}]"
+            )
+    black = why_black(scene)
+    return hints | ({"lights": black} if black else {})

@@ -16,12 +16,14 @@ from course.scene.description.scene import SceneDescription
 from course.scene.description.transforms import STEP
 from course.scene.document import Document, KeyPath, suggest
 from course.scene.expected import (
+    EXAMPLES,
     Number,
     Sequence,
     describe,
     either,
     fixed_length,
     item_type,
+    meant_by,
 )
 
 
@@ -134,6 +136,9 @@ class _Walk:
         tag = str(structs[0].tag_field)
         names = [str(each.tag) for each in structs]
         if tag not in value:
+            for key in value:
+                if meant_by(key, [tag]):
+                    return self._unknown((*path, key), [tag])
             return self._document.error(path, f"{tag} is missing: expected {either(names)}")
         return self._choice((*path, tag), value[tag], names)
 
@@ -169,7 +174,9 @@ class _Walk:
         return None
 
     def _unknown(self, path: KeyPath, known: list[str]) -> SceneError:
-        return self._document.error(path, f"unknown key; {suggest(path[-1], known)}")
+        meant = meant_by(path[-1], known)
+        hint = f"did you mean {either(meant)}?" if meant else suggest(path[-1], known)
+        return self._document.error(path, f"unknown key; {hint}")
 
 
 def _accepts(kind: inspect.Type, value: Any) -> bool:
@@ -218,4 +225,9 @@ def _described(kind: inspect.Type) -> str:
 
 def _a_map(kind: inspect.StructType) -> str:
     keys = [field.encode_name for field in kind.fields]
-    return f"a map with {'keys such as ' if len(keys) > 1 else 'the key '}{', '.join(keys[:3])}"
+    if kind.tag_field:
+        keys = [kind.tag_field, *keys]
+    example = EXAMPLES.get(kind.cls.__name__)
+    if example:
+        return f"a map with the keys {' and '.join(keys)}, such as {example}"
+    return f"a map with keys such as {', '.join(keys[:3])}"

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from course.scene.description.camera import CameraDescription
 from course.scene.description.lights import DirectionalLight, Light, RectangleLight, SphereLight
-from course.scene.description.objects import Object, TorusKnot
+from course.scene.description.objects import DisplacedSphere, Object, Torus, TorusKnot
 from course.scene.description.sampler import SamplerDescription
 from course.scene.description.scene import SceneDescription
 from course.scene.description.transforms import Rotate, Scale, Transform
@@ -108,14 +108,42 @@ def _check_object(
     if thing.material not in description.materials:
         hint = suggest(thing.material, description.materials)
         raise document.unexpected((*path, "material"), f"the name of one of the materials; {hint}")
-    if isinstance(thing, TorusKnot) and (divisor := math.gcd(thing.p, thing.q)) > 1:
-        raise document.error(
-            path,
-            f"p is {thing.p} and q is {thing.q}: expected numbers without a common divisor; "
-            f"these wind {divisor} times over the same curve",
-        )
+    if isinstance(thing, Torus):
+        _check_less(("tube", thing.tube), ("radius", thing.radius), path, document)
+    if isinstance(thing, DisplacedSphere):
+        _check_less(("amplitude", thing.amplitude), ("radius", thing.radius), path, document)
+    if isinstance(thing, TorusKnot):
+        _check_knot(thing, path, document)
     for index, step in enumerate(thing.transform):
         _check_step(step, (*path, "transform", index), document)
+
+
+def _check_less(
+    small: tuple[str, float], large: tuple[str, float], path: KeyPath, document: Document
+) -> None:
+    """Check that one key of an object is less than another; each may be a default."""
+    (name, value), (bound_name, bound) = small, large
+    if value < bound:
+        return
+    if name in document.value(path):
+        raise document.unexpected((*path, name), f"a number < {bound_name}, {bound:g} [world unit]")
+    raise document.unexpected(
+        (*path, bound_name), f"a number > {name}, {value:g} where it is not given [world unit]"
+    )
+
+
+def _check_knot(knot: TorusKnot, path: KeyPath, document: Document) -> None:
+    if (divisor := math.gcd(knot.p, knot.q)) > 1:
+        raise document.error(
+            path,
+            f"p is {knot.p} and q is {knot.q}: expected numbers without a common divisor; "
+            f"these wind {divisor} times over the same curve",
+        )
+    fewest = 8 * (knot.p + knot.q)
+    if knot.segments < fewest:
+        raise document.unexpected(
+            (*path, "segments"), f"a whole number from {fewest}, which is 8 (p + q), to 16384"
+        )
 
 
 def _check_step(step: Transform, path: KeyPath, document: Document) -> None:

@@ -1,7 +1,11 @@
-"""In plain words, what the scene format expects at a place: `a number > 0 [world unit]`."""
+"""In plain words, what the scene format expects at a place: `a number > 0 [world unit]`.
+
+And what a key or a value of another shape was probably meant to be.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Final
 
 from msgspec import inspect
@@ -10,6 +14,53 @@ from msgspec import inspect
 Number = inspect.FloatType | inspect.IntType
 Sequence = inspect.TupleType | inspect.VarTupleType
 
+EXAMPLES: Final = {
+    "ConstantEnvironment": "{type: constant, radiance: 0.5}",
+    "Rotation": "{axis: [0, 1, 0], degrees: 90}",
+}
+"""By the name of a description class: how a map is written where a number or a list comes to mind."""
+
+_MOVED = "transform: [{translate: [0, 1, 0]}]"
+_TURNED = "transform: [{rotate: {axis: [0, 1, 0], degrees: 90}}]"
+_SCALED = "transform: [{scale: 2}]"
+_EMITTED = ("radiance", "intensity", "irradiance")
+SYNONYMS: Final[dict[str, tuple[str, ...]]] = {
+    "fov": ("vertical_fov",),
+    "fovy": ("vertical_fov",),
+    "field_of_view": ("vertical_fov",),
+    "target": ("look_at",),
+    "direction": ("look_at",),
+    "pos": ("eye", "position", "center", "corner", _MOVED),
+    "position": ("eye", "center", "corner", _MOVED),
+    "location": ("eye", "position", "center", "corner", _MOVED),
+    "center": ("position", "corner", _MOVED),
+    "translate": (_MOVED,),
+    "translation": (_MOVED, "translate"),
+    "rotate": (_TURNED,),
+    "rotation": (_TURNED, "rotate"),
+    "scale": (_SCALED,),
+    "color": _EMITTED,
+    "power": _EMITTED,
+    "brightness": _EMITTED,
+    "strength": _EMITTED,
+    "emission": _EMITTED,
+    "radiance": ("irradiance", "intensity"),
+    "intensity": ("irradiance", "radiance"),
+    "type": ("shape",),
+    "shape": ("type",),
+    "size": ("radius", "width", "depth", "height"),
+    "path": ("file",),
+    "albedo": ("color",),
+    "shininess": ("exponent",),
+    "reflectivity": ("mirror",),
+    "ior": ("refraction_index", "dielectric: {refraction_index: 1.5}"),
+    "background": ("environment",),
+    "resolution": ("width", "height"),
+    "spp": ("samples",),
+    "depth": ("max_depth",),
+}
+"""What other programs call a key: the keys here, each perhaps with a value to show how it is used."""
+
 _NOUNS: Final = {inspect.FloatType: "number", inspect.IntType: "whole number"}
 
 
@@ -17,6 +68,12 @@ def describe(kind: inspect.Type, unit: str | None = None) -> str:
     """Say what a type of `msgspec.inspect` accepts, with range and unit."""
     text = _describe(kind)
     return f"{text} [{unit}]" if unit else text
+
+
+def meant_by(word: object, known: Iterable[str]) -> list[str]:
+    """List those known keys that other programs call by this word, written as to be used."""
+    names = set(known)
+    return [use for use in SYNONYMS.get(str(word).lower(), ()) if use.partition(":")[0] in names]
 
 
 def item_type(kind: Sequence, index: int) -> inspect.Type:
@@ -57,7 +114,7 @@ def _describe(kind: inspect.Type) -> str:
         case inspect.TupleType() | inspect.VarTupleType():
             return _describe_list(kind)
         case inspect.UnionType():
-            return " or ".join(dict.fromkeys(map(_describe, kind.types)))
+            return either(list(dict.fromkeys(map(_describe, kind.types))))
         case _:
             return "a map"
 

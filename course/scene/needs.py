@@ -1,15 +1,17 @@
-"""Which student functions a scene calls, and which line of the scene asks for each."""
+"""Which student functions a scene calls, and which line asks for each; whether it needs light."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import get_args
 
 from course.appearance.materials import MaterialTable
 from course.effects import MODULES
 from course.scene import description as d
 from course.scene.document import KeyPath
-from course.scene.light_power import why_dark
+from course.scene.light_power import power, why_dark
 from course.scene.loading import Loaded
+from course.scene.scene import Scene
 from course.scene.world import Settings
 
 
@@ -57,3 +59,29 @@ def skipped_modules(needs: list[Need]) -> dict[str, str]:
     """Modules that are never imported for this scene, each with the reason."""
     used = {need.function.partition(".")[0] for need in needs}
     return {module: _REASONS[module] for module in MODULES if module not in used}
+
+
+def why_black(scene: Scene) -> str:
+    """Say why every picture of a scene is black for want of light; empty where there is some."""
+    world, lights = scene.compiled.world, scene.loaded.description.lights
+    seen = world.materials.ambient * world.ambient[:, None] + world.materials.emission
+    if world.lights or seen.any() or not world.environment.black:
+        return ""
+    if not lights:
+        kinds = ", ".join(str(kind.__struct_config__.tag) for kind in get_args(d.Light))
+        return (
+            "the picture will be black: the scene has no lights, and its environment is black; "
+            f"known are {kinds}, such as {{type: ambient, radiance: 1}}"
+        )
+    reasons = dict(world.skipped_lights)
+    for number, light in enumerate(lights):
+        if isinstance(light, d.AmbientLight):
+            dark = not power(light).any()
+            reasons[f"light {number}"] = (
+                "it has no power" if dark else "no material has an ambient term"
+            )
+    listed = [f"{name}: {reason}" for name, reason in list(reasons.items())[:3]]
+    return (
+        "the picture will be black: the environment is black, and no light shows anything "
+        f"({'; '.join(listed)}{'; ...' if len(reasons) > 3 else ''})"
+    )

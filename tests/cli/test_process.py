@@ -87,6 +87,17 @@ def test_a_scene_becomes_a_png_and_an_exr_of_its_size(tmp_path: Path, scene: Pat
     assert np.isfinite(pixels).all()
 
 
+def test_a_scene_without_light_says_so_on_one_line_and_is_rendered(
+    tmp_path: Path, scene: Path
+) -> None:
+    scene.write_text(SCENE.replace("lights:", "lights: [] #"), encoding="utf-8")
+    done = course(tmp_path, "render", scene.name)
+    assert done.returncode == 0
+    assert done.stderr.startswith("hint: box.yaml: the picture will be black: the scene has no ")
+    assert done.stderr.count("\n") == 1
+    assert (tmp_path / "box.png").exists()
+
+
 def test_a_receipt_has_its_keys(tmp_path: Path, scene: Path) -> None:
     done = course(tmp_path, "render", scene.name, "--receipt", "cost.json", "--seed", "5")
     assert done.returncode == 0

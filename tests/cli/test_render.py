@@ -147,6 +147,16 @@ def test_a_refusal_is_one_message_and_nothing_else(
     assert not files(tmp_path)
 
 
+def test_a_black_picture_is_rendered_with_one_line_that_says_why(
+    run: Run, engine: Engine, tmp_path: Path
+) -> None:
+    engine.why_black = "the picture will be black: there are no lights"
+    result = run("render", "box.yaml")
+    assert result.exit_code == 0
+    assert result.stderr == "hint: box.yaml: the picture will be black: there are no lights\n"
+    assert files(tmp_path) == {"box.png"}
+
+
 def test_a_defect_is_not_taken_for_a_mistake_of_the_user(run: Run, engine: Engine) -> None:
     engine.error = ZeroDivisionError("a defect")
     assert run("render", "box.yaml").exception is engine.error

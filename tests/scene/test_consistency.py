@@ -1,10 +1,12 @@
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Callable
 
 import pytest
 
+from course.geometry import shapes
 from course.scene.consistency import nearest_squares
 from course.scene.loading import Loaded
 
@@ -176,12 +178,86 @@ def test_the_default_up_is_blamed_at_the_camera(refusal: Callable[[str], str]) -
                 "these wind 2 times over the same curve"
             ),
         ),
+        (
+            "p: 3, q: 4",
+            "p: 3, q: 4, segments: 55",
+            (
+                "38: objects[7].segments is 55: expected a whole number from 56, which is "
+                "8 (p + q), to 16384"
+            ),
+        ),
+        (
+            "shape: torus,",
+            "shape: torus, radius: 2, tube: 2.0,",
+            "37: objects[6].tube is 2.0: expected a number < radius, 2 [world unit]",
+        ),
+        (
+            "{shape: torus, material: red}",
+            "\n    shape: torus\n    material: red\n    radius: 0.25",
+            (
+                "40: objects[6].radius is 0.25: expected a number > tube, 0.25 where it is not "
+                "given [world unit]"
+            ),
+        ),
+        (
+            "shape: displaced_sphere,",
+            "shape: displaced_sphere, amplitude: 1,",
+            "39: objects[8].amplitude is 1: expected a number < radius, 1 [world unit]",
+        ),
+        (
+            "shape: displaced_sphere,",
+            "shape: displaced_sphere, radius: 0.1,",
+            (
+                "39: objects[8].radius is 0.1: expected a number > amplitude, 0.1 where it is "
+                "not given [world unit]"
+            ),
+        ),
     ],
 )
 def test_a_contradiction_names_the_key_to_change(
     refusal_of: Callable[[str, str], str], old: str, new: str, message: str
 ) -> None:
     assert refusal_of(old, new) == f"scene.yaml:{message}"
+
+
+@pytest.mark.parametrize(
+    ("kind", "values", "beyond"),
+    [
+        ("torus", {"radius": 1.0, "tube": 0.999}, {"tube": 1.0}),
+        ("torus", {"segments": 4096, "sides": 4096}, {"sides": 4097}),
+        ("torus", {"segments": 3, "sides": 3}, {"segments": 2}),
+        ("torus_knot", {"p": 32, "q": 31, "tube": 0.01, "segments": 504}, {"segments": 503}),
+        ("torus_knot", {"p": 32, "q": 31, "tube": 0.01, "segments": 504}, {"p": 33}),
+        ("torus_knot", {"p": 31, "q": 32, "tube": 0.01, "segments": 504}, {"q": 33}),
+        ("torus_knot", {"p": 1, "q": 1, "segments": 16, "sides": 1024}, {"segments": 15}),
+        ("torus_knot", {"segments": 40, "sides": 1024}, {"sides": 1025}),
+        ("displaced_sphere", {"radius": 1.0, "amplitude": 0.999}, {"amplitude": 1.0}),
+        ("displaced_sphere", {"segments": 8, "frequency": 1e6}, {"frequency": 1.001e6}),
+        ("height_field", {"segments": 1, "frequency": 1e6}, {"frequency": 1.001e6}),
+        ("sphere", {"segments": 4096}, {"segments": 4097}),
+    ],
+)
+def test_the_format_and_the_shapes_have_the_same_limits(
+    load: Callable[[str], Loaded],
+    refusal: Callable[[str], str],
+    kind: str,
+    values: dict[str, float],
+    beyond: dict[str, float],
+) -> None:
+    def text(given: dict[str, float]) -> str:
+        thing = json.dumps({"shape": kind, "material": "red", **given})
+        return (
+            "camera: {eye: [0, 0, 1], look_at: [0, 0, 0]}\n"
+            f"materials: {{red: {{}}}}\nobjects: [{thing}]\n"
+        )
+
+    make = getattr(shapes, kind)
+    load(text(values))
+    make(**values)
+    (name,) = beyond
+    assert refusal(text(values | beyond)).startswith(f"scene.yaml:3: objects[0].{name} is ")
+    with pytest.raises(ValueError, match=name):
+        make(**(values | beyond))
 
 
 def test_an_object_without_any_materials_says_so(refusal: Callable[[str], str]) -> None:

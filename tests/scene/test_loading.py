@@ -7,7 +7,9 @@ from pathlib import Path
 
 import pytest
 
+from course.scene.expected import SYNONYMS, meant_by
 from course.scene.loading import Loaded, load_description
+from course.scene.schema import json_schema
 
 SHAPES = (
     "quad, box, sphere, disk, cylinder, cone, torus, torus_knot, displaced_sphere, height_field "
@@ -86,16 +88,16 @@ def test_a_shared_value_may_be_given_by_alias_and_merge(
             "color: [1, 0, 0]",
             "color: red",
             (
-                '13: materials.red.color is "red": expected a number from 0 to 1 or '
-                "3 numbers from 0 to 1"
+                '13: materials.red.color is "red": expected a number from 0 to 1, '
+                "3 numbers from 0 to 1 or null"
             ),
         ),
         (
             "color: [1, 0, 0]",
             "color: [1, 0]",
             (
-                "13: materials.red.color is [1, 0]: expected a number from 0 to 1 or "
-                "3 numbers from 0 to 1"
+                "13: materials.red.color is [1, 0]: expected a number from 0 to 1, "
+                "3 numbers from 0 to 1 or null"
             ),
         ),
         (
@@ -173,9 +175,9 @@ def test_a_wrong_value_is_named_with_what_was_expected(
         ),
         (
             "refraction_index: 1.5",
-            "ior: 1.5",
+            "bend: 1.5",
             (
-                "16: materials.glass.dielectric.ior: unknown key; known are refraction_index, "
+                "16: materials.glass.dielectric.bend: unknown key; known are refraction_index, "
                 "absorption"
             ),
         ),
@@ -209,6 +211,87 @@ def test_an_unknown_key_is_named_with_the_nearest_known_one(
     refusal_of: Callable[[str, str], str], old: str, new: str, message: str
 ) -> None:
     assert refusal_of(old, new) == f"scene.yaml:{message}"
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "meant"),
+    [
+        ("vertical_fov: 35", "fov: 35", "vertical_fov"),
+        ("vertical_fov: 35", "FOV: 35", "vertical_fov"),
+        ("  eye:", "  position:", "eye"),
+        ("  look_at:", "  target:", "look_at"),
+        ("look_at: [0, 0.5, 0]", "direction: [0, 0, -1]", "look_at"),
+        ("width: 10,", "position: [0, 1, 0],", "transform: [{translate: [0, 1, 0]}]"),
+        (
+            "width: 10,",
+            "rotation: [0, 90, 0],",
+            "transform: [{rotate: {axis: [0, 1, 0], degrees: 90}}]",
+        ),
+        ("width: 10,", "scale: 2,", "transform: [{scale: 2}]"),
+        ("width: 10,", "size: 2,", "width or depth"),
+        ("- scale: -2", "- translation: [0, 1, 0]", "translate"),
+        ("radius: 0.5,", "size: 0.5,", "radius"),
+        ("shape: disk", "type: disk", "shape"),
+        ("position: [1, 2, 3]", "pos: [1, 2, 3]", "position"),
+        ("center: [0, 4, 0]", "position: [0, 4, 0]", "center"),
+        ("intensity: [10, 20, 30]", "color: [10, 20, 30]", "intensity"),
+        ("intensity: [10, 20, 30]", "power: 10", "intensity"),
+        ("radius: 0, intensity: 3", "radius: 1, color: 3", "radiance or intensity"),
+        ("irradiance: 1", "color: 1", "irradiance"),
+        ("type: ambient, radiance", "type: ambient, color", "radiance"),
+        ("refraction_index: 1.5", "ior: 1.5", "refraction_index"),
+        ("mirror: 0.9", "ior: 1.5", "dielectric: {refraction_index: 1.5}"),
+    ],
+)
+def test_what_other_programs_call_a_key_is_answered_with_the_name_here(
+    refusal_of: Callable[[str, str], str], old: str, new: str, meant: str
+) -> None:
+    assert refusal_of(old, new).endswith(f": unknown key; did you mean {meant}?")
+
+
+def test_every_synonym_leads_to_a_key_of_the_format() -> None:
+    known = {
+        key
+        for definition in json_schema()["$defs"].values()
+        for key in definition.get("properties", {})
+    }
+    for word, uses in SYNONYMS.items():
+        assert word == word.lower()
+        assert meant_by(word.upper(), known) == list(uses)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        (
+            "environment: {type: constant, radiance: [0.1, 0.2, 0.3]}",
+            "environment: 0.5",
+            (
+                "11: environment is 0.5: expected a map with the keys type and radiance, such as "
+                "{type: constant, radiance: 0.5}"
+            ),
+        ),
+        (
+            "rotate: {axis: [0, 1, 0], degrees: 30}",
+            "rotate: [0, 90, 0]",
+            (
+                "32: objects[1].transform[2].rotate is [0, 90, 0]: expected a map with the keys "
+                "axis and degrees, such as {axis: [0, 1, 0], degrees: 90}"
+            ),
+        ),
+    ],
+)
+def test_a_map_that_nobody_expects_is_shown_by_example(
+    good: str,
+    load: Callable[[str], Loaded],
+    refusal_of: Callable[[str, str], str],
+    old: str,
+    new: str,
+    message: str,
+) -> None:
+    assert refusal_of(old, new) == f"scene.yaml:{message}"
+    key, example = new.partition(":")[0], message.partition("such as ")[2]
+    load(good.replace(old, f"{key}: {example}"))  # Who does as the message says, is done.
 
 
 @pytest.mark.parametrize(

@@ -13,7 +13,8 @@ from course.scene.loading import Loaded
 from course.scene.schema import json_schema
 from course.scene.yaml_tree import parse_document, read_document
 
-SCENES = sorted((Path(__file__).parents[2] / "scenes").glob("*.yaml"))
+ROOT = Path(__file__).parents[2]
+SCENES = sorted((ROOT / "scenes").glob("*.yaml"))
 
 
 @pytest.fixture(scope="module")
@@ -98,6 +99,11 @@ def test_the_schema_accepts_the_shipped_scenes(
         (", radiance: 5", ""),
         (", radiance: 5", ", radiance: 5, intensity: 5"),
         ("file: bunny.ply", "file: ''"),
+        ("p: 3, q: 4", "p: 33, q: 4"),
+        ("p: 3, q: 4", "p: 3, q: 34"),
+        ("p: 3, q: 4", "p: 3, q: 4, sides: 1025"),
+        ("p: 3, q: 4", "p: 3, q: 4, segments: 16385"),
+        ("p: 3, q: 4", "p: 3, q: 4, segments: 15"),
     ],
 )
 def test_the_schema_refuses_what_loading_refuses(
@@ -109,6 +115,33 @@ def test_the_schema_refuses_what_loading_refuses(
 ) -> None:
     assert refusal_of(old, new)
     assert not validator.is_valid(parse_document(good.replace(old, new).encode(), "a").data)
+
+
+def test_the_schema_says_what_a_colour_is_that_is_not_given() -> None:
+    color = json_schema()["$defs"]["MaterialDescription"]["properties"]["color"]
+    assert color["default"] is None
+    assert "0.8 (1 - mirror)" in color["description"]
+
+
+def test_limits_that_take_two_keys_are_in_the_descriptions() -> None:
+    definitions = json_schema()["$defs"]
+    for shape, key, other in (
+        ("Torus", "tube", "radius"),
+        ("DisplacedSphere", "amplitude", "radius"),
+        ("TorusKnot", "segments", "8 (p + q)"),
+    ):
+        assert other in definitions[shape]["properties"][key]["description"]
+
+
+def test_the_first_scene_names_the_schema_that_its_comment_says_how_to_write() -> None:
+    scene = ROOT / "scenes" / "still_life.yaml"
+    first, *rest = scene.read_text(encoding="utf-8").splitlines()[:4]
+    start, _, name = first.partition("$schema=")
+    assert start == "# yaml-language-server: "
+    written = f"{scene.parent.name}/{name}"  # The first line is relative to the scene.
+    assert f"`course schema -o {written}`" in " ".join(rest)
+    assert f"course schema -o {written}" in (ROOT / "README.md").read_text(encoding="utf-8")
+    assert f"/{written}" in (ROOT / ".gitignore").read_text(encoding="utf-8").split()
 
 
 @pytest.mark.parametrize("emission", ["intensity: null, radiance: 5", "intensity: 1"])

@@ -63,7 +63,7 @@ def test_a_mirror_shows_a_lamp_where_the_law_of_reflection_puts_it(
         film={"width": 64, "height": 64},
         sampler=ONE,
         objects=[FLOOR],
-        materials={"m": {"mirror": 0.5}},
+        materials={"m": {"color": 0, "mirror": 0.5}},
         lights=[lamp(1.5, False, 1.2, 3.0)],
     )
     eye, d = pixel_rays(scene)
@@ -172,7 +172,7 @@ def test_reflected_and_refracted_light_obey_fresnel_and_snell(
         found.append(grey(scene))
     eye, d = pixel_rays(scene)
     cos_i = -d[1] * sign
-    assert (cos_i > 0.1).all()
+    assert (cos_i > 0.05).all()
     reflectance, cos_t = fresnel(cos_i, eta)
     hit = eye[:, None, None] + d * (1 / cos_i)
     # Snell: the part of the direction along the surface is eta times as long, the other is cos_t.
@@ -221,9 +221,9 @@ def test_clear_glass_in_a_white_furnace_cannot_be_seen(
 ) -> None:
     found = furnace(make_scene, thing, index, **EXACT)
     # Never more than everything. What is missing after 64 bounces is (1 - F) F^64 <= 1/(65 e) of a path that meets the
-    # surface at one angle throughout, as in a sphere; a box keeps some light in by total reflection for ever.
+    # surface at one angle throughout, as in a ball; facets keep some light in by total reflection for ever.
     assert found.max() <= 1 + 1e-5
-    if thing["shape"] == "sphere":
+    if thing == {"shape": "sphere"}:
         assert found.min() > 1 - 1.5 / (65 * np.e)
     assert np.median(found) > 1 - 1e-4
 
@@ -254,6 +254,34 @@ def test_a_smooth_mirror_sends_no_ray_into_itself(make_scene: MakeScene) -> None
         found = grey(scene)
         # Each sample sees the sky or its mirror image, one bounce away.
         assert np.isin(found, [0.5, 0.625, 0.75, 0.875, 1.0]).all()
+
+
+def test_a_smooth_mirror_ball_shows_a_lamp_where_a_round_one_does(
+    make_scene: MakeScene, pixel_rays: PixelRays
+) -> None:
+    scene = make_scene(
+        camera={"eye": [0, 0, 5], "look_at": [0, 0, 0], "vertical_fov": 20},
+        film={"width": 64, "height": 64},
+        sampler=ONE,
+        objects=[{"shape": "sphere", "material": "m", "segments": 64}],
+        materials={"m": {"color": 0, "mirror": 0.5}},
+        lights=[lamp(4, False, 2, 4.0)],
+    )
+    eye, d = pixel_rays(scene)
+    b = np.tensordot(eye, d, 1)
+    inside = b**2 - eye @ eye + 1
+    n = eye[:, None, None] - (b + np.sqrt(np.maximum(inside, 0))) * d
+    cosine = -(d * n).sum(axis=0)
+    seen = (inside > 0) & (cosine > 0.3)
+    mirrored = d + 2 * cosine * n
+    up = np.where(mirrored[1] > 1e-6, mirrored[1], np.nan)
+    p = n + mirrored * (4 - n[1]) / up
+    reach = np.nan_to_num(np.abs(p[[0, 2]]).max(axis=0), nan=np.inf)
+    found = grey(scene)
+    # Normals err by (2 pi / 64)^2 / 8 of a radian, which moves what is seen 4 away by 1% of the lamp; facets by 10%.
+    assert (found[seen & (reach < 1.9)] == 2).all()
+    assert not found[seen & (reach > 2.1)].any()
+    assert (seen & (reach < 1.9)).sum() > 100
 
 
 def test_a_camera_inside_glass_looks_out(make_scene: MakeScene) -> None:

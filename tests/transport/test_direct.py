@@ -23,7 +23,7 @@ PixelRays = Callable[[Scene], tuple[NDArray[np.float64], NDArray[np.float64]]]
 Array = NDArray[np.float64]
 
 FLOOR = {"shape": "quad", "material": "grey", "width": 6, "depth": 6}
-CAMERA = {"eye": [0.4, 2, 3], "look_at": [0, 0, 0], "vertical_fov": 40}
+CAMERA = {"eye": [0.4, 2, 1.5], "look_at": [0, 0, -0.2], "vertical_fov": 40}
 ONE = {"type": "regular", "samples": 1}
 COLOR = np.array([0.9, 0.5, 0.2])
 
@@ -206,7 +206,7 @@ def test_a_rectangle_by_radiance_gives_the_irradiance_of_lamberts_polygon(
     light = {"type": "rectangle", "corner": corner.tolist(), "edge_u": u.tolist()}
     mean, tolerance = estimate(spot(light | {"edge_v": v.tolist(), "radiance": 2.0}))
     exact = 2 * lambert_polygon(np.stack((corner, corner + u, corner + u + v, corner + v))) / np.pi
-    assert tolerance < 0.02 * exact, "the estimate is worth something"
+    assert tolerance < 0.03 * exact, "the estimate is worth something"
     assert abs(mean - exact) < tolerance
     # The other side of the same light is dark.
     back = light | {"edge_u": v.tolist(), "edge_v": u.tolist(), "radiance": 2.0}
@@ -226,7 +226,7 @@ def test_a_rectangle_by_intensity_is_the_mean_of_point_lights(
     assert abs(mean - exact) < tolerance
 
 
-SPHERES = [([0, 1.5, 0], 0.5), ([0.8, 0.9, -0.5], 0.4), ([2, 0.31, 0.5], 0.3), ([0, 1.0, 0], 0.95)]
+SPHERES = [([0, 1.5, 0], 0.5), ([0.8, 0.9, -0.5], 0.4), ([2, 0.31, 0.5], 0.3), ([0, 1.0, 0], 0.8)]
 
 
 @pytest.mark.parametrize(("center", "radius"), SPHERES)

@@ -22,7 +22,13 @@ class Dielectric(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_field
 class MaterialDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """Blinn-Phong reflection, with a mirror or a dielectric on top."""
 
-    color: Annotated[Reflectance, about("Multiplies the ambient and diffuse terms.")] = 0.8
+    color: Annotated[
+        Reflectance | None,
+        about(
+            "Multiplies the ambient and diffuse terms; "
+            "left out, it is 0.8 of what the mirror leaves: 0.8 (1 - mirror) in each channel."
+        ),
+    ] = None
     ambient: Annotated[float, about("Factor of the ambient term.", ge=0, le=1)] = 1.0
     diffuse: Annotated[float, about("Factor of the diffuse term.", ge=0, le=1)] = 1.0
     specular: Annotated[Reflectance, about("Colour of the highlight.")] = 0.0

@@ -77,7 +77,9 @@ class Torus(ObjectDescription, frozen=True, kw_only=True, tag="torus"):
     """A ring about y."""
 
     radius: Annotated[float, about("Radius of the ring's middle line.", "world unit", gt=0)] = 1.0
-    tube: Annotated[float, about("Radius of the tube.", "world unit", gt=0)] = 0.25
+    tube: Annotated[float, about("Radius of the tube, less than radius.", "world unit", gt=0)] = (
+        0.25
+    )
     segments: _Segments = 96
     sides: Annotated[int, about("Flat pieces around the tube.", ge=3, le=4096)] = 48
 
@@ -85,20 +87,27 @@ class Torus(ObjectDescription, frozen=True, kw_only=True, tag="torus"):
 class TorusKnot(ObjectDescription, frozen=True, kw_only=True, tag="torus_knot"):
     """A tube along the (p, q) knot on a torus; p and q have no common divisor."""
 
-    p: Annotated[int, about("Turns about the axis.", ge=1, le=64)] = 2
-    q: Annotated[int, about("Turns through the hole.", ge=1, le=64)] = 3
+    p: Annotated[int, about("Turns about the axis.", ge=1, le=32)] = 2
+    q: Annotated[int, about("Turns through the hole.", ge=1, le=32)] = 3
     radius: Annotated[float, about("Radius of the torus.", "world unit", gt=0)] = 1.0
-    tube: Annotated[float, about("Radius of the tube.", "world unit", gt=0)] = 0.2
-    segments: Annotated[int, about("Flat pieces along the tube.", ge=3, le=16384)] = 512
-    sides: Annotated[int, about("Flat pieces around the tube.", ge=3, le=4096)] = 32
+    tube: Annotated[
+        float,
+        about("Radius of the tube, so thin that it meets itself nowhere.", "world unit", gt=0),
+    ] = 0.2
+    segments: Annotated[
+        int, about("Flat pieces along the tube, at least 8 (p + q).", ge=16, le=16384)
+    ] = 512
+    sides: Annotated[int, about("Flat pieces around the tube.", ge=3, le=1024)] = 32
 
 
 class DisplacedSphere(ObjectDescription, frozen=True, kw_only=True, tag="displaced_sphere"):
     """A bumpy ball: a sphere moved along its normal by a sum of smooth waves."""
 
     radius: Annotated[float, about("Radius without the bumps.", "world unit", gt=0)] = 1.0
-    amplitude: Annotated[float, about("Height of the bumps.", "world unit", ge=0)] = 0.1
-    frequency: Annotated[float, about("Bumps around the ball.", gt=0)] = 6.0
+    amplitude: Annotated[
+        float, about("Height of the bumps, less than radius.", "world unit", ge=0)
+    ] = 0.1
+    frequency: Annotated[float, about("Bumps around the ball.", gt=0, le=1e6)] = 6.0
     segments: Annotated[int, about("Flat pieces around the axis.", ge=3, le=4096)] = 256
     seed: Annotated[int, about("Chooses the waves.", ge=0, le=2**32 - 1)] = 0
 
@@ -111,7 +120,7 @@ class HeightField(ObjectDescription, frozen=True, kw_only=True, tag="height_fiel
         1.0,
     )
     amplitude: Annotated[float, about("Height of the hills.", "world unit", ge=0)] = 0.1
-    frequency: Annotated[float, about("Waves across the field.", gt=0)] = 4.0
+    frequency: Annotated[float, about("Waves across the field.", gt=0, le=1e6)] = 4.0
     segments: Annotated[int, about("Cells along each side.", ge=1, le=4096)] = 128
     seed: Annotated[int, about("Chooses the waves.", ge=0, le=2**32 - 1)] = 0
 
