@@ -24,6 +24,16 @@ MODULES: dict[str, tuple[str, ...]] = {
         "point_in_ball",
         "point_on_facing_disk",
     ),
+    "glossy": (
+        "orthonormal_basis",
+        "jitter_on_plane",
+        "jitter_in_ball",
+        "sample_phong_lobe",
+        "keep_above",
+    ),
+    "thin_lens": ("point_on_disk", "lens_rays", "image_distance", "circle_of_confusion"),
+    "motion_blur": ("shutter_times", "displacement", "to_object_space"),
+    "cube_map": ("face_and_uv", "lookup", "lookup_seamless"),
 }
 """Each module of the course and its functions, in the course's order."""
 

@@ -23,7 +23,8 @@ def face_and_uv(direction):
     face : (N,) int
         0..5 = +x, -x, +y, -y, +z, -z. On an edge or a corner x comes before y, and y before z.
     u, v : (N,) in [0, 1], of the dtype of direction
-        As OpenGL has them: seen from the middle, u to the right and v down from the face's top row.
+        As OpenGL has them. Seen from outside the cube, y up, u is to the right and v down from the top row
+        on the four sides; from the middle the faces are mirror images.
 
     Raises
     ------

@@ -71,7 +71,7 @@ def jitter_on_plane(direction, roughness, u):
     ### BEGIN SOLUTION
     dtype = np.result_type(direction, u)
     # Beyond that the directions lie in the plane, to rounding; and up to there squares don't overflow.
-    roughness = dtype.type(min(roughness, np.sqrt(np.finfo(dtype).max)))
+    roughness = dtype.type(min(float(roughness), float(np.finfo(dtype).max) ** 0.5))
     a = roughness * (u[0] - 0.5)
     b = roughness * (u[1] - 0.5)
     # Pythagoras: a and b are measured at right angles to the direction, whose length is 1.
@@ -158,7 +158,7 @@ def sample_phong_lobe(direction, exponent, u):
     dtype = np.result_type(direction, u)
     # The share of the lobe within alpha is 1 - cos(alpha)^(exponent + 1). Solved for the logarithm of cos(alpha),
     # since the sines of a narrow lobe would drown in the rounding of 1 - cos^2.
-    power = dtype.type(max(1 / (exponent + 1), np.finfo(dtype).tiny))
+    power = dtype.type(max(1 / (float(exponent) + 1), float(np.finfo(dtype).tiny)))
     with np.errstate(divide="ignore"):  # u may have been rounded to 1, where cos(alpha) is 0
         log_cos = np.log1p(-u[0]) * power
     sin = np.sqrt(-np.expm1(2 * log_cos))

@@ -36,7 +36,7 @@ def shutter_times(open, close, u):  # noqa: A002 - the names of the course
         raise ValueError(f"open and close must be finite and open <= close, got {open} and {close}")
     ### BEGIN SOLUTION
     first, last = u.dtype.type(open), u.dtype.type(close)
-    span = u.dtype.type(min(float(close) - float(open), np.finfo(u.dtype).max))
+    span = u.dtype.type(min(float(close) - float(open), float(np.finfo(u.dtype).max)))
     # The sum may be rounded up to close, which is not in the interval any more.
     return np.minimum(first + span * u, np.nextafter(last, first))
     ### END SOLUTION

@@ -72,9 +72,10 @@ def lens_rays(origin, right, up, forward, directions, lens_points, focus_distanc
     _check_positive("focus_distance", focus_distance)
     ### BEGIN SOLUTION
     dtype = np.result_type(directions, lens_points)
-    limits = np.finfo(dtype)
+    tiny, largest = float(np.finfo(dtype).tiny), float(np.finfo(dtype).max)
     origin, right, up, forward = (_column(x, dtype) for x in (origin, right, up, forward))
-    focus_distance = dtype.type(min(max(focus_distance, limits.tiny), limits.max))
+    focus_distance = dtype.type(min(max(float(focus_distance), tiny), largest))
+    directions = directions.astype(dtype, copy=False)
     offset = right * lens_points[0] + up * lens_points[1]
     origins = origin + offset
     # Seen from the centre of the lens the point in focus is directions * focus_distance / cos. Divided by that
@@ -82,7 +83,7 @@ def lens_rays(origin, right, up, forward, directions, lens_points, focus_distanc
     with np.errstate(over="ignore"):
         offset /= focus_distance
     # Beyond that the rays lie in the lens's plane, to rounding; and up to there squares don't overflow.
-    steepest = np.sqrt(limits.max) / 4
+    steepest = largest**0.5 / 4
     np.clip(offset, -steepest, steepest, out=offset)
     offset *= _dot(forward, directions)
     toward = np.subtract(directions, offset, out=offset)
@@ -156,9 +157,9 @@ def circle_of_confusion(depth, aperture_radius, focus_distance):
         raise ValueError(f"aperture_radius must be >= 0, got {aperture_radius}")
     _check_positive("focus_distance", focus_distance)
     ### BEGIN SOLUTION
-    largest = np.finfo(depth.dtype).max
+    largest = float(np.finfo(depth.dtype).max)
     aperture = depth.dtype.type(min(2 * float(aperture_radius), largest))
-    focus = depth.dtype.type(min(focus_distance, largest))
+    focus = depth.dtype.type(min(float(focus_distance), largest))
     depth = np.minimum(depth, largest)
     with np.errstate(over="ignore"):
         spread = np.minimum(np.abs(focus - depth) / depth, largest)

@@ -22,6 +22,9 @@ from embreex.rtcore_scene import EmbreeScene
 
 from course.core.types import Floats32, Mask, Numbers
 
+NO_HIT = 1e37
+"""The distance of a ray that hits nothing, as embreex has it."""
+
 
 @dataclass
 class QueryTime:
@@ -72,25 +75,44 @@ class Accelerator:
         scene.run(away, away, query="OCCLUDED")
         self._scene = scene
 
-    def intersect(self, origin: Floats32, direction: Floats32, clock: QueryTime) -> Intersections:
+    def intersect(
+        self,
+        origin: Floats32,
+        direction: Floats32,
+        clock: QueryTime,
+        time: Floats32 | None = None,
+        limit: Floats32 | None = None,
+    ) -> Intersections:
         """Nearest hit of each ray.
 
         Parameters
         ----------
         origin : (3, N) or (3, 1) float32
         direction : (3, N) float32, any length but 0
+        time : of no consequence to triangles that don't move
+        limit : (N,) float32, distances beyond which nothing counts
         """
         n = direction.shape[1]
         if self._scene is None or n == 0:
-            nothing = np.zeros(n, np.float32)
-            return Intersections(np.full(n, -1, np.int32), nothing, nothing, nothing)
+            u, v = np.zeros((2, n), np.float32)
+            far = np.full(n, NO_HIT, np.float32)
+            return Intersections(np.full(n, -1, np.int32), u, v, far)
+        # Embree overwrites the limits.
+        limits = None if limit is None else limit.copy()
         start = perf_counter()
-        found = self._scene.run(_rows(origin, n), direction.T, query="INTERSECT", output=True)
+        found = self._scene.run(
+            _rows(origin, n), direction.T, limits, query="INTERSECT", output=True
+        )
         clock.seconds += perf_counter() - start
         return Intersections(found["primID"], found["u"], found["v"], found["tfar"])
 
     def unoccluded(
-        self, origin: Floats32, direction: Floats32, limit: float | Floats32, clock: QueryTime
+        self,
+        origin: Floats32,
+        direction: Floats32,
+        limit: float,
+        clock: QueryTime,
+        time: Floats32 | None = None,
     ) -> Mask:
         """Whether nothing lies between origin and origin + limit * direction.
 
@@ -98,7 +120,8 @@ class Accelerator:
         ----------
         origin : (3, N) or (3, 1) float32
         direction : (3, N) float32, any length but 0
-        limit : one distance for all rays, in lengths of the direction, or (N,) float32 (overwritten)
+        limit : in lengths of the direction
+        time : of no consequence to triangles that don't move
 
         Returns
         -------

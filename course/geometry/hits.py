@@ -10,6 +10,7 @@ from course.core.gathering import gather
 from course.core.types import Floats32, Indices, Mask, Materials, Numbers
 from course.core.vectors import cross, dot
 from course.geometry.embree import Intersections
+from course.geometry.moving import MovingAccelerator
 from course.geometry.surface import Surface
 
 
@@ -28,6 +29,7 @@ class Hits:
     ng, ns : (3, n) float32, unit geometric and shading normals, both on the incoming side
     step : (3, n) float32, from the point to where rays leave on the incoming side
     above : (3, n) float32, p + step
+    time : (n,) float32, when; None where nothing moves
     side : (n,) float32, 1 where the ray meets the front of the triangle, -1 where it meets the back
     """
 
@@ -44,6 +46,7 @@ class Hits:
     step: Floats32
     above: Floats32
     side: Floats32
+    time: Floats32 | None = None
 
     @property
     def size(self) -> int:
@@ -61,12 +64,18 @@ class Hits:
         return self.p - self.step
 
 
-def find_hits(surface: Surface, found: Intersections, direction: Floats32) -> Hits:
+def find_hits(
+    surface: Surface,
+    found: Intersections,
+    direction: Floats32,
+    time: Floats32 | None = None,
+) -> Hits:
     """Everything that shading needs to know about the hits of a batch of rays.
 
     Parameters
     ----------
     direction : (3, N) float32, unit length, of all rays of the batch
+    time : (N,) float32 of all rays, None where nothing moves
     """
     hit = np.flatnonzero(found.triangle >= 0)
     triangle, u, v, t = found.triangle, found.u, found.v, found.t
@@ -75,6 +84,7 @@ def find_hits(surface: Surface, found: Intersections, direction: Floats32) -> Hi
         ray = hit
         triangle, u, v, t = triangle.take(hit), u.take(hit), v.take(hit), t.take(hit)
         direction = direction.take(hit, axis=1)
+        time = None if time is None else time.take(hit)
 
     normal = gather(surface.normal_offset, triangle)
     ng, offset = normal[:3], normal[3]
@@ -88,6 +98,8 @@ def find_hits(surface: Surface, found: Intersections, direction: Floats32) -> Hi
     p += edge
     p += corner[0:3]
     _pull_off_edges(surface, p, triangle, u, v, normal[4:])
+    if isinstance(surface.accelerator, MovingAccelerator) and time is not None:
+        surface.accelerator.follow(p, triangle, time)
 
     facing = dot(ng, direction)
     side = np.copysign(np.float32(1), -facing)
@@ -100,7 +112,7 @@ def find_hits(surface: Surface, found: Intersections, direction: Floats32) -> Hi
         ns *= side
         _turn_to_viewer(ns, direction)
     material = surface.material.take(triangle)
-    return Hits(ray, triangle, u, v, t, material, direction, p, ng, ns, step, p + step, side)
+    return Hits(ray, triangle, u, v, t, material, direction, p, ng, ns, step, p + step, side, time)
 
 
 def bulge(surface: Surface, hits: Hits, which: Indices) -> Floats32:

@@ -18,6 +18,7 @@ terminator", Ray Tracing Gems II, ch. 4, moves the point to the tangent planes i
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -26,6 +27,8 @@ from course.core.types import Floats, Floats32, Materials, Numbers
 from course.core.vectors import cross, dot
 from course.geometry.embree import Accelerator
 from course.geometry.mesh import Mesh
+from course.geometry.motion_functions import MotionFunctions
+from course.geometry.moving import Mover, MovingAccelerator
 
 OFFSET = 2.0**-19
 """Rays leave a surface from a point this far above it, as a share of the largest coordinate of its triangle.
@@ -58,6 +61,7 @@ class Part:
 
     mesh: Mesh
     material: int
+    velocity: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True)
@@ -80,7 +84,7 @@ class Surface:
     corner_normals: Floats32 | None
     bulge: Floats32 | None
     material: Materials
-    accelerator: Accelerator
+    accelerator: Accelerator | MovingAccelerator
 
     @property
     def size(self) -> int:
@@ -88,33 +92,64 @@ class Surface:
         return len(self.corner_edges)
 
 
-def build_surface(parts: list[Part]) -> Surface:
+def build_surface(parts: list[Part], motion: MotionFunctions | None = None) -> Surface:
     """Gather the triangles of all parts, whose coordinates lie in about [-1, 1].
 
-    Triangles that have no area in float32 are left out: no ray can hit them.
+    Triangles that have no area in float32 are left out: no ray can hit them. ``motion`` is needed where a part has a
+    velocity; parts that move alike share a hierarchy, and come after those that stand still.
     """
+    still = (0.0, 0.0, 0.0)
+    parts = sorted(parts, key=lambda part: (part.velocity != still, part.velocity))
     smooth = any(part.mesh.normals is not None for part in parts)
     tables = [_tables(part, smooth) for part in parts]
     if not tables:
         tables = [_tables(Part(Mesh(np.zeros((0, 3)), np.zeros((0, 3), np.intp)), 0), smooth)]
-    first = np.cumsum([0, *(len(table.vertices) for table in tables)])
-    vertices = np.concatenate([table.vertices for table in tables])
-    triangles = np.concatenate(
-        [table.triangles + start for table, start in zip(tables, first[:-1], strict=True)]
-    )
+    groups: dict[tuple[float, float, float], list[_Tables]] = {still: []}
+    for table in tables:
+        groups.setdefault(table.velocity, []).append(table)
+    static = _accelerator(groups.pop(still))
+    accelerator: Accelerator | MovingAccelerator = static
+    if groups:
+        assert motion is not None
+        accelerator = MovingAccelerator(
+            static, tuple(_movers(groups, tables)), motion.to_object_space, motion.displacement
+        )
     return Surface(
         corner_edges=np.concatenate([table.corner_edges for table in tables]),
         normal_offset=np.concatenate([table.normal_offset for table in tables]),
         corner_normals=np.concatenate([t.corner_normals for t in tables]) if smooth else None,
         bulge=np.concatenate([table.bulge for table in tables]) if smooth else None,
         material=np.concatenate([table.material for table in tables]),
-        accelerator=Accelerator(vertices, triangles),
+        accelerator=accelerator,
     )
+
+
+def _accelerator(tables: list[_Tables]) -> Accelerator:
+    if not tables:
+        return Accelerator(np.zeros((0, 3), np.float32), np.zeros((0, 3), np.int32))
+    first = np.cumsum([0, *(len(table.vertices) for table in tables)])[:-1]
+    triangles = [table.triangles + start for table, start in zip(tables, first, strict=True)]
+    return Accelerator(
+        np.concatenate([table.vertices for table in tables]),
+        np.concatenate(triangles).astype(np.int32),
+    )
+
+
+def _movers(
+    groups: dict[tuple[float, float, float], list[_Tables]], tables: list[_Tables]
+) -> Iterator[Mover]:
+    """Movers in the order of their triangles, behind the static ones."""
+    moving = sum(len(table.triangles) for group in groups.values() for table in group)
+    first = sum(len(table.triangles) for table in tables) - moving
+    for velocity, group in groups.items():
+        last = first + sum(len(table.triangles) for table in group)
+        yield Mover(np.array(velocity, np.float32), _accelerator(group), first, last)
+        first = last
 
 
 @dataclass(frozen=True)
 class _Tables:
-    """One part's share of the surface; the last two are empty where no part is smooth."""
+    """One part's share of the surface; normals and bulge are empty where no part is smooth."""
 
     vertices: Floats32
     triangles: Numbers
@@ -123,6 +158,7 @@ class _Tables:
     material: Materials
     corner_normals: Floats32
     bulge: Floats32
+    velocity: tuple[float, float, float]
 
 
 def _tables(part: Part, smooth: bool) -> _Tables:
@@ -159,6 +195,7 @@ def _tables(part: Part, smooth: bool) -> _Tables:
         np.full(len(triangles), part.material, np.uint16),
         corner_normals,
         bulge,
+        part.velocity,
     )
 
 

@@ -7,6 +7,7 @@ to find the same mistake and to word it.
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 from msgspec import inspect
@@ -186,7 +187,11 @@ def _accepts(kind: inspect.Type, value: Any) -> bool:
         case inspect.IntType():
             return _is_number(value, int) and _within(kind, value)
         case inspect.StrType():
-            return isinstance(value, str) and len(value) >= (kind.min_length or 0)
+            return (
+                isinstance(value, str)
+                and len(value) >= (kind.min_length or 0)
+                and re.search(kind.pattern or "", value) is not None
+            )
         case inspect.NoneType():
             return value is None
     return False

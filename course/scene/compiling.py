@@ -7,7 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from course.appearance.environment import ConstantEnvironment
+from course.core.types import Floats64
 from course.effects import Effects
+from course.geometry.mesh import Mesh
 from course.geometry.surface import Part, build_surface
 from course.imaging.camera import Camera, make_camera
 from course.scene import description as d
@@ -16,9 +18,13 @@ from course.scene.description.values import rgb
 from course.scene.emitters import emitter_parts
 from course.scene.frame import Frame, frame_of
 from course.scene.instancing import object_mesh
+from course.scene.lens_compiling import compile_lens
 from course.scene.light_compiling import compile_lights
 from course.scene.loading import Loaded
+from course.scene.lobe_compiling import compile_lobes
 from course.scene.material_table import compile_materials
+from course.scene.motion_compiling import compile_motion
+from course.scene.shutter import shutter_of
 from course.scene.world import World
 
 
@@ -46,25 +52,39 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
         For what only shows when meshes are there; names file, line and key path.
     """
     scene, document = loaded.description, loaded.document
+    shutter = shutter_of(loaded)
     meshes = [
-        object_mesh(thing, number, document, loaded.path.parent)
+        _moved(
+            object_mesh(thing, number, document, loaded.path.parent), shutter.start(thing.motion)
+        )
         for number, thing in enumerate(scene.objects)
     ]
-    frame = frame_of(meshes)
-    names = list(scene.materials)
+    swept = [
+        _moved(mesh, shutter.sweep(thing.motion))
+        for mesh, thing in zip(meshes, scene.objects, strict=True)
+        if shutter.moves(thing.motion)
+    ]
+    frame = frame_of(meshes + swept)
+    # Materials that no object has are as good as not there.
+    used = {
+        name: scene.materials[name]
+        for name in dict.fromkeys(thing.material for thing in scene.objects)
+    }
+    names = list(used)
     parts = [
-        Part(frame.mesh(mesh), names.index(thing.material))
+        Part(frame.mesh(mesh), names.index(thing.material), shutter.velocity(thing.motion, frame))
         for mesh, thing in zip(meshes, scene.objects, strict=True)
     ]
-    emitters, emission = emitter_parts(scene.lights, frame, first_material=len(names))
-    materials = compile_materials(scene.materials, emission, frame)
-    lights, skipped = compile_lights(loaded, frame, effects, materials)
+    emitters, emission = emitter_parts(scene.lights, frame, shutter, first_material=len(names))
+    materials = compile_materials(used, emission, frame)
+    lights, skipped = compile_lights(loaded, frame, shutter, effects, materials)
+    motion = compile_motion(loaded, frame, shutter, effects)
     ambient = np.zeros(3)
     for light in scene.lights:
         if isinstance(light, d.AmbientLight):
             ambient += rgb(light.radiance)
     world = World(
-        surface=build_surface(parts + emitters),
+        surface=build_surface(parts + emitters, motion.functions if motion else None),
         materials=materials,
         lights=lights,
         skipped_lights=skipped,
@@ -72,16 +92,26 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
         environment=ConstantEnvironment(
             in_range(rgb(scene.environment.radiance), loaded, ("environment",), "radiance")
         ),
+        lobes=compile_lobes(used, effects, scene.integrator.max_depth),
+        lens=compile_lens(loaded, frame, effects),
+        motion=motion,
     )
     return Compiled(world, frame, tuple(len(mesh.triangles) for mesh in meshes))
+
+
+def _moved(mesh: Mesh, by: Floats64) -> Mesh:
+    if not by.any():
+        return mesh
+    return Mesh(mesh.vertices + by, mesh.triangles, mesh.normals, mesh.uv)
 
 
 def compile_camera(loaded: Loaded, frame: Frame, width: int, height: int) -> Camera:
     """The camera for a picture of that size."""
     camera = loaded.description.camera
+    start = shutter_of(loaded).start(camera.motion)
     return make_camera(
-        frame.position(camera.eye),
-        frame.position(camera.look_at),
+        frame.position(np.array(camera.eye) + start),
+        frame.position(np.array(camera.look_at) + start),
         np.array(camera.up) / np.abs(camera.up).max(),
         np.radians(camera.vertical_fov),
         width,

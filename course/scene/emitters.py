@@ -13,13 +13,14 @@ from course.geometry.surface import Part
 from course.scene.description import Light, RectangleLight, SphereLight
 from course.scene.description.values import rgb
 from course.scene.frame import Frame
+from course.scene.shutter import Shutter
 
 SEGMENTS = 128
 """Around a visible sphere light; it lies inside the true sphere by at most 3e-4 radii."""
 
 
 def emitter_parts(
-    lights: Iterable[Light], frame: Frame, first_material: int
+    lights: Iterable[Light], frame: Frame, shutter: Shutter, first_material: int
 ) -> tuple[list[Part], list[Floats64]]:
     """Meshes of the visible lights, and the radiance of the material that each of them gets.
 
@@ -31,7 +32,9 @@ def emitter_parts(
         if not isinstance(light, RectangleLight | SphereLight) or light.radiance is None:
             continue
         mesh = _rectangle(light) if isinstance(light, RectangleLight) else _sphere(light)
-        parts.append(Part(frame.mesh(mesh), first_material + len(emission)))
+        mesh = Mesh(mesh.vertices + shutter.start(light.motion), mesh.triangles)
+        velocity = shutter.velocity(light.motion, frame)
+        parts.append(Part(frame.mesh(mesh), first_material + len(emission), velocity))
         emission.append(rgb(light.radiance))
     return parts, emission
 

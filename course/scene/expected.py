@@ -106,6 +106,8 @@ def _describe(kind: inspect.Type) -> str:
         case inspect.FloatType() | inspect.IntType():
             return f"a {_NOUNS[type(kind)]}{bounds(kind)}"
         case inspect.StrType():
+            if kind.pattern:
+                return f"a text that matches {kind.pattern}"
             return "a text that is not empty" if kind.min_length else "a text"
         case inspect.LiteralType():
             return either(sorted(map(str, kind.values)))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -16,19 +17,23 @@ from course.appearance.lights import (
 from course.appearance.materials import MaterialTable
 from course.core.types import Floats32, Floats64
 from course.effects import Effects
-from course.errors import SceneError
+from course.errors import EffectError
 from course.scene import description as d
 from course.scene.brightness import in_range
 from course.scene.description.values import rgb
 from course.scene.frame import Frame
 from course.scene.light_power import given, why_dark
 from course.scene.loading import Loaded
+from course.scene.shutter import Shutter
 
 
 def compile_lights(
-    loaded: Loaded, frame: Frame, effects: Effects, materials: MaterialTable
+    loaded: Loaded, frame: Frame, shutter: Shutter, effects: Effects, materials: MaterialTable
 ) -> tuple[tuple[Light, ...], dict[str, str]]:
-    """Lights that light something, and name -> reason for those that don't."""
+    """Lights that light something, and name -> reason for those that don't.
+
+    A light that is sampled as a grid becomes a point light for each cell.
+    """
     lights: list[Light] = []
     skipped: dict[str, str] = {}
     for number, light in enumerate(loaded.description.lights):
@@ -39,65 +44,127 @@ def compile_lights(
         if reason:
             skipped[name] = reason
             continue
-        lights.append(_compiled(light, name, number, loaded, frame, effects))
+        lights += _Compiler(name, ("lights", number), loaded, frame, shutter, effects)(light)
     return tuple(lights), skipped
 
 
-def _compiled(
-    light: d.Light, name: str, number: int, loaded: Loaded, frame: Frame, effects: Effects
-) -> Light:
-    path = ("lights", number)
+@dataclass(frozen=True)
+class _Compiler:
+    """Compiles one light; an intensity counts per squared length, so it shrinks with the scene's unit squared."""
 
-    def color(value: Floats64) -> Floats32:
-        return in_range(value / math.pi, loaded, path, "the light's power")
+    name: str
+    path: tuple[str | int, ...]
+    loaded: Loaded
+    frame: Frame
+    shutter: Shutter
+    effects: Effects
 
-    # An intensity counts per squared length, so it shrinks with the square of the scene's unit; a radiance doesn't.
+    def __call__(self, light: d.Light) -> list[Light]:
+        match light:
+            case d.PointLight():
+                power = rgb(light.intensity) / self.frame.scale / self.frame.scale
+                position = self._position(light.position, light.motion)
+                color = self._color(power)
+                return [PointLight(self.name, position, color, velocity=self._velocity(light))]
+            case d.DirectionalLight():
+                direction = np.array(light.direction) / np.abs(light.direction).max()
+                towards = -direction / np.linalg.norm(direction)
+                color = self._color(rgb(light.irradiance))
+                return [DirectionalLight(self.name, _single(towards), color)]
+            case d.RectangleLight():
+                return self._rectangle(light)
+            case d.SphereLight():
+                return [self._sphere(light)]
+            case d.AmbientLight():
+                return []
+
+    def _rectangle(self, light: d.RectangleLight) -> list[Light]:
+        edge_u, edge_v = self.frame.vector(light.edge_u), self.frame.vector(light.edge_v)
+        normal = np.cross(edge_u, edge_v)
+        area = float(np.linalg.norm(normal))
+        corner = self._position(light.corner, light.motion)
+        facing = None if light.radiance is None else _single(normal / area)
+        power = self._power(light, area)
+        velocity = self._velocity(light)
+        if light.samples == "point":
+            place = self.effects.function("soft_shadows", "point_on_rectangle")
+            edges = _single(edge_u), _single(edge_v)
+            color = self._color(power)
+            return [
+                RectangleLight(self.name, corner, *edges, facing, color, place, velocity=velocity)
+            ]
+        k = grid_size(light.samples)
+        grid = self.effects.function("soft_shadows", "light_grid")
+        points = grid(corner, _single(edge_u), _single(edge_v), k)
+        if np.shape(points) != (3, k * k):
+            raise EffectError(
+                f"soft_shadows.light_grid returned {np.shape(points)}, expected (3, {k * k})"
+            )
+        color = self._color(power / (k * k))
+        return [
+            PointLight(self.name, _single(point), color, facing, velocity=velocity)
+            for point in points.T
+        ]
+
+    def _sphere(self, light: d.SphereLight) -> Light:
+        radius = light.radius / self.frame.scale
+        color = self._color(self._power(light, 4 * math.pi * radius * radius))
+        center = self._position(light.center, light.motion)
+        velocity = self._velocity(light)
+        if np.float32(radius) == 0:
+            return PointLight(self.name, center, color, velocity=velocity)
+        method = METHODS[light.samples]
+        return SphereLight(
+            self.name,
+            center,
+            radius,
+            light.radiance is not None,
+            color,
+            method,
+            self.effects.function("soft_shadows", method),
+            3 if method == "point_in_ball" else 2,
+            velocity,
+        )
+
+    def _power(self, light: d.RectangleLight | d.SphereLight, area: float) -> Floats64:
+        """Intensity in compiled units, or radiance times compiled area."""
+        if light.radiance is not None:
+            return rgb(light.radiance) * area
+        return rgb(given(light.intensity)) / self.frame.scale / self.frame.scale
+
+    def _color(self, power: Floats64) -> Floats32:
+        return in_range(power / math.pi, self.loaded, self.path, "the light's power")
+
+    def _position(self, x: d.Vector, motion: d.MotionDescription) -> Floats32:
+        return _single(self.frame.position(np.array(x) + self.shutter.start(motion)))
+
+    def _velocity(self, light: d.PointLight | d.RectangleLight | d.SphereLight) -> Floats32 | None:
+        if not self.shutter.moves(light.motion):
+            return None
+        return np.array(self.shutter.velocity(light.motion, self.frame), np.float32)
+
+
+METHODS = {
+    "sphere": "point_on_sphere",
+    "ball": "point_in_ball",
+    "facing disk": "point_on_facing_disk",
+}
+"""The soft_shadows function for each value of a sphere light's ``samples``."""
+
+
+def light_function(light: d.Light) -> str | None:
+    """The soft_shadows function that a light calls, if any."""
     match light:
-        case d.PointLight():
-            intensity = rgb(light.intensity) / frame.scale / frame.scale
-            return PointLight(name, _single(frame.position(light.position)), color(intensity))
-        case d.DirectionalLight():
-            direction = np.array(light.direction) / np.abs(light.direction).max()
-            towards = -direction / np.linalg.norm(direction)
-            return DirectionalLight(name, _single(towards), color(rgb(light.irradiance)))
         case d.RectangleLight():
-            edge_u, edge_v = frame.vector(light.edge_u), frame.vector(light.edge_v)
-            normal = np.cross(edge_u, edge_v)
-            area = float(np.linalg.norm(normal))
-            emits = light.radiance is not None
-            power = _area_power(light, frame, area)
-            return RectangleLight(
-                name,
-                _single(frame.position(light.corner)),
-                _single(edge_u),
-                _single(edge_v),
-                _single(normal / area) if emits else None,
-                color(power),
-                effects.function("soft_shadows", "point_on_rectangle"),
-            )
-        case d.SphereLight():
-            radius = light.radius / frame.scale
-            power = _area_power(light, frame, 4 * math.pi * radius * radius)
-            center = _single(frame.position(light.center))
-            if np.float32(radius) == 0:
-                return PointLight(name, center, color(power))
-            return SphereLight(
-                name,
-                center,
-                radius,
-                light.radiance is not None,
-                color(power),
-                effects.function("soft_shadows", "point_on_sphere"),
-            )
-        case d.AmbientLight():
-            raise SceneError(f"{loaded.document.where(path)}: ambient light has no place")
+            return "point_on_rectangle" if light.samples == "point" else "light_grid"
+        case d.SphereLight() if light.radius > 0:
+            return METHODS[light.samples]
+    return None
 
 
-def _area_power(light: d.RectangleLight | d.SphereLight, frame: Frame, area: float) -> Floats64:
-    """Intensity in compiled units, or radiance times compiled area."""
-    if light.radiance is not None:
-        return rgb(light.radiance) * area
-    return rgb(given(light.intensity)) / frame.scale / frame.scale
+def grid_size(samples: str) -> int:
+    """K of ``grid K``."""
+    return int(samples.removeprefix("grid "))
 
 
 def _single(x: Floats64) -> Floats32:

@@ -48,7 +48,7 @@ def compile_materials(
         exponent[column] = material.exponent
         if material.dielectric is None:
             ambient[:, column] = color * material.ambient
-            diffuse[:, column] = rgb(0.8) * material.diffuse
+            diffuse[:, column] = color * material.diffuse
         else:
             index[column] = material.dielectric.refraction_index
             absorption[:, column] = rgb(material.dielectric.absorption) * frame.scale

@@ -9,9 +9,13 @@ from course.appearance.materials import MaterialTable
 from course.effects import MODULES
 from course.scene import description as d
 from course.scene.document import KeyPath
+from course.scene.light_compiling import light_function
 from course.scene.light_power import power, why_dark
 from course.scene.loading import Loaded
+from course.scene.lobe_compiling import lobe_function
+from course.scene.motion_compiling import movers
 from course.scene.scene import Scene
+from course.scene.shutter import shutter_of
 from course.scene.world import Settings
 
 
@@ -42,16 +46,39 @@ def needs_of(loaded: Loaded, settings: Settings, materials: MaterialTable) -> li
     for number, light in enumerate(scene.lights):
         if why_dark(light, materials):
             continue
-        if isinstance(light, d.RectangleLight):
-            needs.append(Need("soft_shadows.point_on_rectangle", ("lights", number)))
-        elif isinstance(light, d.SphereLight) and light.radius > 0:
-            needs.append(Need("soft_shadows.point_on_sphere", ("lights", number)))
+        function = light_function(light)
+        if function:
+            needs.append(Need(f"soft_shadows.{function}", ("lights", number)))
+    if settings.max_depth:
+        used = dict.fromkeys(thing.material for thing in scene.objects)
+        for name in used:
+            lobe = lobe_function(scene.materials[name])
+            if lobe:
+                asked_by = ("materials", name, "gloss")
+                needs += [Need(f"glossy.{lobe}", asked_by), Need("glossy.keep_above", asked_by)]
+    lens = scene.camera.lens
+    if lens is not None and lens.aperture_radius > 0:
+        asked_by = ("camera", "lens", "aperture_radius")
+        if lens.shape == "disk":
+            needs.append(Need("thin_lens.point_on_disk", asked_by))
+        needs.append(Need("thin_lens.lens_rays", asked_by))
+    moving = movers(loaded, shutter_of(loaded))
+    if moving:
+        needs.append(Need("motion_blur.shutter_times", moving[0]))
+        needs.append(Need("motion_blur.displacement", moving[0]))
+        objects = [path for path in moving if path[0] == "objects"]
+        if objects:
+            needs.append(Need("motion_blur.to_object_space", objects[0]))
     return needs
 
 
 _REASONS = {
     "supersampling": "one Sobol sample a pixel needs no pattern and no mean",
     "soft_shadows": "no light that has a size lights anything",
+    "glossy": "no mirror is glossy",
+    "thin_lens": "the aperture is 0",
+    "motion_blur": "nothing moves while the shutter is open",
+    "cube_map": "the environment is no cube map",
 }
 
 

@@ -6,9 +6,28 @@ from dataclasses import dataclass
 
 from course.appearance.environment import ConstantEnvironment
 from course.appearance.lights import Light
+from course.appearance.lobes import Lobe
 from course.appearance.materials import MaterialTable
 from course.core.types import Floats32
+from course.geometry.motion_functions import MotionFunctions
 from course.geometry.surface import Surface
+from course.imaging.lens import Lens
+
+
+@dataclass(frozen=True)
+class Motion:
+    """What moving scenes need.
+
+    Attributes
+    ----------
+    duration : seconds that the shutter is open
+    functions : of the motion_blur module
+    camera_velocity : (3,) float32 in the unit of the compiled scene, or None
+    """
+
+    duration: float
+    functions: MotionFunctions
+    camera_velocity: Floats32 | None
 
 
 @dataclass(frozen=True)
@@ -23,6 +42,9 @@ class World:
     skipped_lights : name -> why it was left out
     ambient : (3,) float32, sum of the ambient lights
     environment : what rays see that hit nothing
+    lobes : of the glossy materials
+    lens : None for a pinhole
+    motion : None where nothing moves while the shutter is open
     """
 
     surface: Surface
@@ -31,6 +53,9 @@ class World:
     skipped_lights: dict[str, str]
     ambient: Floats32
     environment: ConstantEnvironment
+    lobes: tuple[Lobe, ...] = ()
+    lens: Lens | None = None
+    motion: Motion | None = None
 
 
 @dataclass(frozen=True)

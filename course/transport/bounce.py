@@ -8,6 +8,7 @@ from course.appearance.fresnel import fresnel_and_cos_t, refract
 from course.core.types import Floats32, Indices, Media
 from course.core.vectors import dot, reflect
 from course.geometry.hits import Hits
+from course.transport.gloss import Blur
 from course.transport.paths import OPEN, Rays
 from course.transport.plan import Lookups, Plan
 
@@ -20,6 +21,7 @@ def bounced(
     path: Indices | None,
     medium: Media | None,
     cutoff: float,
+    blur: Blur | None = None,
 ) -> tuple[Rays | None, Rays | None]:
     """Reflected and refracted rays of the hits; None where there are none.
 
@@ -27,6 +29,7 @@ def bounced(
     ----------
     throughput : (3, n) float32 of the rays that hit, or None for 1
     path : (n,) or None for all paths in order
+    blur : jitters the mirrored directions of glossy materials; None where there are none
     medium : (n,) the material that the arriving ray travelled in, or None where nothing absorbs
     """
     if plan.absorbs and medium is None:
@@ -44,7 +47,8 @@ def bounced(
         share *= glass
         reflectance = reflectance + share
         transmitted = _weight((1 - share) * glass, throughput)
-    reflected = _reflected(hits, _weight(reflectance, throughput), path, medium, cutoff)
+    weight = _weight(reflectance, throughput)
+    reflected = _reflected(hits, weight, path, medium, cutoff, blur)
     if transmitted is None:
         return reflected, None
     return reflected, _refracted(hits, transmitted, cos_i, cos_t, eta, path, medium, cutoff)
@@ -77,10 +81,12 @@ def _reflected(
     path: Indices | None,
     medium: Media | None,
     cutoff: float,
+    blur: Blur | None,
 ) -> Rays | None:
     which = _visible(weight, hits.size, cutoff)
     if len(which) == 0:
         return None
+    path = which if path is None else path.take(which)
     mirrored = reflect(hits.direction.take(which, axis=1), hits.ns.take(which, axis=1))
     ng = hits.ng.take(which, axis=1)
     # An interpolated normal may mirror a ray into the surface; mirror it out again.
@@ -88,12 +94,15 @@ def _reflected(
     if below.any():
         below += below
         mirrored -= below * ng
+    if blur is not None:
+        mirrored = blur(hits.material.take(which), mirrored, ng, path)
     return Rays(
         hits.above.take(which, axis=1),
         mirrored,
         _columns(weight, which),
-        which if path is None else path.take(which),
+        path,
         None if medium is None else medium.take(which),
+        None if hits.time is None else hits.time.take(which),
     )
 
 
@@ -133,4 +142,5 @@ def _refracted(
         _columns(weight, which),
         which if path is None else path.take(which),
         inside,
+        None if hits.time is None else hits.time.take(which),
     )

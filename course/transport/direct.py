@@ -64,7 +64,11 @@ def _irradiance(
 
     Only hits that can show light, face the light, and are faced by it cast a shadow ray.
     """
-    sample = light.sample(hits.above, u)
+    points = hits.above
+    if light.velocity is not None and world.motion is not None and hits.time is not None:
+        # A light that has moved by d looks from p as one that stands still does from p - d.
+        points = points - world.motion.functions.displacement(light.velocity, hits.time)
+    sample = light.sample(points, u)
     strength = dot(hits.ns, sample.to_light)
     strength *= sample.inverse_length
     strength *= sample.factor
@@ -99,27 +103,30 @@ def _sees(
     the round surface above the facet, provided that the way up there is free.
     """
     accelerator = world.surface.accelerator
+    time = None if hits.time is None else hits.time.take(which)
     counters.rays["shadow"] += len(which)
     if to_light.shape[1] != len(which):
         to_light = np.repeat(to_light, len(which), axis=1)
     if world.surface.bulge is None:
-        return accelerator.unoccluded(origin, to_light, light.limit, counters.embree)
+        return accelerator.unoccluded(origin, to_light, light.limit, counters.embree, time)
     ng = hits.ng if len(which) == hits.size else hits.ng.take(which, axis=1)
     turned = np.flatnonzero(dot(ng, to_light) <= 0)
     height = bulge(world.surface, hits, which.take(turned))
     raised = np.flatnonzero(height)
     if len(raised) == 0:
-        return accelerator.unoccluded(origin, to_light, light.limit, counters.embree)
+        return accelerator.unoccluded(origin, to_light, light.limit, counters.embree, time)
     turned = turned.take(raised)
     up = hits.ns.take(which.take(turned), axis=1) * height.take(raised)
     foot = origin.take(turned, axis=1)
     counters.rays["shadow"] += len(turned)
-    way_up = accelerator.unoccluded(foot, up, 1.0, counters.embree)
+    way_up = accelerator.unoccluded(
+        foot, up, 1.0, counters.embree, None if time is None else time.take(turned)
+    )
     origin, to_light = origin.copy(), to_light.copy()
     origin[:, turned] = foot + up
     if light.limit <= 1:
         to_light[:, turned] -= up
-    free = accelerator.unoccluded(origin, to_light, light.limit, counters.embree)
+    free = accelerator.unoccluded(origin, to_light, light.limit, counters.embree, time)
     free[turned] &= way_up
     return free
 

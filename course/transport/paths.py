@@ -25,6 +25,7 @@ class Rays:
     direction : (3, n) float32, unit length
     throughput : (3, n) float32, how much of what a ray brings reaches the film; None means all of it
     path : (n,) number of the path in the block; None means one ray for each path, in order
+    time : (n,) float32 since the shutter opened; None where nothing moves
     medium : (n,) int16, material that the ray travels in, OPEN outside; None where nothing absorbs, and for camera rays
     """
 
@@ -33,6 +34,7 @@ class Rays:
     throughput: Floats32 | None
     path: Indices | None
     medium: Media | None = None
+    time: Floats32 | None = None
 
     @property
     def size(self) -> int:
@@ -51,6 +53,7 @@ class Rays:
                 None if self.throughput is None else self.throughput[:, columns],
                 path[columns],
                 None if self.medium is None else self.medium[columns],
+                None if self.time is None else self.time[columns],
             )
 
         return part(slice(middle, None)), part(slice(middle))
@@ -92,4 +95,5 @@ def together(reflected: Rays | None, refracted: Rays | None) -> Rays | None:
         np.concatenate((a.throughput, b.throughput), axis=1),
         np.concatenate((a.path, b.path)),
         medium,
+        None if a.time is None or b.time is None else np.concatenate((a.time, b.time)),
     )

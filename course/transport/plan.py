@@ -27,6 +27,8 @@ class Plan:
     sees_environment : the environment isn't black
     max_depth : bounces that can happen in this scene
     light_dimensions : for each light, its first dimension at depth 0; None if it needs no numbers
+    lens_dimension, time_dimension : None where the camera needs none
+    gloss_dimension : the first dimension of glossy reflection at depth 0
     bounce_stride : how many dimensions one depth takes
     """
 
@@ -40,7 +42,10 @@ class Plan:
     absorbs: bool
     sees_environment: bool
     max_depth: int
+    lens_dimension: int | None
+    time_dimension: int | None
     light_dimensions: tuple[int | None, ...]
+    gloss_dimension: int
     bounce_stride: int
 
 
@@ -66,11 +71,15 @@ def make_plan(world: World, settings: Settings) -> Plan:
     m = world.materials
     mirrors = bool(m.mirrors.any()) and settings.max_depth > 0
     refracts = bool(m.refracts.any()) and settings.max_depth > 0
-    dimension = PIXEL_WIDTH
-    light_dimensions: list[int | None] = []
-    for light in world.lights:
-        light_dimensions.append(dimension if light.width else None)
-        dimension += light.width
+    dimensions = _Dimensions()
+    dimensions.take(PIXEL_WIDTH)
+    lens_dimension = dimensions.take(2) if world.lens else None
+    time_dimension = dimensions.take(1) if world.motion else None
+    first = dimensions.next
+    light_dimensions = tuple(
+        dimensions.take(light.width) if light.width else None for light in world.lights
+    )
+    gloss_dimension = dimensions.take(max((lobe.width for lobe in world.lobes), default=0))
     return Plan(
         shades=bool(m.shaded.any()) and bool(world.lights),
         all_shade=bool(m.shaded.all()),
@@ -82,9 +91,25 @@ def make_plan(world: World, settings: Settings) -> Plan:
         absorbs=refracts and bool(m.absorption.any()),
         sees_environment=not world.environment.black,
         max_depth=settings.max_depth if mirrors or refracts else 0,
-        light_dimensions=tuple(light_dimensions),
-        bounce_stride=dimension - PIXEL_WIDTH,
+        lens_dimension=lens_dimension,
+        time_dimension=time_dimension,
+        light_dimensions=light_dimensions,
+        gloss_dimension=gloss_dimension,
+        bounce_stride=dimensions.next - first,
     )
+
+
+class _Dimensions:
+    """Hands out dimensions in pairs: the sampler's pairs (0, 1), (2, 3), ... are its best."""
+
+    def __init__(self) -> None:
+        self.next = 0
+
+    def take(self, width: int) -> int:
+        """The first of ``width`` dimensions that nobody else has."""
+        first = self.next
+        self.next += width + width % 2
+        return first
 
 
 def make_lookups(world: World) -> Lookups:

@@ -9,7 +9,9 @@ import numpy as np
 
 from course.core.samplers import Block, Sampler
 from course.core.types import Floats32, Indices, Mask, Media
+from course.geometry.embree import Intersections
 from course.geometry.hits import Hits, find_hits
+from course.geometry.surface import OFFSET
 from course.imaging.camera import Camera
 from course.imaging.reconstruction import Reconstruction
 from course.imaging.tiles import RAYS, Tile
@@ -17,6 +19,7 @@ from course.scene.world import Settings, World
 from course.transport.bounce import bounced
 from course.transport.counters import Counters
 from course.transport.direct import direct_light
+from course.transport.gloss import Blur
 from course.transport.paths import OPEN, Draws, Rays, together
 from course.transport.plan import PIXEL_WIDTH, Lookups, Plan, make_lookups, make_plan
 
@@ -61,13 +64,8 @@ class Tracer:
         offsets = draws("pixel", 0, PIXEL_WIDTH, None).reshape(2, tile.size, samples)
         counters.lap("sampler")
         x, y = tile.corners()
-        rays = Rays(
-            self.camera.origin[:, None],
-            self.camera.directions(
-                (x[:, None] + offsets[0]).ravel(), (y[:, None] + offsets[1]).ravel()
-            ),
-            None,
-            None,
+        rays = self._camera_rays(
+            (x[:, None] + offsets[0]).ravel(), (y[:, None] + offsets[1]).ravel(), draws
         )
         counters.rays["camera"] += rays.size
         counters.lap("camera")
@@ -75,6 +73,22 @@ class Tracer:
         pixels = self.reconstruction.pixels(radiance.reshape(3, tile.size, samples), offsets)
         counters.lap("film")
         return pixels
+
+    def _camera_rays(self, x: Floats32, y: Floats32, draws: Draws) -> Rays:
+        """Rays through picture points (N,), from the lens if there is one, at times if anything moves."""
+        camera, world, plan = self.camera, self.world, self.plan
+        origin, direction = camera.origin[:, None], camera.directions(x, y)
+        if world.lens is not None and plan.lens_dimension is not None:
+            u = draws("lens", plan.lens_dimension, 2, None)
+            origin, direction = world.lens.rays(camera, camera.origin, direction, u)
+        time = None
+        if world.motion is not None and plan.time_dimension is not None:
+            u = draws("time", plan.time_dimension, 1, None)
+            time = world.motion.functions.shutter_times(0.0, world.motion.duration, u[0])
+            if world.motion.camera_velocity is not None:
+                moved = world.motion.functions.displacement(world.motion.camera_velocity, time)
+                origin = origin + moved
+        return Rays(origin, direction, None, None, time=time)
 
     def _trace(self, camera_rays: Rays, paths: int, draws: Draws, counters: Counters) -> Floats32:
         """Radiance (3, paths) that the camera rays and all that follow from them bring back."""
@@ -99,11 +113,13 @@ class Tracer:
     ) -> Rays | None:
         """One depth: what the rays bring is added to the film, and the rays that go on are returned."""
         accelerator = self.world.surface.accelerator
-        found = accelerator.intersect(rays.origin, rays.direction, counters.embree)
+        found = accelerator.intersect(rays.origin, rays.direction, counters.embree, rays.time)
+        if depth == 0:
+            self._leave_eye_surface(rays, found, counters)
         counters.lap("trace")
         if self.plan.sees_environment:
             self._add_environment(film, rays, found.triangle < 0)
-        hits = find_hits(self.world.surface, found, rays.direction)
+        hits = find_hits(self.world.surface, found, rays.direction, rays.time)
         throughput, path, medium = _of_hits(rays, hits)
         if self.plan.absorbs:
             throughput = self._absorbed(hits, throughput, medium)
@@ -119,7 +135,14 @@ class Tracer:
         if depth == self.plan.max_depth:
             return None
         reflected, refracted = bounced(
-            self.plan, self.lookups, hits, throughput, path, medium, self.settings.cutoff
+            self.plan,
+            self.lookups,
+            hits,
+            throughput,
+            path,
+            medium,
+            self.settings.cutoff,
+            self._blur(depth, draws),
         )
         if reflected is not None:
             counters.rays["reflection"] += reflected.size
@@ -128,6 +151,31 @@ class Tracer:
         following = together(reflected, refracted)
         counters.lap("bounce")
         return following
+
+    def _leave_eye_surface(self, rays: Rays, found: Intersections, counters: Counters) -> None:
+        """A camera that stands exactly on a surface would see nothing but that; its rays start a step further."""
+        stuck = np.flatnonzero((found.t <= 0) & (found.triangle >= 0))
+        if len(stuck) == 0:
+            return
+        direction = rays.direction.take(stuck, axis=1)
+        origin = rays.origin if rays.origin.shape[1] == 1 else rays.origin.take(stuck, axis=1)
+        time = None if rays.time is None else rays.time.take(stuck)
+        again = self.world.surface.accelerator.intersect(
+            origin + direction * np.float32(OFFSET), direction, counters.embree, time
+        )
+        for mine, theirs in (
+            (found.triangle, again.triangle),
+            (found.u, again.u),
+            (found.v, again.v),
+            (found.t, again.t),
+        ):
+            mine[stuck] = theirs
+
+    def _blur(self, depth: int, draws: Draws) -> Blur | None:
+        if not self.world.lobes:
+            return None
+        dimension = self.plan.gloss_dimension + depth * self.plan.bounce_stride
+        return Blur(self.world.lobes, dimension, draws)
 
     def _shade(self, hits: Hits, path: Indices | None, depth: int, draws: Draws) -> Floats32 | None:
         """Radiance (3, n) that leaves the hits towards the viewer without another bounce."""

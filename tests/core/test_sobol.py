@@ -7,6 +7,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.stats import qmc
 
+from course.core import sobol
 from course.core.sobol import DIMENSIONS, direction_numbers, sobol_words
 
 
@@ -37,14 +38,25 @@ def test_direction_numbers_fill_the_word_from_the_left() -> None:
             assert number & -number == 1 << (31 - k)
 
 
-def test_the_first_two_dimensions_are_those_of_scipy() -> None:
+def test_with_published_initial_numbers_the_sequence_is_scipys(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    # The first rows of Joe & Kuo, "Constructing Sobol sequences with better two-dimensional projections", 2008.
+    rows = ((0, ()), (3, (1,)), (7, (1, 3)), (11, (1, 3, 1)), (13, (1, 1, 1)), (19, (1, 1, 3, 3)))
+    monkeypatch.setattr(sobol, "POLYNOMIALS_AND_INITIAL_NUMBERS", rows)
+    monkeypatch.setattr(sobol, "direction_numbers", direction_numbers.__wrapped__)
     n = 1024
     index = np.arange(n)
     # SciPy walks the sequence in the order of the Gray code, one bit a step.
     gray = index ^ (index >> 1)
-    ours = np.stack([unit(dimension, 0, n)[gray] for dimension in (0, 1)], axis=1)
-    theirs = qmc.Sobol(2, scramble=False, bits=32).random(n)
+    theirs = qmc.Sobol(len(rows), scramble=False, bits=32).random(n).T
+    ours = [unit(dimension, 0, n)[gray] for dimension in range(len(rows))]
     assert np.array_equal(ours, theirs)
+
+
+def test_the_first_two_dimensions_are_those_of_every_sobol_sequence() -> None:
+    assert unit(0, 0, 8).tolist() == [0, 0.5, 0.25, 0.75, 0.125, 0.625, 0.375, 0.875]
+    assert unit(1, 0, 8).tolist() == [0, 0.5, 0.75, 0.25, 0.625, 0.125, 0.375, 0.875]
 
 
 def test_a_stretch_is_part_of_the_whole() -> None:

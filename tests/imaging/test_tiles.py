@@ -18,6 +18,8 @@ def test_tiles_cover_every_pixel_once(width: int, height: int, samples: int) -> 
     count = np.zeros((height, width), int)
     for tile in tile_picture(width, height, samples):
         assert tile.size > 0
+        assert tile.x + tile.width <= width
+        assert tile.y + tile.height <= height
         count[tile.rows, tile.columns] += 1
     assert (count == 1).all()
 

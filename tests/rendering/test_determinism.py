@@ -125,7 +125,7 @@ class Obstinate:
         self.later_passes_done = threading.Event()
 
     def render_tile(
-        self, tile: Tile, first: int, samples: int, counters: Counters
+        self, tile: Tile, first: int, samples: int, counters: Counters, *_: Any
     ) -> tuple[np.ndarray, float]:
         if first == 0:
             # No timing decides: the wait ends when the other thread has done all the rest.

@@ -10,6 +10,10 @@ import pytest
 from numpy.typing import NDArray
 
 from course import Scene, render
+from course.geometry.embree import QueryTime
+from course.geometry.hits import find_hits
+from course.rendering import rendering
+from course.transport.bounce import bounced
 
 MakeScene = Callable[..., Scene]
 PixelRays = Callable[[Scene], tuple[NDArray[np.float64], NDArray[np.float64]]]
@@ -282,6 +286,46 @@ def test_a_smooth_mirror_ball_shows_a_lamp_where_a_round_one_does(
     assert (found[seen & (reach < 1.9)] == 2).all()
     assert not found[seen & (reach > 2.1)].any()
     assert (seen & (reach < 1.9)).sum() > 100
+
+
+@pytest.mark.parametrize("segments", [5, 12, 64])
+@pytest.mark.parametrize("index", [1 / 1.5, 1.5])
+@pytest.mark.parametrize("inside", [False, True])
+def test_rays_leave_a_smooth_mesh_on_the_side_they_are_meant_to(
+    make_scene: MakeScene, segments: int, index: float, inside: bool
+) -> None:
+    scene = make_scene(
+        objects=[{"shape": "sphere", "material": "m", "segments": segments}],
+        materials={"m": {"mirror": 0.1, "dielectric": {"refraction_index": index}}},
+    )
+    tracer = rendering._tracer(scene, scene.settings)
+    rng = np.random.default_rng(2)
+    n = 20000
+    target = rng.normal(size=(3, n))
+    target /= np.linalg.norm(target, axis=0)
+    origin = (
+        rng.uniform(-0.4, 0.4, (3, n)) if inside else 3 * rng.permuted(target, axis=1)
+    ).astype("f4")
+    direction = (target - origin).astype(np.float32)
+    direction /= np.linalg.norm(direction, axis=0)
+    surface = tracer.world.surface
+    hits = find_hits(
+        surface, surface.accelerator.intersect(origin, direction, QueryTime()), direction
+    )
+    assert hits.size > 5000
+    found = bounced(tracer.plan, tracer.lookups, hits, None, None, None, 0.0)
+    turned_back = 0
+    for rays, side in zip(found, (1, -1), strict=True):
+        assert rays is not None
+        assert rays.path is not None
+        ng = hits.ng[:, rays.path]
+        assert (side * (rays.direction * ng).sum(axis=0)).min() >= -1e-6
+        assert (side * ((rays.origin - hits.p[:, rays.path]) * ng).sum(axis=0)).min() > 0
+        assert np.abs(np.linalg.norm(rays.direction.astype(float), axis=0) - 1).max() < 2e-6
+        naive = hits.direction - 2 * (hits.direction * hits.ns).sum(axis=0) * hits.ns
+        turned_back += int(((naive * hits.ng).sum(axis=0) < 0).sum())
+    # Seen from outside, some of the shading normals would have sent a ray to the wrong side.
+    assert turned_back > 0 or inside
 
 
 def test_a_camera_inside_glass_looks_out(make_scene: MakeScene) -> None:

@@ -9,6 +9,7 @@ Sobol render are independent estimates of one number, whose mean is within 5 of 
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Callable
 from typing import Any
 
@@ -17,6 +18,11 @@ import pytest
 from numpy.typing import NDArray
 
 from course import Scene, render
+from course.core.samplers import Block
+from course.core.samplers.sobol import SobolSampler
+from course.rendering import rendering
+from course.rendering.passes import passes
+from course.transport.counters import Counters
 
 MakeScene = Callable[..., Scene]
 PixelRays = Callable[[Scene], tuple[NDArray[np.float64], NDArray[np.float64]]]
@@ -300,6 +306,35 @@ def test_a_rectangle_light_is_dark_from_behind(make_scene: MakeScene) -> None:
     environment = {"type": "constant", "radiance": 1}
     shown = render(make_scene(lights=[light | {"radiance": 5}], environment=environment)).linear
     assert not shown.any(), "it hides what is behind it, too"
+
+
+def test_every_light_and_every_depth_has_numbers_of_its_own(make_scene: MakeScene) -> None:
+    # Were they shared, a mirror image would be lit from the same points as what it mirrors.
+    drawn: list[tuple[int, int]] = []
+
+    class Noted(SobolSampler):
+        def draw(self, block: Block, dimension: int, width: int) -> Any:
+            drawn.append((dimension, width))
+            return super().draw(block, dimension, width)
+
+    lamps = [
+        {"type": "sphere", "center": [x, 3, 1], "radius": 0.5, "intensity": 1} for x in (-1, 1)
+    ]
+    scene = make_scene(
+        camera={"eye": [0, 0.5, 1], "look_at": [0, 0, 0]},
+        materials={"grey": {"mirror": 0.9}},
+        objects=[
+            FLOOR | {"transform": [{"scale": 20}, {"translate": [0, y, 0]}]} for y in (0, 3.5)
+        ],
+        lights=[*lamps, {"type": "point", "position": [0, 1, 0], "intensity": 1}],
+        integrator={"max_depth": 2},
+    )
+    settings = scene.settings
+    tracer = dataclasses.replace(rendering._tracer(scene, settings), sampler=Noted(0))
+    for work in passes(settings, tracer.sampler):
+        tracer.render_tile(work.tile, work.first, work.samples, Counters())
+    used = [d + row for d, width in sorted(set(drawn)) for row in range(width)]
+    assert used == list(range(2 + 3 * 4)), "the pixel, then two lamps at each of three depths"
 
 
 def test_a_light_in_its_own_plane_or_at_a_surface_stays_finite(floor: MakeScene) -> None:

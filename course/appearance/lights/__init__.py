@@ -5,6 +5,7 @@ Each compiled light has
 - ``name``: for receipts and error messages,
 - ``color`` (3,) float32: what one unit of the factor below means, already divided by pi for the reflected radiance,
 - ``width``: how many numbers one sample takes (0 for lights without extent),
+- ``velocity`` (3,) float32 or None: how it moves,
 - ``limit``: how far along ``to_light`` a blocker counts, and
 - ``sample(points, u) -> Sample``.
 """

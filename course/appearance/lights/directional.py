@@ -20,6 +20,7 @@ class DirectionalLight:
     towards: Floats32
     color: Floats32
     width: int = 0
+    velocity: Floats32 | None = None
     limit: float = 1e30
 
     def sample(self, points: Floats32, u: Floats32 | None) -> Sample:

@@ -5,11 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-import numpy as np
-
-from course.appearance.lights.sample import TO_A_POINT, TO_A_SURFACE, Sample, inverse_square
+from course.appearance.lights.sample import (
+    TO_A_POINT,
+    TO_A_SURFACE,
+    Sample,
+    emitted_cosine,
+    inverse_square,
+)
 from course.core.types import Floats32
-from course.core.vectors import dot
 
 PointOnRectangle = Callable[[Floats32, Floats32, Floats32, Floats32], Floats32]
 
@@ -34,6 +37,7 @@ class RectangleLight:
     color: Floats32
     point_on_rectangle: PointOnRectangle
     width: int = 2
+    velocity: Floats32 | None = None
 
     @property
     def limit(self) -> float:
@@ -46,7 +50,5 @@ class RectangleLight:
         to_light = self.point_on_rectangle(self.corner, self.edge_u, self.edge_v, u) - points
         inverse_length, factor = inverse_square(to_light)
         if self.normal is not None:
-            cosine = dot(self.normal[:, None], to_light)
-            cosine *= -inverse_length
-            factor *= np.maximum(cosine, 0, out=cosine)
+            factor *= emitted_cosine(self.normal, to_light, inverse_length)
         return Sample(to_light, inverse_length, factor)

@@ -44,3 +44,10 @@ def inverse_square(to_light: Floats32) -> tuple[Floats32, Floats32]:
     np.maximum(squared, np.float32(CLOSEST * CLOSEST), out=squared)
     inverse = np.divide(np.float32(1), squared, out=squared)
     return np.sqrt(inverse), inverse
+
+
+def emitted_cosine(normal: Floats32, to_light: Floats32, inverse_length: Floats32) -> Floats32:
+    """Cosine (n,) between an emitter's normal (3,) and the way it shines; 0 behind it."""
+    cosine = dot(normal[:, None], to_light)
+    cosine *= -inverse_length
+    return np.maximum(cosine, 0, out=cosine)

@@ -11,8 +11,6 @@ from course.appearance.lights.sample import TO_A_POINT, TO_A_SURFACE, Sample, in
 from course.core.types import Floats32
 from course.core.vectors import dot
 
-PointOnSphere = Callable[[Floats32, float, Floats32], Floats32]
-
 
 @dataclass(frozen=True)
 class SphereLight:
@@ -24,7 +22,8 @@ class SphereLight:
     radius : float > 0 (a sphere of radius 0 is compiled into a point light)
     emitter : whether it is a Lambertian emitter, whose points shine outwards only
     color : (3,) float32, I / pi, or radiance times area / pi
-    point_on_sphere : the function of the soft_shadows module
+    method, place : a function of the soft_shadows module and its name: point_on_sphere, point_in_ball, or
+        point_on_facing_disk; an emitter has points on its surface only
     """
 
     name: str
@@ -32,8 +31,10 @@ class SphereLight:
     radius: float
     emitter: bool
     color: Floats32
-    point_on_sphere: PointOnSphere
+    method: str
+    place: Callable[..., Floats32]
     width: int = 2
+    velocity: Floats32 | None = None
 
     @property
     def limit(self) -> float:
@@ -43,12 +44,14 @@ class SphereLight:
     def sample(self, points: Floats32, u: Floats32 | None) -> Sample:
         """See ``course.appearance.lights``."""
         assert u is not None
-        on_sphere = self.point_on_sphere(self.center, self.radius, u)
-        to_light = on_sphere - points
+        if self.method == "point_on_facing_disk":
+            on_light = self.place(self.center, self.radius, np.ascontiguousarray(points), u)
+        else:
+            on_light = self.place(self.center, self.radius, u)
+        to_light = on_light - points
         inverse_length, factor = inverse_square(to_light)
         if self.emitter:
-            on_sphere -= self.center[:, None]
-            cosine = dot(on_sphere, to_light)
+            cosine = dot(on_light - self.center[:, None], to_light)
             cosine *= inverse_length
             cosine *= np.float32(-1 / self.radius)
             factor *= np.maximum(cosine, 0, out=cosine)

@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
-from course.scene.description.camera import CameraDescription
+from course.scene.description.camera import (
+    CameraDescription,
+    LensDescription,
+    ShutterDescription,
+)
 from course.scene.description.environment import ConstantEnvironment, Environment
 from course.scene.description.film import FilmDescription
+from course.scene.description.gloss import BallLobe, Gloss, PhongLobe, PlaneLobe
 from course.scene.description.integrator import IntegratorDescription
 from course.scene.description.lights import (
     AmbientLight,
@@ -16,6 +21,7 @@ from course.scene.description.lights import (
     SphereLight,
 )
 from course.scene.description.materials import Dielectric, MaterialDescription
+from course.scene.description.motion import MotionDescription
 from course.scene.description.objects import (
     Box,
     Cone,
@@ -38,6 +44,7 @@ from course.scene.description.values import Color, Reflectance, Vector, rgb
 
 __all__ = [
     "AmbientLight",
+    "BallLobe",
     "Box",
     "CameraDescription",
     "Color",
@@ -50,14 +57,19 @@ __all__ = [
     "DisplacedSphere",
     "Environment",
     "FilmDescription",
+    "Gloss",
     "HeightField",
     "IntegratorDescription",
+    "LensDescription",
     "Light",
     "LightDescription",
     "MaterialDescription",
     "MeshFile",
+    "MotionDescription",
     "Object",
     "ObjectDescription",
+    "PhongLobe",
+    "PlaneLobe",
     "PointLight",
     "Quad",
     "RectangleLight",
@@ -67,6 +79,7 @@ __all__ = [
     "SamplerDescription",
     "Scale",
     "SceneDescription",
+    "ShutterDescription",
     "Sphere",
     "SphereLight",
     "Torus",

@@ -1,12 +1,39 @@
-"""`camera`: where the picture is taken from."""
+"""`camera`: where the picture is taken from, through which lens, and for how long."""
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 import msgspec
 
+from course.scene.description.motion import MotionDescription
 from course.scene.description.values import Vector, about
+
+
+class LensDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A thin lens; exactly one of focus_distance and focus_point."""
+
+    aperture_radius: Annotated[
+        float, about("Radius of the lens; 0 is a pinhole.", "world unit", ge=0)
+    ]
+    shape: Annotated[
+        Literal["disk", "square", "polygon"],
+        about("Shape of the aperture: a disk, the square around it, or a regular polygon in it."),
+    ] = "disk"
+    blades: Annotated[int, about("Corners of the polygon.", ge=3, le=32)] = 6
+    focus_distance: Annotated[
+        float | None, about("Distance of the plane in focus, along the view.", "world unit")
+    ] = None
+    focus_point: Annotated[Vector | None, about("A point of the plane in focus.", "world unit")] = (
+        None
+    )
+
+
+class ShutterDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """When the shutter opens and closes; it only matters where something moves."""
+
+    open: Annotated[float, about("When it opens.", "second")] = 0.0
+    close: Annotated[float, about("When it closes, not before it opens.", "second")] = 1.0
 
 
 class CameraDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -22,3 +49,6 @@ class CameraDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknow
     vertical_fov: Annotated[
         float, about("Angle from the picture's lower to its upper edge.", "degree", gt=0, lt=180)
     ] = 40.0
+    lens: Annotated[LensDescription | None, about("A thin lens; null for a pinhole.")] = None
+    shutter: Annotated[ShutterDescription, about("When light is let in.")] = ShutterDescription()
+    motion: Annotated[MotionDescription, about("How the camera moves.")] = MotionDescription()

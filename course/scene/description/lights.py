@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Annotated, TypeAlias
+from typing import Annotated, Literal, TypeAlias
 
 import msgspec
 
+from course.scene.description.motion import MotionDescription
 from course.scene.description.values import Color, Vector, about
 
 _Intensity: TypeAlias = Annotated[
@@ -16,6 +17,7 @@ _Radiance: TypeAlias = Annotated[
     Color | None,
     about("Lambertian emission, which the camera sees; or give intensity.", "W/(m^2 sr)"),
 ]
+_Motion: TypeAlias = Annotated[MotionDescription, about("How the light moves.")]
 
 
 class LightDescription(
@@ -35,6 +37,7 @@ class PointLight(LightDescription, frozen=True, kw_only=True, tag="point"):
 
     position: Annotated[Vector, about("Where it is.", "world unit")]
     intensity: Annotated[Color, about("Radiant intensity.", "W/sr")]
+    motion: _Motion = MotionDescription()
 
 
 class DirectionalLight(LightDescription, frozen=True, kw_only=True, tag="directional"):
@@ -52,6 +55,14 @@ class RectangleLight(LightDescription, frozen=True, kw_only=True, tag="rectangle
     edge_v: Annotated[Vector, about("Other edge from the corner.", "world unit")]
     intensity: _Intensity = None
     radiance: _Radiance = None
+    samples: Annotated[
+        str,
+        about(
+            "`point`: one random point for each sample; `grid K`: the centres of K x K cells.",
+            pattern=r"^(point|grid [1-9][0-9]?)$",
+        ),
+    ] = "point"
+    motion: _Motion = MotionDescription()
 
 
 class SphereLight(LightDescription, frozen=True, kw_only=True, tag="sphere"):
@@ -61,6 +72,14 @@ class SphereLight(LightDescription, frozen=True, kw_only=True, tag="sphere"):
     radius: Annotated[float, about("Radius.", "world unit", ge=0)]
     intensity: _Intensity = None
     radiance: _Radiance = None
+    samples: Annotated[
+        Literal["sphere", "ball", "facing disk"],
+        about(
+            "Where its light comes from: the surface, the whole ball, or the disk that it shows;"
+            " by radiance only the surface."
+        ),
+    ] = "sphere"
+    motion: _Motion = MotionDescription()
 
 
 Light: TypeAlias = AmbientLight | PointLight | DirectionalLight | RectangleLight | SphereLight

@@ -6,6 +6,7 @@ from typing import Annotated
 
 import msgspec
 
+from course.scene.description.gloss import Gloss
 from course.scene.description.values import Color, Reflectance, about
 
 
@@ -34,6 +35,9 @@ class MaterialDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unkn
     specular: Annotated[Reflectance, about("Colour of the highlight.")] = 0.0
     exponent: Annotated[float, about("Blinn-Phong exponent of the highlight.", ge=0)] = 32.0
     mirror: Annotated[Reflectance, about("Share of the light that is mirrored.")] = 0.0
+    gloss: Annotated[Gloss | None, about("Blurs what is mirrored; null for a perfect mirror.")] = (
+        None
+    )
     dielectric: Annotated[
         Dielectric | None, about("Makes the material refract; null where it is opaque.")
     ] = None

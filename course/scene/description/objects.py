@@ -6,6 +6,7 @@ from typing import Annotated, Literal, TypeAlias
 
 import msgspec
 
+from course.scene.description.motion import MotionDescription
 from course.scene.description.transforms import Transform
 from course.scene.description.values import about
 
@@ -26,6 +27,7 @@ class ObjectDescription(
     transform: Annotated[
         tuple[Transform, ...], about("Steps applied in order, the first one first.")
     ] = ()
+    motion: Annotated[MotionDescription, about("How the object moves.")] = MotionDescription()
 
 
 class Quad(ObjectDescription, frozen=True, kw_only=True, tag="quad"):

@@ -36,6 +36,7 @@ def about(
     lt: float | None = None,
     le: float | None = None,
     min_length: int | None = None,
+    pattern: str | None = None,
 ) -> msgspec.Meta:
     """Describe a key of the scene format, for the checks and for the JSON schema.
 
@@ -49,8 +50,10 @@ def about(
         Bounds: greater than, greater or equal, less than, less or equal.
     min_length : int, optional
         Least length of a text or list.
+    pattern : str, optional
+        Regular expression of a text.
     """
-    given = {"gt": gt, "ge": ge, "lt": lt, "le": le, "min_length": min_length}
+    given = {"gt": gt, "ge": ge, "lt": lt, "le": le, "min_length": min_length, "pattern": pattern}
     bounds: dict[str, Any] = {key: value for key, value in given.items() if value is not None}
     extra = None if unit is None else {"x-unit": unit}
     return msgspec.Meta(description=description, extra_json_schema=extra, **bounds)

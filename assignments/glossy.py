@@ -1,0 +1,161 @@
+"""glossy - reflections of surfaces that are no perfect mirrors.
+
+A mirror sends each ray in one direction. Most surfaces are rough at a scale too small to see and send light into a
+whole lobe around that direction, so what they reflect is blurred, the more so the farther away it is. Each ray takes
+one random direction of the lobe; the average over a pixel's rays is the blur.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+
+def orthonormal_basis(w):
+    """Two unit vectors that make a right-handed orthonormal basis with each w: cross(u, v) = w.
+
+    Parameters
+    ----------
+    w : (3, N) floating
+        Unit vectors, any of them: the poles and their surroundings too.
+
+    Returns
+    -------
+    u, v : (3, N) each, of the dtype of w
+
+    Raises
+    ------
+    ValueError
+        w has another shape.
+
+    Task: glossy.orthonormal_basis. Source: Duff et al., "Building an orthonormal basis, revisited", 2017.
+    """
+    _check_batch("w", w, 3)
+    # TODO glossy.orthonormal_basis: write your solution here
+    raise NotImplementedError("glossy.orthonormal_basis: not written yet")
+
+
+def jitter_on_plane(direction, roughness, u):
+    """Jitter directions by a square: normalise(direction + roughness * ((u0 - 1/2) a + (u1 - 1/2) b)).
+
+    Parameters
+    ----------
+    direction : (3, N) floating
+        Unit vectors; a and b are the orthonormal basis about each.
+    roughness : float >= 0
+        Side of the square, at distance 1. With 0 the result is direction, bit for bit.
+    u : (2, N) floating in [0, 1)
+
+    Returns
+    -------
+    (3, N) unit vectors, of the dtype of direction and u, or NumPy's promotion of the two
+
+    Raises
+    ------
+    ValueError
+        An argument has another shape, or roughness is not >= 0.
+
+    Task: glossy.jitter_on_plane. Source: Marschner and Shirley, "Fundamentals of computer graphics".
+    """
+    _check_batch("direction", direction, 3)
+    _check_batch("u", u, 2, np.shape(direction)[1])
+    _check_not_negative("roughness", roughness)
+    # TODO glossy.jitter_on_plane: write your solution here
+    raise NotImplementedError("glossy.jitter_on_plane: not written yet")
+
+
+def jitter_in_ball(direction, glossiness, u):
+    """Jitter directions by a ball: normalise(direction + glossiness * a uniform point of the unit ball).
+
+    Parameters
+    ----------
+    direction : (3, N) floating
+        Unit vectors.
+    glossiness : float in [0, 1)
+        Radius of the ball, at distance 1. With 0 the result is direction, bit for bit.
+    u : (3, N) floating in [0, 1)
+
+    Returns
+    -------
+    (3, N) unit vectors, of the dtype of direction and u, or NumPy's promotion of the two
+
+    Raises
+    ------
+    ValueError
+        An argument has another shape, or glossiness is not >= 0 and < 1.
+
+    Task: glossy.jitter_in_ball.
+    """
+    _check_batch("direction", direction, 3)
+    _check_batch("u", u, 3, np.shape(direction)[1])
+    if not 0 <= glossiness < 1:
+        raise ValueError(f"glossiness must be >= 0 and < 1, got {glossiness}")
+    # TODO glossy.jitter_in_ball: write your solution here
+    raise NotImplementedError("glossy.jitter_in_ball: not written yet")
+
+
+def sample_phong_lobe(direction, exponent, u):
+    """Importance-sample the lobe of Phong: density (exponent + 1) / (2 pi) * cos(alpha)^exponent [1/sr].
+
+    Parameters
+    ----------
+    direction : (3, N) floating
+        Unit vectors, the axis of each lobe; alpha is the angle to it.
+    exponent : float >= 0
+        0 is the uniform hemisphere; the larger, the closer to a mirror.
+    u : (2, N) floating in [0, 1)
+
+    Returns
+    -------
+    (3, N) unit vectors, of the dtype of direction and u, or NumPy's promotion of the two
+
+    Raises
+    ------
+    ValueError
+        An argument has another shape, or exponent is not >= 0.
+
+    Task: glossy.sample_phong_lobe. Source: Lafortune and Willems, "Using the modified Phong reflectance model for
+    physically based rendering", 1994.
+    """
+    _check_batch("direction", direction, 3)
+    _check_batch("u", u, 2, np.shape(direction)[1])
+    _check_not_negative("exponent", exponent)
+    # TODO glossy.sample_phong_lobe: write your solution here
+    raise NotImplementedError("glossy.sample_phong_lobe: not written yet")
+
+
+def keep_above(direction, normal):
+    """Mirror the directions that fell below the surface: d - 2 dot(d, n) n where dot(d, n) < 0.
+
+    Parameters
+    ----------
+    direction, normal : (3, N) floating
+        Unit vectors.
+
+    Returns
+    -------
+    (3, N) unit vectors, of the dtype of direction and normal, or NumPy's promotion of the two
+        The directions that were above come back bit for bit.
+
+    Raises
+    ------
+    ValueError
+        An argument has another shape.
+
+    Task: glossy.keep_above.
+    """
+    _check_batch("direction", direction, 3)
+    _check_batch("normal", normal, 3, np.shape(direction)[1])
+    # TODO glossy.keep_above: write your solution here
+    raise NotImplementedError("glossy.keep_above: not written yet")
+
+
+def _check_batch(name, array, rows, columns=None):
+    shape = np.shape(array)
+    if len(shape) != 2 or shape[0] != rows or (columns is not None and shape[1] != columns):
+        expected = f"({rows}, {'N' if columns is None else columns})"
+        raise ValueError(f"{name} must have shape {expected}, got {shape}")
+
+
+def _check_not_negative(name, number):
+    if not number >= 0:
+        raise ValueError(f"{name} must be >= 0, got {number}")

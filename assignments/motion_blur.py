@@ -1,0 +1,113 @@
+"""motion_blur - distributing rays over time.
+
+A camera's shutter is open for a while, and what moves in the meantime leaves a streak. Each ray belongs to one random
+moment of that while and sees the scene as it stands then; the average over a pixel's rays is the streak. An object
+that moves need not be moved for that: seen from the object itself, it is the ray that starts somewhere else.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+
+def shutter_times(open, close, u):  # noqa: A002 - the names of the course
+    """Uniform times while the shutter is open.
+
+    Parameters
+    ----------
+    open, close : float [s]
+        open <= close; where they are equal, that is the time of every ray.
+    u : (N,) floating in [0, 1)
+
+    Returns
+    -------
+    (N,) [s] in [open, close), of the dtype of u
+        They rise with u.
+
+    Raises
+    ------
+    ValueError
+        u is not (N,), or open and close are not finite numbers with open <= close.
+
+    Task: motion_blur.shutter_times. Source: Cook, Porter and Carpenter, "Distributed ray tracing", 1984.
+    """
+    _check_scalars("u", u)
+    if not -np.inf < open <= close < np.inf:
+        raise ValueError(f"open and close must be finite and open <= close, got {open} and {close}")
+    # TODO motion_blur.shutter_times: write your solution here
+    raise NotImplementedError("motion_blur.shutter_times: not written yet")
+
+
+def displacement(velocity, time):
+    """How far an object has gone at each time, since time 0.
+
+    Parameters
+    ----------
+    velocity : (3,) [m/s]
+    time : (N,) floating [s]
+
+    Returns
+    -------
+    (3, N) [m], of the dtype of time
+
+    Raises
+    ------
+    ValueError
+        An argument has another shape.
+
+    Task: motion_blur.displacement.
+    """
+    _check_single(velocity=velocity)
+    _check_scalars("time", time)
+    # TODO motion_blur.displacement: write your solution here
+    raise NotImplementedError("motion_blur.displacement: not written yet")
+
+
+def to_object_space(origins, velocity, time):
+    """Origins of rays as a moving object sees them, so that the object itself can stay where it is.
+
+    Directions do not change under translation.
+
+    Parameters
+    ----------
+    origins : (3, N) floating [m]
+    velocity : (3,) [m/s]
+        Of the object. With (0, 0, 0) the origins come back bit for bit.
+    time : (N,) floating [s]
+        Of each ray; at 0 the object is where the scene has put it.
+
+    Returns
+    -------
+    (3, N) [m], of the dtype of origins and time, or NumPy's promotion of the two
+
+    Raises
+    ------
+    ValueError
+        An argument has another shape.
+
+    Task: motion_blur.to_object_space.
+    """
+    _check_batch("origins", origins, 3)
+    _check_single(velocity=velocity)
+    _check_scalars("time", time, np.shape(origins)[1])
+    # TODO motion_blur.to_object_space: write your solution here
+    raise NotImplementedError("motion_blur.to_object_space: not written yet")
+
+
+def _check_single(**points):
+    for name, point in points.items():
+        if np.shape(point) != (3,):
+            raise ValueError(f"{name} must have shape (3,), got {np.shape(point)}")
+
+
+def _check_batch(name, array, rows):
+    shape = np.shape(array)
+    if len(shape) != 2 or shape[0] != rows:
+        raise ValueError(f"{name} must have shape ({rows}, N), got {shape}")
+
+
+def _check_scalars(name, array, columns=None):
+    shape = np.shape(array)
+    if len(shape) != 1 or (columns is not None and shape[0] != columns):
+        expected = "(N,)" if columns is None else f"({columns},)"
+        raise ValueError(f"{name} must have shape {expected}, got {shape}")

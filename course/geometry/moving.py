@@ -1,0 +1,100 @@
+"""Moving triangles: each group that moves alike has an Embree scene of its own, and rays are shifted into its frame.
+
+embreex has no motion. But an object that moves by d looks from the ray's side as if it stood still and the ray's
+origin had moved by -d; directions don't change under translation (the `motion_blur` module). Triangles are numbered
+through: first the static ones, then those of each mover.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from course.core.types import Floats32, Mask, Numbers
+from course.geometry.embree import Accelerator, Intersections, QueryTime
+
+ToObjectSpace = Callable[[Floats32, Floats32, Floats32], Floats32]
+Displacement = Callable[[Floats32, Floats32], Floats32]
+
+
+@dataclass(frozen=True)
+class Mover:
+    """Triangles first .. last - 1, which move with one velocity (3,) float32 [1 / s]."""
+
+    velocity: Floats32
+    accelerator: Accelerator
+    first: int
+    last: int
+
+
+@dataclass(frozen=True)
+class MovingAccelerator:
+    """Static triangles and movers behind the interface of ``Accelerator``.
+
+    Attributes
+    ----------
+    to_object_space, displacement : the functions of the motion_blur module
+    """
+
+    static: Accelerator
+    movers: tuple[Mover, ...]
+    to_object_space: ToObjectSpace
+    displacement: Displacement
+
+    def intersect(
+        self, origin: Floats32, direction: Floats32, clock: QueryTime, time: Floats32 | None
+    ) -> Intersections:
+        """Nearest hits at the rays' times (N,); see ``Accelerator.intersect``."""
+        assert time is not None
+        found = self.static.intersect(origin, direction, clock)
+        origin = _each_its_own(origin, direction.shape[1])
+        for mover in self.movers:
+            shifted = self.to_object_space(origin, mover.velocity, time)
+            other = mover.accelerator.intersect(shifted, direction, clock, limit=found.t)
+            nearer = np.flatnonzero(other.triangle >= 0)
+            if len(nearer):
+                found.triangle[nearer] = other.triangle.take(nearer) + np.int32(mover.first)
+                for mine, theirs in (
+                    (found.u, other.u),
+                    (found.v, other.v),
+                    (found.t, other.t),
+                ):
+                    mine[nearer] = theirs.take(nearer)
+        return found
+
+    def unoccluded(
+        self,
+        origin: Floats32,
+        direction: Floats32,
+        limit: float,
+        clock: QueryTime,
+        time: Floats32 | None,
+    ) -> Mask:
+        """Whether the way is free at the rays' times; see ``Accelerator.unoccluded``."""
+        assert time is not None
+        free = self.static.unoccluded(origin, direction, limit, clock)
+        for mover in self.movers:
+            # Only those that nothing has blocked so far are asked again.
+            left = np.flatnonzero(free)
+            if len(left) == 0:
+                break
+            shifted = self.to_object_space(
+                origin.take(left, axis=1), mover.velocity, time.take(left)
+            )
+            free[left] = mover.accelerator.unoccluded(
+                shifted, direction.take(left, axis=1), limit, clock
+            )
+        return free
+
+    def follow(self, points: Floats32, triangle: Numbers, time: Floats32) -> None:
+        """Move points (3, n) on triangles to where those are at their times, in place."""
+        for mover in self.movers:
+            which = np.flatnonzero((triangle >= mover.first) & (triangle < mover.last))
+            if len(which):
+                points[:, which] += self.displacement(mover.velocity, time.take(which))
+
+
+def _each_its_own(origin: Floats32, n: int) -> Floats32:
+    return origin if origin.shape[1] == n else np.repeat(origin, n, axis=1)

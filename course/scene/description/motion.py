@@ -1,0 +1,19 @@
+"""`motion`: how objects, lights and the camera move while the shutter is open."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import msgspec
+
+from course.scene.description.values import Vector, about
+
+
+class MotionDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """Straight and even motion; where things stand is where they are at time 0."""
+
+    velocity: Annotated[Vector, about("How far it goes in a second.", "world unit/s")] = (
+        0.0,
+        0.0,
+        0.0,
+    )

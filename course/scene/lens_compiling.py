@@ -1,0 +1,47 @@
+"""From a lens description to the lens of the compiled scene."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from course.effects import Effects
+from course.imaging.lens import Lens
+from course.scene.frame import Frame
+from course.scene.loading import Loaded
+
+
+def compile_lens(loaded: Loaded, frame: Frame, effects: Effects) -> Lens | None:
+    """The lens, or None for a pinhole (no lens, or an aperture of 0).
+
+    Raises
+    ------
+    SceneError
+        Neither or both of focus_distance and focus_point, or a focus that isn't in front of the camera.
+    """
+    camera, document = loaded.description.camera, loaded.document
+    lens, path = camera.lens, ("camera", "lens")
+    if lens is None:
+        return None
+    if (lens.focus_distance is None) == (lens.focus_point is None):
+        raise document.error(path, "give exactly one of focus_distance and focus_point")
+    if lens.focus_distance is not None:
+        key, distance = "focus_distance", lens.focus_distance
+    else:
+        key, view = "focus_point", np.array(camera.look_at) - np.array(camera.eye)
+        to_focus = np.array(lens.focus_point) - np.array(camera.eye)
+        largest = np.abs(view).max()
+        distance = float(to_focus @ (view / largest) / np.linalg.norm(view / largest))
+    if not distance > 0:
+        raise document.unexpected((*path, key), "a plane in front of the camera")
+    if lens.aperture_radius == 0:
+        return None
+    return Lens(
+        aperture_radius=lens.aperture_radius / frame.scale,
+        focus_distance=distance / frame.scale,
+        shape=lens.shape,
+        blades=lens.blades,
+        point_on_disk=effects.function("thin_lens", "point_on_disk")
+        if lens.shape == "disk"
+        else None,
+        lens_rays=effects.function("thin_lens", "lens_rays"),
+    )

@@ -1,0 +1,48 @@
+"""Glossy reflection: mirrored directions are jittered by the lobe of their material."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from course.appearance.lobes import Lobe
+from course.core.types import Floats32, Indices, Materials
+from course.transport.paths import Draws
+
+
+@dataclass(frozen=True)
+class Blur:
+    """Jitters the mirrored directions of one bounce.
+
+    Attributes
+    ----------
+    lobes : of the glossy materials
+    dimension : the first dimension of this bounce's gloss
+    """
+
+    lobes: tuple[Lobe, ...]
+    dimension: int
+    draws: Draws
+
+    def __call__(
+        self, material: Materials, mirrored: Floats32, ng: Floats32, path: Indices
+    ) -> Floats32:
+        """Directions (3, n) of reflected rays, those of glossy materials jittered and kept above the surface.
+
+        Parameters
+        ----------
+        material : (n,) of the surface that reflects
+        mirrored, ng : (3, n), the mirrored directions (may be overwritten) and the geometric normals
+        path : (n,)
+        """
+        for lobe in self.lobes:
+            which = np.flatnonzero(material == lobe.material)
+            if len(which) == 0:
+                continue
+            u = self.draws("gloss", self.dimension, lobe.width, path.take(which))
+            if len(which) == len(material):
+                return lobe.keep_above(lobe.jitter(mirrored, lobe.parameter, u), ng)
+            scattered = lobe.jitter(mirrored.take(which, axis=1), lobe.parameter, u)
+            mirrored[:, which] = lobe.keep_above(scattered, ng.take(which, axis=1))
+        return mirrored

@@ -1,0 +1,367 @@
+"""Depth of field: points on the lens, rays through the plane in focus, and the circle of confusion."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+from itertools import product
+from typing import Any
+
+import numpy as np
+import pytest
+
+from tests.solutions.batches import CHECKS, DTYPES, Call, assert_unit, every_pair, numbers
+from tests.solutions.contract import (
+    SOLUTIONS,
+    Array,
+    assert_mean,
+    assert_uniform,
+    frozen,
+    unit,
+    worst_units,
+)
+
+point_on_disk = SOLUTIONS.function("thin_lens", "point_on_disk")
+lens_rays = SOLUTIONS.function("thin_lens", "lens_rays")
+image_distance = SOLUTIONS.function("thin_lens", "image_distance")
+circle_of_confusion = SOLUTIONS.function("thin_lens", "circle_of_confusion")
+
+N = 100_000
+
+ORIGIN = (0.3, -1.7, 2.1)
+# A camera that looks along no axis.
+RIGHT, UP, FORWARD = (2 / 3, -1 / 3, 2 / 3), (2 / 3, 2 / 3, -1 / 3), (-1 / 3, 2 / 3, 2 / 3)
+CAMERA = {"origin": ORIGIN, "right": RIGHT, "up": UP, "forward": FORWARD}
+AXES = np.array([RIGHT, UP, FORWARD]).T
+
+CORNERS = [*product((-1.0, 0.0, 1.0), repeat=2)]
+"""Places in a picture of a right angle both ways: its corners, its edges' middles and its middle."""
+
+dtypes = pytest.mark.parametrize("dtype", DTYPES)
+corners = pytest.mark.parametrize("corner", CORNERS)
+
+
+def pinhole(x: Array, y: Array, dtype: type) -> Array:
+    """Unit vectors through points of the picture at distance 1."""
+    d = AXES @ np.stack((x, y, np.ones_like(x)))
+    return np.ascontiguousarray(d / np.linalg.norm(d, axis=0), dtype)
+
+
+def picture_directions(n: int, dtype: type, seed: int) -> Array:
+    return pinhole(*(2 * unit(2, n, np.float64, seed) - 1), dtype)
+
+
+def at(corner: tuple[float, float], n: int, dtype: type) -> Array:
+    """The direction of one place in the picture, n times."""
+    return pinhole(*np.repeat(np.array(corner)[:, None], n, axis=1), dtype)
+
+
+def on_plane(origins: Array, directions: Array, distance: float) -> Array:
+    """Where rays meet the plane at that distance from the lens, (2, N) along right and up."""
+    o = AXES.T @ (origins.astype(float) - np.array(ORIGIN)[:, None])
+    d = AXES.T @ directions.astype(float)
+    return (o + d * ((distance - o[2]) / d[2]))[:2]
+
+
+def rounding(dtype: type, distance: float) -> float:
+    """What coordinates of points at that distance may be off by, in a picture of a right angle."""
+    return 8 * float(np.finfo(dtype).eps) * (4 + math.sqrt(3) * distance)
+
+
+CALLS = {
+    "point_on_disk": Call(point_on_disk, {"u": numbers(2)}, result=((2,),)),
+    "lens_rays": Call(
+        lens_rays,
+        {"directions": picture_directions, "lens_points": numbers(2, -0.2, 0.2)},
+        {**CAMERA, "focus_distance": 3.0},
+        result=((3,), (3,)),
+    ),
+    "circle_of_confusion": Call(
+        circle_of_confusion,
+        {"depth": numbers(None, 1, 9)},
+        {"aperture_radius": 0.25, "focus_distance": 3.0},
+        result=((),),
+    ),
+}
+
+
+@pytest.mark.parametrize("check", CHECKS)
+@pytest.mark.parametrize("name", CALLS)
+def test_contract_of_batches(name: str, check: str) -> None:
+    CHECKS[check](CALLS[name])
+
+
+# ---------------------------------------------------------------- the disk
+
+
+@dtypes
+def test_disk_points_are_uniform_on_the_unit_disk(dtype: type) -> None:
+    x, y = point_on_disk(unit(2, N, dtype, seed=1)).astype(float)
+    r2 = x * x + y * y
+    assert r2.max() <= 1 + 1e-6
+    assert_uniform(np.stack((np.minimum(r2, 1), np.arctan2(y, x) / (2 * np.pi) % 1)), (24, 24))
+    for along in (x, y):
+        assert_mean(along, 0, 1 / 4)
+        assert_mean(along**2, 1 / 4, 1 / 8 - 1 / 16)
+    assert_mean(x * y, 0, 1 / 24)
+
+
+@dtypes
+def test_disk_points_stay_on_the_disk_for_the_worst_numbers(dtype: type) -> None:
+    for u in (worst_units(2, dtype), np.array([[1, 0.5, 1], [0.5, 1, 1]], dtype)):
+        radius = np.linalg.norm(point_on_disk(u), axis=0)
+        assert (radius <= 1 + 2 * np.finfo(dtype).eps).all()
+
+
+# ---------------------------------------------------------------- the pinhole within the lens
+
+
+@pytest.mark.parametrize("d_dtype", DTYPES)
+@pytest.mark.parametrize("p_dtype", DTYPES)
+@pytest.mark.parametrize("focus_distance", [5e-324, 1e-30, 0.1, 1 / 3, 7.0, 1e30, 1e300, math.inf])
+def test_the_lens_centre_gives_the_pinholes_rays_bit_for_bit(
+    d_dtype: type, p_dtype: type, focus_distance: float
+) -> None:
+    directions = picture_directions(20_001, d_dtype, 2)
+    points = np.zeros((2, 20_001), p_dtype)
+    for zeros in (points, -points):
+        origins, lens = lens_rays(
+            **CAMERA,
+            directions=frozen(directions),
+            lens_points=zeros,
+            focus_distance=focus_distance,
+        )
+        assert (origins == np.array(ORIGIN, origins.dtype)[:, None]).all()
+        assert (lens == directions).all()
+    # In one batch with others, and wherever they lie in memory.
+    points = 0.1 * unit(2, 20_001, p_dtype, seed=3)
+    points[:, ::3] = 0
+    for layout in (np.ascontiguousarray, np.asfortranarray):
+        origins, lens = lens_rays(
+            **CAMERA,
+            directions=layout(directions),
+            lens_points=points,
+            focus_distance=focus_distance,
+        )
+        assert (origins[:, ::3] == np.array(ORIGIN, origins.dtype)[:, None]).all()
+        assert (lens[:, ::3] == directions[:, ::3]).all()
+
+
+@dtypes
+@pytest.mark.parametrize("focus_distance", [1e300, math.inf])
+def test_focus_at_infinity_leaves_every_direction_as_it_is(
+    dtype: type, focus_distance: float
+) -> None:
+    directions = picture_directions(5000, dtype, 4)
+    points = unit(2, 5000, dtype, seed=5) - dtype(0.5)
+    origins, lens = lens_rays(
+        **CAMERA, directions=directions, lens_points=points, focus_distance=focus_distance
+    )
+    assert np.abs(lens - directions).max() <= np.finfo(dtype).eps
+    assert (origins != np.array(ORIGIN, dtype)[:, None]).any(axis=0).all()
+
+
+# ---------------------------------------------------------------- the lens
+
+
+@dtypes
+def test_rays_start_on_the_lens_where_they_are_told_to(dtype: type) -> None:
+    points = unit(2, 1000, dtype, seed=6) - dtype(0.5)
+    origins, _ = lens_rays(
+        **CAMERA,
+        directions=picture_directions(1000, dtype, 7),
+        lens_points=points,
+        focus_distance=3.0,
+    )
+    on_lens = AXES.T @ (origins.astype(float) - np.array(ORIGIN)[:, None])
+    assert np.abs(on_lens[:2] - points).max() < rounding(dtype, 1)
+    assert np.abs(on_lens[2]).max() < rounding(dtype, 1)
+
+
+@dtypes
+@corners
+@pytest.mark.parametrize("focus_distance", [0.5, 3.0, 100.0])
+def test_the_plane_in_focus_is_sharp_at_the_pictures_corners_too(
+    dtype: type, corner: tuple[float, float], focus_distance: float
+) -> None:
+    directions = at(corner, 1000, dtype)
+    points = dtype(0.3) * point_on_disk(unit(2, 1000, dtype, seed=8))
+    rays = lens_rays(
+        **CAMERA, directions=directions, lens_points=points, focus_distance=focus_distance
+    )
+    assert_unit(rays[1], 1e-6)
+    # A plane, not a sphere: the point in focus is as far along forward in the corner as in the middle.
+    met = on_plane(*rays, focus_distance)
+    sharp = np.array(corner)[:, None] * focus_distance
+    assert np.abs(met - sharp).max() < rounding(dtype, focus_distance)
+
+
+@dtypes
+@corners
+@pytest.mark.parametrize("depth", [0.5, 1.5, 3.0, 4.5, 30.0])
+def test_rays_spread_evenly_over_the_circle_of_confusion(
+    dtype: type, corner: tuple[float, float], depth: float
+) -> None:
+    """The rays by which the lens sees one point, where they pass the plane in focus."""
+    radius, focus_distance, n = 0.25, 3.0, 20_000
+    points = point_on_disk(unit(2, n, dtype, seed=9))
+    rim = np.linspace(0, 2 * np.pi, 361, dtype=dtype)
+    points = np.concatenate((np.stack((np.cos(rim), np.sin(rim))), points), axis=1)
+    rays = lens_rays(
+        **CAMERA,
+        directions=at(corner, points.shape[1], dtype),
+        lens_points=dtype(radius) * points,
+        focus_distance=depth,  # so that all of them go through the point at that depth
+    )
+    center = np.array(corner)[:, None] * focus_distance
+    x, y = on_plane(*rays, focus_distance) - center
+    diameter = circle_of_confusion(np.array([depth], dtype), radius, focus_distance)[0]
+    assert diameter == pytest.approx(2 * radius * abs(focus_distance - depth) / depth, rel=1e-6)
+    error = rounding(dtype, focus_distance) * max(1, focus_distance / depth)
+    assert np.hypot(x, y)[:361] == pytest.approx(float(diameter) / 2, abs=error)
+    if diameter > 0:
+        x, y = 2 * x[361:] / diameter, 2 * y[361:] / diameter
+        r2 = x * x + y * y
+        assert r2.max() <= 1 + 10 * error / diameter
+        turn = np.arctan2(y, x) / (2 * np.pi) % 1
+        assert_uniform(np.stack((np.minimum(r2, 1), turn)), (16, 16))
+
+
+@dtypes
+@pytest.mark.parametrize("scale", [1e-30, 1e-18, 1e-6, 1e6, 1e18, 1e30])
+def test_lens_and_focus_scaled_alike_give_the_same_directions(dtype: type, scale: float) -> None:
+    directions = picture_directions(1000, dtype, 10)
+    points = unit(2, 1000, dtype, seed=11)
+    camera = {**CAMERA, "origin": (0, 0, 0)}
+    _, expected = lens_rays(**camera, directions=directions, lens_points=points, focus_distance=2.0)
+    _, scaled = lens_rays(
+        **camera,
+        directions=directions,
+        lens_points=points * dtype(scale),
+        focus_distance=2.0 * scale,
+    )
+    assert np.abs(scaled - expected).max() < 8 * np.finfo(dtype).eps
+
+
+@dtypes
+@pytest.mark.parametrize(
+    "focus_distance", [5e-324, 1e-45, 1e-38, 1e-20, 1.0, 1e20, 1e38, 1e300, math.inf]
+)
+def test_lens_rays_are_unit_length_for_the_worst_inputs(dtype: type, focus_distance: float) -> None:
+    sizes = [0.0, 1e-45, 1e-38, 1e-20, 1e-3, 1.0, 1e20, 1e38]
+    points = np.array([*product([s * x for x in sizes for s in (1, -1)], repeat=2)], dtype).T
+    # From the middle of the picture to all but a right angle from it.
+    slopes = np.array([0.0, 1.0, -30.0, 1e4, 1e8])
+    d, p = every_pair(pinhole(slopes, -slopes / 3, dtype), points)
+    for forward_facing in ((FORWARD @ d.astype(float)) > 0,):
+        origins, lens = lens_rays(
+            **CAMERA,
+            directions=d[:, forward_facing],
+            lens_points=p[:, forward_facing],
+            focus_distance=focus_distance,
+        )
+        assert np.isfinite(origins).all()
+        assert_unit(lens, 1e-6)
+
+
+@pytest.mark.parametrize("wrong", [0, 0.0, -1.0, math.nan, -math.inf])
+def test_a_focus_distance_out_of_range_is_refused(wrong: float) -> None:
+    for name in ("lens_rays", "circle_of_confusion"):
+        with pytest.raises(ValueError, match=f"^focus_distance must be > 0, got {wrong}$"):
+            CALLS[name](**CALLS[name].arrays(), focus_distance=wrong)
+
+
+# ---------------------------------------------------------------- the Gaussian lens formula
+
+
+@pytest.mark.parametrize("f", [0.05, 1 / 3, 2.0, 1e-300, 1e150])
+@pytest.mark.parametrize("ratio", [1e-8, 0.5, 1 - 1e-9, 1 + 1e-12, 1.5, 2.0, 1e9])
+def test_image_distance_solves_the_lens_formula(f: float, ratio: float) -> None:
+    d = f * ratio
+    exact = 1 / (1 / Fraction(f) - 1 / Fraction(d))
+    assert image_distance(f, d) == pytest.approx(float(exact), rel=1e-14)
+    assert type(image_distance(f, d)) is float
+
+
+def test_image_and_object_change_places() -> None:
+    assert image_distance(2.0, 3.0) == 6.0
+    assert image_distance(2.0, 6.0) == 3.0
+    assert image_distance(2, 4) == 4.0
+    assert image_distance(2.0, 1.0) == -2.0
+
+
+@pytest.mark.parametrize("f", [5e-324, 0.05, 49.0, 1e308])
+def test_objects_at_infinity_and_at_the_focal_length_change_places_too(f: float) -> None:
+    assert image_distance(f, math.inf) == f
+    assert image_distance(f, f) == math.inf
+    assert image_distance(math.inf, f) == -f
+
+
+def test_an_object_within_the_focal_length_has_a_virtual_image_behind_it() -> None:
+    for near in (1 - 1e-15, 0.5, 1e-9, 1e-300, 5e-324):
+        assert -math.inf < image_distance(1.0, near) <= -near
+
+
+@pytest.mark.parametrize("scalar", [np.float32, np.float64, np.longdouble, np.array, int])
+def test_image_distance_is_a_float_whatever_it_is_made_of(scalar: Any) -> None:
+    assert image_distance(scalar(2), scalar(6)) == 3.0
+    assert isinstance(image_distance(scalar(2), scalar(6)), float)
+    assert isinstance(image_distance(scalar(2), scalar(2)), float)
+
+
+@pytest.mark.parametrize("argument", ["focal_length", "object_distance"])
+@pytest.mark.parametrize("wrong", [0, 0.0, -1.0, math.nan, -math.inf])
+def test_lens_distances_out_of_range_are_refused(argument: str, wrong: float) -> None:
+    given = {"focal_length": 1.0, "object_distance": 2.0, argument: wrong}
+    with pytest.raises(ValueError, match=f"^{argument} must be > 0, got {wrong}$"):
+        image_distance(**given)
+
+
+# ---------------------------------------------------------------- the circle of confusion
+
+
+@dtypes
+@pytest.mark.parametrize("radius", [0.0, 0.01, 2.0])
+@pytest.mark.parametrize("focus_distance", [0.5, 3.0, 1e6])
+def test_circle_of_confusion_is_its_formula(
+    dtype: type, radius: float, focus_distance: float
+) -> None:
+    depth = np.geomspace(1e-3, 1e9, 1000).astype(dtype)
+    exact = 2 * radius * np.abs(focus_distance - depth.astype(float)) / depth
+    found = circle_of_confusion(depth, radius, focus_distance)
+    assert found == pytest.approx(exact, rel=8 * float(np.finfo(dtype).eps), abs=0)
+    assert circle_of_confusion(np.array([focus_distance], dtype), radius, focus_distance) == [0]
+
+
+@dtypes
+def test_circle_of_confusion_has_the_limits_of_its_formula(dtype: type) -> None:
+    far = np.array([1e30, 1e38, np.finfo(dtype).max, math.inf], dtype)
+    assert (circle_of_confusion(far, 0.25, 3.0) == 0.5).all()
+    assert (circle_of_confusion(far, 0.0, math.inf) == 0).all()
+    assert circle_of_confusion(far[3:], 0.25, math.inf) == [0]
+    assert circle_of_confusion(np.array([2.0], dtype), 0.25, 1e-300) == [0.5]
+
+
+@dtypes
+def test_circle_of_confusion_is_finite_for_the_worst_inputs(dtype: type) -> None:
+    sizes = [5e-324, 1e-45, 1e-38, 1e-20, 1.0, 1e20, 1e38, 1e300, math.inf]
+    with np.errstate(over="ignore"):
+        depth = np.array(sizes, dtype)
+    for radius, focus_distance in product([0.0, *sizes], sizes):
+        diameter = circle_of_confusion(depth[depth > 0], radius, focus_distance)
+        assert diameter.dtype == dtype
+        assert np.isfinite(diameter).all()
+        assert (diameter >= 0).all()
+        assert radius > 0 or (diameter == 0).all()
+
+
+@pytest.mark.parametrize("wrong", [-1.0, -1e-45, math.nan, -math.inf])
+def test_an_aperture_out_of_range_is_refused(wrong: float) -> None:
+    with pytest.raises(ValueError, match=f"^aperture_radius must be >= 0, got {wrong}$"):
+        circle_of_confusion(np.ones(3, np.float32), wrong, 1.0)
+
+
+@pytest.mark.parametrize("wrong", [0.0, -1.0, math.nan, -math.inf])
+def test_one_depth_out_of_range_is_enough(wrong: float) -> None:
+    with pytest.raises(ValueError, match=f"^depth must be > 0, got {wrong}$"):
+        circle_of_confusion(np.array([1, wrong, 2], np.float32), 0.1, 1.0)
