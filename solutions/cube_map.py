@@ -164,6 +164,7 @@ def _four_across(size, face, column, row):
         )
     )
     face, u, v = face_and_uv(center.reshape(3, -1))
+    # Clipped for the texels of weight 0, which lie nowhere.
     i, j = ((x * size).astype(np.intp).clip(0, size - 1) for x in (u, v))
     return ((face * size + j) * size + i).reshape(weight.shape), weight
 

@@ -33,7 +33,7 @@ def orthonormal_basis(w):
     ### BEGIN SOLUTION
     x, y, z = w
     # -1 below the equator: sign + z stays away from 0, which it would meet at one of the poles.
-    sign = np.copysign(w.dtype.type(1), z)
+    sign = np.copysign(1.0, z)
     a = -1 / (sign + z)
     b = x * y * a
     return (
@@ -201,7 +201,7 @@ def keep_above(direction, normal):
 def _in_basis(w, a, b, c):
     """Take a u + b v + c w in the orthonormal basis about w, without u and v ever being in memory."""
     x, y, z = w
-    sign = np.copysign(w.dtype.type(1), z)
+    sign = np.copysign(1.0, z)
     sunk = sign * x * a + y * b
     rest = c - sunk / (sign + z)
     return np.stack((x * rest + a, y * rest + sign * b, c * z - sunk))

@@ -14,9 +14,11 @@ class ConstantEnvironment:
     Attributes
     ----------
     color : (3,) float32 [W/(m^2 sr)]
+    lights : whether it lights diffuse surfaces
     """
 
     color: Floats32
+    lights: bool = False
 
     @property
     def black(self) -> bool:

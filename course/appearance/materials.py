@@ -46,6 +46,11 @@ class MaterialTable:
         return np.asarray((self.diffuse.max(0) > 0) | (self.specular.max(0) > 0))
 
     @property
+    def diffuses(self) -> Mask:
+        """(M,) which materials have a diffuse term."""
+        return np.asarray(self.diffuse.max(0) > 0)
+
+    @property
     def refracts(self) -> Mask:
         """(M,) which materials are dielectrics."""
         return np.asarray(self.refraction_index > 0)

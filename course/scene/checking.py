@@ -125,7 +125,9 @@ class _Walk:
     ) -> SceneError | None:
         tag = str(structs[0].tag_field)
         if not isinstance(value, dict):
-            return self._document.unexpected(path, f"a map with {tag}: {structs[0].tag}, say")
+            first = structs[0]
+            example = EXAMPLES.get(first.cls.__name__, f"{{{tag}: {first.tag}, ...}}")
+            return self._document.unexpected(path, f"a map with {tag}, such as {example}")
         for each in structs:
             if value.get(tag) == each.tag:
                 return self._struct(each, path, value)

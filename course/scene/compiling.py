@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from course.appearance.environment import ConstantEnvironment
 from course.core.types import Floats64
 from course.effects import Effects
 from course.geometry.mesh import Mesh
@@ -16,6 +15,7 @@ from course.scene import description as d
 from course.scene.brightness import in_range
 from course.scene.description.values import rgb
 from course.scene.emitters import emitter_parts
+from course.scene.environment_compiling import compile_environment
 from course.scene.frame import Frame, frame_of
 from course.scene.instancing import object_mesh
 from course.scene.lens_compiling import compile_lens
@@ -89,9 +89,7 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
         lights=lights,
         skipped_lights=skipped,
         ambient=in_range(ambient, loaded, ("lights",), "ambient radiance"),
-        environment=ConstantEnvironment(
-            in_range(rgb(scene.environment.radiance), loaded, ("environment",), "radiance")
-        ),
+        environment=compile_environment(loaded, effects),
         lobes=compile_lobes(used, effects, scene.integrator.max_depth),
         lens=compile_lens(loaded, frame, effects),
         motion=motion,

@@ -9,6 +9,7 @@ from course.appearance.materials import MaterialTable
 from course.effects import MODULES
 from course.scene import description as d
 from course.scene.document import KeyPath
+from course.scene.environment_compiling import LOOKUPS
 from course.scene.light_compiling import light_function
 from course.scene.light_power import power, why_dark
 from course.scene.loading import Loaded
@@ -62,6 +63,9 @@ def needs_of(loaded: Loaded, settings: Settings, materials: MaterialTable) -> li
         if lens.shape == "disk":
             needs.append(Need("thin_lens.point_on_disk", asked_by))
         needs.append(Need("thin_lens.lens_rays", asked_by))
+    if not isinstance(scene.environment, d.ConstantEnvironment):
+        lookup = LOOKUPS[scene.environment.lookup]
+        needs.append(Need(f"cube_map.{lookup}", ("environment", "type")))
     moving = movers(loaded, shutter_of(loaded))
     if moving:
         needs.append(Need("motion_blur.shutter_times", moving[0]))

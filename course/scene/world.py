@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from course.appearance.cube_environment import CubeEnvironment
 from course.appearance.environment import ConstantEnvironment
 from course.appearance.lights import Light
 from course.appearance.lobes import Lobe
@@ -52,7 +53,7 @@ class World:
     lights: tuple[Light, ...]
     skipped_lights: dict[str, str]
     ambient: Floats32
-    environment: ConstantEnvironment
+    environment: ConstantEnvironment | CubeEnvironment
     lobes: tuple[Lobe, ...] = ()
     lens: Lens | None = None
     motion: Motion | None = None

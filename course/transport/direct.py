@@ -16,6 +16,7 @@ from course.scene.world import World
 from course.transport.counters import Counters
 from course.transport.paths import Draws
 from course.transport.plan import Lookups, Plan
+from course.transport.sky import skylight
 
 
 def direct_light(
@@ -48,6 +49,11 @@ def direct_light(
             highlight = _highlight(hits, lookups, which, to_light, inverse_length)
             highlight *= irradiance
             specular = _accumulated(specular, hits.size, which, highlight, light.color)
+    if plan.sky_dimension is not None:
+        dimension = plan.sky_dimension + depth * plan.bounce_stride
+        arriving = skylight(world, hits, path, dimension, draws)
+        if arriving is not None:
+            diffuse = arriving if diffuse is None else np.add(diffuse, arriving, out=diffuse)
     if diffuse is None:
         return None
     diffuse *= lookups.diffuse(hits.material)

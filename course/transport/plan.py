@@ -28,6 +28,7 @@ class Plan:
     max_depth : bounces that can happen in this scene
     light_dimensions : for each light, its first dimension at depth 0; None if it needs no numbers
     lens_dimension, time_dimension : None where the camera needs none
+    sky_dimension : the same for light from the environment, None where it lights nothing
     gloss_dimension : the first dimension of glossy reflection at depth 0
     bounce_stride : how many dimensions one depth takes
     """
@@ -46,6 +47,7 @@ class Plan:
     time_dimension: int | None
     light_dimensions: tuple[int | None, ...]
     gloss_dimension: int
+    sky_dimension: int | None
     bounce_stride: int
 
 
@@ -79,9 +81,11 @@ def make_plan(world: World, settings: Settings) -> Plan:
     light_dimensions = tuple(
         dimensions.take(light.width) if light.width else None for light in world.lights
     )
+    sky = world.environment.lights and not world.environment.black and bool(m.diffuses.any())
+    sky_dimension = dimensions.take(2) if sky else None
     gloss_dimension = dimensions.take(max((lobe.width for lobe in world.lobes), default=0))
     return Plan(
-        shades=bool(m.shaded.any()) and bool(world.lights),
+        shades=sky or (bool(m.shaded.any()) and bool(world.lights)),
         all_shade=bool(m.shaded.all()),
         has_ambient=bool((m.ambient * world.ambient[:, None]).any()),
         emits=bool(m.emission.any()),
@@ -95,6 +99,7 @@ def make_plan(world: World, settings: Settings) -> Plan:
         time_dimension=time_dimension,
         light_dimensions=light_dimensions,
         gloss_dimension=gloss_dimension,
+        sky_dimension=sky_dimension,
         bounce_stride=dimensions.next - first,
     )
 

@@ -200,7 +200,7 @@ class Tracer:
         which = np.flatnonzero(missed)
         if len(which) == 0:
             return
-        radiance = self.world.environment.radiance(rays.direction)
+        radiance = self.world.environment.radiance(rays.direction.take(which, axis=1))
         if rays.throughput is not None:
             radiance = radiance * rays.throughput.take(which, axis=1)
         elif radiance.shape[1] == 1:

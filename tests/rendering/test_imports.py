@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -11,6 +12,7 @@ from typing import Any
 import pytest
 
 ROOT = Path(__file__).parents[2]
+THIS_CHECKOUT = {**os.environ, "PYTHONPATH": str(ROOT)}
 NEVER = {"skimage", "scipy", "trimesh", "psutil", "rich", "networkx", "hypothesis"}
 """Too heavy, and of no use for a scene of named shapes."""
 
@@ -29,6 +31,7 @@ def imported(folder: Path, scene: dict[str, Any], *options: str) -> set[str]:
     done = subprocess.run(
         [sys.executable, "-X", "importtime", "-m", "course", "render", "box.yaml", *options],
         cwd=folder,
+        env=THIS_CHECKOUT,
         capture_output=True,
         text=True,
         check=True,
@@ -80,6 +83,7 @@ def test_a_module_of_effects_is_imported_when_the_scene_calls_it(
         "json.dump([n for n in sys.modules if n.startswith('course_effects')], open('m.json', 'w'))\n"
     )
     arguments = ["render", "box.yaml", *options]
-    subprocess.run([sys.executable, "-c", code, *arguments], cwd=tmp_path, check=True)
+    command = [sys.executable, "-c", code, *arguments]
+    subprocess.run(command, cwd=tmp_path, env=THIS_CHECKOUT, check=True)
     names = json.loads((tmp_path / "m.json").read_text())
     assert {name.rpartition(".")[2] for name in names} == effects

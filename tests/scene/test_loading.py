@@ -267,7 +267,7 @@ def test_every_synonym_leads_to_a_key_of_the_format() -> None:
             "environment: {type: constant, radiance: [0.1, 0.2, 0.3]}",
             "environment: 0.5",
             (
-                "11: environment is 0.5: expected a map with the keys type and radiance, such as "
+                "11: environment is 0.5: expected a map with type, such as "
                 "{type: constant, radiance: 0.5}"
             ),
         ),
@@ -316,7 +316,7 @@ def test_a_map_that_nobody_expects_is_shown_by_example(
                 "rectangle or sphere"
             ),
         ),
-        ("type: constant, ", "", "11: environment: type is missing: expected constant"),
+        ("type: constant, ", "", "11: environment: type is missing: expected constant, cube or lat_long"),
         ("shape: disk, ", "", f"34: objects[3]: shape is missing: expected {SHAPES}"),
         (
             ", degrees: 30",
@@ -356,7 +356,7 @@ def test_a_missing_camera_is_named_at_the_first_line(refusal: Callable[[str], st
                 "or sphere; did you mean point?"
             ),
         ),
-        ("type: constant", "type: sky", '11: environment.type is "sky": expected constant'),
+        ("type: constant", "type: sky", '11: environment.type is "sky": expected constant, cube or lat_long'),
         (
             "type: jittered",
             "type: halton",

@@ -37,7 +37,10 @@ def test_a_colour_is_as_given_or_a_share_of_what_the_mirror_leaves(
 ) -> None:
     np.testing.assert_allclose(base_color(material(**keys)), color, rtol=1e-15)
     factors = {"ambient": 0.5, "diffuse": 0.25}
-    table = make_scene(materials={"m": keys | factors}).compiled.world.materials
+    scene = make_scene(
+        materials={"m": keys | factors}, objects=[{"shape": "quad", "material": "m"}]
+    )
+    table = scene.compiled.world.materials
     np.testing.assert_allclose(table.ambient[:, 0], np.multiply(color, 0.5), rtol=1e-6)
     np.testing.assert_allclose(table.diffuse[:, 0], np.multiply(color, 0.25), rtol=1e-6)
 

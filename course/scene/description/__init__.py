@@ -7,7 +7,13 @@ from course.scene.description.camera import (
     LensDescription,
     ShutterDescription,
 )
-from course.scene.description.environment import ConstantEnvironment, Environment
+from course.scene.description.environment import (
+    ConstantEnvironment,
+    CubeEnvironment,
+    Environment,
+    EnvironmentDescription,
+    LatLongEnvironment,
+)
 from course.scene.description.film import FilmDescription
 from course.scene.description.gloss import BallLobe, Gloss, PhongLobe, PlaneLobe
 from course.scene.description.integrator import IntegratorDescription
@@ -50,16 +56,19 @@ __all__ = [
     "Color",
     "Cone",
     "ConstantEnvironment",
+    "CubeEnvironment",
     "Cylinder",
     "Dielectric",
     "DirectionalLight",
     "Disk",
     "DisplacedSphere",
     "Environment",
+    "EnvironmentDescription",
     "FilmDescription",
     "Gloss",
     "HeightField",
     "IntegratorDescription",
+    "LatLongEnvironment",
     "LensDescription",
     "Light",
     "LightDescription",

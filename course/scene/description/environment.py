@@ -2,24 +2,61 @@
 
 from __future__ import annotations
 
-from typing import Annotated, TypeAlias
+from typing import Annotated, Literal, TypeAlias
 
 import msgspec
 
 from course.scene.description.values import Color, about
 
+_Lights: TypeAlias = Annotated[
+    bool, about("Whether it also lights diffuse surfaces, by one shadow ray for each sample.")
+]
+_Scale: TypeAlias = Annotated[Color, about("Radiance of white.", "W/(m^2 sr)")]
+_Lookup: TypeAlias = Annotated[
+    Literal["seamless", "clamped"],
+    about("Whether the interpolation goes on across the cube's edges."),
+]
 
-class ConstantEnvironment(
-    msgspec.Struct,
-    frozen=True,
-    kw_only=True,
-    forbid_unknown_fields=True,
-    tag_field="type",
-    tag="constant",
+
+class EnvironmentDescription(
+    msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True, tag_field="type"
 ):
+    """What all environments have in common: `type` tells them apart."""
+
+
+class ConstantEnvironment(EnvironmentDescription, frozen=True, kw_only=True, tag="constant"):
     """The same radiance from every direction."""
 
     radiance: Annotated[Color, about("Radiance of the background.", "W/(m^2 sr)")] = 0.0
+    lights: _Lights = False
 
 
-Environment: TypeAlias = ConstantEnvironment
+class CubeEnvironment(EnvironmentDescription, frozen=True, kw_only=True, tag="cube"):
+    """Six square pictures around the scene; exactly one of faces and cross."""
+
+    faces: Annotated[
+        tuple[str, str, str, str, str, str] | None,
+        about("Files of the faces +x, -x, +y, -y, +z, -z, in the OpenGL orientation."),
+    ] = None
+    cross: Annotated[str | None, about("File of a horizontal (4:3) or vertical (3:4) cross.")] = (
+        None
+    )
+    scale: _Scale = 1.0
+    lookup: _Lookup = "seamless"
+    lights: _Lights = False
+
+
+class LatLongEnvironment(EnvironmentDescription, frozen=True, kw_only=True, tag="lat_long"):
+    """A picture of all directions, longitude by latitude, with -z in its middle and +y at its top."""
+
+    image: Annotated[str, about("File of the picture, twice as wide as high.", min_length=1)]
+    size: Annotated[
+        Annotated[int, msgspec.Meta(ge=1, le=8192)] | None,
+        about("Edge of the cube's faces; half the height if null.", "pixel"),
+    ] = None
+    scale: _Scale = 1.0
+    lookup: _Lookup = "seamless"
+    lights: _Lights = False
+
+
+Environment: TypeAlias = ConstantEnvironment | CubeEnvironment | LatLongEnvironment

@@ -1,0 +1,117 @@
+"""A cube map around the scene, looked up through the `cube_map` module."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from course.core.types import Floats32, Floats64
+
+
+@dataclass(frozen=True)
+class CubeEnvironment:
+    """Radiance by direction.
+
+    Attributes
+    ----------
+    faces : (6, S, S, 3) float32 linear radiance, rows from the top
+    lookup : (faces, direction) -> (3, N), of the cube_map module
+    lights : whether it lights diffuse surfaces
+    """
+
+    faces: Floats32
+    lookup: Callable[[Floats32, Floats32], Floats32]
+    lights: bool
+
+    @property
+    def black(self) -> bool:
+        """Whether there is nothing to see, so that nobody needs to look."""
+        return not self.faces.any()
+
+    def radiance(self, direction: Floats32) -> Floats32:
+        """(3, n) radiance from directions (3, n)."""
+        return self.lookup(self.faces, direction)
+
+
+def texel_directions(size: int, subsamples: int = 1) -> Floats64:
+    """Directions through the texels of all faces, (6, size, size, subsamples^2, 3) float64, not normalised.
+
+    The inverse of OpenGL's table: with s and t from -1 to 1 along a face's columns and rows,
+    +x (1, -t, -s), -x (-1, -t, s), +y (s, 1, t), -y (s, -1, -t), +z (s, -t, 1), -z (-s, -t, -1).
+    """
+    n = size * subsamples
+    centre = (np.arange(n) + 0.5) * 2 / n - 1
+    t, s = np.meshgrid(centre, centre, indexing="ij")
+    one = np.ones_like(s)
+    faces = [
+        (one, -t, -s),
+        (-one, -t, s),
+        (s, one, t),
+        (s, -one, -t),
+        (s, -t, one),
+        (-s, -t, -one),
+    ]
+    directions = np.stack([np.stack(face, axis=-1) for face in faces])
+    split = directions.reshape(6, size, subsamples, size, subsamples, 3)
+    return np.moveaxis(split, 2, 3).reshape(6, size, size, subsamples * subsamples, 3)
+
+
+def cube_from_lat_long(image: Floats32, size: int) -> Floats32:
+    """Faces (6, size, size, 3) from a latitude-longitude picture (H, W, 3).
+
+    The picture's middle looks along -z, its right half to +x, its top row to +y. Each texel is the mean of four
+    bilinear samples.
+    """
+    height, width = image.shape[:2]
+    faces = np.empty((6, size, size, 3), np.float32)
+    for number, directions in enumerate(texel_directions(size, 2)):
+        x, y, z = np.moveaxis(directions, -1, 0)
+        column = (0.5 + np.arctan2(x, -z) / (2 * np.pi)) * width - 0.5
+        row = np.arctan2(np.hypot(x, z), y) / np.pi * height - 0.5
+        faces[number] = _bilinear(image, column, row).mean(axis=2)
+    return faces
+
+
+def _bilinear(image: Floats32, column: Floats64, row: Floats64) -> Floats64:
+    """Samples of a picture that repeats sideways and ends at the poles."""
+    height, width = image.shape[:2]
+    left, top = np.floor(column), np.floor(row)
+    a, b = (column - left)[..., None], (row - top)[..., None]
+    c0 = left.astype(np.intp) % width
+    c1 = (c0 + 1) % width
+    r0 = np.clip(top.astype(np.intp), 0, height - 1)
+    r1 = np.clip(top.astype(np.intp) + 1, 0, height - 1)
+    upper = image[r0, c0] * (1 - a) + image[r0, c1] * a
+    lower = image[r1, c0] * (1 - a) + image[r1, c1] * a
+    mixed: Floats64 = upper * (1 - b) + lower * b
+    return mixed
+
+
+def cube_from_cross(image: Floats32) -> Floats32:
+    """Faces (6, S, S, 3) from a cross: horizontal (3 S, 4 S, 3) or vertical (4 S, 3 S, 3).
+
+    Both have -x, +z, +x side by side with +y above and -y below +z; -z stands right of +x, or upside down below -y.
+
+    Raises
+    ------
+    ValueError
+        The picture has other proportions.
+    """
+    height, width = image.shape[:2]
+    if height * 4 == width * 3 and width % 4 == 0:
+        size = width // 4
+        minus_z = image[size : 2 * size, 3 * size :]
+    elif height * 3 == width * 4 and width % 3 == 0:
+        size = width // 3
+        minus_z = image[3 * size :, size : 2 * size][::-1, ::-1]
+    else:
+        raise ValueError(f"a cross has proportions 4:3 or 3:4, not {width} x {height}")
+
+    def cell(row: int, column: int) -> Floats32:
+        return image[row * size : (row + 1) * size, column * size : (column + 1) * size]
+
+    return np.ascontiguousarray(
+        np.stack((cell(1, 2), cell(1, 0), cell(0, 1), cell(2, 1), cell(1, 1), minus_z))
+    )

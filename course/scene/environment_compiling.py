@@ -1,0 +1,81 @@
+"""From an environment description to the environment of the compiled scene."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from course.appearance.cube_environment import (
+    CubeEnvironment,
+    cube_from_cross,
+    cube_from_lat_long,
+)
+from course.appearance.environment import ConstantEnvironment
+from course.core.types import Floats32
+from course.effects import Effects
+from course.errors import SceneError
+from course.imaging.reading import read_picture
+from course.scene import description as d
+from course.scene.brightness import in_range
+from course.scene.description.values import rgb
+from course.scene.loading import Loaded
+
+LOOKUPS = {"seamless": "lookup_seamless", "clamped": "lookup"}
+"""The cube_map function for each value of ``lookup``."""
+
+
+def compile_environment(loaded: Loaded, effects: Effects) -> ConstantEnvironment | CubeEnvironment:
+    """Read the pictures, if there are any, and make a cube of them.
+
+    Raises
+    ------
+    SceneError
+        A picture is missing, can't be read or has the wrong size; names the key that asks for it.
+    """
+    environment = loaded.description.environment
+    if isinstance(environment, d.ConstantEnvironment):
+        radiance = in_range(rgb(environment.radiance), loaded, ("environment",), "radiance")
+        return ConstantEnvironment(radiance, environment.lights)
+    if isinstance(environment, d.CubeEnvironment):
+        faces = _faces(environment, loaded)
+    else:
+        image = _read(environment.image, ("environment", "image"), loaded)
+        height, width = image.shape[:2]
+        if width != 2 * height:
+            raise loaded.document.error(
+                ("environment", "image"),
+                f"a picture of all directions is twice as wide as high, not {width} x {height}",
+            )
+        faces = cube_from_lat_long(image, environment.size or max(height // 2, 1))
+    faces = faces * rgb(environment.scale).astype(np.float32)
+    in_range(faces.max(axis=(0, 1, 2)), loaded, ("environment",), "radiance")
+    lookup = effects.function("cube_map", LOOKUPS[environment.lookup])
+    return CubeEnvironment(np.ascontiguousarray(faces, np.float32), lookup, environment.lights)
+
+
+def _faces(environment: d.CubeEnvironment, loaded: Loaded) -> Floats32:
+    if (environment.faces is None) == (environment.cross is None):
+        raise loaded.document.error(("environment",), "give exactly one of faces and cross")
+    if environment.cross is not None:
+        key = ("environment", "cross")
+        try:
+            return cube_from_cross(_read(environment.cross, key, loaded))
+        except ValueError as error:
+            raise loaded.document.error(key, str(error)) from error
+    pictures: list[Floats32] = []
+    for number, file in enumerate(environment.faces or ()):
+        path = ("environment", "faces", number)
+        picture = _read(file, path, loaded)
+        height, width = picture.shape[:2]
+        if height != width or picture.shape != (pictures or [picture])[0].shape:
+            raise loaded.document.error(
+                path, f"all faces are squares of one size, this is {width} x {height}"
+            )
+        pictures.append(picture)
+    return np.stack(pictures)
+
+
+def _read(file: str, path: tuple[str | int, ...], loaded: Loaded) -> Floats32:
+    try:
+        return read_picture(loaded.path.parent / file)
+    except SceneError as error:
+        raise loaded.document.error(path, str(error)) from error
