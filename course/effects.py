@@ -45,7 +45,8 @@ class Effects:
 
     Parameters
     ----------
-    folder : where the modules are; ``solutions`` and ``assignments`` mean the project's own folders.
+    folder : where the modules are; ``solutions`` and ``assignments`` mean the project's own folders. None means the
+        solutions where they are, and else the assignments.
 
     Raises
     ------
@@ -53,7 +54,10 @@ class Effects:
         When the folder doesn't exist.
     """
 
-    def __init__(self, folder: str | Path = "solutions") -> None:
+    def __init__(self, folder: str | Path | None = None) -> None:
+        if folder is None:
+            # A student's copy has no solutions.
+            folder = "solutions" if (PROJECT / "solutions").is_dir() else "assignments"
         path = Path(folder)
         if str(folder) in ("solutions", "assignments") and not path.is_dir():
             path = PROJECT / path

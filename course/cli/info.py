@@ -13,11 +13,10 @@ from course.cli.tables import print_sections, summary_sections
 @click.argument("scene", metavar="SCENE", type=click.Path(path_type=Path))
 @click.option(
     "--effects",
-    default="solutions",
-    show_default=True,
-    help="Whose functions would be called: solutions, assignments, or a folder of modules.",
+    help="Whose functions would be called: solutions, assignments, or a folder of modules."
+    "  [default: solutions, or assignments where there are none]",
 )
-def info(scene: Path, effects: str) -> None:
+def info(scene: Path, effects: str | None) -> None:
     """Say what a scene holds and what rendering it will call.
 
     Nothing is rendered. Effects that the scene does not need are listed with the reason, objects

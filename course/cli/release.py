@@ -26,13 +26,24 @@ SHOWN = 16
 @click.command()
 @click.option("--check", is_flag=True, help="Write nothing; fail if a stub is not up to date.")
 @click.option("--force", is_flag=True, help="Write over functions that somebody has written.")
-def release(check: bool, force: bool) -> None:
-    """Make the stubs in assignments/ from solutions/.
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path),
+    help="Write the whole student archive there, a folder or a .zip file.",
+)
+def release(check: bool, force: bool, out: Path | None) -> None:
+    """Make the stubs in assignments/ from solutions/, or with --out all that students get.
 
     A stub is its solution without what stands between ### BEGIN SOLUTION and ### END SOLUTION.
     """
     from course.grading.stubs import make_stubs
 
+    if out is not None:
+        from course.grading.archive import write_archive
+
+        files = write_archive(PROJECT, out)
+        click.echo(f"{out}: {count(files, 'file')}, searched for solutions and free of them")
+        return
     stubs = make_stubs(SOLUTIONS)
     if check:
         _check(stubs)

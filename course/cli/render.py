@@ -34,9 +34,8 @@ SAMPLERS = ("sobol", "random", "jittered", "regular")
 )
 @click.option(
     "--effects",
-    default="solutions",
-    show_default=True,
-    help="Whose functions to call: solutions, assignments, or a folder of modules.",
+    help="Whose functions to call: solutions, assignments, or a folder of modules."
+    "  [default: solutions, or assignments where there are none]",
 )
 @click.option(
     "--time-limit",
@@ -58,7 +57,7 @@ def render(
     sampler: str | None,
     seed: int | None,
     threads: int | None,
-    effects: str,
+    effects: str | None,
     time_limit: float | None,
     receipt_path: Path | None,
 ) -> None:

@@ -51,13 +51,14 @@ class Scene:
         )
 
 
-def load_scene(path: str | Path, effects: str | Path | Effects = "solutions") -> Scene:
+def load_scene(path: str | Path, effects: str | Path | Effects | None = None) -> Scene:
     """Read, check and compile a scene file.
 
     Parameters
     ----------
     path : the YAML file
-    effects : whose functions to call: "solutions", "assignments", or a folder of modules
+    effects : whose functions to call: "solutions", "assignments", or a folder of modules; None means the solutions
+        where they are, and else the assignments
 
     Raises
     ------

@@ -25,7 +25,7 @@ def test_the_picture_has_the_scenes_name_and_lies_here(
     result = run("render", Path("far", "box.yaml"))
     assert result.exit_code == 0
     assert files(tmp_path) == {"box.png"}
-    assert engine.loaded == [(Path("far", "box.yaml"), {"effects": "solutions"})]
+    assert engine.loaded == [(Path("far", "box.yaml"), {"effects": None})]
 
 
 def test_what_options_leave_open_is_left_to_the_scene(run: Run, engine: Engine) -> None:

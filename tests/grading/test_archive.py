@@ -1,0 +1,108 @@
+"""The student archive: everything but the solutions."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import pytest
+
+from course.errors import OutputError
+from course.grading.archive import LeakError, archive_contents, write_archive
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture(scope="module")
+def archive(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("archive") / "student.zip"
+    write_archive(ROOT, path)
+    return path
+
+
+def _bodies() -> set[str]:
+    """Lines between the markers, found without the code under test."""
+    lines: set[str] = set()
+    for path in (ROOT / "solutions").glob("*.py"):
+        inside = False
+        for row in path.read_text(encoding="utf-8").splitlines():
+            if "### BEGIN SOLUTION" in row or "### END SOLUTION" in row:
+                inside = "BEGIN" in row
+            elif inside and len(row.strip()) >= 24:
+                lines.add(row.strip())
+    return lines
+
+
+def test_no_file_of_the_finished_archive_holds_a_line_of_a_solution(archive: Path) -> None:
+    bodies = _bodies()
+    assert len(bodies) > 100
+    with zipfile.ZipFile(archive) as file:
+        assert file.testzip() is None
+        for name in file.namelist():
+            text = file.read(name).decode("utf-8", "replace")
+            assert not bodies & {row.strip() for row in text.splitlines()}, name
+
+
+def test_the_archive_has_nothing_that_could_hide_a_solution(archive: Path) -> None:
+    with zipfile.ZipFile(archive) as file:
+        names = file.namelist()
+    assert "penumbra/assignments/supersampling.py" in names
+    assert "penumbra/course/cli/main.py" in names
+    assert "penumbra/README.md" in names
+    hiding = ("solutions/", "tests/", "__pycache__", ".pyc", ".ipynb", ".whl", ".git", ".venv")
+    assert [name for name in names if any(part in name for part in hiding)] == []
+
+
+def test_the_same_course_gives_the_same_archive(archive: Path, tmp_path: Path) -> None:
+    again = tmp_path / "again.zip"
+    write_archive(ROOT, again)
+    assert again.read_bytes() == archive.read_bytes()
+
+
+def test_a_folder_is_written_like_the_zip_file(archive: Path, tmp_path: Path) -> None:
+    count = write_archive(ROOT, tmp_path / "folder")
+    with zipfile.ZipFile(archive) as file:
+        assert len(file.namelist()) == count
+        for name in file.namelist():
+            path = tmp_path / "folder" / name.removeprefix("penumbra/")
+            assert path.read_bytes() == file.read(name)
+
+
+def test_a_folder_with_something_in_it_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "mine.txt").write_text("mine")
+    with pytest.raises(OutputError, match="not an empty folder"):
+        write_archive(ROOT, tmp_path)
+    assert [path.name for path in tmp_path.iterdir()] == ["mine.txt"]
+
+
+def test_a_solution_that_stands_elsewhere_stops_the_release(tmp_path: Path) -> None:
+    for folder in ("solutions", "course", "scenes"):
+        shutil.copytree(ROOT / folder, tmp_path / folder)
+    line = max(_bodies(), key=len)
+    (tmp_path / "course" / "hint.py").write_text(f"x = 1\n    {line}\n", encoding="utf-8")
+    with pytest.raises(LeakError, match=r"course/hint\.py:2 holds a line of a solution"):
+        archive_contents(tmp_path)
+
+
+def test_a_students_copy_asks_for_the_function_that_is_not_written(
+    archive: Path, tmp_path: Path
+) -> None:
+    with zipfile.ZipFile(archive) as file:
+        file.extractall(tmp_path)
+    copy = tmp_path / "penumbra"
+    done = subprocess.run(
+        [sys.executable, "-m", "course", "render", "scenes/cornell_box.yaml", "--size", "16x16"],
+        cwd=copy,
+        env={"PYTHONPATH": str(copy), "PATH": ""},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 1
+    assert "not written yet" in done.stderr
+    assert "asks for it" in done.stderr
+    assert "Traceback" not in done.stderr
+    assert not list(copy.glob("*.png"))
