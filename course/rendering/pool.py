@@ -44,14 +44,15 @@ class Pool:
         self,
         work: Iterable[Work],
         deadline: float | None,
-        tick: Callable[[int], None] | None,
+        tick: Callable[[int, int], None] | None,
     ) -> bool:
         """Do the work in order; whether all of it was done.
 
         Parameters
         ----------
         deadline : ``time.monotonic()`` after which no tile is begun
-        tick : called now and then from this thread with the number of tiles done so far
+        tick : called now and then from this thread with the number of tiles done so far, and how many of
+            them in the first pass
         """
         run = _Run(self._tracer, self._film, work, deadline)
         threads = [
@@ -63,7 +64,7 @@ class Pool:
         try:
             while not run.finished.wait(TICK) and any(thread.is_alive() for thread in threads):
                 if tick is not None:
-                    tick(run.done)
+                    tick(run.done, run.done_first)
         except KeyboardInterrupt:
             self.interrupted = True
         finally:
@@ -73,7 +74,7 @@ class Pool:
         if run.error is not None:
             raise run.error
         if tick is not None and not self.interrupted:
-            tick(run.done)
+            tick(run.done, run.done_first)
         self.counters.add(run.counters)
         return run.exhausted and not self.interrupted
 
@@ -98,6 +99,7 @@ class _Run:
         self.exhausted = False
         self.stop = False
         self.done = 0
+        self.done_first = 0
         self.error: BaseException | None = None
 
     def worker(self) -> None:
@@ -155,3 +157,4 @@ class _Run:
             order += 1
             with self._lock:
                 self.done += 1
+                self.done_first += item.order == 0

@@ -199,9 +199,9 @@ def _render_all(
     work = list(passes(settings, tracer.sampler, done))
     first_pass = sum(item.order == 0 for item in work)
 
-    def tick(count: int) -> None:
+    def tick(count: int, count_first: int) -> None:
         if progress is not None:
-            progress(count / max(len(work), 1), count >= first_pass)
+            progress(count / max(len(work), 1), count_first >= first_pass)
 
     return pool.run(work, None, tick)
 
@@ -217,7 +217,7 @@ def _render_until(
 ) -> bool:
     """As many samples as fit: a preview first, so that every pixel has something, then whole passes."""
 
-    def tick(_count: int) -> None:
+    def tick(_count: int, _count_first: int) -> None:
         if progress is not None:
             progress(min(1 - (deadline - monotonic()) / time_limit, 1.0), covered)
 

@@ -22,7 +22,7 @@ from course.imaging.files import save
 
 Array = NDArray[np.float64]
 HERE = Path(__file__).parent
-SKY_HEIGHT, STUDIO_HEIGHT, FACE = 176, 128, 320  # pixels
+SKY_HEIGHT, STUDIO_HEIGHT, FACE = 176, 128, 336  # pixels
 
 
 def sky(direction: Array) -> Array:
@@ -94,7 +94,7 @@ def valley(direction: Array) -> Array:
         crest += 0.35 * height * (1 - 2 * np.abs(np.sin(3 * folds * azimuth / 2 + 2)))
         crest += 0.15 * height * np.abs(np.sin(11 * folds * azimuth / 2))
         mist = _step(-elevation, -base, 0.0)[None] * _rgb(0.16, 0.10, 0.06)
-        hidden = _step(crest - elevation, -0.004, 0.004)
+        hidden = _step(crest - elevation, -0.007, 0.007)
         radiance += (color + mist - radiance) * hidden
     water = _rgb(0.62, 0.66, 0.74) * (1 + 0.07 * np.sin(26 / (up + 0.12)))
     depth = 0.35 + 0.65 * np.exp(-2.5 * up)

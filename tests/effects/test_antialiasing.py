@@ -26,7 +26,9 @@ NORMAL = np.array([math.cos(ANGLE), math.sin(ANGLE)])
 """White is where NORMAL . (x, y) < OFFSET on the plane z = 0, which the picture shows from -1 to 1."""
 
 
-def edge(make_scene: MakeScene, angle: float = ANGLE, offset: float = OFFSET, **film: object) -> Scene:
+def edge(
+    make_scene: MakeScene, angle: float = ANGLE, offset: float = OFFSET, **film: object
+) -> Scene:
     plate = {"shape": "quad", "material": "white", "width": 8, "depth": 8}
     plate |= {
         "transform": [
@@ -159,5 +161,6 @@ def test_a_gaussian_filter_shows_the_truncated_normal_distribution_across_an_edg
         erf = np.vectorize(math.erf)(d / (sigma * math.sqrt(2)))
         profile = ((erf / math.erf(half) + 1) / 2) @ gauss / gauss.sum()
         assert np.abs(shown[:, column] - profile).max() < tolerance
-    assert shown[:, : SIZE // 2 - 2].min() == 1
+    # White is the sum of 4096 shares, rounded to float32 each.
+    assert np.abs(shown[:, : SIZE // 2 - 2] - 1).max() < 1e-5
     assert not shown[:, SIZE // 2 + 2 :].any()

@@ -129,7 +129,7 @@ def test_materials_that_show_no_light_cast_no_shadow_rays(
 ) -> None:
     for materials in ({"grey": material}, {"grey": material, "other": {}}):
         # The second time another material of the scene does, out of sight.
-        other = {"shape": "box", "material": "other", "transform": [{"translate": [0, 0, 90]}]}
+        other = {"shape": "box", "material": "other", "transform": [{"translate": [0, 90, 0]}]}
         objects = [WALL, other] if "other" in materials else [WALL]
         receipt = cost(make_scene(objects=objects, lights=[LAMP], materials=materials))
         assert receipt["rays"]["shadow"] == 0

@@ -1,4 +1,4 @@
-"""The engine's default: one Sobol dimension for each dimension of the path, scrambled by the pixel.
+"""The engine's default: for each pair of dimensions of a path a shuffled and scrambled (0, 2)-sequence.
 
 The first n points are the same whether n or 2n are asked for, so that a picture can be continued.
 """
@@ -11,14 +11,21 @@ import numpy as np
 
 from course.core.hashing import combine, hash_words
 from course.core.samplers.block import Block
-from course.core.sobol import DIMENSIONS, sobol_words
+from course.core.sobol import shuffled, sobol_words
 from course.core.types import Floats32, Words
 
 _TO_UNIT = np.float32(2.0**-24)
 
+ORDERS = 1024
+"""Orders of the points; two pairs of a pixel share one by chance of 1 in this many."""
+
 
 class SobolSampler:
-    """u = Sobol word of the sample, exclusive-or a hash of (seed, dimension, pixel)."""
+    """u = a point in the order that a hash of (seed, pair, pixel) chooses, exclusive-or another such hash.
+
+    The exclusive-or of all points with one random word keeps them a (0, 2)-sequence and makes each uniform
+    (Kollig & Keller, "Efficient multidimensional sampling", 2002).
+    """
 
     name = "sobol"
     extensible = True
@@ -33,23 +40,29 @@ class SobolSampler:
         -------
         (width, block.size) float32 in [0, 1); the top 24 bits, so that none rounds up to 1.
         """
-        dimensions = range(dimension, dimension + width)
-        scramble = hash_words(block.pixels, *(combine(self._seed, number) for number in dimensions))
-        mixed = _words(dimension, width, block.first, block.samples) ^ scramble[:, :, None]
-        mixed >>= np.uint32(8)
-        u: Floats32 = np.multiply(mixed, _TO_UNIT, dtype=np.float32)
+        last = dimension + width - 1
+        pairs = range(dimension // 2, last // 2 + 1)
+        table = _points(block.first, block.samples)
+        salts = [combine(self._seed, pair, word) for pair in pairs for word in range(3)]
+        hashes = hash_words(block.pixels, *salts).reshape(len(pairs), 3, len(block.pixels))
+        mixed = np.empty((2 * len(pairs), len(block.pixels), block.samples), np.uint32)
+        for number, (order, *scramble) in enumerate(hashes):
+            order %= table.shape[1]
+            for row in range(2):
+                words = mixed[2 * number + row]
+                table[row].take(order, axis=0, out=words, mode="clip")
+                words ^= scramble[row][:, None]
+        first = dimension % 2
+        chosen = mixed[first : first + width]
+        chosen >>= np.uint32(8)
+        u: Floats32 = np.multiply(chosen, _TO_UNIT, dtype=np.float32)
         return u.reshape(width, block.size)
 
 
-@lru_cache(maxsize=4096)
-def _words(dimension: int, width: int, first: int, samples: int) -> Words:
-    """(width, 1, samples) uint32 words of a stretch of samples, the same for every pixel."""
-    rows = []
-    for number in range(dimension, dimension + width):
-        if number < DIMENSIONS:
-            rows.append(sobol_words(number, first, samples))
-        else:
-            # Beyond the table, independent words: so deep in a path stratification matters least.
-            index = np.arange(first, first + samples, dtype=np.uint32)
-            rows.append(hash_words(index, combine(number))[0])
-    return np.stack(rows)[:, None, :]
+@lru_cache(maxsize=64)
+def _points(first: int, samples: int) -> Words:
+    """(2, orders, samples) uint32: a stretch of the sequence in every order."""
+    index = np.arange(first, first + samples, dtype=np.uint32)
+    # The renderer asks for 16 samples at a time; whoever asks for very long stretches gets fewer orders of them.
+    orders = min(ORDERS, max(2**20 // samples, 1))
+    return sobol_words(shuffled(index, orders))

@@ -1,0 +1,317 @@
+"""Area lights against closed forms and quadrature, seen from single points of a floor.
+
+A picture through a very small field of view sees one point; its 256 pixels are independent estimates of one number. The
+mean is within 5 of its standard errors with a false-fail rate of 1e-6 (Student's t for 255 degrees of freedom), for each
+of the about 100 numbers below. Beside that stands 1e-4 of the unshadowed value, for shadow rays leave 2^-19 of the half
+extent above the floor.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from course import Scene, render
+
+MakeScene = Callable[..., Scene]
+Array = NDArray[np.float64]
+FLOOR = {"shape": "quad", "material": "white", "width": 6, "depth": 6}
+
+
+def at_point(make_scene: MakeScene, x: float, light: Any, *objects: dict[str, Any]) -> Scene:
+    """Looks at (x, 0, 0) of a floor that reflects all of its irradiance as radiance E / pi."""
+    return make_scene(
+        camera={"eye": [x + 0.01, 0.05, 0.2], "look_at": [x, 0, 0], "vertical_fov": 1e-3},
+        film={"width": 16, "height": 16},
+        objects=[FLOOR, *objects],
+        lights=light if isinstance(light, list) else [light],
+        materials={"white": {"color": 1}, "black": {"color": 0}},
+    )
+
+
+def estimate(scene: Scene, samples: int = 64) -> tuple[float, float]:
+    """Irradiance and 5 of its standard errors."""
+    pixels = render(scene, spp=samples).linear[..., 0].astype(np.float64) * np.pi
+    return float(pixels.mean()), float(5 * pixels.std(ddof=1) / np.sqrt(pixels.size))
+
+
+def lambert(corners: Array) -> float:
+    """Irradiance at the origin, normal +y, of a polygon of radiance 1 above the horizon (Lambert 1760)."""
+    r = corners / np.linalg.norm(corners, axis=1, keepdims=True)
+    total = 0.0
+    for a, b in zip(r, np.roll(r, -1, axis=0), strict=True):
+        normal = np.cross(a, b)
+        total += np.arctan2(np.linalg.norm(normal), a @ b) * normal[1] / np.linalg.norm(normal)
+    return abs(total) / 2
+
+
+def from_points(points: Array) -> Array:
+    """cos / d^2 of point lights of intensity 1 at points (..., 3), at the origin with normal +y; 0 below."""
+    return np.asarray(np.maximum(points[..., 1], 0) / np.linalg.norm(points, axis=-1) ** 3)
+
+
+# The half-plane x < 0 at a height of 0.5, under a light at a height of 2.
+BLOCKER = {"shape": "quad", "material": "black", "width": 40, "depth": 80} | {
+    "transform": [{"translate": [-20, 0.5, 0]}]
+}
+TOP, EDGE = 2.0, 0.5
+A, B = 0.6, 0.45
+LAMP = {"type": "rectangle", "corner": [-A, TOP, -B], "edge_u": [2 * A, 0, 0]} | {
+    "edge_v": [0, 0, 2 * B]
+}
+# Seen from (x, 0, 0) the edge covers what of the light has x below -x (TOP - EDGE) / EDGE = -3 x.
+ACROSS = [-0.25, -0.18, -0.1, -0.03, 0.0, 0.06, 0.11, 0.17, 0.25]
+
+
+@pytest.mark.parametrize("x", ACROSS)
+def test_the_penumbra_of_a_half_plane_before_a_rectangle_by_radiance(
+    make_scene: MakeScene, x: float
+) -> None:
+    mean, tolerance = estimate(at_point(make_scene, x, LAMP | {"radiance": 3}, BLOCKER))
+    first = max(-A, -3 * x)
+    corners = np.array([[first, TOP, -B], [A, TOP, -B], [A, TOP, B], [first, TOP, B]])
+    # Where all of it is covered nothing is left.
+    exact = 3 * lambert(corners - [x, 0, 0]) if first < A else 0.0
+    whole = 3 * lambert(np.array([[-A, TOP, -B], [A, TOP, -B], [A, TOP, B], [-A, TOP, B]]))
+    assert abs(mean - exact) <= tolerance + 1e-4 * whole
+    assert tolerance < 0.02 * whole, "the estimate is worth something"
+
+
+@pytest.mark.parametrize("samples", ["point", "grid 12"])
+@pytest.mark.parametrize("x", ACROSS)
+def test_the_penumbra_of_a_half_plane_before_a_rectangle_by_intensity(
+    make_scene: MakeScene, x: float, samples: str
+) -> None:
+    light = LAMP | {"intensity": 5, "samples": samples}
+    mean, tolerance = estimate(at_point(make_scene, x, light, BLOCKER))
+    k = 1200 if samples == "point" else 12
+    s = (np.arange(k) + 0.5) / k * 2 - 1
+    points = np.stack(np.broadcast_arrays(s[:, None] * A, TOP, s[None, :] * B), axis=-1)
+    value = from_points(points - [x, 0, 0])
+    # A cell of the quadrature that the edge cuts may count or not.
+    exact = 5 * (value * (points[..., 0] > -3 * x)).mean()
+    doubt = 5 / 1200 * value.max() if samples == "point" else 0.0
+    assert abs(mean - exact) <= tolerance + doubt + 1e-4 * 5 * value.mean()
+
+
+@pytest.mark.parametrize("x", ACROSS)
+def test_the_penumbra_of_a_half_plane_before_a_disk_is_a_segment_of_it(
+    make_scene: MakeScene, x: float
+) -> None:
+    radius = 0.5
+    light = {"type": "sphere", "center": [0, TOP, 0], "radius": radius, "intensity": 5}
+    mean, tolerance = estimate(
+        at_point(make_scene, x, light | {"samples": "facing disk"}, BLOCKER), 256
+    )
+    # The disk's own axes: one at right angles to the line of sight in the plane of x and y, one along z. The plane
+    # through the point and the edge cuts it along z, at the chord where (x_l, y_l) lies on the line from (x, 0) to the edge.
+    centre = np.array([-x, TOP])
+    length = np.linalg.norm(centre)
+    axis = np.array([centre[1], -centre[0]]) / length
+    edge = np.array([-x, EDGE])
+    # centre + s axis parallel to edge
+    chord = (centre[1] * edge[0] - centre[0] * edge[1]) / (axis[0] * edge[1] - axis[1] * edge[0])
+    s = np.linspace(-1, 1, 4001)[1::2] * radius
+    half = np.sqrt(radius**2 - s**2)
+    across = (np.arange(200) + 0.5) / 200 * 2 - 1
+    xy = centre + s[:, None] * axis
+    points = np.empty((len(s), len(across), 3))
+    points[..., 0], points[..., 1] = xy[:, :1], xy[:, 1:]
+    points[..., 2] = half[:, None] * across
+    weight = half / half.sum()
+    value = from_points(points).mean(axis=1)
+    exact = 5 * (value * weight * (s > chord)).sum()
+    whole = 5 * (value * weight).sum()
+    assert abs(mean - exact) <= tolerance + 2e-3 * whole
+    # In closed form: the share of the disk's area beyond the chord, but for the change of cos / d^2 over it.
+    t = min(max(chord / radius, -1), 1)
+    share = 0.5 - (math.asin(t) + t * math.sqrt(1 - t * t)) / math.pi
+    change = (value.max() - value.min()) / value.mean()
+    assert abs(mean / whole - share) <= tolerance / whole + change * min(share, 1 - share) + 2e-3
+
+
+def clipped(corners: Array) -> Array:
+    """What of a polygon lies above y = 0 (Sutherland and Hodgman 1974)."""
+    kept = []
+    for a, b in zip(corners, np.roll(corners, -1, axis=0), strict=True):
+        if a[1] > 0:
+            kept.append(a)
+        if a[1] * b[1] < 0:
+            kept.append(a + (b - a) * a[1] / (a[1] - b[1]))
+    return np.array(kept)
+
+
+@pytest.mark.parametrize("samples", ["point", "grid 40"])
+@pytest.mark.parametrize(
+    ("corner", "u", "v"),
+    [
+        ([-0.7, 1.1, -0.4], [1.2, 0, 0.1], [0.2, 0.3, 0.9]),
+        ([0.8, 0.2, -0.6], [0, 0, 1.1], [0.3, 1.0, 0]),
+        # Half of it is below the floor's horizon.
+        ([0.9, -0.5, -0.6], [0, 0, 1.1], [0.1, 1.3, 0]),
+    ],
+)
+def test_an_unoccluded_rectangle_by_radiance_is_lamberts_polygon(
+    make_scene: MakeScene, corner: list[float], u: list[float], v: list[float], samples: str
+) -> None:
+    p, a, b = (np.array(x, float) for x in (corner, u, v))
+    if np.cross(a, b) @ -(p + a / 2 + b / 2) < 0:
+        a, b = b, a
+    light = {"type": "rectangle", "corner": p.tolist(), "edge_u": a.tolist(), "edge_v": b.tolist()}
+    mean, tolerance = estimate(
+        at_point(make_scene, 0, light | {"radiance": 2, "samples": samples}),
+        256 if samples == "point" else 1,
+    )
+    exact = 2 * lambert(clipped(np.stack((p, p + a, p + a + b, p + b))))
+    # The midpoint rule errs by the second derivative times the cell squared: under 1 % with 40 cells, and a row of
+    # cells on the horizon is nearly dark.
+    assert abs(mean - exact) <= tolerance + (1e-2 if samples != "point" else 1e-4) * exact
+
+
+@pytest.mark.parametrize(
+    ("center", "radius"),
+    [([0.3, 1.2, -0.4], 0.5), ([1.5, 0.1, 0.2], 0.4), ([0.6, -0.05, 0.5], 0.3)],
+)
+def test_an_unoccluded_sphere_by_radiance_is_its_cone_of_directions(
+    make_scene: MakeScene, center: list[float], radius: float
+) -> None:
+    light = {"type": "sphere", "center": center, "radius": radius, "radiance": 2}
+    mean, tolerance = estimate(at_point(make_scene, 0, light), 1024)
+    c = np.array(center)
+    length = np.linalg.norm(c)
+    sine = radius / length
+    # The integral of max(cos, 0) over the cone; the axis has the height y, and pi sin^2 y is all of it above the floor.
+    y = c[1] / length
+    # Equal solid angles in rings and sectors.
+    cos = 1 - (1 - math.sqrt(1 - sine**2)) * (np.arange(1000) + 0.5) / 1000
+    phi = 2 * np.pi * (np.arange(1000) + 0.5) / 1000
+    height = cos[:, None] * y + np.sqrt(1 - cos[:, None] ** 2) * np.cos(phi) * math.sqrt(1 - y * y)
+    exact = 2 * np.maximum(height, 0).mean() * 2 * np.pi * (1 - math.sqrt(1 - sine**2))
+    if y > sine:
+        assert exact == pytest.approx(2 * np.pi * sine**2 * y, rel=1e-5)
+    assert tolerance < 0.1 * exact, "the estimate is worth something"
+    assert abs(mean - exact) <= tolerance + 1e-4 * exact
+
+
+def disk_points() -> tuple[Array, Array]:
+    """Midpoints of 300 x 300 cells of equal area on the unit disk."""
+    r = np.sqrt((np.arange(300) + 0.5) / 300)[:, None]
+    phi = 2 * np.pi * (np.arange(300) + 0.5) / 300
+    return r * np.cos(phi), r * np.sin(phi)
+
+
+def cloud(method: str, c: Array, radius: float) -> Array:
+    """Points that stand for equal shares of a sphere light, (..., 3)."""
+    a, b = disk_points()
+    if method == "facing disk":
+        w = c / np.linalg.norm(c)
+        e1 = np.cross(w, [0.0, 1.0, 0.3])
+        e1 /= np.linalg.norm(e1)
+        e2 = np.cross(w, e1)
+        return c + radius * (a[..., None] * e1 + b[..., None] * e2)
+    # Archimedes: equal areas of the disk, 1 - 2 r^2 as height, are equal areas of the sphere.
+    squared = a * a + b * b
+    z = 1 - 2 * squared
+    ring = 2 * np.sqrt(1 - squared)
+    sphere = np.stack((a * ring, b * ring, z), axis=-1)
+    if method == "sphere":
+        return c + radius * sphere
+    shells = np.cbrt((np.arange(40) + 0.5) / 40)
+    return c + radius * shells[:, None, None, None] * sphere
+
+
+@pytest.mark.parametrize("method", ["sphere", "ball", "facing disk"])
+@pytest.mark.parametrize(
+    ("center", "radius"),
+    [([0.3, 1.2, -0.4], 0.5), ([1.5, 0.6, 0.2], 0.5), ([0.5, 0.1, 0.4], 0.4)],
+)
+def test_a_sphere_by_intensity_is_the_mean_of_its_point_lights(
+    make_scene: MakeScene, method: str, center: list[float], radius: float
+) -> None:
+    light = {"type": "sphere", "center": center, "radius": radius, "samples": method}
+    mean, tolerance = estimate(at_point(make_scene, 0, light | {"intensity": 4}), 1024)
+    exact = 4 * from_points(cloud(method, np.array(center), radius)).mean()
+    assert tolerance < 0.05 * exact, "the estimate is worth something"
+    assert abs(mean - exact) <= tolerance + 1e-3 * exact
+
+
+def test_the_methods_of_a_sphere_differ(make_scene: MakeScene) -> None:
+    # Or else the test above could not tell them apart.
+    center, radius = np.array([0.3, 1.2, -0.4]), 0.9
+    values = [
+        from_points(cloud(m, center, radius)).mean() for m in ("sphere", "ball", "facing disk")
+    ]
+    assert np.ptp(values) > 0.05 * min(values)
+
+
+@pytest.mark.parametrize("kind", ["intensity", "radiance"])
+@pytest.mark.parametrize("k", [1, 2, 5])
+def test_a_grid_is_the_sum_of_its_point_lights(make_scene: MakeScene, k: int, kind: str) -> None:
+    corner, u, v = np.array([-1.0, 2, 0.3]), np.array([1.1, 0, 0.4]), np.array([-0.2, 0.3, 0.8])
+    if kind == "radiance":
+        u, v = v, u
+        assert np.cross(u, v)[1] > 0
+        u, v = v, u
+    grid = {"type": "rectangle", "corner": corner.tolist(), "edge_u": u.tolist()} | {
+        "edge_v": v.tolist(),
+        "samples": f"grid {k}",
+    }
+    cells = [corner + u * (i + 0.5) / k + v * (j + 0.5) / k for i in range(k) for j in range(k)]
+    ball = {"shape": "sphere", "material": "grey", "radius": 0.4} | {
+        "transform": [{"translate": [0, 0.6, 0.3]}]
+    }
+    parts: dict[str, Any] = {
+        "camera": {"eye": [0, 2, 4], "look_at": [0, 0.3, 0]},
+        "film": {"width": 48, "height": 36},
+        "sampler": {"type": "regular", "samples": 1},
+        "objects": [FLOOR | {"material": "grey"}, ball],
+        "materials": {"grey": {"specular": 0.4, "exponent": 20}},
+    }
+    if kind == "intensity":
+        shown = render(make_scene(**parts, lights=[grid | {"intensity": [6, 3, 1]}])).linear
+        points = [
+            {"type": "point", "position": c.tolist(), "intensity": [6 / k**2, 3 / k**2, 1 / k**2]}
+            for c in cells
+        ]
+        expected = render(make_scene(**parts, lights=points)).linear
+        assert expected.max() > 0.1
+        # Positions are rounded differently: a pixel on one of the k^2 shadows' edges may fall to its other side.
+        different = (np.abs(shown - expected) > 1e-5 * expected.max()).any(axis=2)
+        assert different.sum() <= k * k
+        return
+    # By radiance each cell is a Lambertian patch: radiance times area over k^2, times the cosine; without shadows.
+    parts["objects"] = [FLOOR]
+    parts["materials"] = {"white": {"color": 1}}
+    parts["camera"] = {"eye": [0.4, 1.5, 1.5], "look_at": [0, 0, -0.2], "vertical_fov": 30}
+    scene = make_scene(**parts, lights=[grid | {"radiance": 2}])
+    shown = render(scene).linear[..., 0]
+    p = floor_points(scene)
+    normal = np.cross(u, v)
+    total = np.zeros(p.shape[1:])
+    for c in cells:
+        to_light = c[:, None, None] - p
+        d = np.linalg.norm(to_light, axis=0)
+        emitted = np.maximum(-np.tensordot(normal, to_light, 1) / d, 0)
+        total += 2 / k**2 * emitted * to_light[1] / d**3 / np.pi
+    assert total.max() > 0.05
+    assert np.allclose(shown, total, rtol=1e-4)
+
+
+def floor_points(scene: Scene) -> Array:
+    camera, film = scene.loaded.description.camera, scene.loaded.description.film
+    eye = np.array(camera.eye)
+    forward = np.array(camera.look_at) - eye
+    forward /= np.linalg.norm(forward)
+    right = np.cross(forward, camera.up)
+    right /= np.linalg.norm(right)
+    up = np.cross(right, forward)
+    half = np.tan(np.radians(camera.vertical_fov) / 2)
+    y = half * (1 - 2 * (np.arange(film.height) + 0.5) / film.height)[None, :, None]
+    x = half * ((2 * np.arange(film.width) + 1 - film.width) / film.height)[None, None, :]
+    d = forward[:, None, None] + right[:, None, None] * x + up[:, None, None] * y
+    return np.asarray(eye[:, None, None] - d * (eye[1] / d[1]))
