@@ -7,7 +7,8 @@ A path needs more than two numbers. Sobol's higher dimensions would be there, bu
 many pairs of them are locked together (squared correlations of 0.6 within a pixel at 16 and at 64 samples). So each
 pair of dimensions takes the same points in a shuffled order of its own (Burley, "Practical hash-based Owen
 scrambling", 2020): a nested permutation, which keeps blocks of 2^m blocks, keeps every pair's stratification and
-leaves nothing between pairs but chance.
+leaves nothing between pairs but chance. Their values are scrambled in the same way (Owen 1995): left as they are, the
+points' symmetries meet those of a scene, and the error can exceed that of jittered points.
 """
 
 from __future__ import annotations
@@ -74,3 +75,37 @@ def shuffled(index: Words, orders: int) -> Words:
         chance = hash_words(keys.ravel(), combine(bit, 1)).reshape(keys.shape)
         result ^= (chance & np.uint32(1)) * (above > 0) << np.uint32(bit)
     return result
+
+
+def owen_scrambled(words: Words, seeds: Words) -> Words:
+    """Words after a nested uniform scramble: each digit is flipped by chance, the same for equal digits before it.
+
+    Parameters
+    ----------
+    words : (..., n) uint32
+    seeds : uint32 that broadcasts against words, one scramble each
+
+    Returns
+    -------
+    uint32 of the broadcast shape
+
+    Notes
+    -----
+    In a word whose bits are reversed, additions and multiplications only carry upwards, from the digits before to the
+    digits after: the hash of Laine & Karras (2011), with Burley's constants (2020).
+    """
+    state = reversed_bits(words) + np.zeros_like(seeds)
+    state ^= state * np.uint32(0x3D20ADEA)
+    state += seeds
+    state *= (seeds >> np.uint32(16)) | np.uint32(1)
+    state ^= state * np.uint32(0x05526C56)
+    state ^= state * np.uint32(0x53A22864)
+    return reversed_bits(state)
+
+
+def reversed_bits(words: Words) -> Words:
+    """Words with bit 0 in the place of bit 31, and so on."""
+    for shift, mask in ((1, 0x55555555), (2, 0x33333333), (4, 0x0F0F0F0F), (8, 0x00FF00FF)):
+        low = np.uint32(mask)
+        words = ((words >> np.uint32(shift)) & low) | ((words & low) << np.uint32(shift))
+    return (words >> np.uint32(16)) | (words << np.uint32(16))

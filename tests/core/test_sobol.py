@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.stats import qmc
 
-from course.core.sobol import shuffled, sobol_words
+from course.core.sobol import owen_scrambled, reversed_bits, shuffled, sobol_words
 from course.core.types import Words
 
 
@@ -68,3 +68,44 @@ def test_shuffling_makes_every_place_equally_likely() -> None:
     counts = np.bincount(landed, minlength=16)[8:]
     assert counts.sum() == 8192
     assert (((counts - 1024) ** 2) / 1024).sum() < 50
+
+
+def test_reversing_bits_twice_changes_nothing() -> None:
+    words = np.array([0, 1, 2, 0x80000000, 0x12345678, 0xFFFFFFFF], np.uint32)
+    assert np.array_equal(reversed_bits(reversed_bits(words)), words)
+    assert reversed_bits(words)[:3].tolist() == [0, 0x80000000, 0x40000000]
+
+
+@pytest.mark.parametrize("m", range(1, 9))
+def test_scrambled_points_are_still_one_to_a_rectangle(m: int) -> None:
+    n = 2**m
+    seeds = np.array([[3], [0x9E3779B9]], np.uint32)
+    for block in (0, 1, 5):
+        x, y = owen_scrambled(sobol_words(indices(block * n, n)), seeds).astype(np.uint64)
+        for a in range(m + 1):
+            cell = (x << np.uint64(a)) >> np.uint64(32) << np.uint64(m - a)
+            cell += (y << np.uint64(m - a)) >> np.uint64(32)
+            assert np.array_equal(np.sort(cell), np.arange(n)), (block, a)
+
+
+def test_a_scramble_keeps_common_prefixes_common() -> None:
+    rng = np.random.default_rng(1)
+    words = rng.integers(0, 2**32, 256, np.uint32)
+    for digits in (1, 5, 12, 24):
+        other = words ^ (rng.integers(0, 2**32, 256, np.uint32) >> np.uint32(digits))
+        a, b = (owen_scrambled(w, np.array([77], np.uint32)) for w in (words, other))
+        assert np.array_equal(a >> np.uint32(32 - digits), b >> np.uint32(32 - digits))
+
+
+def test_scrambling_halves_the_error_of_plain_points_on_a_peak_in_the_middle() -> None:
+    # A peak at the centre of the square, where the plain points are symmetric. Over 512 scrambles the standard
+    # deviation is known to 3%; the ratio is 0.42.
+    def means(words: Words) -> float:
+        x, y = words / 2.0**32 * 6 - 3
+        return float((36 * 0.16 / (x * x + y * y + 0.16) ** 2).mean(axis=-1).std())
+
+    rng = np.random.default_rng(2)
+    words = sobol_words(indices(0, 256))[:, None, :]
+    shift = rng.integers(0, 2**32, (2, 512, 1), np.uint32)
+    seeds = rng.integers(0, 2**32, (2, 512, 1), np.uint32)
+    assert means(owen_scrambled(words, seeds) ^ shift) < 0.55 * means(words ^ shift)

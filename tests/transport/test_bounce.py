@@ -225,10 +225,11 @@ def test_clear_glass_in_a_white_furnace_cannot_be_seen(
 ) -> None:
     found = furnace(make_scene, thing, index, **EXACT)
     # Never more than everything. What is missing after 64 bounces is (1 - F) F^64 <= 1/(65 e) of a path that meets the
-    # surface at one angle throughout, as in a ball; facets keep some light in by total reflection for ever.
+    # surface at one angle throughout, as in a ball; facets keep some light in by total reflection for ever, and near
+    # the rim of a ball of 64 segments up to about as much again.
     assert found.max() <= 1 + 1e-5
     if thing == {"shape": "sphere"}:
-        assert found.min() > 1 - 1.5 / (65 * np.e)
+        assert found.min() > 1 - 4 / (65 * np.e)
     assert np.median(found) > 1 - 1e-4
 
 

@@ -159,7 +159,7 @@ def test_points_in_shadow_keep_exactly_their_ambient_term(make_scene: MakeScene)
     assert np.array_equal(linear[16:24, 10:22], np.broadcast_to(ambient, (8, 12, 3)))
 
 
-def estimate(scene: Scene, samples: int = 256) -> tuple[float, float]:
+def estimate(scene: Scene, samples: int = 1024) -> tuple[float, float]:
     """Mean of the pixels, and 5 of its standard errors plus the effect of the offset."""
     linear = render(scene, spp=samples, size=(16, 16)).linear.astype(np.float64)
     assert np.array_equal(linear[..., 0], linear[..., 1])

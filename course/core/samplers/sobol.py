@@ -11,20 +11,21 @@ import numpy as np
 
 from course.core.hashing import combine, hash_words
 from course.core.samplers.block import Block
-from course.core.sobol import shuffled, sobol_words
+from course.core.sobol import owen_scrambled, shuffled, sobol_words
 from course.core.types import Floats32, Words
 
 _TO_UNIT = np.float32(2.0**-24)
 
 ORDERS = 1024
-"""Orders of the points; two pairs of a pixel share one by chance of 1 in this many."""
+"""Orders and scrambles of the points; two pairs of a pixel share one by chance of 1 in this many."""
 
 
 class SobolSampler:
-    """u = a point in the order that a hash of (seed, pair, pixel) chooses, exclusive-or another such hash.
+    """u = a point of the shuffled and scrambled sequence that a hash of (seed, pair, pixel) chooses.
 
-    The exclusive-or of all points with one random word keeps them a (0, 2)-sequence and makes each uniform
-    (Kollig & Keller, "Efficient multidimensional sampling", 2002).
+    The sequences are tables, the same for all pixels. The exclusive-or with another hash, which keeps a
+    (0, 2)-sequence one, makes each pixel's points its own (Kollig & Keller, "Efficient multidimensional sampling",
+    2002): as even as if every pixel had been scrambled by itself, at a tenth of the cost.
     """
 
     name = "sobol"
@@ -61,8 +62,10 @@ class SobolSampler:
 
 @lru_cache(maxsize=64)
 def _points(first: int, samples: int) -> Words:
-    """(2, orders, samples) uint32: a stretch of the sequence in every order."""
+    """(2, orders, samples) uint32: a stretch of the sequence in every order, each scrambled in its way."""
     index = np.arange(first, first + samples, dtype=np.uint32)
     # The renderer asks for 16 samples at a time; whoever asks for very long stretches gets fewer orders of them.
     orders = min(ORDERS, max(2**20 // samples, 1))
-    return sobol_words(shuffled(index, orders))
+    words = sobol_words(shuffled(index, orders))
+    seeds = hash_words(np.arange(orders, dtype=np.uint32), combine(1), combine(2))
+    return owen_scrambled(words, seeds[:, :, None])
