@@ -12,6 +12,7 @@ import sys
 from pathlib import Path
 
 from benchmarks.convergence import measure_convergence
+from benchmarks.effects import measure_effects
 from benchmarks.engine import measure_engine
 from benchmarks.figures import Figure, print_figures
 from benchmarks.process import measure_processes
@@ -22,7 +23,7 @@ OUT = Path("out/bench/engine.json")
 def main() -> None:
     """Measure everything, print and write it."""
     figures: list[Figure] = []
-    for measure in (measure_engine, measure_processes, measure_convergence):
+    for measure in (measure_engine, measure_effects, measure_processes, measure_convergence):
         figures += measure()
     print_figures(figures)
     OUT.parent.mkdir(parents=True, exist_ok=True)

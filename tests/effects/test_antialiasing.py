@@ -1,9 +1,9 @@
 """Antialiasing: a pixel that a straight edge crosses shows the share of it that the edge covers.
 
-The edge is that of a large white plate before black. It cuts at most 2 k - 1 of a pixel's k x k cells; the others count
-exactly. A half-plane that holds a cell's centre covers at least half of the cell, so centres err by at most half a
-cell for each cell that is cut, and any other point of the cell by less than one. Independent points make a binomial
-distribution.
+The edge is that of a large white plate before black. It cuts at most 2 k - 1 of a pixel's k x k cells; the others
+count exactly. A half-plane that holds a cell's centre covers at least half of the cell, so centres err by at most
+half a cell for each cell that is cut, and any other point of the cell by less than one. Independent points make a
+binomial distribution.
 """
 
 from __future__ import annotations

@@ -1,10 +1,10 @@
 """The numbers of one path: every decision has dimensions of its own, and no two of them go together.
 
-Sobol points of one pixel must not only be uncorrelated on average over the pixels (a random sign does that) but within
-each pixel: where the lens and a light lie on a diagonal in one pixel and on the other diagonal in the next, no pixel
-has the average of both. So the measure is the mean over the pixels of the squared correlation, times n - 1: it is 1
-for independent points, whatever n is. Stratified points spread around that; LOCKED is where a pair that shares its
-leading digits begins (at n = 16 two such dimensions have a measure of 9, at n = 64 of 38).
+Sobol points of one pixel must not only be uncorrelated on average over the pixels (a random sign does that) but
+within each pixel: where the lens and a light lie on a diagonal in one pixel and on the other diagonal in the next, no
+pixel has the average of both. So the measure is the mean over the pixels of the squared correlation, times n - 1: it
+is 1 for independent points, whatever n is. Stratified points spread around that; LOCKED is where a pair that shares
+its leading digits begins (at n = 16 two such dimensions have a measure of 9, at n = 64 of 38).
 
 Over P pixels the measure of independent points has a standard deviation of about sqrt(2 / P); with P = 512 and the
 bound at 2 that is 16 of them. A measure of a correct shuffle is a mean over pixels of independent permutations, which

@@ -1,8 +1,8 @@
 """Glossy reflection through the engine: nothing is lost, and each lobe has the shape of its formula.
 
 A picture through a very small field of view sees one point of a mirror; its 256 pixels are independent estimates of
-one number, whose mean is within 5 of its standard errors with a false-fail rate of 1e-6 (Student's t for 255 degrees of
-freedom) for each of the about 60 numbers below.
+one number, whose mean is within 5 of its standard errors with a false-fail rate of 1e-6 (Student's t for 255 degrees
+of freedom) for each of the about 60 numbers below.
 """
 
 from __future__ import annotations

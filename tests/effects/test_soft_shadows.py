@@ -1,9 +1,9 @@
 """Area lights against closed forms and quadrature, seen from single points of a floor.
 
-A picture through a very small field of view sees one point; its 256 pixels are independent estimates of one number. The
-mean is within 5 of its standard errors with a false-fail rate of 1e-6 (Student's t for 255 degrees of freedom), for each
-of the about 100 numbers below. Beside that stands 1e-4 of the unshadowed value, for shadow rays leave 2^-19 of the half
-extent above the floor.
+A picture through a very small field of view sees one point; its 256 pixels are independent estimates of one number.
+The mean is within 5 of its standard errors with a false-fail rate of 1e-6 (Student's t for 255 degrees of freedom),
+for each of the about 100 numbers below. Beside that stands 1e-4 of the unshadowed value, for shadow rays leave 2^-19
+of the half extent above the floor.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ def lambert(corners: Array) -> float:
 
 
 def from_points(points: Array) -> Array:
-    """cos / d^2 of point lights of intensity 1 at points (..., 3), at the origin with normal +y; 0 below."""
+    """The cos / d^2 of point lights of intensity 1 at points (..., 3), at the origin with normal +y; 0 below."""
     return np.asarray(np.maximum(points[..., 1], 0) / np.linalg.norm(points, axis=-1) ** 3)
 
 
@@ -109,7 +109,7 @@ def test_the_penumbra_of_a_half_plane_before_a_disk_is_a_segment_of_it(
         at_point(make_scene, x, light | {"samples": "facing disk"}, BLOCKER), 256
     )
     # The disk's own axes: one at right angles to the line of sight in the plane of x and y, one along z. The plane
-    # through the point and the edge cuts it along z, at the chord where (x_l, y_l) lies on the line from (x, 0) to the edge.
+    # through the point and the edge cuts it along z, at the chord where it meets the line from (x, 0) to the edge.
     centre = np.array([-x, TOP])
     length = np.linalg.norm(centre)
     axis = np.array([centre[1], -centre[0]]) / length
@@ -240,7 +240,7 @@ def test_a_sphere_by_intensity_is_the_mean_of_its_point_lights(
     assert abs(mean - exact) <= tolerance + 1e-3 * exact
 
 
-def test_the_methods_of_a_sphere_differ(make_scene: MakeScene) -> None:
+def test_the_methods_of_a_sphere_differ() -> None:
     # Or else the test above could not tell them apart.
     center, radius = np.array([0.3, 1.2, -0.4]), 0.9
     values = [

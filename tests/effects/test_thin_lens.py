@@ -1,11 +1,11 @@
 """The thin lens: how a knife edge at five depths is spread, and that the plane in focus is sharp.
 
-An edge at depth d casts the aperture's own shape on the plane in focus, scaled by 1 - f / d: a pixel shows the share of the
-aperture from which the edge leaves it free. That share is the area of a disk or a polygon on one side of a line, in closed
-form; for edges in several directions it gives away shape, size (the diameter of the circle of confusion), orientation
-and uniformity. With n independent samples a pixel is binomial; 5 standard deviations of that and 10 / n (Bernstein's
-term for rare events) are exceeded with less than 1e-6 by each of the about 25,000 pixels, and far less by Sobol points,
-which are what most pixels use; seeds are fixed.
+An edge at depth d casts the aperture's own shape on the plane in focus, scaled by 1 - f / d: a pixel shows the share
+of the aperture from which the edge leaves it free. That share is the area of a disk or a polygon on one side of a
+line, in closed form; for edges in several directions it gives away shape, size (the diameter of the circle of
+confusion), orientation and uniformity. With n independent samples a pixel is binomial; 5 standard deviations of that
+and 10 / n (Bernstein's term for rare events) are exceeded with less than 1e-6 by each of the about 25,000 pixels, and
+far less by Sobol points, which are what most pixels use; seeds are fixed.
 """
 
 from __future__ import annotations
