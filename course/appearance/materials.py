@@ -55,11 +55,6 @@ class MaterialTable:
         """(M,) which materials are dielectrics."""
         return np.asarray(self.refraction_index > 0)
 
-    @property
-    def mirrors(self) -> Mask:
-        """(M,) which materials reflect like a mirror."""
-        return np.asarray(self.mirror.max(0) > 0)
-
 
 class Lookup:
     """Gathers properties for hits; where all materials agree, a single column serves all hits."""

@@ -78,7 +78,7 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
     emitters, emission = emitter_parts(scene.lights, frame, shutter, first_material=len(names))
     materials = compile_materials(used, emission, frame)
     lights, skipped = compile_lights(loaded, frame, shutter, effects, materials)
-    motion = compile_motion(loaded, frame, shutter, effects)
+    motion = compile_motion(loaded, frame, shutter, effects, materials)
     ambient = np.zeros(3)
     for light in scene.lights:
         if isinstance(light, d.AmbientLight):
@@ -90,7 +90,7 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
         skipped_lights=skipped,
         ambient=in_range(ambient, loaded, ("lights",), "ambient radiance"),
         environment=compile_environment(loaded, effects),
-        lobes=compile_lobes(used, effects, scene.integrator.max_depth),
+        lobes=compile_lobes(used, effects, scene.integrator),
         lens=compile_lens(loaded, frame, effects),
         motion=motion,
     )

@@ -12,9 +12,16 @@ from course.scene import description as d
 from course.scene.description.values import rgb
 
 
-def lobe_function(material: d.MaterialDescription) -> str | None:
-    """Name of the glossy function that a material calls; None where its reflection is a mirror's."""
-    if not np.any(rgb(material.mirror)):
+def lobe_function(material: d.MaterialDescription, cutoff: float) -> str | None:
+    """Name of the glossy function that a material calls; None where its reflection is a mirror's, or too weak to see.
+
+    Parameters
+    ----------
+    cutoff : throughputs up to this are dropped
+    """
+    # In float32, as the rays' throughputs are; a dielectric reflects more than its mirror.
+    strongest = rgb(material.mirror).astype(np.float32).max()
+    if strongest <= cutoff and (strongest == 0 or material.dielectric is None):
         return None
     match material.gloss:
         case d.PlaneLobe(roughness=roughness) if roughness > 0:
@@ -27,13 +34,15 @@ def lobe_function(material: d.MaterialDescription) -> str | None:
 
 
 def compile_lobes(
-    materials: Mapping[str, d.MaterialDescription], effects: Effects, max_depth: int
+    materials: Mapping[str, d.MaterialDescription],
+    effects: Effects,
+    integrator: d.IntegratorDescription,
 ) -> tuple[Lobe, ...]:
     """One lobe for each glossy material; none where the depth allows no reflection."""
     lobes = []
     for number, material in enumerate(materials.values()):
-        name = lobe_function(material)
-        if name is None or max_depth == 0:
+        name = lobe_function(material, integrator.cutoff)
+        if name is None or integrator.max_depth == 0:
             continue
         match material.gloss:
             case d.PlaneLobe(roughness=parameter):

@@ -4,26 +4,34 @@ from __future__ import annotations
 
 import numpy as np
 
+from course.appearance.materials import MaterialTable
 from course.effects import Effects
 from course.geometry.motion_functions import MotionFunctions
 from course.scene import description as d
 from course.scene.frame import Frame
+from course.scene.light_power import why_dark
 from course.scene.loading import Loaded
 from course.scene.shutter import Shutter
 from course.scene.world import Motion
 
 
-def movers(loaded: Loaded, shutter: Shutter) -> list[tuple[str | int, ...]]:
-    """Key paths of everything that moves while the shutter is open."""
+def movers(
+    loaded: Loaded, shutter: Shutter, materials: MaterialTable
+) -> list[tuple[str | int, ...]]:
+    """Key paths of everything that moves while the shutter is open, and that anybody could see moving.
+
+    A light by radiance is a surface, and hides things even if it lights nothing; others only count if they light.
+    """
     scene = loaded.description
     found: list[tuple[str | int, ...]] = []
     for number, thing in enumerate(scene.objects):
         if shutter.moves(thing.motion):
             found.append(("objects", number, "motion"))
     for number, light in enumerate(scene.lights):
-        if not isinstance(light, d.AmbientLight | d.DirectionalLight) and shutter.moves(
-            light.motion
-        ):
+        if isinstance(light, d.AmbientLight | d.DirectionalLight):
+            continue
+        surface = not isinstance(light, d.PointLight) and light.radiance is not None
+        if shutter.moves(light.motion) and (surface or not why_dark(light, materials)):
             found.append(("lights", number, "motion"))
     if shutter.moves(scene.camera.motion):
         found.append(("camera", "motion"))
@@ -31,10 +39,10 @@ def movers(loaded: Loaded, shutter: Shutter) -> list[tuple[str | int, ...]]:
 
 
 def compile_motion(
-    loaded: Loaded, frame: Frame, shutter: Shutter, effects: Effects
+    loaded: Loaded, frame: Frame, shutter: Shutter, effects: Effects, materials: MaterialTable
 ) -> Motion | None:
     """None where nothing moves, and then the motion_blur module is not even imported."""
-    if not movers(loaded, shutter):
+    if not movers(loaded, shutter, materials):
         return None
     camera = loaded.description.camera.motion
     velocity = None

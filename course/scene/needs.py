@@ -53,7 +53,7 @@ def needs_of(loaded: Loaded, settings: Settings, materials: MaterialTable) -> li
     if settings.max_depth:
         used = dict.fromkeys(thing.material for thing in scene.objects)
         for name in used:
-            lobe = lobe_function(scene.materials[name])
+            lobe = lobe_function(scene.materials[name], settings.cutoff)
             if lobe:
                 asked_by = ("materials", name, "gloss")
                 needs += [Need(f"glossy.{lobe}", asked_by), Need("glossy.keep_above", asked_by)]
@@ -66,7 +66,7 @@ def needs_of(loaded: Loaded, settings: Settings, materials: MaterialTable) -> li
     if not isinstance(scene.environment, d.ConstantEnvironment):
         lookup = LOOKUPS[scene.environment.lookup]
         needs.append(Need(f"cube_map.{lookup}", ("environment", "type")))
-    moving = movers(loaded, shutter_of(loaded))
+    moving = movers(loaded, shutter_of(loaded), materials)
     if moving:
         needs.append(Need("motion_blur.shutter_times", moving[0]))
         needs.append(Need("motion_blur.displacement", moving[0]))

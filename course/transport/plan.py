@@ -71,7 +71,7 @@ PIXEL_WIDTH = 2
 def make_plan(world: World, settings: Settings) -> Plan:
     """Look at the compiled scene and leave out what can't contribute."""
     m = world.materials
-    mirrors = bool(m.mirrors.any()) and settings.max_depth > 0
+    mirrors = bool((m.mirror.max(0) > settings.cutoff).any()) and settings.max_depth > 0
     refracts = bool(m.refracts.any()) and settings.max_depth > 0
     dimensions = _Dimensions()
     dimensions.take(PIXEL_WIDTH)

@@ -240,7 +240,7 @@ def test_glossy_and_refracted_rays_keep_their_time(make_scene: MakeScene, glass:
 
 
 def floor_mean(positions: Array, intensity: float, points: Array) -> Array:
-    """Radiance of a white wall (normal +z, points (N, 3)) by a light at positions (M, 3), each for 1 / M of the time."""
+    """Radiance of a white wall (normal +z, points (N, 3)) by a light at positions (M, 3), each 1 / M of the time."""
     to_light = positions[None] - points[:, None]
     d = np.linalg.norm(to_light, axis=-1)
     return np.asarray((intensity * to_light[..., 2] / d**3).mean(axis=1) / np.pi)

@@ -316,7 +316,11 @@ def test_a_map_that_nobody_expects_is_shown_by_example(
                 "rectangle or sphere"
             ),
         ),
-        ("type: constant, ", "", "11: environment: type is missing: expected constant, cube or lat_long"),
+        (
+            "type: constant, ",
+            "",
+            "11: environment: type is missing: expected constant, cube or lat_long",
+        ),
         ("shape: disk, ", "", f"34: objects[3]: shape is missing: expected {SHAPES}"),
         (
             ", degrees: 30",
@@ -356,7 +360,11 @@ def test_a_missing_camera_is_named_at_the_first_line(refusal: Callable[[str], st
                 "or sphere; did you mean point?"
             ),
         ),
-        ("type: constant", "type: sky", '11: environment.type is "sky": expected constant, cube or lat_long'),
+        (
+            "type: constant",
+            "type: sky",
+            '11: environment.type is "sky": expected constant, cube or lat_long',
+        ),
         (
             "type: jittered",
             "type: halton",

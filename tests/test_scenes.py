@@ -1,0 +1,139 @@
+"""Every scene file that comes with the course: it loads, and shows the effect that it is named for.
+
+Each effect has a pair of scenes, scenes/NAME.yaml and scenes/before/NAME.yaml. The pair differs in
+nothing but the effect, so that whoever compares the two pictures sees the effect and nothing else.
+"""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+import yaml
+
+from course import load_scene, render
+from course.effects import MODULES
+from course.imaging.reading import read_picture
+
+SCENES = Path(__file__).parent.parent / "scenes"
+ALL = sorted(SCENES.rglob("*.yaml"))
+GALLERY = sorted((SCENES / "gallery").glob("*.yaml"))
+
+# Which keys may differ between a scene and its twin without the effect.
+MAY_DIFFER = {
+    "supersampling": r"sampler\.(type|samples)",
+    "soft_shadows": r"lights\.0\.(type|radius|(center|position)\.[012])",
+    "glossy": r"materials\.[^.]+\.gloss(\..*)?",
+    "thin_lens": r"camera\.lens(\..*)?",
+    "motion_blur": r"objects\.\d+\.motion(\..*)?",
+    "cube_map": r"environment\.(type|cross|radiance\.[012])",
+}
+
+
+def called(path: Path) -> set[str]:
+    """The student functions that a small picture of a scene calls; its own number of samples."""
+    samples = yaml.safe_load(path.read_text(encoding="utf-8")).get("sampler", {}).get("samples", 16)
+    picture = render(load_scene(path), size=(16, 12), spp=1 if samples == 1 else 4)
+    return set(picture.receipt.to_dict()["effects"]["called"])
+
+
+def modules(functions: set[str]) -> set[str]:
+    return {function.partition(".")[0] for function in functions}
+
+
+def leaves(value, path=()):
+    """Every value of a document by its path; lists and maps are no values of their own."""
+    if isinstance(value, dict | list) and value:
+        items = value.items() if isinstance(value, dict) else enumerate(value)
+        return {
+            key: leaf
+            for name, child in items
+            for key, leaf in leaves(child, (*path, str(name))).items()
+        }
+    return {".".join(path): value}
+
+
+def document(path: Path) -> dict[str, object]:
+    return leaves(yaml.safe_load(path.read_text(encoding="utf-8")))
+
+
+@pytest.mark.parametrize("path", ALL, ids=lambda path: str(path.relative_to(SCENES)))
+def test_every_scene_renders_to_something_that_is_not_black(path):
+    picture = render(load_scene(path), size=(16, 12), spp=1 if "before" in path.parts else 4)
+    assert picture.linear.max() > 0.05
+    assert picture.linear.std() > 0.01
+
+
+def test_every_effect_has_a_pair_of_scenes():
+    assert set(MAY_DIFFER) == set(MODULES)
+    for name in MODULES:
+        assert (SCENES / f"{name}.yaml").is_file()
+        assert (SCENES / "before" / f"{name}.yaml").is_file()
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_an_effects_scene_calls_its_module_and_its_twin_does_not(name):
+    assert name in modules(called(SCENES / f"{name}.yaml"))
+    assert name not in modules(called(SCENES / "before" / f"{name}.yaml"))
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_a_scene_and_its_twin_differ_in_nothing_but_the_effect(name):
+    after, before = document(SCENES / f"{name}.yaml"), document(SCENES / "before" / f"{name}.yaml")
+    differing = {
+        key
+        for key in after.keys() | before.keys()
+        if key not in after or key not in before or after[key] != before[key]
+    }
+    assert differing, "the twins are the same"
+    assert {key for key in differing if not re.fullmatch(MAY_DIFFER[name], key)} == set()
+
+
+def test_the_lamp_without_a_size_stands_in_the_middle_of_the_one_with_a_size():
+    after, before = (
+        yaml.safe_load((SCENES / folder / "soft_shadows.yaml").read_text(encoding="utf-8"))
+        for folder in ("", "before")
+    )
+    assert before["lights"][0]["position"] == after["lights"][0]["center"]
+
+
+def test_the_twin_of_the_cube_map_has_its_mean_colour():
+    after, before = (
+        yaml.safe_load((SCENES / folder / "cube_map.yaml").read_text(encoding="utf-8"))
+        for folder in ("", "before")
+    )
+    cross = read_picture(SCENES / after["environment"]["cross"])
+    size = cross.shape[0] // 3
+    cells = [(0, 1), (1, 0), (1, 1), (1, 2), (1, 3), (2, 1)]
+    faces = [cross[r * size : (r + 1) * size, c * size : (c + 1) * size] for r, c in cells]
+    mean = sum(face.mean(axis=(0, 1)) for face in faces) / 6
+    assert before["environment"]["radiance"] == pytest.approx(list(mean), abs=0.006)
+
+
+def test_the_gallery_shows_every_effect():
+    assert len(GALLERY) >= 7
+    shown = set().union(*(modules(called(path)) for path in GALLERY))
+    assert shown == set(MODULES)
+
+
+def test_everything_has_every_effect_at_once_on_many_triangles():
+    path = SCENES / "gallery" / "everything.yaml"
+    assert modules(called(path)) == set(MODULES)
+    assert sum(load_scene(path).compiled.triangles) > 200_000
+
+
+def test_the_environments_are_what_their_script_paints(tmp_path):
+    folder = SCENES / "environments"
+    script = tmp_path / "make_environments.py"
+    script.write_text((folder / "make_environments.py").read_text(encoding="utf-8"))
+    subprocess.run([sys.executable, script], cwd=SCENES.parent, check=True, timeout=120)
+    painted = {path.name for path in folder.iterdir()} & {path.name for path in tmp_path.iterdir()}
+    assert painted >= {"sky.exr", "studio.exr", "valley.png"}
+    for name in painted - {script.name}:
+        assert (folder / name).stat().st_size < 300_000
+        # A code of 8 bits or a bit of a half may fall the other way on another machine.
+        difference = abs(read_picture(folder / name) - read_picture(tmp_path / name))
+        assert difference.max() <= 0.01
