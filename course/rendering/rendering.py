@@ -12,6 +12,7 @@ from course.core.samplers import make_sampler
 from course.errors import CourseError, EffectError, OutputError
 from course.imaging.film import Film
 from course.imaging.reconstruction import Reconstruction
+from course.rendering.memory import keep_freed_memory
 from course.rendering.passes import (
     kept_samples,
     pass_size,
@@ -80,6 +81,7 @@ def render(
     and seed alone: the same bits for any number of threads.
     """
     began = monotonic()
+    keep_freed_memory()
     settings = _settings(scene, spp, size, sampler, seed, time_limit)
     _check_memory(settings)
     needs = needs_of(scene.loaded, settings, scene.compiled.world.materials)
