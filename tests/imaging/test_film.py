@@ -88,7 +88,7 @@ def test_many_equal_passes_keep_their_value() -> None:
 
 
 def test_the_order_of_tiles_does_not_matter() -> None:
-    tiles = tile_picture(50, 40, 64)
+    tiles = tile_picture(50, 40, 256)
     assert len(tiles) > 5
     a, b = Film(50, 40), Film(50, 40)
     for film, order in ((a, tiles), (b, tiles[::-1])):
