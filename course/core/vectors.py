@@ -24,21 +24,6 @@ def cross(a: Floats, b: Floats) -> Floats:
     )
 
 
-def normalize(a: Floats) -> Floats:
-    """Columns scaled to unit length, (3, N) -> (3, N); a zero column stays zero.
-
-    Lengths are measured after division by the largest component, so that squares neither
-    overflow nor vanish anywhere in the range of the dtype.
-    """
-    largest = np.abs(a).max(axis=0)
-    largest[largest == 0] = 1
-    scaled: Floats = a / largest
-    length = np.sqrt(dot(scaled, scaled))
-    length[length == 0] = 1
-    scaled /= length
-    return scaled
-
-
 def reflect(direction: Floats, normal: Floats) -> Floats:
     """Mirror directions of travel in the surface, d - 2 (d . n) n, (3, N) -> (3, N)."""
     twice = dot(direction, normal)
