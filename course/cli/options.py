@@ -35,6 +35,15 @@ def size(_ctx: click.Context, _option: click.Parameter, text: str | None) -> tup
 
 def seconds(_ctx: click.Context, _option: click.Parameter, text: str | None) -> float | None:
     """Return a length of time, finite and above 0."""
+    return _positive(text, "a number of seconds > 0")
+
+
+def radiance(_ctx: click.Context, _option: click.Parameter, text: str | None) -> float | None:
+    """Return a radiance, finite and above 0."""
+    return _positive(text, "a radiance > 0, such as 0.01")
+
+
+def _positive(text: str | None, expected: str) -> float | None:
     if text is None:
         return None
     try:
@@ -42,7 +51,7 @@ def seconds(_ctx: click.Context, _option: click.Parameter, text: str | None) -> 
     except ValueError:
         number = math.nan
     if not (math.isfinite(number) and number > 0.0):
-        raise click.BadParameter(f"{text!r} is not a number of seconds > 0")
+        raise click.BadParameter(f"{text!r} is not {expected}")
     return number
 
 

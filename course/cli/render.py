@@ -44,6 +44,17 @@ SAMPLERS = ("sobol", "random", "jittered", "regular")
     help="Give the best picture in S seconds.",
 )
 @click.option(
+    "--error",
+    metavar="E",
+    callback=options.radiance,
+    help="Sample where the picture is wrong, until its root-mean-square error is about E (a radiance of 1 is white).",
+)
+@click.option(
+    "--heat-map",
+    type=click.Path(path_type=Path),
+    help="Write where the samples went, as a picture.",
+)
+@click.option(
     "--receipt",
     "receipt_path",
     callback=options.json_path,
@@ -59,6 +70,8 @@ def render(
     threads: int | None,
     effects: str | None,
     time_limit: float | None,
+    error: float | None,
+    heat_map: Path | None,
     receipt_path: Path | None,
 ) -> None:
     """Render a scene file to a picture.
@@ -72,7 +85,9 @@ def render(
     from course.scene.needs import why_black
 
     out = Path(f"{scene.stem}.png") if out is None else out
-    check_picture_path(out)
+    for path in (out, heat_map):
+        if path is not None:
+            check_picture_path(path)
     if receipt_path is not None:
         check_writable(receipt_path)
     world = load_scene(scene, effects=effects)
@@ -88,6 +103,7 @@ def render(
             seed=seed,
             threads=threads,
             time_limit=time_limit,
+            error=error,
             progress=progress,
         )
     if picture.interrupted:
@@ -96,6 +112,8 @@ def render(
         click.echo(f"interrupted: what there is was written to {partial}", err=True)
         raise click.exceptions.Exit(options.INTERRUPTED)
     picture.save(out)
+    if heat_map is not None:
+        picture.save_heat_map(heat_map)
     receipt = picture.receipt.to_dict()
     if receipt_path is not None:
         write_text(receipt_path, json.dumps(receipt, indent=2, allow_nan=False) + "\n")

@@ -73,6 +73,7 @@ def receipt_sections(receipt: Mapping[str, Any]) -> list[Section]:
     effects = receipt["effects"]
     sections = [
         ("rays", [*_counts(rays), *_total(rays, wall)]),
+        ("samples", _samples(receipt)),
         ("numbers", _counts(receipt["numbers"])),
         (
             "effects",
@@ -91,6 +92,26 @@ def receipt_sections(receipt: Mapping[str, Any]) -> list[Section]:
         ),
     ]
     return [(heading, rows) for heading, rows in sections if rows]
+
+
+def _samples(receipt: Mapping[str, Any]) -> list[tuple[str, str]]:
+    error = receipt["error"]
+    if error is None:
+        return []
+    estimated, target = error["estimated"], error["target"]
+    missed = (
+        ""
+        if estimated <= target
+        else f", above the target {target:g}: more samples (--spp) bring it down"
+    )
+    return [
+        (
+            "a pixel",
+            f"{receipt['samples']:.1f} on average, {error['fewest']:,} to {error['most']:,}",
+        ),
+        ("estimated error", f"{estimated:.3g}{missed}"),
+        ("saved", f"{error['saved']:.0%} of {error['uniform']:.1f} in every pixel alike"),
+    ]
 
 
 def count(number: int, noun: str) -> str:

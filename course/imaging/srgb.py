@@ -1,9 +1,11 @@
-"""From linear radiance to the 8-bit codes that screens show: the sRGB curve of IEC 61966-2-1."""
+"""From linear radiance to the codes that screens show and back: the sRGB curve of IEC 61966-2-1."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
+
+from course.core.types import Floats, Floats32
 
 BLOCK_VALUES = 1 << 18
 """Values encoded at a time: what the curve needs besides its result stays near 3 MB."""
@@ -33,6 +35,18 @@ def linear_to_srgb8(linear: NDArray[np.float32]) -> NDArray[np.uint8]:
         block = slice(first, first + rows)
         codes[block] = np.moveaxis(_encode(linear[:, block]), 0, -1)
     return codes
+
+
+def srgb_to_linear(encoded: Floats) -> Floats32:
+    """Linear values of encoded ones, both from 0 to 1 and of any shape.
+
+    Notes
+    -----
+    IEC 61966-2-1, backwards: x / 12.92 up to 0.04045, ((x + 0.055) / 1.055)^2.4 from there on.
+    """
+    x = np.asarray(encoded)
+    linear = np.where(x <= 0.04045, x / 12.92, ((x + 0.055) / 1.055) ** 2.4)
+    return linear.astype(np.float32)
 
 
 def _encode(linear: NDArray[np.float32]) -> NDArray[np.uint8]:

@@ -9,6 +9,7 @@ a tile follows from the samples of each.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
@@ -16,6 +17,28 @@ from course.core.types import Floats32, Words
 
 RAYS = 65536
 """Camera rays in a batch."""
+
+
+class Area(Protocol):
+    """Some pixels that are rendered at once, under a number that is different for every area of a picture."""
+
+    @property
+    def number(self) -> int:
+        """Its number."""
+        ...
+
+    @property
+    def size(self) -> int:
+        """How many pixels."""
+        ...
+
+    def pixel_numbers(self, picture_width: int) -> Words:
+        """(size,) number of each pixel in the picture, row by row."""
+        ...
+
+    def corners(self) -> tuple[Floats32, Floats32]:
+        """Column and row of each pixel's upper left corner, (size,) float32 each [pixels]."""
+        ...
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from course.core.samplers import Sampler
-from course.imaging.tiles import Tile, tile_picture
+from course.imaging.tiles import Area, tile_picture
 from course.scene.world import Settings
 
 PASS = 16
@@ -25,13 +25,15 @@ class Work:
     ----------
     order : number of the pass, for the film adds the passes of a tile in order
     whole : whether the film keeps its sums
+    parts : into which the samples of a pixel are divided, each a mean of its own
     """
 
-    tile: Tile
+    tile: Area
     order: int
     first: int
     samples: int
     whole: bool
+    parts: int = 1
 
 
 def pass_size(settings: Settings, sampler: Sampler) -> int:

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from course.core.types import Floats32
+from course.imaging.adaptive_film import AdaptiveFilm
 from course.imaging.film import Film
 from course.rendering.receipt import Receipt
 from course.scene.world import Settings
@@ -28,7 +29,7 @@ class Picture:
     interrupted : Ctrl-C ended it
     """
 
-    film: Film
+    film: Film | AdaptiveFilm
     settings: Settings
     receipt: Receipt
     complete: bool
@@ -50,6 +51,19 @@ class Picture:
         from course.imaging.files import save
 
         save(Path(path), self.film.linear)
+
+    def save_heat_map(self, path: str | Path) -> None:
+        """Write where the samples went: black the fewest, white the most, logarithmic between.
+
+        Raises
+        ------
+        OutputError
+            When the file can't be written; then there is no such file.
+        """
+        from course.imaging.files import save
+        from course.imaging.heat_map import heat_map
+
+        save(Path(path), heat_map(np.maximum(self.film.samples, 1)))
 
     def _repr_png_(self) -> bytes:
         from course.imaging.files import encode_png

@@ -6,15 +6,25 @@ import os
 import threading
 from collections.abc import Callable, Iterable
 from time import monotonic
+from typing import Any, Protocol
 
 from course.core.types import Floats32
-from course.imaging.film import Film
 from course.rendering.passes import Work
 from course.transport.counters import Counters
 from course.transport.tracing import CancelledError, Tracer
 
 TICK = 0.05
 """Seconds between two looks of the main thread at progress and Ctrl-C."""
+
+
+class Sink(Protocol):
+    """A film, of any kind."""
+
+    def add(
+        self, tile: Any, mean: Floats32, weight: Floats32 | float, samples: int, whole: bool
+    ) -> None:
+        """Take in a piece of work."""
+        ...
 
 
 def default_threads() -> int:
@@ -33,7 +43,7 @@ class Pool:
     interrupted : Ctrl-C was pressed
     """
 
-    def __init__(self, tracer: Tracer, film: Film, threads: int) -> None:
+    def __init__(self, tracer: Tracer, film: Sink, threads: int) -> None:
         self._tracer = tracer
         self._film = film
         self._threads = threads
@@ -83,7 +93,7 @@ class _Run:
     """The state that the threads of one run share, under one lock."""
 
     def __init__(
-        self, tracer: Tracer, film: Film, work: Iterable[Work], deadline: float | None
+        self, tracer: Tracer, film: Sink, work: Iterable[Work], deadline: float | None
     ) -> None:
         self._tracer = tracer
         self._film = film
@@ -110,7 +120,7 @@ class _Run:
         try:
             while (work := self._take()) is not None:
                 pixels, weight = self._tracer.render_tile(
-                    work.tile, work.first, work.samples, counters, lambda: self.stop
+                    work.tile, work.first, work.samples, counters, lambda: self.stop, work.parts
                 )
                 counters.start()
                 self._add(work, pixels, weight)

@@ -20,6 +20,9 @@ class Receipt:
     wall_seconds : from the call to the finished picture
     threads : that rendered
     samples : a pixel; the mean where pixels differ
+    error : where one was aimed at: "target", "estimated" [radiance], the "fewest" and "most" samples of a pixel,
+        "uniform" how many samples in every pixel would have brought the same, and "saved" the part of them that
+        was not needed; else None
     pixels : of the picture
     seed, version : what to repeat it with
     """
@@ -32,6 +35,7 @@ class Receipt:
     wall_seconds: float
     threads: int
     samples: float
+    error: dict[str, float] | None
     pixels: int
     seed: int
     version: str

@@ -4,16 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from math import isfinite
 from time import monotonic
 from typing import TYPE_CHECKING
 
 from course import __version__
 from course.core.samplers import make_sampler
 from course.errors import CourseError, EffectError, OutputError
+from course.imaging.adaptive_film import AdaptiveFilm
 from course.imaging.film import Film
 from course.imaging.reconstruction import Reconstruction
+from course.rendering.adaptive import render_adaptively
+from course.rendering.allocation import FIRST
 from course.rendering.memory import keep_freed_memory
 from course.rendering.passes import (
+    Work,
     kept_samples,
     pass_size,
     passes,
@@ -50,6 +55,7 @@ def render(
     seed: int | None = None,
     threads: int | None = None,
     time_limit: float | None = None,
+    error: float | None = None,
     progress: Progress | None = None,
     start: Picture | None = None,
 ) -> Picture:
@@ -63,6 +69,8 @@ def render(
     seed : chooses the random numbers
     threads : how many; the picture doesn't depend on it
     time_limit : seconds; the best picture in that time, with as many samples as fit (at most ``spp`` if that is given)
+    error : root-mean-square error of the whole picture [radiance] at which sampling ends: samples go where the
+        estimated error is, with ``spp`` a pixel on average at most
     progress : called from this thread with the share done, and whether the whole picture has been covered once
     start : a picture of the same scene and settings with fewer samples, to be continued
 
@@ -82,19 +90,28 @@ def render(
     """
     began = monotonic()
     keep_freed_memory()
-    settings = _settings(scene, spp, size, sampler, seed, time_limit)
+    settings = _settings(scene, spp, size, sampler, seed, time_limit, error)
     _check_memory(settings)
     needs = needs_of(scene.loaded, settings, scene.compiled.world.materials)
     count = threads or default_threads()
     try:
         tracer = _tracer(scene, settings)
-        film = Film(settings.width, settings.height)
+        film: Film | AdaptiveFilm
         done = 0
+        if settings.error is None:
+            film = Film(settings.width, settings.height)
+        else:
+            film = AdaptiveFilm(settings.width, settings.height)
         if start is not None:
             done = _check_start(start, settings, tracer.sampler)
+            assert isinstance(film, Film)
+            assert isinstance(start.film, Film)
             film = start.film.continued(done)
         pool = Pool(tracer, film, count)
-        if time_limit is None:
+        if isinstance(film, AdaptiveFilm):
+            deadline = None if time_limit is None else began + time_limit
+            complete = _render_adaptively(pool, film, settings, deadline, progress)
+        elif time_limit is None:
             complete = _render_all(pool, tracer, settings, done, progress)
         else:
             deadline = began + time_limit
@@ -113,10 +130,11 @@ def _settings(
     sampler: str | None,
     seed: int | None,
     time_limit: float | None,
+    error: float | None,
 ) -> Settings:
     settings = scene.settings
     if (
-        time_limit is not None
+        (time_limit is not None or error is not None)
         and spp is None
         and (sampler or settings.sampler) in ("sobol", "random")
     ):
@@ -129,6 +147,7 @@ def _settings(
         height=height,
         sampler=sampler or settings.sampler,
         seed=settings.seed if seed is None else seed,
+        error=error or settings.error,
     )
     if settings.width < 1 or settings.height < 1:
         raise OutputError(f"a picture of {settings.width} x {settings.height} pixels has no pixels")
@@ -141,7 +160,24 @@ def _settings(
                 f"the {settings.sampler} sampler needs a square number of samples, not "
                 f"{settings.samples}; the nearest are {' and '.join(map(str, squares))}"
             )
+    _check_adaptive(settings)
     return settings
+
+
+def _check_adaptive(settings: Settings) -> None:
+    if settings.error is None:
+        return
+    if not (isfinite(settings.error) and settings.error > 0):
+        raise CourseError(f"an error of {settings.error}: expected a finite radiance > 0")
+    if settings.sampler not in ("sobol", "random"):
+        raise CourseError(
+            f"the {settings.sampler} sampler places all its samples at once, so it can't go on where the error is; "
+            "use sobol or random"
+        )
+    if settings.samples < FIRST:
+        raise CourseError(
+            f"{settings.samples} samples a pixel: an error can be aimed at with {FIRST} or more"
+        )
 
 
 def _check_memory(settings: Settings) -> None:
@@ -183,6 +219,8 @@ def _tracer(scene: Scene, settings: Settings) -> Tracer:
 
 def _check_start(start: Picture, settings: Settings, sampler: Sampler) -> int:
     """How many samples of the picture to continue can be kept."""
+    if settings.error is not None or start.settings.error is not None:
+        raise CourseError("a picture with an error to aim at can't be continued; start afresh")
     same = replace(start.settings, samples=settings.samples) == settings
     if not same or not start.complete or start.settings.samples > settings.samples:
         raise CourseError(
@@ -239,6 +277,34 @@ def _render_until(
     return pool.run(passes(settings, tracer.sampler, done), deadline, tick)
 
 
+def _render_adaptively(
+    pool: Pool,
+    film: AdaptiveFilm,
+    settings: Settings,
+    deadline: float | None,
+    progress: Progress | None,
+) -> bool:
+    """In rounds; under a deadline with a preview first, so that every pixel has something."""
+    covered = False
+
+    def run(work: list[Work], done: float, after: float) -> bool:
+        nonlocal covered
+
+        def tick(count: int, _count_first: int) -> None:
+            if progress is not None:
+                progress(done + (after - done) * count / max(len(work), 1), covered)
+
+        whole = pool.run(work, deadline, tick)
+        covered = covered or whole
+        return whole
+
+    if deadline is not None:
+        covered = run(preview(settings, 1), 0.0, 0.0)
+    assert settings.error is not None
+    budget = settings.samples * settings.width * settings.height
+    return render_adaptively(film, settings.error, budget, run)
+
+
 def _not_written(scene: Scene, needs: list[Need], error: NotImplementedError) -> EffectError:
     """Which line of the scene asked for the function that says it isn't there yet."""
     function = str(error).partition(":")[0]
@@ -254,13 +320,27 @@ def _not_written(scene: Scene, needs: list[Need], error: NotImplementedError) ->
     )
 
 
+def _error(film: Film | AdaptiveFilm, settings: Settings) -> dict[str, float] | None:
+    if settings.error is None or not isinstance(film, AdaptiveFilm):
+        return None
+    uniform = film.uniform_samples
+    return {
+        "target": settings.error,
+        "estimated": film.error,
+        "fewest": int(film.samples.min()),
+        "most": int(film.samples.max()),
+        "uniform": uniform,
+        "saved": 1.0 - float(film.samples.mean()) / uniform if uniform else 0.0,
+    }
+
+
 def _receipt(
     scene: Scene,
     settings: Settings,
     needs: list[Need],
     plan: Plan,
     counters: Counters,
-    film: Film,
+    film: Film | AdaptiveFilm,
     threads: int,
     wall: float,
 ) -> Receipt:
@@ -284,6 +364,7 @@ def _receipt(
         wall_seconds=wall,
         threads=threads,
         samples=int(samples) if samples.is_integer() else samples,
+        error=_error(film, settings),
         pixels=settings.width * settings.height,
         seed=settings.seed,
         version=__version__,

@@ -48,6 +48,7 @@ class Scene:
             seed=scene.seed,
             max_depth=scene.integrator.max_depth,
             cutoff=scene.integrator.cutoff,
+            error=scene.film.error,
         )
 
 

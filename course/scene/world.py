@@ -70,6 +70,7 @@ class Settings:
     samples : a pixel
     max_depth : bounces after the camera ray
     cutoff : bounced rays whose largest throughput channel is below this are dropped
+    error : the root-mean-square error [radiance] at which sampling ends; None samples all pixels alike
     """
 
     width: int
@@ -79,3 +80,4 @@ class Settings:
     seed: int
     max_depth: int
     cutoff: float
+    error: float | None = None

@@ -14,7 +14,7 @@ from course.geometry.hits import Hits, find_hits
 from course.geometry.surface import OFFSET
 from course.imaging.camera import Camera
 from course.imaging.reconstruction import Reconstruction
-from course.imaging.tiles import RAYS, Tile
+from course.imaging.tiles import RAYS, Area
 from course.scene.world import Settings, World
 from course.transport.bounce import bounced
 from course.transport.counters import Counters
@@ -45,13 +45,16 @@ class Tracer:
 
     def render_tile(
         self,
-        tile: Tile,
+        tile: Area,
         first: int,
         samples: int,
         counters: Counters,
         cancelled: Callable[[], bool] = lambda: False,
+        parts: int = 1,
     ) -> tuple[Floats32, Floats32 | float]:
         """Colours (3, n) and weights of a tile's n pixels from one stretch of their samples.
+
+        With several ``parts`` the stretch is divided, and there are (3, n * parts) colours, those of a pixel together.
 
         Raises
         ------
@@ -70,7 +73,8 @@ class Tracer:
         counters.rays["camera"] += rays.size
         counters.lap("camera")
         radiance = self._trace(rays, block.size, draws, counters)
-        pixels = self.reconstruction.pixels(radiance.reshape(3, tile.size, samples), offsets)
+        pieces = (-1, tile.size * parts, samples // parts)
+        pixels = self.reconstruction.pixels(radiance.reshape(pieces), offsets.reshape(pieces))
         counters.lap("film")
         return pixels
 

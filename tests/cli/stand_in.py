@@ -22,6 +22,7 @@ RECEIPT: dict[str, Any] = {
     "wall_seconds": 0.5,
     "threads": 2,
     "samples": 16,
+    "error": None,
     "pixels": 307200,
     "seed": 7,
     "version": "0.1.0",

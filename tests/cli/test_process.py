@@ -111,6 +111,7 @@ def test_a_receipt_has_its_keys(tmp_path: Path, scene: Path) -> None:
         "wall_seconds",
         "threads",
         "samples",
+        "error",
         "pixels",
         "seed",
         "version",

@@ -21,6 +21,7 @@ KEYS = {
     "wall_seconds",
     "threads",
     "samples",
+    "error",
     "pixels",
     "seed",
     "version",

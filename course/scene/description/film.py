@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Literal, TypeAlias
 
 import msgspec
 
 from course.scene.description.values import about
+
+_Positive: TypeAlias = Annotated[float, msgspec.Meta(gt=0)]
 
 
 class FilmDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -17,6 +19,14 @@ class FilmDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_
     filter: Annotated[
         Literal["box", "gaussian"], about("How the samples of a pixel are weighted.")
     ] = "box"
+    error: Annotated[
+        _Positive | None,
+        about(
+            "Sample until the root-mean-square error of the whole picture is estimated to be this; a"
+            " radiance of 1 is white. sampler.samples is the most that a pixel takes on average.",
+            "radiance",
+        ),
+    ] = None
     sigma: Annotated[float, about("Standard deviation of the gaussian filter.", "pixel", gt=0)] = (
         1 / 6
     )

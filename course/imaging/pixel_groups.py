@@ -1,0 +1,56 @@
+"""Pixels from anywhere in the picture that are rendered at once, for renders that don't treat all pixels alike."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from course.core.types import Floats32, Indices, Words
+
+
+@dataclass(frozen=True)
+class PixelGroup:
+    """Some pixels of a picture.
+
+    Attributes
+    ----------
+    number : different for every group of a render
+    pixels : (n,) intp, their numbers in the picture, row by row
+    width : of the picture
+    """
+
+    number: int
+    pixels: Indices
+    width: int
+
+    @property
+    def size(self) -> int:
+        """How many pixels."""
+        return len(self.pixels)
+
+    def pixel_numbers(self, picture_width: int) -> Words:
+        """(size,) number of each pixel in the picture."""
+        return self.pixels.astype(np.uint32)
+
+    def corners(self) -> tuple[Floats32, Floats32]:
+        """Column and row of each pixel's upper left corner, (size,) float32 each [pixels]."""
+        y, x = np.divmod(self.pixels, self.width)
+        return x.astype(np.float32), y.astype(np.float32)
+
+
+def nearby_order(width: int, height: int) -> Indices:
+    """Numbers of all pixels along Morton's curve, so that neighbours in a stretch of it are neighbours in the picture.
+
+    Rays through neighbouring pixels meet the same triangles and finish sooner.
+    """
+    y, x = np.divmod(np.arange(width * height, dtype=np.uint64), np.uint64(width))
+    return np.argsort(_spread(x) | _spread(y) << np.uint64(1), kind="stable")
+
+
+def _spread(x: NDArray[np.uint64]) -> NDArray[np.uint64]:
+    """The lower 16 bits of x at every second place."""
+    for shift, mask in ((8, 0x00FF00FF), (4, 0x0F0F0F0F), (2, 0x33333333), (1, 0x55555555)):
+        x = (x | x << np.uint64(shift)) & np.uint64(mask)
+    return x

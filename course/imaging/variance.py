@@ -1,0 +1,59 @@
+"""How far a pixel's mean is still from the truth, judged by how far its parts are from each other.
+
+With independent samples the variance of a mean of n falls as 1 / n. With a (0, 2)-sequence it falls faster, as
+n^-2a with an order a between 1/2 and about 3/4 on edges and up to 1 on smooth ground, because later samples fill the
+gaps that earlier ones have left: their errors are correlated negatively. Two parts of a pixel's samples then lie
+further apart than independent ones would, and the usual estimate s^2 / n is too large. Here the order is measured
+from the picture itself, and what follows from it for two parts of n and m samples is computed:
+
+    V(n) = v n^-2a                                      variance of a mean of n
+    2 n m C = (n + m)^2 V(n + m) - n^2 V(n) - m^2 V(m)  covariance of two parts, since together they make n + m
+    E (A - B)^2 = V(n) + V(m) - 2 C                     what is seen
+"""
+
+from __future__ import annotations
+
+import math
+
+INDEPENDENT = 0.5
+"""Order of independent samples."""
+
+BELIEVED = 0.5
+"""Of what a measured order exceeds INDEPENDENT by. The order falls as samples grow in number: small nets even out the
+smooth part of a pixel, and its edges in many dimensions are left. What few samples show is too good for many."""
+
+
+def variance_share(n: int, m: int, total: int, order: float) -> float:
+    """What a squared difference of the means of n and m samples says of the variance of a mean of ``total``.
+
+    Returns
+    -------
+    float
+        V(total) / E (A - B)^2; with independent samples (1 / total) / (1 / n + 1 / m).
+    """
+    power = 2.0 - 2.0 * order
+
+    def variance(k: int) -> float:
+        return math.pow(k, power - 2.0)
+
+    covariance = (math.pow(n + m, power) - math.pow(n, power) - math.pow(m, power)) / (2.0 * n * m)
+    return variance(total) / (variance(n) + variance(m) - 2.0 * covariance)
+
+
+def measured_order(of_halves: float, of_quarters: float) -> float:
+    """Order of convergence from squared differences, summed over the same pixels.
+
+    Parameters
+    ----------
+    of_halves : between two parts of 2 n samples each
+    of_quarters : between two parts of n samples each
+
+    Returns
+    -------
+    float
+        Their ratio is 2^-2a, of which BELIEVED; between INDEPENDENT and 3/4, INDEPENDENT where nothing differs.
+    """
+    if of_halves <= 0.0 or of_quarters <= 0.0:
+        return INDEPENDENT
+    order = -0.5 * math.log2(of_halves / of_quarters)
+    return INDEPENDENT + BELIEVED * min(max(order - INDEPENDENT, 0.0), INDEPENDENT)

@@ -1,0 +1,103 @@
+"""Adaptive sampling: in rounds, samples go where the estimated error is, until the picture's is under a target.
+
+All pixels get the same few samples first. After each round the film's estimates say which pixels need more, and how
+many (``allocation``). The film alone decides, between the rounds, so the picture doesn't depend on the threads.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Protocol
+
+import numpy as np
+
+from course.core.types import Floats32, Indices, Numbers
+from course.imaging.adaptive_film import PARTS, AdaptiveFilm
+from course.imaging.pixel_groups import PixelGroup, nearby_order
+from course.imaging.tiles import RAYS
+from course.rendering.allocation import FIRST, LADDER, best_samples, next_rung, smoothed
+from course.rendering.passes import Work
+
+SAFETY = 0.95
+"""Part of the target that a round aims at, so that the last one doesn't miss it by a hair and another must follow."""
+
+
+class Run(Protocol):
+    """Does the work of a round; whether all of it was done."""
+
+    def __call__(self, work: list[Work], done: float, after: float) -> bool:
+        """``done``, ``after``: the share of the whole render before and after this round."""
+        ...
+
+
+def render_adaptively(film: AdaptiveFilm, error: float, budget: int, run: Run) -> bool:
+    """Add samples until the film's estimated error is at most ``error``; whether that was reached, or the budget spent.
+
+    Parameters
+    ----------
+    error : root-mean-square error of the whole picture [radiance]
+    budget : samples of all pixels together
+    """
+    order = nearby_order(film.width, film.height)
+    groups = _Groups(film)
+    have = film.samples.reshape(-1)
+    wanted = np.full(len(have), min(FIRST, max(budget // len(have), 1)), np.int32)
+    total = float(wanted.sum())
+    while True:
+        spent = float(have.sum())
+        work = groups.stretches(have, wanted, order)
+        if not run(work, spent / total, float(wanted.sum()) / total):
+            return False
+        film.end_round()
+        if film.error <= error:
+            return True
+        variance = smoothed(film.variance, film.samples, film.order).reshape(-1)
+        best = best_samples(variance, have, film.order, (SAFETY * error) ** 2)
+        wanted = _within(next_rung(have, best), have, best, budget)
+        total = max(min(float(np.maximum(best, have).sum()), budget), float(wanted.sum()))
+        if (wanted == have).all():
+            return True
+
+
+def _within(wanted: Numbers, have: Numbers, best: Floats32, budget: int) -> Numbers:
+    """As much of what is wanted as the budget allows, the most urgent first."""
+    cost = (wanted - have).astype(np.int64)
+    left = budget - int(have.sum())
+    if int(cost.sum()) <= left:
+        return wanted
+    urgent = np.argsort(-(best / have), kind="stable")
+    kept = urgent[np.cumsum(cost.take(urgent)) <= left]
+    result = have.copy()
+    result[kept] = wanted[kept]
+    return result
+
+
+class _Groups:
+    """Divides the pixels of a round into groups that are rendered at once."""
+
+    def __init__(self, film: AdaptiveFilm) -> None:
+        self._width = film.width
+        self._count = 0
+
+    def stretches(self, have: Numbers, wanted: Numbers, order: Indices) -> list[Work]:
+        """Work from the samples that the pixels have to those that they shall have, (P,) each."""
+        pixels = order[(wanted > have).take(order)]
+        # Pixels with the same stretch to go can be rendered together.
+        kind = np.searchsorted(LADDER, have).take(pixels) * len(LADDER)
+        kind += np.searchsorted(LADDER, wanted).take(pixels)
+        work: list[Work] = []
+        for number in np.flatnonzero(np.bincount(kind)):
+            chosen = pixels[kind == number]
+            first, last = int(have[chosen[0]]), int(wanted[chosen[0]])
+            groups = self._divided(chosen, last - first)
+            work += [Work(group, 0, first, last - first, True, PARTS) for group in groups]
+        # The large ones first: threads that run out of work wait for less.
+        work.sort(key=lambda item: -item.tile.size * item.samples)
+        return work
+
+    def _divided(self, pixels: Indices, samples: int) -> Iterator[PixelGroup]:
+        most = max(RAYS // samples, 1)
+        # Equal groups rather than full ones and a rest.
+        for part in np.array_split(pixels, -(-len(pixels) // most)):
+            yield PixelGroup(self._count, part, self._width)
+            self._count += 1

@@ -1,0 +1,103 @@
+"""Which pixels get more samples, so that the whole picture's error falls under a target with as few as possible.
+
+If a pixel's variance is v n^-2a, the sum over all pixels is smallest for a given number of samples where n is
+proportional to v^(1 / (2a + 1)) (the derivative of the variance by n is then the same everywhere). Some pixels have
+more samples than that already; the others share what is left of the target.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from course.core.types import Floats32, Numbers
+
+FIRST = 16
+"""Samples that every pixel gets."""
+
+LONGEST = 1024
+"""Samples of a pixel between two rungs: as many as one table of points holds."""
+
+GROWTH = 4
+"""By what a pixel's samples may grow in one round; more would be decided on too little knowledge."""
+
+
+def _ladder(most: int) -> Numbers:
+    rungs = [FIRST]
+    while rungs[-1] < most:
+        last = rungs[-1]
+        # 16, 24, 32, 48, 64, 96, ...: every second one a power of two, where the points are most even.
+        step = last // 2 if last & (last - 1) == 0 else last // 3
+        rungs.append(last + min(step, LONGEST))
+    return np.array(rungs, np.int32)
+
+
+LADDER = _ladder(65536)
+"""The numbers of samples that a pixel may have: few different ones, so that many pixels go on together."""
+
+_BETWEEN = np.sqrt(LADDER[:-1].astype(np.float32) * LADDER[1:])
+
+
+def smoothed(variance: Floats32, samples: Numbers, order: float) -> Floats32:
+    """Variances (H, W) averaged with those that the eight neighbours would have with as many samples.
+
+    An estimate from a handful of samples is wrong by its own size: a pixel that happens to have found nothing yet
+    looks finished. Its neighbours know better.
+    """
+    scale = samples.astype(np.float32) ** np.float32(2 * order)
+    v = np.pad(variance * scale, 1, mode="edge")
+    rows = v[:-2] + v[2:] + 2 * v[1:-1]
+    mixed: Floats32 = rows[:, :-2] + rows[:, 2:] + 2 * rows[:, 1:-1]
+    mixed *= np.float32(1 / 16)
+    mixed /= scale
+    return mixed
+
+
+def best_samples(variance: Floats32, samples: Numbers, order: float, target: float) -> Floats32:
+    """How many samples each pixel should have in the end.
+
+    Parameters
+    ----------
+    variance : (P,) float32 [radiance^2], with the samples it has
+    samples : (P,) int32
+    order : of convergence
+    target : the mean variance that the picture shall have
+
+    Returns
+    -------
+    (P,) float32, any positive numbers; some are smaller than ``samples``
+    """
+    n = samples.astype(np.float32)
+    # n = k w with w = v^(1 / (2a + 1)) leaves v n^-2a = k^-2a w.
+    w = (variance * n ** np.float32(2 * order)) ** np.float32(1 / (2 * order + 1))
+    best: Floats32 = w * np.float32(_level(variance, n, w, order, target))
+    return best
+
+
+def next_rung(samples: Numbers, best: Floats32) -> Numbers:
+    """The samples (P,) int32 that each pixel shall have after the next round; as many as now where it is done."""
+    reachable = np.minimum(best, GROWTH * samples.astype(np.float32))
+    rung = LADDER.take(np.searchsorted(_BETWEEN, reachable))
+    return np.clip(rung, samples, samples + np.int32(LONGEST))
+
+
+def _level(variance: Floats32, n: Floats32, w: Floats32, order: float, target: float) -> float:
+    """The k for which max(n, k w) samples bring the mean variance down to the target, by bisection in its logarithm."""
+    some = np.flatnonzero(w > 0)
+    allowed = target * len(n)
+    if len(some) == 0:
+        return 0.0
+    variance, w = variance.take(some), w.take(some)
+    ratio = n.take(some) / w
+    low: float = float(ratio.min())
+    # Where everything grows, k^-2a sum(w) is left; no k needs to be larger than that one.
+    high = max(low, math.pow(float(w.sum()) / allowed, 1 / (2 * order)))
+    for _ in range(24):
+        k = math.sqrt(low * high)
+        growing = ratio < k
+        left = float(np.dot(variance, ~growing)) + math.pow(k, -2 * order) * float(
+            np.dot(w, growing)
+        )
+        low, high = (k, high) if left > allowed else (low, k)
+    return high
