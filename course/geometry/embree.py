@@ -21,6 +21,7 @@ from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
 
 from course.core.types import Floats32, Mask, Numbers
+from course.geometry.packets import PacketScene
 
 NO_HIT = 1e37
 """The distance of a ray that hits nothing, as embreex has it."""
@@ -61,6 +62,8 @@ class Accelerator:
 
     def __init__(self, vertices: Floats32, triangles: Numbers) -> None:
         self._scene: EmbreeScene | None = None
+        self._packets: PacketScene | None = None
+        self._packet_scene: PacketScene | None = None
         if len(triangles) == 0:
             return
         scene = EmbreeScene(robust=True)
@@ -74,6 +77,13 @@ class Accelerator:
         away = np.full((1, 3), 4.0, np.float32)
         scene.run(away, away, query="OCCLUDED")
         self._scene = scene
+        self._arrays = vertices, triangles
+
+    def use_packets(self, wanted: bool) -> None:
+        """Ask for 16 rays at a time from now on, or no longer; see ``course.geometry.packets``."""
+        if wanted and self._packet_scene is None and self._scene is not None:
+            self._packet_scene = PacketScene(*self._arrays)
+        self._packets = self._packet_scene if wanted else None
 
     def intersect(
         self,
@@ -82,6 +92,7 @@ class Accelerator:
         clock: QueryTime,
         time: Floats32 | None = None,
         limit: Floats32 | None = None,
+        coherent: bool = False,
     ) -> Intersections:
         """Nearest hit of each ray.
 
@@ -91,12 +102,19 @@ class Accelerator:
         direction : (3, N) float32, any length but 0
         time : of no consequence to triangles that don't move
         limit : (N,) float32, distances beyond which nothing counts
+        coherent : whether rays that follow each other go much the same way
         """
         n = direction.shape[1]
         if self._scene is None or n == 0:
             u, v = np.zeros((2, n), np.float32)
             far = np.full(n, NO_HIT, np.float32)
             return Intersections(np.full(n, -1, np.int32), u, v, far)
+        if self._packets is not None:
+            start = perf_counter()
+            far = np.full(1, NO_HIT, np.float32) if limit is None else limit
+            hits = self._packets.intersect(origin, direction, far, coherent)
+            clock.seconds += perf_counter() - start
+            return Intersections(*hits)
         # Embree overwrites the limits.
         limits = None if limit is None else limit.copy()
         start = perf_counter()
@@ -131,6 +149,10 @@ class Accelerator:
         if self._scene is None or n == 0:
             return np.ones(n, np.bool_)
         start = perf_counter()
+        if self._packets is not None:
+            free = self._packets.unoccluded(origin, direction, limit)
+            clock.seconds += perf_counter() - start
+            return free
         blocked = self._scene.run(_rows(origin, n), direction.T, limit, query="OCCLUDED")
         clock.seconds += perf_counter() - start
         return blocked < 0  # type: ignore[no-any-return]

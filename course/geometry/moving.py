@@ -43,16 +43,28 @@ class MovingAccelerator:
     to_object_space: ToObjectSpace
     displacement: Displacement
 
+    def use_packets(self, wanted: bool) -> None:
+        """See ``Accelerator.use_packets``."""
+        for accelerator in (self.static, *(mover.accelerator for mover in self.movers)):
+            accelerator.use_packets(wanted)
+
     def intersect(
-        self, origin: Floats32, direction: Floats32, clock: QueryTime, time: Floats32 | None
+        self,
+        origin: Floats32,
+        direction: Floats32,
+        clock: QueryTime,
+        time: Floats32 | None,
+        coherent: bool = False,
     ) -> Intersections:
         """Nearest hits at the rays' times (N,); see ``Accelerator.intersect``."""
         assert time is not None
-        found = self.static.intersect(origin, direction, clock)
+        found = self.static.intersect(origin, direction, clock, coherent=coherent)
         origin = _each_its_own(origin, direction.shape[1])
         for mover in self.movers:
             shifted = self.to_object_space(origin, mover.velocity, time)
-            other = mover.accelerator.intersect(shifted, direction, clock, limit=found.t)
+            other = mover.accelerator.intersect(
+                shifted, direction, clock, limit=found.t, coherent=coherent
+            )
             nearer = np.flatnonzero(other.triangle >= 0)
             if len(nearer):
                 found.triangle[nearer] = other.triangle.take(nearer) + np.int32(mover.first)

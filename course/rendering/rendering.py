@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable
 from dataclasses import replace
 from math import isfinite
@@ -11,6 +12,7 @@ from typing import TYPE_CHECKING
 from course import __version__
 from course.core.samplers import make_sampler
 from course.errors import CourseError, EffectError, OutputError
+from course.geometry.packets import available as packets_available
 from course.imaging.adaptive_film import AdaptiveFilm
 from course.imaging.film import Film
 from course.imaging.reconstruction import Reconstruction
@@ -42,6 +44,9 @@ if TYPE_CHECKING:
 Progress = Callable[[float, bool], None]
 
 MOST_SAMPLES = 65536
+WORTH_COMPILED = 8_000_000
+"""Camera rays from which on compiled loops save more than the second that Numba takes to get ready."""
+
 BYTES_A_PIXEL = 64
 """Sums, weights, the picture itself, and its copies on the way to a file."""
 
@@ -58,6 +63,7 @@ def render(
     error: float | None = None,
     progress: Progress | None = None,
     start: Picture | None = None,
+    compiled: bool | None = None,
 ) -> Picture:
     """Render a scene; what isn't given is as the scene file says.
 
@@ -72,6 +78,8 @@ def render(
     error : root-mean-square error of the whole picture [radiance] at which sampling ends: samples go where the
         estimated error is, with ``spp`` a pixel on average at most
     progress : called from this thread with the share done, and whether the whole picture has been covered once
+    compiled : whether Numba's loops are used (``pip install .[fast]``), which give the same picture sooner; None means
+        where that pays
     start : a picture of the same scene and settings with fewer samples, to be continued
 
     Returns
@@ -94,6 +102,7 @@ def render(
     _check_memory(settings)
     needs = needs_of(scene.loaded, settings, scene.compiled.world.materials)
     count = threads or default_threads()
+    scene.compiled.world.surface.accelerator.use_packets(_use_compiled(settings, compiled))
     try:
         tracer = _tracer(scene, settings)
         film: Film | AdaptiveFilm
@@ -178,6 +187,15 @@ def _check_adaptive(settings: Settings) -> None:
         raise CourseError(
             f"{settings.samples} samples a pixel: an error can be aimed at with {FIRST} or more"
         )
+
+
+def _use_compiled(settings: Settings, wanted: bool | None) -> bool:
+    if wanted and not packets_available():
+        raise CourseError("compiled loops need Numba: pip install .[fast]")
+    if wanted is not None:
+        return wanted
+    rays = settings.width * settings.height * settings.samples
+    return packets_available() and ("numba" in sys.modules or rays >= WORTH_COMPILED)
 
 
 def _check_memory(settings: Settings) -> None:

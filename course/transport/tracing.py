@@ -117,7 +117,13 @@ class Tracer:
     ) -> Rays | None:
         """One depth: what the rays bring is added to the film, and the rays that go on are returned."""
         accelerator = self.world.surface.accelerator
-        found = accelerator.intersect(rays.origin, rays.direction, counters.embree, rays.time)
+        found = accelerator.intersect(
+            rays.origin,
+            rays.direction,
+            counters.embree,
+            rays.time,
+            coherent=depth == 0 and self.world.lens is None,
+        )
         if depth == 0:
             self._leave_eye_surface(rays, found, counters)
         counters.lap("trace")

@@ -1,0 +1,117 @@
+"""Loops over packets of 16 rays, compiled by Numba; imported by ``course.geometry.packets`` alone, when they are used.
+
+They are compiled when this module is first imported on a machine, and kept on disk from then on.
+
+Layout of a packet (Embree 4's rtcore_ray.h): rows of 16 floats or integers, origin, tnear, direction, time, tfar, mask,
+id, flags; then of the hit Ng, u, v, primID, geomID, instID.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit, types
+
+WIDTH = 16
+_TFAR, _MASK, _ID, _FLAGS = 8, 9, 10, 11
+_RAY_ROWS = 12
+_U, _V, _PRIMITIVE, _GEOMETRY = 15, 16, 17, 18
+# Hits end with the instances' numbers, one row or two by how Embree was built; more room does no harm.
+_ALL_ROWS = 24
+
+_query = types.void(*[types.uintp] * 4)
+_intersect16 = types.ExternalFunction("rtcIntersect16", _query)
+_occluded16 = types.ExternalFunction("rtcOccluded16", _query)
+_columns = types.float32[:, ::1]
+_compiled = {"nogil": True, "cache": True}
+
+
+@njit(**_compiled)
+def _aligned(rows):
+    """Memory for rows of 16 floats at an address that 64 divides, as Embree wants it."""
+    memory = np.empty((rows + 1) * WIDTH, np.float32)
+    start = (-memory.ctypes.data & 63) // 4
+    return memory[start : start + rows * WIDTH].reshape(rows, WIDTH)
+
+
+@njit(**_compiled)
+def _fill(packet, whole, origin, direction, first, count):
+    """Copy rays into a packet; ``whole`` is the same memory as integers."""
+    shared = origin.shape[1] == 1
+    for i in range(count):
+        j = first + i
+        k = 0 if shared else j
+        for axis in range(3):
+            packet[axis, i] = origin[axis, k]
+            packet[4 + axis, i] = direction[axis, j]
+        packet[3, i] = 0
+        packet[7, i] = 0
+        whole[_MASK, i] = -1
+        whole[_ID, i] = 0
+        whole[_FLAGS, i] = 0
+
+
+@njit(**_compiled)
+def _arguments(hint):
+    """RTCIntersectArguments: flags, features (all of them), then context and callbacks (none)."""
+    arguments = np.zeros(16, np.uint32)
+    arguments[0] = hint
+    arguments[1] = 0xFFFFFFFF
+    return arguments
+
+
+@njit(
+    types.void(
+        types.uintp,
+        _columns,
+        _columns,
+        types.float32[::1],
+        types.int64,
+        types.int32[::1],
+        _columns,
+    ),
+    **_compiled,
+)
+def intersect(scene, origin, direction, limit, hint, triangle, uvt):
+    """Nearest hits into ``triangle`` (N,) and ``uvt`` (3, N); see ``PacketScene.intersect``."""
+    n = direction.shape[1]
+    packet = _aligned(_ALL_ROWS)
+    whole = packet.view(np.int32)
+    valid = _aligned(1).view(np.int32)
+    valid[:] = -1
+    arguments = _arguments(hint)
+    for first in range(0, n, WIDTH):
+        count = min(WIDTH, n - first)
+        valid[0, count:] = 0
+        _fill(packet, whole, origin, direction, first, count)
+        for i in range(count):
+            packet[_TFAR, i] = limit[0] if len(limit) == 1 else limit[first + i]
+            whole[_GEOMETRY, i] = -1
+        _intersect16(valid.ctypes.data, scene, packet.ctypes.data, arguments.ctypes.data)
+        for i in range(count):
+            j = first + i
+            hit = whole[_GEOMETRY, i] >= 0
+            triangle[j] = whole[_PRIMITIVE, i] if hit else -1
+            uvt[0, j] = packet[_U, i] if hit else 0
+            uvt[1, j] = packet[_V, i] if hit else 0
+            uvt[2, j] = packet[_TFAR, i]
+
+
+@njit(types.void(types.uintp, _columns, _columns, types.float32, types.boolean[::1]), **_compiled)
+def unoccluded(scene, origin, direction, limit, free):
+    """Whether the ways are free, into ``free`` (N,); see ``PacketScene.unoccluded``."""
+    n = direction.shape[1]
+    packet = _aligned(_RAY_ROWS)
+    whole = packet.view(np.int32)
+    valid = _aligned(1).view(np.int32)
+    valid[:] = -1
+    arguments = _arguments(0)
+    for first in range(0, n, WIDTH):
+        count = min(WIDTH, n - first)
+        valid[0, count:] = 0
+        _fill(packet, whole, origin, direction, first, count)
+        for i in range(count):
+            packet[_TFAR, i] = limit
+        _occluded16(valid.ctypes.data, scene, packet.ctypes.data, arguments.ctypes.data)
+        # Embree sets tfar to minus infinity where something is in the way.
+        for i in range(count):
+            free[first + i] = packet[_TFAR, i] >= 0

@@ -1,0 +1,50 @@
+"""Compiled loops give the same picture."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+
+import pytest
+
+from course import Scene, render
+from course.errors import CourseError
+from course.geometry import packets
+from course.rendering import rendering
+
+EveryStage = Callable[..., Scene]
+needs_numba = pytest.mark.skipif(
+    not packets.available(), reason="Numba is not installed (pip install .[fast])"
+)
+
+
+@needs_numba
+@pytest.mark.parametrize("threads", [1, 3])
+def test_the_picture_is_the_same_bit_for_bit(every_stage: EveryStage, threads: int) -> None:
+    scene = every_stage(film={"width": 60, "height": 44})
+    single = render(scene, spp=24, threads=threads, compiled=False)
+    packet = render(scene, spp=24, threads=threads, compiled=True)
+    assert single.linear.tobytes() == packet.linear.tobytes()
+
+
+def test_without_numba_everything_works_and_asking_for_it_is_an_error(
+    every_stage: EveryStage, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(rendering, "packets_available", lambda: False)
+    scene = every_stage(film={"width": 8, "height": 6})
+    render(scene, spp=1)
+    with pytest.raises(CourseError, match=r"pip install \.\[fast\]"):
+        render(scene, spp=1, compiled=True)
+
+
+@needs_numba
+def test_small_renders_do_not_wait_for_numba(
+    every_stage: EveryStage, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    scene = every_stage(film={"width": 8, "height": 6})
+    monkeypatch.delitem(sys.modules, "numba", raising=False)
+    settings = scene.settings
+    assert not rendering._use_compiled(settings, None)
+    assert rendering._use_compiled(settings, True)
+    monkeypatch.setattr(rendering, "WORTH_COMPILED", 1)
+    assert rendering._use_compiled(settings, None)
