@@ -38,9 +38,10 @@ def available() -> bool:
 @cache
 def _library() -> ctypes.CDLL | None:
     """The library that embreex has loaded, with its functions declared."""
-    import embreex.rtcore_scene
-
-    home = Path(embreex.rtcore_scene.__file__).parent
+    spec = find_spec("embreex")
+    if spec is None or spec.origin is None:
+        return None
+    home = Path(spec.origin).parent
     # Where the tools that repair wheels put libraries on Linux, Windows and macOS.
     folders = (home.parent / "embreex.libs", home, home / ".dylibs")
     found = [file for folder in folders if folder.is_dir() for file in folder.glob("*embree4*")]

@@ -1,7 +1,7 @@
 """Picture files: PNG for looking (sRGB, 8 bit), OpenEXR for measuring (linear, 32-bit float).
 
-Pillow and OpenEXR are imported where they are used: a render that writes a PNG never loads
-OpenEXR, one that fails loads neither.
+Pillow and OpenImageIO are imported where they are used: a render that writes a PNG never loads
+OpenImageIO, one that fails loads neither.
 """
 
 from __future__ import annotations
@@ -85,17 +85,21 @@ def write_exr(path: Path, linear: NDArray[np.float32]) -> None:
         The file can't be written.
     """
     with replacing(path) as temporary:
-        import OpenEXR
+        import OpenImageIO
 
-        header = {"compression": OpenEXR.ZIP_COMPRESSION, "type": OpenEXR.scanlineimage}
-        channels = {
-            name: np.ascontiguousarray(plane, np.float32)
-            for name, plane in zip("RGB", linear, strict=True)
-        }
-        try:
-            OpenEXR.File(header, channels).write(str(temporary))
-        except RuntimeError as error:  # what its C++ exceptions arrive as
-            raise OSError(str(error)) from error
+        _, height, width = linear.shape
+        spec = OpenImageIO.ImageSpec(width, height, 3, "float")
+        spec.attribute("compression", "zip")
+        spec.attribute("DateTime", "")  # none: the same picture is the same file
+        pixels = np.ascontiguousarray(np.moveaxis(linear, 0, -1), np.float32)
+        file = OpenImageIO.ImageOutput.create("openexr")
+        if file is None:
+            raise OSError(OpenImageIO.geterror())
+        written = file.open(str(temporary), spec) and file.write_image(pixels)
+        trouble = file.geterror()
+        # Closed even then, for an open file can't be removed everywhere.
+        if not file.close() or not written:
+            raise OSError(trouble or file.geterror())
 
 
 def _image(linear: NDArray[np.float32]) -> Image.Image:

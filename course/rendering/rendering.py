@@ -100,7 +100,7 @@ def render(
     keep_freed_memory()
     settings = _settings(scene, spp, size, sampler, seed, time_limit, error)
     _check_memory(settings)
-    needs = needs_of(scene.loaded, settings, scene.compiled.world.materials)
+    needs = needs_of(scene.loaded, settings, scene.compiled.world)
     count = threads or default_threads()
     scene.compiled.world.surface.accelerator.use_packets(_use_compiled(settings, compiled))
     try:

@@ -7,7 +7,6 @@ from collections import Counter
 import numpy as np
 
 from course.scene.document import spell
-from course.scene.instancing import object_mesh
 from course.scene.material_table import returned_share
 from course.scene.needs import needs_of, skipped_modules, why_black
 from course.scene.scene import Scene
@@ -22,7 +21,7 @@ def summarize(scene: Scene) -> dict[str, dict[str, object]]:
     description, settings = scene.loaded.description, scene.settings
     compiled, world = scene.compiled, scene.compiled.world
     plan = make_plan(world, settings)
-    needs = needs_of(scene.loaded, settings, scene.compiled.world.materials)
+    needs = needs_of(scene.loaded, settings, world)
     frame = compiled.frame
     dimensions = {"pixel": "2 numbers a sample"}
     for light in world.lights:
@@ -61,14 +60,10 @@ def summarize(scene: Scene) -> dict[str, dict[str, object]]:
 
 def _bounds(scene: Scene) -> dict[str, object]:
     """Where each object lies, in the units of the file, for those who want to place another."""
-    loaded = scene.loaded
-    things = loaded.description.objects
+    things, compiled = scene.loaded.description.objects, scene.compiled
     rows = []
     for number, thing in enumerate(things[:MOST_OBJECTS]):
-        # Made again, not kept since compiling: a render has no use for them.
-        mesh = object_mesh(thing, number, loaded.document, loaded.path.parent)
-        corners = mesh.vertices[mesh.triangles.ravel()]
-        low, high = corners.min(axis=0), corners.max(axis=0)
+        low, high = compiled.bounds[number]
         # What is left of a zero after a turn would hide it.
         noise = 1e-12 * max(np.abs(low).max(), np.abs(high).max())
         spans = [
@@ -76,7 +71,7 @@ def _bounds(scene: Scene) -> dict[str, object]:
             for axis, a, b in zip("xyz", low, high, strict=True)
         ]
         label = f"{number} {thing.name or thing.__struct_config__.tag}"
-        rows.append((label, [thing.material, f"{len(mesh.triangles):,} triangles", *spans]))
+        rows.append((label, [thing.material, f"{compiled.triangles[number]:,} triangles", *spans]))
     widths = [max(map(len, column)) for column in zip(*(cells for _, cells in rows), strict=True)]
     listed: dict[str, object] = {
         label: "  ".join(f"{cell:<{width}}" for cell, width in zip(cells, widths, strict=True))

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from course.core.types import Floats32, Floats64
-from course.errors import SceneError
 from course.scene.loading import Loaded
 
 BRIGHTEST = 1e20
@@ -15,8 +14,8 @@ BRIGHTEST = 1e20
 def in_range(color: Floats64, loaded: Loaded, path: tuple[str | int, ...], what: str) -> Floats32:
     """A compiled colour as float32; SceneError where float32 could not carry it."""
     if not (np.abs(color) < BRIGHTEST).all():
-        raise SceneError(
-            f"{loaded.document.where(path)}: {what} is {color.max():.3g} in units of the scene's size: "
-            f"expected less than {BRIGHTEST:g}"
+        raise loaded.document.error(
+            path,
+            f"{what} is {color.max():.3g} in units of the scene's size: expected less than {BRIGHTEST:g}",
         )
     return color.astype(np.float32)

@@ -16,7 +16,7 @@ from course.scene.brightness import in_range
 from course.scene.description.values import rgb
 from course.scene.emitters import emitter_parts
 from course.scene.environment_compiling import compile_environment
-from course.scene.frame import Frame, frame_of
+from course.scene.frame import Frame, bounds_of, frame_of
 from course.scene.instancing import object_mesh
 from course.scene.lens_compiling import compile_lens
 from course.scene.light_compiling import compile_lights
@@ -36,11 +36,14 @@ class Compiled:
     ----------
     frame : where the scene file's origin and unit went
     triangles : of each object
+    bounds : of each object its lowest and its highest corner, (2, 3) float64 in the units of the scene file, where the
+        file puts it: what moves is there at time 0
     """
 
     world: World
     frame: Frame
     triangles: tuple[int, ...]
+    bounds: tuple[Floats64, ...]
 
 
 def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
@@ -53,18 +56,16 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
     """
     scene, document = loaded.description, loaded.document
     shutter = shutter_of(loaded)
-    meshes = [
-        _moved(
-            object_mesh(thing, number, document, loaded.path.parent), shutter.start(thing.motion)
-        )
-        for number, thing in enumerate(scene.objects)
-    ]
-    swept = [
-        _moved(mesh, shutter.sweep(thing.motion))
-        for mesh, thing in zip(meshes, scene.objects, strict=True)
-        if shutter.moves(thing.motion)
-    ]
-    frame = frame_of(meshes + swept)
+    meshes: list[Mesh] = []
+    bounds: list[Floats64] = []
+    boxes: list[Floats64] = []
+    for number, thing in enumerate(scene.objects):
+        mesh = object_mesh(thing, number, document, loaded.path.parent)
+        bounds.append(bounds_of(mesh))
+        start = shutter.start(thing.motion)
+        meshes.append(_moved(mesh, start))
+        boxes += [bounds[-1] + start, bounds[-1] + start + shutter.sweep(thing.motion)]
+    frame = frame_of(boxes)
     # Materials that no object has are as good as not there.
     used = {
         name: scene.materials[name]
@@ -94,7 +95,7 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
         lens=compile_lens(loaded, frame, effects),
         motion=motion,
     )
-    return Compiled(world, frame, tuple(len(mesh.triangles) for mesh in meshes))
+    return Compiled(world, frame, tuple(len(mesh.triangles) for mesh in meshes), tuple(bounds))
 
 
 def _moved(mesh: Mesh, by: Floats64) -> Mesh:

@@ -29,7 +29,7 @@ def compile_environment(loaded: Loaded, effects: Effects) -> ConstantEnvironment
     Raises
     ------
     SceneError
-        A picture is missing, can't be read or has the wrong size; names the key that asks for it.
+        A picture is missing, can't be read, has the wrong size or is too bright; names the key that asks for it.
     """
     environment = loaded.description.environment
     if isinstance(environment, d.ConstantEnvironment):
@@ -46,8 +46,14 @@ def compile_environment(loaded: Loaded, effects: Effects) -> ConstantEnvironment
                 f"a picture of all directions is twice as wide as high, not {width} x {height}",
             )
         faces = cube_from_lat_long(image, environment.size or max(height // 2, 1))
-    faces = faces * rgb(environment.scale).astype(np.float32)
-    in_range(faces.max(axis=(0, 1, 2)), loaded, ("environment",), "radiance")
+    scale = rgb(environment.scale)
+    brightest = faces.max(axis=(0, 1, 2)) * scale
+    in_range(brightest, loaded, ("environment", "scale"), "radiance")
+    if not brightest.any():
+        # What nobody looks at needs no lookup.
+        return ConstantEnvironment(np.zeros(3, np.float32), environment.lights)
+    # In double precision, for a scale may be larger than any radiance.
+    faces = np.multiply(faces, scale, out=np.empty_like(faces), casting="same_kind")
     lookup = effects.function("cube_map", LOOKUPS[environment.lookup])
     return CubeEnvironment(np.ascontiguousarray(faces, np.float32), lookup, environment.lights)
 

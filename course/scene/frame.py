@@ -43,13 +43,18 @@ class Frame:
         return Mesh(self.position(mesh.vertices), mesh.triangles, mesh.normals, mesh.uv)
 
 
-def frame_of(meshes: list[Mesh]) -> Frame:
-    """The frame in which all meshes just fill [-1, 1]."""
-    used = [mesh.vertices[mesh.triangles.ravel()] for mesh in meshes if len(mesh.triangles)]
-    if not used:
+def bounds_of(mesh: Mesh) -> Floats64:
+    """The lowest and the highest corner of a mesh's triangles, (2, 3)."""
+    corners = mesh.vertices[mesh.triangles.ravel()]
+    return np.stack((corners.min(axis=0), corners.max(axis=0)))
+
+
+def frame_of(boxes: Sequence[Floats64]) -> Frame:
+    """The frame in which all boxes, (2, 3) each, just fill [-1, 1]."""
+    if not boxes:
         return Frame(np.zeros(3), 1.0)
-    low = np.min([v.min(axis=0) for v in used], axis=0)
-    high = np.max([v.max(axis=0) for v in used], axis=0)
+    low = np.min([box[0] for box in boxes], axis=0)
+    high = np.max([box[1] for box in boxes], axis=0)
     # Halved before they are added: the sum of two huge coordinates may overflow.
     center = low / 2 + high / 2
     scale = float((high / 2 - low / 2).max())

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import get_args
 
-from course.appearance.materials import MaterialTable
 from course.effects import MODULES
 from course.scene import description as d
 from course.scene.document import KeyPath
@@ -17,7 +16,7 @@ from course.scene.lobe_compiling import lobe_function
 from course.scene.motion_compiling import movers
 from course.scene.scene import Scene
 from course.scene.shutter import shutter_of
-from course.scene.world import Settings
+from course.scene.world import Settings, World
 
 
 @dataclass(frozen=True)
@@ -34,7 +33,7 @@ class Need:
     asked_by: KeyPath
 
 
-def needs_of(loaded: Loaded, settings: Settings, materials: MaterialTable) -> list[Need]:
+def needs_of(loaded: Loaded, settings: Settings, world: World) -> list[Need]:
     """Every function that rendering with these settings calls, in the order of the pipeline."""
     scene = loaded.description
     needs = []
@@ -45,7 +44,7 @@ def needs_of(loaded: Loaded, settings: Settings, materials: MaterialTable) -> li
     if settings.samples > 1:
         needs.append(Need("supersampling.resolve", ("sampler", "samples")))
     for number, light in enumerate(scene.lights):
-        if why_dark(light, materials):
+        if why_dark(light, world.materials):
             continue
         function = light_function(light)
         if function:
@@ -63,10 +62,10 @@ def needs_of(loaded: Loaded, settings: Settings, materials: MaterialTable) -> li
         if lens.shape == "disk":
             needs.append(Need("thin_lens.point_on_disk", asked_by))
         needs.append(Need("thin_lens.lens_rays", asked_by))
-    if not isinstance(scene.environment, d.ConstantEnvironment):
+    if not (isinstance(scene.environment, d.ConstantEnvironment) or world.environment.black):
         lookup = LOOKUPS[scene.environment.lookup]
         needs.append(Need(f"cube_map.{lookup}", ("environment", "type")))
-    moving = movers(loaded, shutter_of(loaded), materials)
+    moving = movers(loaded, shutter_of(loaded), world.materials)
     if moving:
         needs.append(Need("motion_blur.shutter_times", moving[0]))
         needs.append(Need("motion_blur.displacement", moving[0]))
@@ -82,7 +81,7 @@ _REASONS = {
     "glossy": "no mirror is glossy",
     "thin_lens": "the aperture is 0",
     "motion_blur": "nothing moves while the shutter is open",
-    "cube_map": "the environment is no cube map",
+    "cube_map": "the environment is no picture, or a black one",
 }
 
 

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
-import OpenEXR
+import OpenImageIO
 import pytest
 from numpy.typing import NDArray
 from PIL import Image
@@ -71,12 +71,20 @@ def test_encoded_png_is_the_file(tmp_path: Path, linear: Linear) -> None:
 def test_exr_holds_the_values_bit_for_bit(tmp_path: Path, linear: Linear) -> None:
     linear[0, 0, 0], linear[1, 0, 0] = np.finfo(np.float32).max, np.finfo(np.float32).tiny
     save(tmp_path / "a.exr", linear)
-    with OpenEXR.File(str(tmp_path / "a.exr"), separate_channels=True) as file:
-        channels = file.channels()
-        assert set(channels) == {"R", "G", "B"}
-        for name, plane in zip("RGB", linear, strict=True):
-            assert channels[name].pixels.dtype == np.float32
-            np.testing.assert_array_equal(channels[name].pixels, plane)
+    file = OpenImageIO.ImageInput.open(str(tmp_path / "a.exr"))
+    assert file.format_name() == "openexr"
+    assert file.spec().channelnames == ("R", "G", "B")
+    assert str(file.spec().format) == "float"
+    np.testing.assert_array_equal(np.moveaxis(file.read_image(), -1, 0), linear)
+
+
+def test_the_same_picture_is_the_same_exr_at_any_time(tmp_path: Path, linear: Linear) -> None:
+    save(tmp_path / "a.exr", linear)
+    content = (tmp_path / "a.exr").read_bytes()
+    assert b"capDate" not in content
+    # Nor is anything of the file's own name in it.
+    save(tmp_path / "b.exr", linear)
+    assert (tmp_path / "b.exr").read_bytes() == content
 
 
 def test_a_picture_that_is_not_contiguous_is_written_alike(
@@ -216,16 +224,27 @@ def test_a_failed_write_leaves_what_was_there(tmp_path: Path) -> None:
 def test_a_failing_library_leaves_nothing(
     tmp_path: Path, linear: Linear, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    closed = []
+
     class File:
-        def __init__(self, *_: object) -> None: ...
-
-        def write(self, name: str) -> None:
+        def open(self, name: str, _: object) -> bool:
             Path(name).write_text("half")
-            raise RuntimeError("the disk is full")
+            return True
 
-    monkeypatch.setattr(OpenEXR, "File", File)
+        def write_image(self, _: object) -> bool:
+            return False
+
+        def geterror(self) -> str:
+            return "the disk is full"
+
+        def close(self) -> bool:
+            closed.append(True)
+            return True
+
+    monkeypatch.setattr(OpenImageIO.ImageOutput, "create", lambda _: File())
     with pytest.raises(OutputError, match="the disk is full"):
         save(tmp_path / "a.exr", linear)
+    assert closed
     assert not list(tmp_path.iterdir())
 
 

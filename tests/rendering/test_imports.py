@@ -52,7 +52,7 @@ def test_one_box_imports_no_heavy_library_and_no_module_of_effects_it_does_not_c
     assert {"numpy", "embreex", "course"} <= roots(modules), "the list is the right one"
     assert not roots(modules) & NEVER
     # No random number is drawn, no mesh read, no EXR written.
-    assert not modules & {"numpy.random", "course.geometry.mesh_files", "OpenEXR", "jsonschema"}
+    assert not modules & {"numpy.random", "course.geometry.mesh_files", "OpenImageIO", "jsonschema"}
 
 
 @pytest.mark.parametrize(

@@ -32,7 +32,7 @@ class ConstantEnvironment(EnvironmentDescription, frozen=True, kw_only=True, tag
 
 
 class CubeEnvironment(EnvironmentDescription, frozen=True, kw_only=True, tag="cube"):
-    """Six square pictures around the scene; exactly one of faces and cross."""
+    """Six square pictures around the scene, PNG, JPEG, EXR or Radiance HDR; exactly one of faces and cross."""
 
     faces: Annotated[
         tuple[str, str, str, str, str, str] | None,
@@ -47,9 +47,12 @@ class CubeEnvironment(EnvironmentDescription, frozen=True, kw_only=True, tag="cu
 
 
 class LatLongEnvironment(EnvironmentDescription, frozen=True, kw_only=True, tag="lat_long"):
-    """A picture of all directions, longitude by latitude, with -z in its middle and +y at its top."""
+    """A picture of all directions, longitude by latitude: -z in its middle, +x to the right of it, +y at its top."""
 
-    image: Annotated[str, about("File of the picture, twice as wide as high.", min_length=1)]
+    image: Annotated[
+        str,
+        about("File of the picture, twice as wide as high: PNG, JPEG, EXR or HDR.", min_length=1),
+    ]
     size: Annotated[
         Annotated[int, msgspec.Meta(ge=1, le=8192)] | None,
         about("Edge of the cube's faces; half the height if null.", "pixel"),
