@@ -18,6 +18,7 @@ terminator", Ray Tracing Gems II, ch. 4, moves the point to the tangent planes i
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -75,6 +76,7 @@ class Surface:
         w, u, v below which a point counts as next to an edge
     corner_normals : (T, 9) float32, n0, n1 - n0, n2 - n0; or None when every triangle is flat
     bulge : (T, 3) float32, k01 / 2, k02 / 2, k12 / 2; or None when every triangle is flat
+    bend : sine of the largest angle between a triangle and a normal at its corners, 0 when every triangle is flat
     material : (T,) uint16 material numbers
     accelerator : the same triangles in Embree
     """
@@ -83,6 +85,7 @@ class Surface:
     normal_offset: Floats32
     corner_normals: Floats32 | None
     bulge: Floats32 | None
+    bend: float
     material: Materials
     accelerator: Accelerator | MovingAccelerator
 
@@ -119,6 +122,7 @@ def build_surface(parts: list[Part], motion: MotionFunctions | None = None) -> S
         normal_offset=np.concatenate([table.normal_offset for table in tables]),
         corner_normals=np.concatenate([t.corner_normals for t in tables]) if smooth else None,
         bulge=np.concatenate([table.bulge for table in tables]) if smooth else None,
+        bend=max(table.bend for table in tables),
         material=np.concatenate([table.material for table in tables]),
         accelerator=accelerator,
     )
@@ -158,6 +162,7 @@ class _Tables:
     material: Materials
     corner_normals: Floats32
     bulge: Floats32
+    bend: float
     velocity: tuple[float, float, float]
 
 
@@ -180,10 +185,13 @@ def _tables(part: Part, smooth: bool) -> _Tables:
     # A barycentric is the distance from its edge over the height on that edge, which is twice the area over its length.
     inset = np.minimum(INSET * offset * edges / twice_area, 1 / 3)
     corner_normals, bulge = np.zeros((2, 0, 0), np.float32)
+    bend = 0.0
     if smooth:
         n = np.repeat(ng[None], 3, axis=0)
         if mesh.normals is not None:
             n = np.moveaxis(mesh.normals[triangles], 0, 2)
+            cosine = min((float(dot(ng, corner).min(initial=1)) for corner in n), default=1.0)
+            bend = math.sqrt(max(1 - cosine * cosine, 0)) if cosine > 0 else 1.0
         d1, d2 = n[1] - n[0], n[2] - n[0]
         corner_normals = _table(n[0], d1, d2)
         bulge = _table(np.stack((dot(e1, d1), dot(e2, d2), dot(e2 - e1, d2 - d1))) / 2)
@@ -195,6 +203,7 @@ def _tables(part: Part, smooth: bool) -> _Tables:
         np.full(len(triangles), part.material, np.uint16),
         corner_normals,
         bulge,
+        bend,
         part.velocity,
     )
 

@@ -13,7 +13,7 @@ from course.imaging.variance import INDEPENDENT, measured_order, variance_share
 PARTS = 4
 """Parts into which the samples of a stretch are divided, to be compared with each other."""
 
-_NEARLY_NOTHING = 1e-300
+_NEARLY_NOTHING = np.float32(1e-30)
 """As in ``Film``: the weight of a mean whose own weights vanish."""
 
 
@@ -66,6 +66,7 @@ class AdaptiveFilm:
         parts = np.empty((4, n, PARTS), np.float32)
         parts[:3] = mean.reshape(3, n, PARTS)
         parts[3] = np.reshape(weight, (n, PARTS)) if np.ndim(weight) else weight
+        np.maximum(parts[3], _NEARLY_NOTHING, out=parts[3])
         parts[:3] *= parts[3]
         halves = parts[:, :, 0::2] + parts[:, :, 1::2]
         stretch = halves[:, :, 0] + halves[:, :, 1]
@@ -87,8 +88,7 @@ class AdaptiveFilm:
             estimates.keep(self.variance.reshape(-1).take(which), before, 1)
         total = earlier + stretch.T
         self._sums[which] = total
-        rgb = total[:, :3] / np.maximum(total[:, 3:], _NEARLY_NOTHING)
-        self.linear.reshape(3, -1)[:, which] = rgb.T
+        self.linear.reshape(3, -1)[:, which] = (total[:, :3] / total[:, 3:]).T
         self.variance.reshape(-1)[which] = estimates.mean()
         self.samples.reshape(-1)[which] = samples
 
@@ -156,9 +156,7 @@ class _Estimates:
 
 def _apart(a: Floats32, b: Floats32) -> Floats32:
     """Squared difference (n,) of two means, averaged over the channels; rows of a and b are r w, g w, b w and w."""
-    difference = a[:3] / np.maximum(a[3], np.float32(1e-30)) - b[:3] / np.maximum(
-        b[3], np.float32(1e-30)
-    )
+    difference = a[:3] / a[3] - b[:3] / b[3]
     squared: Floats32 = np.einsum("cn,cn->n", difference, difference)
     squared *= np.float32(1 / 3)
     return squared

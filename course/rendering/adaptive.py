@@ -15,7 +15,15 @@ from course.core.types import Floats32, Indices, Numbers
 from course.imaging.adaptive_film import PARTS, AdaptiveFilm
 from course.imaging.pixel_groups import PixelGroup, nearby_order
 from course.imaging.tiles import RAYS
-from course.rendering.allocation import FIRST, LADDER, best_samples, next_rung, smoothed
+from course.rendering.allocation import (
+    FIRST,
+    GROWTH,
+    LADDER,
+    best_samples,
+    next_rung,
+    one_rung_more,
+    smoothed,
+)
 from course.rendering.passes import Work
 
 SAFETY = 0.95
@@ -26,7 +34,7 @@ class Run(Protocol):
     """Does the work of a round; whether all of it was done."""
 
     def __call__(self, work: list[Work], done: float, after: float) -> bool:
-        """``done``, ``after``: the share of the whole render before and after this round."""
+        """``done``, ``after``: about the share of the whole render before and after this round."""
         ...
 
 
@@ -42,21 +50,29 @@ def render_adaptively(film: AdaptiveFilm, error: float, budget: int, run: Run) -
     groups = _Groups(film)
     have = film.samples.reshape(-1)
     wanted = np.full(len(have), min(FIRST, max(budget // len(have), 1)), np.int32)
-    total = float(wanted.sum())
+    aim = (SAFETY * error) ** 2
+    # Nothing is known yet of how much there is to do.
+    done, total = 0.0, GROWTH * float(wanted.sum())
     while True:
-        spent = float(have.sum())
         work = groups.stretches(have, wanted, order)
-        if not run(work, spent / total, float(wanted.sum()) / total):
+        share = float((wanted - have).sum()) / (total - float(have.sum()))
+        after = done + (1 - done) * share
+        if not run(work, done, after):
             return False
+        done = after
         film.end_round()
         if film.error <= error:
             return True
         variance = smoothed(film.variance, film.samples, film.order).reshape(-1)
-        best = best_samples(variance, have, film.order, (SAFETY * error) ** 2)
-        wanted = _within(next_rung(have, best), have, best, budget)
-        total = max(min(float(np.maximum(best, have).sum()), budget), float(wanted.sum()))
+        best = best_samples(variance, have, film.order, aim)
+        wanted = next_rung(have, best)
+        if (wanted == have).all():
+            excess = (film.error**2 - aim) * len(have)
+            wanted = one_rung_more(have, variance, film.order, excess)
+        wanted = _within(wanted, have, best, budget)
         if (wanted == have).all():
             return True
+        total = max(min(float(np.maximum(best, have).sum()), budget), float(wanted.sum()))
 
 
 def _within(wanted: Numbers, have: Numbers, best: Floats32, budget: int) -> Numbers:

@@ -8,6 +8,7 @@ more samples than that already; the others share what is left of the target.
 from __future__ import annotations
 
 import math
+import sys
 
 import numpy as np
 
@@ -79,20 +80,43 @@ def next_rung(samples: Numbers, best: Floats32) -> Numbers:
     """The samples (P,) int32 that each pixel shall have after the next round; as many as now where it is done."""
     reachable = np.minimum(best, GROWTH * samples.astype(np.float32))
     rung = LADDER.take(np.searchsorted(_BETWEEN, reachable))
-    return np.clip(rung, samples, samples + np.int32(LONGEST))
+    highest = LADDER.take(np.searchsorted(LADDER, samples + np.int32(LONGEST), "right") - 1)
+    return np.clip(rung, samples, highest)
+
+
+def one_rung_more(samples: Numbers, variance: Floats32, order: float, excess: float) -> Numbers:
+    """The samples (P,) int32 after a round in which no pixel goes up by more than one rung of LADDER.
+
+    For the end of a render, when no pixel is as much as half a rung away from the best. Those go up that gain the most
+    for each sample, and only as many as bring the sum of all variances down by ``excess`` [radiance^2].
+    """
+    rung = np.searchsorted(LADDER, samples)
+    above = LADDER.take(np.minimum(rung + 1, len(LADDER) - 1))
+    gain = variance * (1 - (samples / above) ** (2 * order))
+    promising = np.argsort(-gain / (above - samples + (above == samples)), kind="stable")
+    enough = 1 + int(np.searchsorted(np.cumsum(gain.take(promising)), excess))
+    chosen = promising[:enough]
+    result = samples.copy()
+    # What has no variance, or is at the top of the ladder, gains nothing.
+    chosen = chosen[gain.take(chosen) > 0]
+    result[chosen] = above[chosen]
+    return result
 
 
 def _level(variance: Floats32, n: Floats32, w: Floats32, order: float, target: float) -> float:
     """The k for which max(n, k w) samples bring the mean variance down to the target, by bisection in its logarithm."""
     some = np.flatnonzero(w > 0)
-    allowed = target * len(n)
+    # A target may be so small that its square is 0.
+    allowed = max(target * len(n), sys.float_info.min)
     if len(some) == 0:
         return 0.0
     variance, w = variance.take(some), w.take(some)
     ratio = n.take(some) / w
     low: float = float(ratio.min())
-    # Where everything grows, k^-2a sum(w) is left; no k needs to be larger than that one.
-    high = max(low, math.pow(float(w.sum()) / allowed, 1 / (2 * order)))
+    # Where everything grows, k^-2a sum(w) is left; no k needs to be larger than that one, nor than the one that
+    # brings every pixel to the top of the ladder.
+    high = math.pow(float(w.sum(dtype=np.float64)) / allowed, 1 / (2 * order))
+    high = max(low, min(high, float(LADDER[-1] / w.min())))
     for _ in range(24):
         k = math.sqrt(low * high)
         growing = ratio < k

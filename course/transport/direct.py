@@ -19,6 +19,10 @@ from course.transport.plan import Lookups, Plan
 from course.transport.sky import skylight
 
 
+_ROUNDING = 1e-4
+"""Added to a sine before it is compared with a cosine, both in float32."""
+
+
 def direct_light(
     world: World,
     plan: Plan,
@@ -77,7 +81,8 @@ def _irradiance(
     sample = light.sample(points, u)
     strength = dot(hits.ns, sample.to_light)
     strength *= sample.inverse_length
-    strength *= sample.factor
+    cosine = strength
+    strength = cosine * sample.factor
     if not plan.all_shade:
         strength *= world.materials.shaded.take(hits.material)
     which = np.flatnonzero(strength > 0)
@@ -85,12 +90,12 @@ def _irradiance(
         return None
     origin, to_light, inverse_length = hits.above, sample.to_light, sample.inverse_length
     if len(which) < hits.size:
-        strength = strength.take(which)
+        strength, cosine = strength.take(which), cosine.take(which)
         origin = origin.take(which, axis=1)
         if to_light.shape[1] > 1:
             to_light = to_light.take(which, axis=1)
             inverse_length = inverse_length.take(which)
-    strength *= _sees(world, light, hits, which, origin, to_light, counters)
+    strength *= _sees(world, light, hits, which, cosine, origin, to_light, counters)
     return which, strength, to_light, inverse_length
 
 
@@ -99,6 +104,7 @@ def _sees(
     light: Light,
     hits: Hits,
     which: Indices,
+    cosine: Floats32,
     origin: Floats32,
     to_light: Floats32,
     counters: Counters,
@@ -107,6 +113,12 @@ def _sees(
 
     Where a facet of a smooth mesh faces away from a light that its shading normal faces, the shadow ray starts from
     the round surface above the facet, provided that the way up there is free.
+
+    Parameters
+    ----------
+    which : (m,) the hits
+    cosine : (m,) between their shading normals and the way to the light
+    origin, to_light : (3, m)
     """
     accelerator = world.surface.accelerator
     time = None if hits.time is None else hits.time.take(which)
@@ -115,8 +127,11 @@ def _sees(
         to_light = np.repeat(to_light, len(which), axis=1)
     if world.surface.bulge is None:
         return accelerator.unoccluded(origin, to_light, light.limit, counters.embree, time)
-    ng = hits.ng if len(which) == hits.size else hits.ng.take(which, axis=1)
-    turned = np.flatnonzero(dot(ng, to_light) <= 0)
+    # The shading normal is within an angle of sine `bend` of the facet's: no other hits can face a light that their
+    # facets turn away from.
+    turned = np.flatnonzero(cosine <= world.surface.bend + _ROUNDING)
+    ng = hits.ng.take(which.take(turned), axis=1)
+    turned = turned[dot(ng, to_light.take(turned, axis=1)) <= 0]
     height = bulge(world.surface, hits, which.take(turned))
     raised = np.flatnonzero(height)
     if len(raised) == 0:
@@ -128,11 +143,14 @@ def _sees(
     way_up = accelerator.unoccluded(
         foot, up, 1.0, counters.embree, None if time is None else time.take(turned)
     )
-    origin, to_light = origin.copy(), to_light.copy()
+    # Changed in place for the query and put back: only a few hits are raised, and copies of all would cost more.
+    way = to_light.take(turned, axis=1)
     origin[:, turned] = foot + up
     if light.limit <= 1:
         to_light[:, turned] -= up
     free = accelerator.unoccluded(origin, to_light, light.limit, counters.embree, time)
+    origin[:, turned] = foot
+    to_light[:, turned] = way
     free[turned] &= way_up
     return free
 

@@ -10,7 +10,7 @@ import pytest
 from click.testing import Result
 
 from course.errors import SceneError
-from tests.cli.stand_in import Engine
+from tests.cli.stand_in import RECEIPT, Engine, Picture
 
 Run = Callable[..., Result]
 
@@ -86,6 +86,11 @@ def test_options_reach_the_renderer(run: Run, engine: Engine, tmp_path: Path) ->
         "--time-limit nan",
         "--time-limit inf",
         "--time-limit soon",
+        "--error 0",
+        "--error -0.1",
+        "--error nan",
+        "--error inf",
+        "--error little",
         "--receipt box.yaml",
         "--no-such-option",
     ],
@@ -103,7 +108,7 @@ def test_wrong_usage_exits_2_and_renders_nothing(
 @pytest.mark.usefixtures("engine")
 def test_the_limits_of_the_options_are_allowed(run: Run) -> None:
     for options in (
-        "--spp 1 --size 65536x1 --seed 0 --threads 1 --time-limit 1e-3",
+        "--spp 1 --size 65536x1 --seed 0 --threads 1 --time-limit 1e-3 --error 1e-9",
         "--spp 65536 --size 1x65536 --seed 4294967295",
     ):
         assert run("render", "box.yaml", *options.split()).exit_code == 0
@@ -116,6 +121,8 @@ def test_the_limits_of_the_options_are_allowed(run: Run) -> None:
         ("-o a.gif", "must end in .png or .exr"),
         ("-o .", "must end in .png or .exr"),
         ("--receipt nowhere/a.json", "there is no folder nowhere"),
+        ("--heat-map nowhere/a.png", "there is no folder nowhere"),
+        ("--heat-map a.gif", "must end in .png or .exr"),
     ],
 )
 def test_a_place_that_cannot_be_is_told_before_the_work(
@@ -192,6 +199,55 @@ def test_a_time_limit_gives_the_picture_its_own_name(
     engine.picture.complete = False
     assert run("render", "box.yaml", "--time-limit", "1").exit_code == 0
     assert files(tmp_path) == {"box.png"}
+
+
+@pytest.fixture
+def heat_maps(monkeypatch: pytest.MonkeyPatch) -> list[Path]:
+    """Where heat maps were asked for; each is a file of one word."""
+    written: list[Path] = []
+
+    def save_heat_map(_picture: Picture, path: Path) -> None:
+        path.write_text("warm")
+        written.append(path)
+
+    monkeypatch.setattr(Picture, "save_heat_map", save_heat_map, raising=False)
+    return written
+
+
+@pytest.mark.usefixtures("engine")
+def test_a_heat_map_is_written_beside_the_picture(
+    run: Run, heat_maps: list[Path], tmp_path: Path
+) -> None:
+    assert run("render", "box.yaml", "--error", "0.1", "--heat-map", "where.exr").exit_code == 0
+    assert files(tmp_path) == {"box.png", "where.exr"}
+    assert heat_maps == [Path("where.exr")]
+    assert run("render", "box.yaml", "--error", "0.1").exit_code == 0
+    assert len(heat_maps) == 1, "only where it is asked for"
+
+
+def test_ctrl_c_leaves_no_heat_map(
+    run: Run, engine: Engine, heat_maps: list[Path], tmp_path: Path
+) -> None:
+    engine.picture.interrupted, engine.picture.complete = True, False
+    assert run("render", "box.yaml", "--error", "0.1", "--heat-map", "a.png").exit_code == 130
+    assert files(tmp_path) == {"box.partial.png"}
+    assert not heat_maps
+
+
+@pytest.mark.usefixtures("engine")
+@pytest.mark.parametrize(("estimated", "reached"), [(0.0099, True), (0.01, True), (0.0231, False)])
+def test_an_error_that_was_aimed_at_is_told_with_what_it_took(
+    run: Run, monkeypatch: pytest.MonkeyPatch, estimated: float, reached: bool
+) -> None:
+    error = {"target": 0.01, "estimated": estimated, "fewest": 16, "most": 1536}
+    error |= {"uniform": 80.0, "saved": 0.6}
+    monkeypatch.setitem(RECEIPT, "error", error)
+    monkeypatch.setitem(RECEIPT, "samples", 32.04)
+    told = " ".join(run("render", "box.yaml", "--error", "0.01").stdout.split())
+    assert "samples a pixel 32.0 on average, 16 to 1,536" in told
+    assert f"estimated error {estimated:.3g}" in told
+    assert ("above the target 0.01" in told) is not reached
+    assert "saved 60% of 80.0 in every pixel alike" in told
 
 
 def test_the_receipt_is_written_as_json(run: Run, engine: Engine, tmp_path: Path) -> None:
