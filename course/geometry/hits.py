@@ -97,7 +97,7 @@ def find_hits(
     edge *= v
     p += edge
     p += corner[0:3]
-    _pull_off_edges(surface, p, triangle, u, v, normal[4:])
+    _pull_off_edges(surface, p, triangle, u, v, normal[4])
     if isinstance(surface.accelerator, MovingAccelerator) and time is not None:
         surface.accelerator.follow(p, triangle, time)
 
@@ -136,12 +136,18 @@ def bulge(surface: Surface, hits: Hits, which: Indices) -> Floats32:
 
 
 def _pull_off_edges(
-    surface: Surface, p: Floats32, triangle: Numbers, u: Floats32, v: Floats32, inset: Floats32
+    surface: Surface, p: Floats32, triangle: Numbers, u: Floats32, v: Floats32, widest: Floats32
 ) -> None:
     """Move the few points that lie next to an edge inwards, at right angles to it, in place."""
     w = 1 - u
     w -= v
-    near = np.flatnonzero((w < inset[0]) | (u < inset[1]) | (v < inset[2]))
+    smallest = np.minimum(u, v)
+    np.minimum(smallest, w, out=smallest)
+    # Most points are far from every edge by the largest inset of their triangle; only the others' are looked up.
+    near = np.flatnonzero(smallest < widest)
+    inset = gather(surface.inset, triangle.take(near))
+    close = (w.take(near) < inset[0]) | (u.take(near) < inset[1]) | (v.take(near) < inset[2])
+    near, inset = near[close], inset[:, close]
     if len(near) == 0:
         return
     table = surface.corner_edges[triangle.take(near)].T.astype(np.float64)
@@ -151,7 +157,7 @@ def _pull_off_edges(
     moved = p[:, near].astype(np.float64)
     for edge, barycentric, least in zip((e2 - e1, -e2, e1), (w, u, v), inset, strict=True):
         # Twice the area over the edge's length is the height; over its square it makes the inward normal a unit one.
-        lacking = np.maximum(least.take(near) - barycentric.take(near), 0)
+        lacking = np.maximum(least - barycentric.take(near), 0)
         moved += cross(ng, edge) * (lacking * twice_area / dot(edge, edge))
     p[:, near] = moved
 

@@ -72,8 +72,8 @@ class Surface:
     Attributes
     ----------
     corner_edges : (T, 9) float32, p0, e1, e2
-    normal_offset : (T, 7) float32, ng (unit), the distance by which rays leave the surface, and the barycentrics
-        w, u, v below which a point counts as next to an edge
+    normal_offset : (T, 5) float32, ng (unit), the distance by which rays leave the surface, and the largest inset
+    inset : (T, 3) float32, the barycentrics w, u, v below which a point counts as next to an edge
     corner_normals : (T, 9) float32, n0, n1 - n0, n2 - n0; or None when every triangle is flat
     bulge : (T, 3) float32, k01 / 2, k02 / 2, k12 / 2; or None when every triangle is flat
     bend : sine of the largest angle between a triangle and a normal at its corners, 0 when every triangle is flat
@@ -83,6 +83,7 @@ class Surface:
 
     corner_edges: Floats32
     normal_offset: Floats32
+    inset: Floats32
     corner_normals: Floats32 | None
     bulge: Floats32 | None
     bend: float
@@ -120,6 +121,7 @@ def build_surface(parts: list[Part], motion: MotionFunctions | None = None) -> S
     return Surface(
         corner_edges=np.concatenate([table.corner_edges for table in tables]),
         normal_offset=np.concatenate([table.normal_offset for table in tables]),
+        inset=np.concatenate([table.inset for table in tables]),
         corner_normals=np.concatenate([t.corner_normals for t in tables]) if smooth else None,
         bulge=np.concatenate([table.bulge for table in tables]) if smooth else None,
         bend=max(table.bend for table in tables),
@@ -159,6 +161,7 @@ class _Tables:
     triangles: Numbers
     corner_edges: Floats32
     normal_offset: Floats32
+    inset: Floats32
     material: Materials
     corner_normals: Floats32
     bulge: Floats32
@@ -199,7 +202,8 @@ def _tables(part: Part, smooth: bool) -> _Tables:
         vertices,
         triangles.astype(np.int32),
         _table(p[0], e1, e2),
-        _table(ng, offset[None], inset),
+        _table(ng, offset[None], inset.max(axis=0)[None]),
+        _table(inset),
         np.full(len(triangles), part.material, np.uint16),
         corner_normals,
         bulge,

@@ -101,7 +101,7 @@ def test_points_inside_a_triangle_are_exact_and_only_those_at_edges_are_moved(me
     p = corners(surface, hits)
     u, v = hits.u.astype(np.float64), hits.v.astype(np.float64)
     barycentric = np.stack((1 - u - v, u, v))
-    inset = surface.normal_offset[hits.triangle, 4:].T
+    inset = surface.inset[hits.triangle].T
     free = (barycentric > inset + 1e-6).all(axis=0)
     exact = (p * barycentric[:, None, :]).sum(axis=0)
     error = np.abs(hits.p - exact).max(axis=0)

@@ -167,6 +167,7 @@ def test_triangles_without_area_are_left_out_and_the_others_keep_their_materials
     assert built.material.tolist() == [2, 4]
     assert np.isfinite(built.corner_edges).all()
     assert np.isfinite(built.normal_offset).all()
+    assert np.isfinite(built.inset).all()
 
 
 def test_nothing_at_all_is_missed_by_every_ray() -> None:
