@@ -7,6 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from course.appearance.environment_sampling import FRAMES, ProductSampling
+from course.core.hemisphere import cosine_directions
 from course.core.types import Floats32, Floats64
 
 
@@ -19,11 +21,13 @@ class CubeEnvironment:
     faces : (6, S, S, 3) float32 linear radiance, rows from the top
     lookup : (faces, direction) -> (3, N), of the cube_map module
     lights : whether it lights diffuse surfaces
+    product : draws the directions that light comes from; None where the cosine alone does as well
     """
 
     faces: Floats32
     lookup: Callable[[Floats32, Floats32], Floats32]
     lights: bool
+    product: ProductSampling | None = None
 
     @property
     def black(self) -> bool:
@@ -34,26 +38,19 @@ class CubeEnvironment:
         """(3, n) radiance from directions (3, n)."""
         return self.lookup(self.faces, direction)
 
+    def sample(self, normal: Floats32, u: Floats32) -> tuple[Floats32, Floats32 | None]:
+        """See ConstantEnvironment.sample."""
+        if self.product is None:
+            return cosine_directions(normal, u), None
+        return self.product.sample(normal, u)
+
 
 def texel_directions(size: int, subsamples: int = 1) -> Floats64:
-    """Directions through the texels of all faces, (6, size, size, subsamples^2, 3) float64, not normalised.
-
-    The inverse of OpenGL's table: with s and t from -1 to 1 along a face's columns and rows,
-    +x (1, -t, -s), -x (-1, -t, s), +y (s, 1, t), -y (s, -1, -t), +z (s, -t, 1), -z (-s, -t, -1).
-    """
+    """Directions through the texels of all faces, (6, size, size, subsamples^2, 3) float64, not normalised."""
     n = size * subsamples
-    centre = (np.arange(n) + 0.5) * 2 / n - 1
-    t, s = np.meshgrid(centre, centre, indexing="ij")
-    one = np.ones_like(s)
-    faces = [
-        (one, -t, -s),
-        (-one, -t, s),
-        (s, one, t),
-        (s, -one, -t),
-        (s, -t, one),
-        (-s, -t, -one),
-    ]
-    directions = np.stack([np.stack(face, axis=-1) for face in faces])
+    place = (np.arange(n) + 0.5) * 2 / n - 1
+    middle, right, down = FRAMES.swapaxes(0, 1)[:, :, None, None]
+    directions: Floats64 = middle + place[:, None] * right + place[:, None, None] * down
     split = directions.reshape(6, size, subsamples, size, subsamples, 3)
     return np.moveaxis(split, 2, 3).reshape(6, size, size, subsamples * subsamples, 3)
 

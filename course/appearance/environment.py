@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from course.core.hemisphere import cosine_directions
 from course.core.types import Floats32
 
 
@@ -28,3 +29,19 @@ class ConstantEnvironment:
     def radiance(self, direction: Floats32) -> Floats32:
         """(3, 1) radiance from directions (3, n)."""
         return self.color[:, None]
+
+    def sample(self, normal: Floats32, u: Floats32) -> tuple[Floats32, Floats32 | None]:
+        """Directions that light may come from, for the irradiance over pi.
+
+        Parameters
+        ----------
+        normal : (3, n) float32, unit length
+        u : (2, n) float32 in [0, 1)
+
+        Returns
+        -------
+        direction : (3, n) float32, unit length
+        weight : (n,) float32, cosine over pi times density, not above 0 below the horizon; None where it is 1
+            everywhere
+        """
+        return cosine_directions(normal, u), None

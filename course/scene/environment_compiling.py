@@ -10,6 +10,7 @@ from course.appearance.cube_environment import (
     cube_from_lat_long,
 )
 from course.appearance.environment import ConstantEnvironment
+from course.appearance.environment_sampling import product_sampling
 from course.core.types import Floats32
 from course.effects import Effects
 from course.errors import SceneError
@@ -18,6 +19,7 @@ from course.scene import description as d
 from course.scene.brightness import in_range
 from course.scene.description.values import rgb
 from course.scene.loading import Loaded
+from course.scene.material_table import base_color
 
 LOOKUPS = {"seamless": "lookup_seamless", "clamped": "lookup"}
 """The cube_map function for each value of ``lookup``."""
@@ -54,8 +56,19 @@ def compile_environment(loaded: Loaded, effects: Effects) -> ConstantEnvironment
         return ConstantEnvironment(np.zeros(3, np.float32), environment.lights)
     # In double precision, for a scale may be larger than any radiance.
     faces = np.multiply(faces, scale, out=np.empty_like(faces), casting="same_kind")
+    faces = np.ascontiguousarray(faces, np.float32)
     lookup = effects.function("cube_map", LOOKUPS[environment.lookup])
-    return CubeEnvironment(np.ascontiguousarray(faces, np.float32), lookup, environment.lights)
+    product = None
+    if environment.lights and faces.any() and _anything_diffuse(loaded):
+        product = product_sampling(faces, seamless=environment.lookup == "seamless")
+    return CubeEnvironment(faces, lookup, environment.lights, product)
+
+
+def _anything_diffuse(loaded: Loaded) -> bool:
+    """Whether any object shows the light that falls on it."""
+    scene = loaded.description
+    used = (scene.materials[thing.material] for thing in scene.objects)
+    return any(m.dielectric is None and (base_color(m) * m.diffuse).any() for m in used)
 
 
 def _faces(environment: d.CubeEnvironment, loaded: Loaded) -> Floats32:

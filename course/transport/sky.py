@@ -1,13 +1,13 @@
-"""Light from the environment on diffuse surfaces: one direction with the density of the cosine, one occlusion query.
+"""Light from the environment on diffuse surfaces: one direction for each hit, one occlusion query.
 
-With that density the mean of the radiance that arrives unhindered is the irradiance over pi.
+The environment chooses the directions. Radiance times cosine over pi times density, where nothing is in the way, has
+the irradiance over pi as its mean.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from course.core.hemisphere import cosine_directions
 from course.core.types import Floats32, Indices
 from course.core.vectors import dot
 from course.geometry.hits import Hits
@@ -27,23 +27,35 @@ def skylight(
     path : (n,) the path of each hit, or None for all paths of the block in order
     dimension : the first of the two dimensions of this bounce's sky
     """
+    which, ns, ng = np.arange(hits.size), hits.ns, hits.ng
+    diffuses = world.materials.diffuses
+    if not diffuses.all():
+        which = np.flatnonzero(diffuses.take(hits.material))
+        if len(which) == 0:
+            return None
+        ns, ng = ns.take(which, axis=1), ng.take(which, axis=1)
+        path = which if path is None else path.take(which)
     u = draws("environment", dimension, 2, path)
-    direction = cosine_directions(hits.ns, u)
-    outwards = dot(direction, hits.ng) > 0
-    if not world.materials.diffuses.all():
-        outwards &= world.materials.diffuses.take(hits.material)
-    which = np.flatnonzero(outwards)
-    if len(which) == 0:
-        return None
-    chosen = direction.take(which, axis=1)
+    direction, weight = world.environment.sample(ns, u)
+    outwards = dot(direction, ng) > 0
+    if weight is not None:
+        outwards &= weight > 0
+    chosen = np.flatnonzero(outwards)
+    direction, which = direction.take(chosen, axis=1), which.take(chosen)
     draws.counters.rays["shadow"] += len(which)
     free = world.surface.accelerator.unoccluded(
         hits.above.take(which, axis=1),
-        chosen,
+        direction,
         FAR,
         draws.counters.embree,
         None if hits.time is None else hits.time.take(which),
     )
+    seen = np.flatnonzero(free)
+    if len(seen) == 0:
+        return None
+    radiance = world.environment.radiance(direction.take(seen, axis=1))
+    if weight is not None:
+        radiance = radiance * weight.take(chosen.take(seen))
     result = np.zeros((3, hits.size), np.float32)
-    result[:, which] = world.environment.radiance(chosen) * free
+    result[:, which.take(seen)] = radiance
     return result
