@@ -21,7 +21,7 @@ Displacement = Callable[[Floats32, Floats32], Floats32]
 
 @dataclass(frozen=True)
 class Mover:
-    """Triangles first .. last - 1, which move with one velocity (3,) float32 [1 / s]."""
+    """Triangles first .. last - 1, which move with one velocity (3,) float32 [1 / exposure]."""
 
     velocity: Floats32
     accelerator: Accelerator

@@ -24,6 +24,7 @@ from course.scene.loading import Loaded
 from course.scene.lobe_compiling import compile_lobes
 from course.scene.material_table import compile_materials
 from course.scene.motion_compiling import compile_motion
+from course.scene.reach import in_reach
 from course.scene.shutter import shutter_of
 from course.scene.world import World
 
@@ -108,8 +109,10 @@ def compile_camera(loaded: Loaded, frame: Frame, width: int, height: int) -> Cam
     """The camera for a picture of that size."""
     camera = loaded.description.camera
     start = shutter_of(loaded).start(camera.motion)
+    eye = frame.position(np.array(camera.eye) + start)
+    in_reach(eye, loaded, ("camera", "eye"), "the camera's distance")
     return make_camera(
-        frame.position(np.array(camera.eye) + start),
+        eye,
         frame.position(np.array(camera.look_at) + start),
         np.array(camera.up) / np.abs(camera.up).max(),
         np.radians(camera.vertical_fov),

@@ -24,6 +24,7 @@ from course.scene.description.values import rgb
 from course.scene.frame import Frame
 from course.scene.light_power import given, why_dark
 from course.scene.loading import Loaded
+from course.scene.reach import in_reach
 from course.scene.shutter import Shutter
 
 
@@ -80,6 +81,7 @@ class _Compiler:
 
     def _rectangle(self, light: d.RectangleLight) -> list[Light]:
         edge_u, edge_v = self.frame.vector(light.edge_u), self.frame.vector(light.edge_v)
+        in_reach(np.stack((edge_u, edge_v)), self.loaded, self.path, "the light's size")
         normal = np.cross(edge_u, edge_v)
         area = float(np.linalg.norm(normal))
         corner = self._position(light.corner, light.motion)
@@ -108,6 +110,7 @@ class _Compiler:
 
     def _sphere(self, light: d.SphereLight) -> Light:
         radius = light.radius / self.frame.scale
+        in_reach(np.array(radius), self.loaded, self.path, "the light's size")
         color = self._color(self._power(light, 4 * math.pi * radius * radius))
         center = self._position(light.center, light.motion)
         velocity = self._velocity(light)
@@ -136,7 +139,8 @@ class _Compiler:
         return in_range(power / math.pi, self.loaded, self.path, "the light's power")
 
     def _position(self, x: d.Vector, motion: d.MotionDescription) -> Floats32:
-        return _single(self.frame.position(np.array(x) + self.shutter.start(motion)))
+        position = self.frame.position(np.array(x) + self.shutter.start(motion))
+        return in_reach(position, self.loaded, self.path, "the light's distance")
 
     def _velocity(self, light: d.PointLight | d.RectangleLight | d.SphereLight) -> Floats32 | None:
         if not self.shutter.moves(light.motion):

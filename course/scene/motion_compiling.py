@@ -49,7 +49,6 @@ def compile_motion(
     if shutter.moves(camera):
         velocity = np.array(shutter.velocity(camera, frame), np.float32)
     return Motion(
-        shutter.duration,
         MotionFunctions(
             effects.function("motion_blur", "shutter_times"),
             effects.function("motion_blur", "displacement"),

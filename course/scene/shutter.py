@@ -1,7 +1,8 @@
 """The shutter: which motions there are while it is open, and where things stand when it opens.
 
-Times are counted from the opening, in float32; what moved before is part of the positions, in float64. A closed
-shutter freezes everything at one time, and then nothing moves at all.
+Times are counted from the opening, in float32, in exposures: the shutter closes at 1. A velocity is then how far
+something goes while the shutter is open, which float32 can carry however short an exposure is. What moved before is
+part of the positions, in float64. A closed shutter freezes everything at one time, and then nothing moves at all.
 """
 
 from __future__ import annotations
@@ -38,10 +39,10 @@ class Shutter:
         return bool(self.sweep(motion).any())
 
     def velocity(self, motion: d.MotionDescription, frame: Frame) -> tuple[float, float, float]:
-        """Velocity in units of the compiled scene; zero where nothing moves."""
+        """Velocity in units of the compiled scene an exposure; zero where nothing moves."""
         if not self.moves(motion):
             return STILL
-        x, y, z = (float(v) for v in frame.vector(motion.velocity))
+        x, y, z = (float(v) for v in frame.vector(self.sweep(motion)))
         return (x, y, z)
 
 

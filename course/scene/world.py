@@ -21,12 +21,10 @@ class Motion:
 
     Attributes
     ----------
-    duration : seconds that the shutter is open
     functions : of the motion_blur module
-    camera_velocity : (3,) float32 in the unit of the compiled scene, or None
+    camera_velocity : (3,) float32 in the unit of the compiled scene an exposure, or None
     """
 
-    duration: float
     functions: MotionFunctions
     camera_velocity: Floats32 | None
 

@@ -18,7 +18,6 @@ from course.transport.paths import Draws
 from course.transport.plan import Lookups, Plan
 from course.transport.sky import skylight
 
-
 _ROUNDING = 1e-4
 """Added to a sine before it is compared with a cosine, both in float32."""
 

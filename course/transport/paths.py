@@ -25,7 +25,7 @@ class Rays:
     direction : (3, n) float32, unit length
     throughput : (3, n) float32, how much of what a ray brings reaches the film; None means all of it
     path : (n,) number of the path in the block; None means one ray for each path, in order
-    time : (n,) float32 since the shutter opened; None where nothing moves
+    time : (n,) float32 since the shutter opened, in exposures; None where nothing moves
     medium : (n,) int16, material that the ray travels in, OPEN outside; None where nothing absorbs, and for camera rays
     """
 

@@ -88,7 +88,7 @@ class Tracer:
         time = None
         if world.motion is not None and plan.time_dimension is not None:
             u = draws("time", plan.time_dimension, 1, None)
-            time = world.motion.functions.shutter_times(0.0, world.motion.duration, u[0])
+            time = world.motion.functions.shutter_times(0.0, 1.0, u[0])
             if world.motion.camera_velocity is not None:
                 moved = world.motion.functions.displacement(world.motion.camera_velocity, time)
                 origin = origin + moved

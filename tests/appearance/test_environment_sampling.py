@@ -294,6 +294,21 @@ def test_no_direction_with_light_has_density_zero(size: int, seamless: bool) -> 
             assert density(product, normal, around)[0] > 0
 
 
+def test_nothing_just_above_the_horizon_has_density_zero() -> None:
+    """Whatever the table's normal is: each serves all normals near it."""
+    product = drawn_by(waves() + np.float32(0.01))
+    rng = np.random.default_rng(12)
+    normal = unit_columns(rng.normal(size=(3, 200000)))
+    beside = np.cross(normal, rng.normal(size=normal.shape), axis=0)
+    beside /= np.linalg.norm(beside, axis=0)
+    d = beside + 10 ** rng.uniform(-5, -1, normal.shape[1]) * normal
+    table, cell = nearest_normal(normal), texel_of(d, CELLS)
+    rows = np.diff(product.rows.edges)
+    columns = np.diff(product.columns.edges).reshape(len(rows), 6 * CELLS, CELLS)
+    assert (rows[table, cell // CELLS] > 0).all()
+    assert (columns[table, cell // CELLS, cell % CELLS] > 0).all()
+
+
 @pytest.mark.parametrize("seamless", [True, False])
 def test_what_is_dark_is_never_drawn(seamless: bool) -> None:
     faces = np.zeros((6, 64, 64, 3), np.float32)
@@ -394,7 +409,7 @@ def picture(name: str) -> Faces:
 
 
 @pytest.mark.parametrize(
-    ("name", "times"), [("sun", 3000), ("studio.exr", 50), ("sky.exr", 10), ("valley.png", 1.75)]
+    ("name", "times"), [("sun", 3000), ("studio.exr", 50), ("sky.exr", 9), ("valley.png", 1.75)]
 )
 def test_variance_is_reduced(name: str, times: float) -> None:
     """Eight normals together, without strata; at least one and a half of the factors given was measured."""

@@ -259,6 +259,14 @@ def test_only_what_is_diffuse_draws_numbers_and_casts_rays(
         assert 0.7 * balls < receipt.rays["shadow"] <= balls
 
 
+def test_directions_below_the_horizon_cost_no_rays(spot: MakeScene, tmp_path: Path) -> None:
+    """The tables draw a few; the cosine draws none."""
+    scene = spot(environment(tmp_path, uneven()), -60)
+    hits = 256 * 64
+    assert 0.9 * hits < render(scene, spp=64).receipt.rays["shadow"] < hits
+    assert render(by_cosine(scene), spp=64).receipt.rays["shadow"] == hits
+
+
 @pytest.mark.parametrize("lights", [True, False])
 def test_mirrors_need_no_tables(make_scene: MakeScene, tmp_path: Path, lights: bool) -> None:
     """What is only mirrored or seen is the same picture whether the environment lights or not."""

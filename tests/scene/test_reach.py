@@ -1,0 +1,53 @@
+"""What is farther away than float32 can carry is refused by its key."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from course import Scene, render
+from course.errors import SceneError
+
+MakeScene = Callable[..., Scene]
+BALL = {"shape": "sphere", "material": "grey"}
+
+
+@pytest.mark.parametrize(
+    "light",
+    [
+        {"type": "point", "position": [0, 1e60, 0], "intensity": 1},
+        {"type": "sphere", "center": [0, 3, 0], "radius": 1e60, "intensity": 1},
+        {
+            "type": "rectangle",
+            "corner": [0, 3, 0],
+            "edge_u": [1e60, 0, 0],
+            "edge_v": [0, 0, 1],
+            "intensity": 1,
+        },
+    ],
+)
+def test_lights(make_scene: MakeScene, light: dict[str, Any]) -> None:
+    with pytest.raises(
+        SceneError, match=r"lights\[0\].*the light's (distance|size).*less than 1e\+18"
+    ):
+        make_scene(objects=[BALL], lights=[light])
+
+
+def test_the_camera(make_scene: MakeScene) -> None:
+    scene = make_scene(objects=[BALL], camera={"eye": [1e150, 0, 0], "look_at": [0, 0, 0]})
+    with pytest.raises(SceneError, match=r"camera\.eye.*less than 1e\+18"):
+        render(scene)
+
+
+def test_short_exposures_of_fast_things_are_those_of_slow_ones(make_scene: MakeScene) -> None:
+    """Only how far something goes counts: float32 can't carry 1e60 in a second."""
+
+    def picture(seconds: float) -> bytes:
+        ball = {**BALL, "motion": {"velocity": [0.5 / seconds, 0, 0]}}
+        camera = {"eye": [0, 0, 4], "look_at": [0, 0, 0], "shutter": {"open": 0, "close": seconds}}
+        light = {"type": "directional", "direction": [0, -1, -1], "irradiance": 3}
+        return render(make_scene(objects=[ball], lights=[light], camera=camera)).linear.tobytes()
+
+    assert picture(2.0**-200) == picture(1.0)
