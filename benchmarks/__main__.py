@@ -1,35 +1,76 @@
-"""`make bench`: measure the engine and print what was found beside what it must reach.
+"""`make bench`: measure the engine and print what was found beside what it must reach; then `course bench`.
 
-Every figure is a ratio within this run: absolute times mean nothing from one machine, or one minute, to the next.
-Nothing here decides a test.
+Nearly every figure is a ratio within this run: absolute times mean little from one machine, or one minute, to the
+next. Nothing here decides a test.
 """
 
 from __future__ import annotations
 
 import json
-import platform
-import sys
+from importlib.util import find_spec
 from pathlib import Path
 
+import click
+
 from benchmarks.convergence import measure_convergence
+from benchmarks.degenerate import measure_degenerate
+from benchmarks.dragons import measure_dragons
 from benchmarks.effects import measure_effects
 from benchmarks.engine import measure_engine
-from benchmarks.figures import Figure, print_figures
+from benchmarks.figures import Figure, markdown, print_figures
 from benchmarks.process import measure_processes
+from course.benchmarking.documents import replace_marked
+from course.benchmarking.machine import machine
+from course.cli.bench import DOCUMENTS, bench
 
-OUT = Path("out/bench/engine.json")
+OUT = Path("out/bench")
+MARK = "make bench"
+MEASURES = {
+    "engine": measure_engine,
+    "effects": measure_effects,
+    "degenerate": measure_degenerate,
+    "process": measure_processes,
+    "convergence": measure_convergence,
+    "dragons": measure_dragons,
+}
 
 
-def main() -> None:
-    """Measure everything, print and write it."""
-    figures: list[Figure] = []
-    for measure in (measure_engine, measure_effects, measure_processes, measure_convergence):
-        figures += measure()
+@click.command()
+@click.argument("names", metavar="[NAME]...", nargs=-1, type=click.Choice([*MEASURES, "errors"]))
+@click.option("--quick", is_flag=True, help="Measure errors over time in about a minute.")
+@click.option("--write-docs", is_flag=True, help="Write what was found into docs/, too.")
+def main(names: tuple[str, ...], quick: bool, write_docs: bool) -> None:
+    """Measure everything, or what NAME says; print and write it.
+
+    NAME: engine, effects, degenerate, process, convergence, dragons, or errors (`course bench`).
+    """
+    OUT.mkdir(parents=True, exist_ok=True)
+    figures = [
+        figure
+        for name, measure in MEASURES.items()
+        if not names or name in names
+        for figure in measure()
+    ]
+    if figures:
+        _report(figures, write_docs and not names)
+    if not names or "errors" in names:
+        arguments = ["--json", str(OUT / "errors.json")]
+        # Plots take an extra.
+        arguments += ["--plots", str(OUT / "plots")] if find_spec("matplotlib") else []
+        arguments += ["--quick"] if quick else []
+        arguments += ["--write-docs"] if write_docs else []
+        bench.main(arguments, prog_name="course bench", standalone_mode=False)
+
+
+def _report(figures: list[Figure], write_docs: bool) -> None:
     print_figures(figures)
-    OUT.parent.mkdir(parents=True, exist_ok=True)
-    machine = {"machine": platform.platform(), "python": sys.version.split()[0]}
-    OUT.write_text(json.dumps({**machine, "figures": [f.to_dict() for f in figures]}, indent=2))
-    print(f"written to {OUT}")
+    made_with = machine()
+    path = OUT / "engine.json"
+    path.write_text(json.dumps({**made_with, "figures": [f.to_dict() for f in figures]}, indent=2))
+    print(f"written to {path}")
+    if write_docs:
+        about = f"Made by `make bench` on {made_with['processor']}, {made_with['threads']}."
+        replace_marked(DOCUMENTS / "performance.md", MARK, "\n\n".join([about, markdown(figures)]))
 
 
 if __name__ == "__main__":

@@ -7,32 +7,31 @@ import numpy as np
 from benchmarks.engine import SCENES
 from benchmarks.figures import Figure, summary
 from course import load_scene, render
+from course.benchmarking.errors import rmse
+from course.benchmarking.orders import fit_order
+from course.benchmarking.references import reference
 
 SAMPLES = (4, 16, 64, 256)
-REFERENCE = 8192
+REFERENCE = 16384
 SEEDS = (1, 2, 3)
 
 
 def measure_convergence() -> list[Figure]:
     """Slopes of RMSE over samples, on logarithmic scales, against a converged picture."""
-    scene = load_scene(SCENES / "penumbra.yaml")
-    reference = render(scene, spp=REFERENCE, seed=99).linear
+    path = SCENES / "penumbra.yaml"
+    ideal = reference(path, samples=REFERENCE)
+    scene = load_scene(path)
     figures = []
     for sampler, goal in (("sobol", -0.75), ("random", -0.45)):
         slopes = []
         for seed in SEEDS:
             errors = [
-                float(
-                    np.sqrt(
-                        np.mean(
-                            (render(scene, spp=s, sampler=sampler, seed=seed).linear - reference)
-                            ** 2
-                        )
-                    )
-                )
+                rmse(render(scene, spp=s, sampler=sampler, seed=seed).linear, ideal.linear)
                 for s in SAMPLES
             ]
-            slopes.append(float(np.polyfit(np.log(SAMPLES), np.log(errors), 1)[0]))
+            order = fit_order(np.array(SAMPLES, float), np.array(errors)[:, None] ** 2)
+            assert order is not None
+            slopes.append(order.value)
         figures.append(
             summary(f"penumbra: slope of the error, {sampler}, 4 to 256 samples", slopes, goal)
         )

@@ -44,15 +44,21 @@ def print_figures(figures: list[Figure]) -> None:
     for column in ("figure", "median", "range", "goal", ""):
         table.add_column(column, justify="left" if column == "figure" else "right")
     for f in figures:
-        sign = "≥" if f.at_least else "≤"
-        table.add_row(
-            f.name,
-            f"{f.value:.2f}",
-            f"{f.low:.2f} .. {f.high:.2f}",
-            f"{sign} {f.goal:g}",
-            "[green]reached[/]" if f.reached else "[red]missed[/]",
-        )
+        told = "[green]reached[/]" if f.reached else "[red]missed[/]"
+        table.add_row(*_cells(f), told)
     Console(width=110).print(table)
+
+
+def markdown(figures: list[Figure]) -> str:
+    """The same table as Markdown."""
+    rows = [(*_cells(f), "reached" if f.reached else "missed") for f in figures]
+    head = [("figure", "median", "range", "goal", ""), ("---", "---:", "---:", "---:", "---")]
+    return "\n".join(f"| {' | '.join(row)} |" for row in (*head, *rows))
+
+
+def _cells(f: Figure) -> tuple[str, str, str, str]:
+    sign = "≥" if f.at_least else "≤"
+    return f.name, f"{f.value:.2f}", f"{f.low:.2f} .. {f.high:.2f}", f"{sign} {f.goal:g}"
 
 
 def summary(name: str, values: list[float], goal: float, *, at_least: bool = False) -> Figure:

@@ -16,7 +16,7 @@ from course import __version__
 from course.cli.options import INTERRUPTED
 from course.errors import CourseError
 
-COMMANDS = ("render", "info", "schema", "demo", "release")
+COMMANDS = ("render", "info", "schema", "demo", "bench", "release")
 """Each is the command of that name in the module of that name beside this file."""
 
 

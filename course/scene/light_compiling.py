@@ -82,10 +82,13 @@ class _Compiler:
     def _rectangle(self, light: d.RectangleLight) -> list[Light]:
         edge_u, edge_v = self.frame.vector(light.edge_u), self.frame.vector(light.edge_v)
         in_reach(np.stack((edge_u, edge_v)), self.loaded, self.path, "the light's size")
-        normal = np.cross(edge_u, edge_v)
-        area = float(np.linalg.norm(normal))
+        # Of unit edges: the area of a speck of a light may be 0 in float64, but it has a normal still.
+        unit_u, unit_v = (edge / np.abs(edge).max() for edge in (edge_u, edge_v))
+        normal = np.cross(unit_u, unit_v)
+        sine = float(np.linalg.norm(normal))
+        area = float(np.abs(edge_u).max() * np.abs(edge_v).max()) * sine
         corner = self._position(light.corner, light.motion)
-        facing = None if light.radiance is None else _single(normal / area)
+        facing = None if light.radiance is None else _single(normal / sine)
         power = self._power(light, area)
         velocity = self._velocity(light)
         if light.samples == "point":

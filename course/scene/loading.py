@@ -13,6 +13,7 @@ from course.scene.consistency import check_consistency
 from course.scene.description.scene import SceneDescription
 from course.scene.description.transforms import STEP
 from course.scene.document import Document
+from course.scene.overriding import Overrides, override
 from course.scene.yaml_tree import read_document
 
 
@@ -35,13 +36,16 @@ class Loaded:
     path: Path
 
 
-def load_description(path: Path) -> Loaded:
+def load_description(path: Path, overrides: Overrides | None = None) -> Loaded:
     """Read a scene file and check all that can be checked without its meshes.
 
     Parameters
     ----------
     path : pathlib.Path
         A YAML file in the scene format (see `course.scene.schema`).
+    overrides : mapping from key path to value, optional
+        What stands there instead of what the file says, such as
+        ``{("lights", 0, "samples"): "ball"}``; checked like the rest (`course.scene.overriding`).
 
     Raises
     ------
@@ -51,6 +55,8 @@ def load_description(path: Path) -> Loaded:
     """
     path = Path(path)
     document = read_document(path)
+    if overrides:
+        document = override(document, overrides)
     description = _convert(document)
     check_consistency(description, document)
     return Loaded(description, document, path)

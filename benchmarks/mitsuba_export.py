@@ -1,0 +1,370 @@
+"""A scene of ours as plain arrays, for a program that knows nothing of ours.
+
+Everything is read from the checked description, in the units of the scene file, not from what our renderer has made
+of it; only the triangles of named shapes come from our code. So a mistake in how we compile a camera, a light or a
+material shows as a difference between the two pictures.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from course.appearance.cube_environment import CubeEnvironment
+from course.scene import description as d
+from course.scene.description.values import rgb
+from course.scene.instancing import object_mesh
+from course.scene.lobe_compiling import lobe_function
+from course.scene.material_table import base_color
+from course.scene.scene import Scene
+from course.scene.shutter import shutter_of
+
+LOBES = ("", "jitter_on_plane", "jitter_in_ball", "sample_phong_lobe")
+"""Kinds of gloss by number; 0 is a perfect mirror."""
+
+LAT_LONG_COLUMNS = 4
+"""Columns of the latitude-longitude picture for each texel along a face of the cube."""
+
+
+class NotExportableError(Exception):
+    """The scene asks for what is not exported."""
+
+
+@dataclass(frozen=True)
+class Part:
+    """Triangles that move alike, as they are when the shutter opens.
+
+    Attributes
+    ----------
+    vertices, normals : (V, 3) float32; a flat triangle has corners of its own
+    triangles : (T, 3) uint32
+    material : (T,) uint32
+    velocity : units of the scene file a second
+    """
+
+    vertices: np.ndarray
+    normals: np.ndarray
+    triangles: np.ndarray
+    material: np.ndarray
+    velocity: tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Materials:
+    """One row a material, float32.
+
+    Attributes
+    ----------
+    ambient : (M, 3) radiance that the ambient lights make every point of the surface send out
+    diffuse, specular, mirror : (M, 3)
+    exponent : (M,) of the highlight
+    lobe : (M,) index into LOBES; parameter : (M,) its roughness, glossiness or exponent
+    refraction_index : (M,), 0 where opaque; absorption : (M, 3) [1 / unit of the scene file]
+    """
+
+    ambient: np.ndarray
+    diffuse: np.ndarray
+    specular: np.ndarray
+    mirror: np.ndarray
+    exponent: np.ndarray
+    lobe: np.ndarray
+    parameter: np.ndarray
+    refraction_index: np.ndarray
+    absorption: np.ndarray
+
+
+@dataclass(frozen=True)
+class Exported:
+    """A scene.
+
+    Attributes
+    ----------
+    lights : plain maps as in the scene file, without the ambient ones
+    camera : eye, look_at, up, vertical_fov [degree], aperture_radius, focus_distance
+    shutter : seconds that it is open
+    background : radiance from every direction, where the environment is no picture
+    cube : (6, S + 2, S + 2, 3) float32, faces with a border of their neighbours' texels; empty where it is no picture
+    lat_long : (H, W, 3) float32, the same as Mitsuba's `envmap` reads it, see ``lat_long_directions``
+    sky : whether the environment lights diffuse surfaces
+    """
+
+    width: int
+    height: int
+    parts: tuple[Part, ...]
+    materials: Materials
+    lights: tuple[dict[str, Any], ...]
+    camera: dict[str, Any]
+    shutter: float
+    background: tuple[float, float, float]
+    cube: np.ndarray
+    lat_long: np.ndarray
+    sky: bool
+    max_depth: int
+    cutoff: float
+    names: tuple[str, ...] = field(default=())
+
+    @property
+    def triangles(self) -> int:
+        """How many."""
+        return sum(len(part.triangles) for part in self.parts)
+
+
+def export(scene: Scene, width: int, height: int) -> Exported:
+    """Take a scene apart.
+
+    Raises
+    ------
+    NotExportableError
+        For what no benchmark scene has: lights by radiance that move, grids of lights, apertures other than disks.
+    """
+    description = scene.loaded.description
+    names = list(dict.fromkeys(thing.material for thing in description.objects))
+    return Exported(
+        width,
+        height,
+        _parts(scene, names),
+        _materials(scene, names),
+        tuple(
+            _light(light) for light in description.lights if not isinstance(light, d.AmbientLight)
+        ),
+        _camera(description.camera),
+        shutter_of(scene.loaded).duration,
+        *_environment(scene),
+        description.environment.lights,
+        description.integrator.max_depth,
+        description.integrator.cutoff,
+        tuple(names),
+    )
+
+
+def _parts(scene: Scene, names: list[str]) -> tuple[Part, ...]:
+    loaded = scene.loaded
+    shutter = shutter_of(loaded)
+    groups: dict[tuple[float, float, float], list[tuple[np.ndarray, ...]]] = {(0.0, 0.0, 0.0): []}
+    for number, thing in enumerate(loaded.description.objects):
+        mesh = object_mesh(thing, number, loaded.document, loaded.path.parent)
+        velocity = thing.motion.velocity if shutter.moves(thing.motion) else (0.0, 0.0, 0.0)
+        vertices, triangles, normals = mesh.vertices, mesh.triangles, mesh.normals
+        vertices = vertices + shutter.start(thing.motion)
+        if normals is None:
+            vertices, triangles, normals = _flat(vertices, triangles)
+        material = np.full(len(triangles), names.index(thing.material))
+        groups.setdefault(velocity, []).append((vertices, normals, triangles, material))
+    return tuple(_joined(meshes, velocity) for velocity, meshes in groups.items())
+
+
+def _flat(vertices: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray, ...]:
+    """Give each triangle corners of its own, with its own normal."""
+    corners = vertices[triangles]
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    length = np.linalg.norm(normal, axis=1, keepdims=True)
+    normal = np.where(length > 0, normal / np.where(length > 0, length, 1), [0.0, 1.0, 0.0])
+    return (
+        corners.reshape(-1, 3),
+        np.arange(3 * len(triangles)).reshape(-1, 3),
+        normal.repeat(3, axis=0),
+    )
+
+
+def _joined(meshes: list[tuple[np.ndarray, ...]], velocity: tuple[float, float, float]) -> Part:
+    first = np.cumsum([0, *(len(vertices) for vertices, *_ in meshes)])
+    return Part(
+        np.concatenate([m[0] for m in meshes] or [np.zeros((0, 3))]).astype(np.float32),
+        np.concatenate([m[1] for m in meshes] or [np.zeros((0, 3))]).astype(np.float32),
+        np.concatenate(
+            [m[2] + start for m, start in zip(meshes, first, strict=False)] or [np.zeros((0, 3))]
+        ).astype(np.uint32),
+        np.concatenate([m[3] for m in meshes] or [np.zeros(0)]).astype(np.uint32),
+        velocity,
+    )
+
+
+def _materials(scene: Scene, names: list[str]) -> Materials:
+    description = scene.loaded.description
+    arriving = np.zeros(3)
+    for light in description.lights:
+        if isinstance(light, d.AmbientLight):
+            arriving += rgb(light.radiance)
+    rows: dict[str, list[Any]] = {name: [] for name in Materials.__dataclass_fields__}
+    for name in names:
+        material = description.materials[name]
+        glass = material.dielectric
+        color = base_color(material) * (glass is None)
+        lobe = lobe_function(material, description.integrator.cutoff) or ""
+        rows["ambient"].append(color * material.ambient * arriving)
+        rows["diffuse"].append(color * material.diffuse)
+        rows["specular"].append(rgb(material.specular))
+        rows["mirror"].append(rgb(material.mirror))
+        rows["exponent"].append(material.exponent)
+        rows["lobe"].append(LOBES.index(lobe))
+        rows["parameter"].append(_parameter(material.gloss) if lobe else 0.0)
+        rows["refraction_index"].append(glass.refraction_index if glass else 0.0)
+        rows["absorption"].append(rgb(glass.absorption) if glass else np.zeros(3))
+    return Materials(**{key: np.array(values, np.float32) for key, values in rows.items()})
+
+
+def _parameter(gloss: d.Gloss | None) -> float:
+    match gloss:
+        case d.PlaneLobe():
+            return gloss.roughness
+        case d.BallLobe():
+            return gloss.glossiness
+        case d.PhongLobe():
+            return gloss.exponent
+    return 0.0
+
+
+def _light(light: d.Light) -> dict[str, Any]:
+    if not isinstance(light, d.DirectionalLight | d.AmbientLight) and any(light.motion.velocity):
+        raise NotExportableError("lights that move are not exported")
+    match light:
+        case d.PointLight():
+            return {"type": "point", "center": light.position, "intensity": _list(light.intensity)}
+        case d.DirectionalLight():
+            towards = -np.array(light.direction) / np.linalg.norm(light.direction)
+            return {
+                "type": "directional",
+                "towards": towards.tolist(),
+                "irradiance": _list(light.irradiance),
+            }
+        case d.SphereLight() if light.samples == "sphere":
+            quantity = "intensity" if light.radiance is None else "radiance"
+            return {
+                "type": "sphere",
+                "center": light.center,
+                "radius": light.radius,
+                quantity: _list(getattr(light, quantity)),
+            }
+    raise NotExportableError(f"a light {light.__struct_config__.tag} like this is not exported")
+
+
+def _list(color: float | tuple[float, ...] | None) -> list[float]:
+    assert color is not None
+    return [float(x) for x in rgb(color)]
+
+
+def _camera(camera: d.CameraDescription) -> dict[str, Any]:
+    radius, distance = 0.0, 1.0
+    if camera.lens is not None:
+        if camera.lens.shape != "disk":
+            raise NotExportableError(f"an aperture that is a {camera.lens.shape} is not exported")
+        radius = camera.lens.aperture_radius
+        distance = camera.lens.focus_distance or 0.0
+        if camera.lens.focus_point is not None:
+            view = np.array(camera.look_at) - np.array(camera.eye)
+            to_focus = np.array(camera.lens.focus_point) - np.array(camera.eye)
+            distance = float(to_focus @ view / np.linalg.norm(view))
+    if any(camera.motion.velocity):
+        raise NotExportableError("a camera that moves is not exported")
+    return {
+        "eye": camera.eye,
+        "look_at": camera.look_at,
+        "up": camera.up,
+        "vertical_fov": camera.vertical_fov,
+        "aperture_radius": radius,
+        "focus_distance": distance,
+    }
+
+
+def _environment(scene: Scene) -> tuple[tuple[float, float, float], np.ndarray, np.ndarray]:
+    """Background, cube and latitude-longitude picture."""
+    environment = scene.compiled.world.environment
+    described = scene.loaded.description.environment
+    nothing = np.zeros((0, 0, 3), np.float32)
+    if isinstance(described, d.ConstantEnvironment):
+        red, green, blue = _list(described.radiance)
+        return (red, green, blue), nothing[None], nothing
+    assert isinstance(environment, CubeEnvironment)
+
+    def seen(directions: np.ndarray) -> np.ndarray:
+        columns = np.ascontiguousarray(directions.reshape(-1, 3).T, np.float32)
+        radiance = environment.radiance(columns).T.reshape(directions.shape)
+        return np.ascontiguousarray(radiance, np.float32)
+
+    size = environment.faces.shape[1]
+    cube = seen(_bordered_directions(size))
+    cube[:, 1:-1, 1:-1] = environment.faces
+    # Three texels meet at a corner of the cube: their mean stands for the fourth.
+    for row, column in ((0, 0), (0, -1), (-1, 0), (-1, -1)):
+        inner_row, inner_column = row or 1, column or 1
+        inner_row, inner_column = (-2 if i == -1 else i for i in (inner_row, inner_column))
+        cube[:, row, column] = (
+            cube[:, inner_row, column]
+            + cube[:, row, inner_column]
+            + cube[:, inner_row, inner_column]
+        ) / 3
+    rows = LAT_LONG_COLUMNS * size // 2 + 1
+    return (0.0, 0.0, 0.0), cube, seen(lat_long_directions(rows))
+
+
+def _bordered_directions(size: int) -> np.ndarray:
+    """Directions (6, size + 2, size + 2, 3) through the texels of all faces and those next to them beyond the edges."""
+    place = 2 * np.arange(-1, size + 1) + 1 - size
+    t, s = np.meshgrid(place, place, indexing="ij")
+    # A texel beyond an edge lies on the neighbouring face, half a texel below that edge.
+    m = np.where((np.abs(s) > size) | (np.abs(t) > size), size - 1, size)
+    s, t = np.clip(s, -size, size), np.clip(t, -size, size)
+    faces = [(m, -t, -s), (-m, -t, s), (s, m, t), (s, -m, -t), (s, -t, m), (-s, -t, -m)]
+    return np.stack([np.stack(face, axis=-1) for face in faces]).astype(np.float64)
+
+
+def lat_long_directions(rows: int) -> np.ndarray:
+    """Directions (rows, 2 (rows - 1), 3) of the texels of a picture as Mitsuba's `envmap` reads it.
+
+    The first and the last row are the poles +y and -y. The middles of the columns divide the circle evenly; the
+    picture's middle looks along +z, its right half to -x.
+    """
+    columns = 2 * (rows - 1)
+    theta = np.pi * np.arange(rows) / (rows - 1)
+    phi = 2 * np.pi * (np.arange(columns) + 0.5) / columns
+    x = np.sin(theta)[:, None] * np.sin(phi)
+    z = -np.sin(theta)[:, None] * np.cos(phi)
+    y = np.broadcast_to(np.cos(theta)[:, None], x.shape)
+    return np.stack((x, y, z), axis=-1)
+
+
+def write(exported: Exported, folder: Path) -> None:
+    """Write a scene as scene.json and scene.npz."""
+    folder.mkdir(parents=True, exist_ok=True)
+    arrays = {"cube": exported.cube, "lat_long": exported.lat_long}
+    arrays |= {f"materials.{key}": value for key, value in asdict(exported.materials).items()}
+    for number, part in enumerate(exported.parts):
+        for key in ("vertices", "normals", "triangles", "material"):
+            arrays[f"{number}.{key}"] = getattr(part, key)
+    np.savez(folder / "scene.npz", **arrays)
+    plain = {
+        key: getattr(exported, key)
+        for key in Exported.__dataclass_fields__
+        if key not in ("parts", "materials", "cube", "lat_long")
+    }
+    plain["velocities"] = [part.velocity for part in exported.parts]
+    (folder / "scene.json").write_text(json.dumps(plain, indent=1))
+
+
+def read(folder: Path) -> Exported:
+    """Read what ``write`` has written."""
+    plain = json.loads((folder / "scene.json").read_text())
+    velocities = plain.pop("velocities")
+    with np.load(folder / "scene.npz", allow_pickle=False) as arrays:
+        parts = tuple(
+            Part(
+                *(arrays[f"{number}.{key}"] for key in ("vertices", "normals")),
+                *(arrays[f"{number}.{key}"] for key in ("triangles", "material")),
+                tuple(velocity),
+            )
+            for number, velocity in enumerate(velocities)
+        )
+        materials = Materials(
+            **{key: arrays[f"materials.{key}"] for key in Materials.__dataclass_fields__}
+        )
+        return Exported(
+            parts=parts,
+            materials=materials,
+            cube=arrays["cube"],
+            lat_long=arrays["lat_long"],
+            **plain,
+        )

@@ -1,0 +1,33 @@
+"""A whole Mitsuba process: read an exported scene, render it once, write the picture.
+
+``python -m benchmarks.mitsuba_process FOLDER llvm|scalar SAMPLER SAMPLES THREADS OUT.exr``
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+from benchmarks.mitsuba_export import read
+from benchmarks.mitsuba_llvm import LlvmScene, start_llvm
+from benchmarks.mitsuba_scalar import NativeScene, start_scalar
+
+
+def main(folder: str, form: str, sampler: str, samples: str, threads: str, out: str) -> None:
+    """Do what the command line says."""
+    exported = read(Path(folder))
+    scene: LlvmScene | NativeScene
+    if form == "llvm":
+        start_llvm(int(threads))
+        scene = LlvmScene(exported)
+    else:
+        start_scalar(int(threads))
+        scene = NativeScene(exported)
+    picture = scene.render(sampler, int(samples), 0)
+    import mitsuba
+
+    mitsuba.Bitmap(picture).write(out)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

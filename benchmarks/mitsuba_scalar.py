@@ -1,0 +1,274 @@
+"""Mitsuba's own plugins, for its scalar variant: there a plugin in Python would cost microseconds for each ray.
+
+What they can't do the scene has to do without, and ``native_overrides`` says what: each effect has a variant of its
+scene that both programs render. Where even that can't be had the pictures are only alike, see ``ALIKE``. The same
+plugins run in the LLVM variant too, which makes their references.
+
+Ambient light is emission of the surfaces, with sampling weight 0 so that nobody takes them for lamps.
+"""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from benchmarks.mitsuba_export import LOBES, Exported, NotExportableError, Part
+from benchmarks.mitsuba_llvm import make_mesh, sensor_map
+from course.scene import description as d
+from course.scene.description.values import rgb
+from course.scene.loading import load_description
+from course.scene.overriding import Overrides
+
+VARIANT = "scalar_rgb"
+
+SAMPLES_A_STILL = 4
+"""Of a picture of moving things, which is the mean of stills."""
+
+ALIKE = {
+    "glossy": "no plane, ball or Phong lobes: roughconductor with lobes as wide, which lose some light",
+    "cube_map": "clay can't be kept from lighting itself and the others",
+}
+"""Effects whose pictures are alike in both programs, not the same, and what Mitsuba can't do."""
+
+
+def start_scalar(threads: int) -> None:
+    """Switch Mitsuba to its scalar variant."""
+    import drjit
+    import mitsuba
+
+    mitsuba.set_variant(VARIANT)
+    # Samplers that round the number of samples up say so each time; ``samples`` tells it, too.
+    mitsuba.set_log_level(mitsuba.LogLevel.Error)
+    drjit.set_thread_count(threads)
+
+
+def native_overrides(path: Path) -> tuple[Overrides, list[str]]:
+    """What a scene has to do without for Mitsuba's own plugins, as values and in words."""
+    scene = load_description(path).description
+    values: dict[tuple[str | int, ...], Any] = {}
+    words = []
+
+    def of_materials(key: str, value: Any, word: str) -> None:
+        names = [name for name, m in scene.materials.items() if np.any(rgb(getattr(m, key)))]
+        values.update({("materials", name, key): value for name in names})
+        if names:
+            words.append(word)
+
+    of_materials("specular", 0.0, "no highlights")
+    if any(material.gloss for material in scene.materials.values()):
+        # Mirrors are what the scene shows, and diffuse surfaces would light each other.
+        of_materials("diffuse", 0.0, "ambient light only")
+        return values, words
+    for name, material in scene.materials.items():
+        if material.dielectric is not None and np.any(material.dielectric.absorption):
+            values["materials", name, "dielectric", "absorption"] = 0.0
+            words.append("clear glass")
+    if scene.environment.lights:
+        return values, words
+    of_materials("mirror", 0.0, "no mirrors")
+    moves = any(any(thing.motion.velocity) for thing in scene.objects)
+    for number, light in enumerate(scene.lights):
+        if isinstance(light, d.SphereLight) and light.intensity is not None:
+            radiance = rgb(light.intensity) / (math.pi * light.radius**2)
+            values["lights", number] = {
+                "type": "sphere",
+                "center": list(light.center),
+                "radius": light.radius,
+                "radiance": radiance.tolist(),
+            }
+            words.append("the lamp by radiance")
+        if isinstance(light, d.AmbientLight) and moves:
+            values["lights", number, "radiance"] = 0.0
+            words.append("no ambient light (instances can't send out light)")
+    return values, words
+
+
+class NativeScene:
+    """A scene in whichever variant of Mitsuba is switched on, of Mitsuba's own plugins only.
+
+    Parameters
+    ----------
+    exported : the scene, loaded with ``native_overrides``
+    """
+
+    def __init__(self, exported: Exported) -> None:
+        import mitsuba as mi
+
+        self._exported = exported
+        self._scene = mi.load_dict(_scene_map(exported))
+        self._sensors: dict[str, Any] = {}
+        self._moving = len(exported.parts) > 1
+        self._values = mi.traverse(self._scene)
+
+    def render(self, sampler: str, samples: int, seed: int) -> np.ndarray:
+        """A picture (H, W, 3) float32; some samplers take more samples than were asked for."""
+        if self._moving:
+            return self._stills(sampler, samples, seed)
+        return self._still(sampler, samples, seed)
+
+    def samples(self, sampler: str, samples: int) -> int:
+        """How many samples the sampler really takes."""
+        if self._moving:
+            return samples // SAMPLES_A_STILL * self._drawn(sampler, SAMPLES_A_STILL)
+        return self._drawn(sampler, samples)
+
+    def _drawn(self, sampler: str, samples: int) -> int:
+        drawn = self._sensor(sampler).sampler().clone()
+        drawn.set_sample_count(samples)
+        return int(drawn.sample_count())
+
+    def _still(self, sampler: str, samples: int, seed: int) -> np.ndarray:
+        integrator = self._scene.integrator()
+        picture = integrator.render(self._scene, self._sensor(sampler), seed=seed, spp=samples)
+        return np.array(picture)
+
+    def _stills(self, sampler: str, samples: int, seed: int) -> np.ndarray:
+        """The mean of stills, each at a random moment of its own stretch of the time."""
+        count = max(samples // SAMPLES_A_STILL, 1)
+        random = np.random.default_rng(seed)
+        moments = (np.arange(count) + random.random(count)) / count * self._exported.shutter
+        total = 0.0
+        for moment in moments:
+            self._move(float(moment))
+            total = total + self._still(sampler, SAMPLES_A_STILL, int(random.integers(2**31)))
+        return np.asarray(total / count, np.float32)
+
+    def _move(self, time: float) -> None:
+        import mitsuba as mi
+
+        for number, part in enumerate(self._exported.parts[1:], start=1):
+            gone = [v * time for v in part.velocity]
+            self._values[f"instance_{number}.to_world"] = mi.Transform4f().translate(gone)
+        self._values.update()
+
+    def _sensor(self, sampler: str) -> Any:
+        import mitsuba as mi
+
+        if sampler not in self._sensors:
+            sensor = sensor_map(self._exported, sampler)
+            sensor["shutter_close"] = 0.0
+            self._sensors[sampler] = mi.load_dict(sensor)
+        return self._sensors[sampler]
+
+
+def _scene_map(e: Exported) -> dict[str, Any]:
+    """The whole scene but its sensor."""
+    import mitsuba as mi
+
+    content: dict[str, Any] = {"type": "scene", "integrator": _integrator(e)}
+    for number, part in enumerate(e.parts):
+        group: dict[str, Any] = {"type": "shapegroup"} if number else content
+        for material in np.unique(part.material):
+            group[f"mesh_{number}_{material}"] = _mesh(e, part, int(material), still=number == 0)
+        if number:
+            content[f"group_{number}"] = group
+            content[f"instance_{number}"] = {
+                "type": "instance",
+                "group": {"type": "ref", "id": f"group_{number}"},
+            }
+    if e.lat_long.size:
+        content["environment"] = {"type": "envmap", "bitmap": mi.Bitmap(e.lat_long)}
+    elif any(e.background):
+        content["environment"] = {"type": "constant", "radiance": _color(e.background)}
+    if e.materials.diffuse.any():
+        for number, light in enumerate(e.lights):
+            content[f"light_{number}"] = _light(light)
+        # Without any lamp the environment stays one, for Mitsuba refuses a scene of weights 0.
+        if e.lights and not e.sky and "environment" in content:
+            content["environment"]["sampling_weight"] = 0.0
+    return content
+
+
+def _integrator(e: Exported) -> dict[str, Any]:
+    m = e.materials
+    if m.mirror.any() or e.sky:
+        return {"type": "path", "max_depth": e.max_depth + 2, "rr_depth": e.max_depth + 2}
+    # One light for each sample: with more, `direct` counts lights without extent as often (Mitsuba 3.9).
+    return {"type": "direct", "emitter_samples": 1, "bsdf_samples": 0}
+
+
+def _mesh(e: Exported, part: Part, material: int, still: bool) -> Any:
+    """The triangles of one material."""
+    import mitsuba as mi
+
+    chosen, numbers = np.unique(part.triangles[part.material == material], return_inverse=True)
+    properties = mi.Properties()
+    properties["bsdf"] = mi.load_dict(_bsdf(e, material))
+    emitted = e.materials.ambient[material]
+    if emitted.any():
+        if not still:
+            raise NotExportableError("what moves can't send out light: Mitsuba's instances don't")
+        lamp = {"type": "area", "radiance": _color(emitted), "sampling_weight": 0.0}
+        properties["emitter"] = mi.load_dict(lamp)
+    return make_mesh(
+        f"mesh {material}",
+        part.vertices[chosen],
+        part.normals[chosen],
+        numbers.reshape(-1, 3).astype(np.uint32),
+        properties,
+    )
+
+
+def _bsdf(e: Exported, material: int) -> dict[str, Any]:
+    m = e.materials
+    mirror, diffuse = m.mirror[material], m.diffuse[material]
+    if m.specular[material].any() or (mirror.any() and diffuse.any()):
+        raise NotExportableError(f"{e.names[material]}: no plugin has these reflections together")
+    if m.refraction_index[material]:
+        return {
+            "type": "dielectric",
+            "int_ior": float(m.refraction_index[material]),
+            "ext_ior": 1.0,
+        }
+    if not mirror.any():
+        return {"type": "twosided", "bsdf": {"type": "diffuse", "reflectance": _color(diffuse)}}
+    metal = {"type": "conductor", "material": "none", "specular_reflectance": _color(mirror)}
+    width = _width(LOBES[int(m.lobe[material])], float(m.parameter[material]))
+    if width:
+        metal |= {"type": "roughconductor", "distribution": "beckmann", "alpha": width}
+    return {"type": "twosided", "bsdf": metal}
+
+
+def _width(lobe: str, parameter: float) -> float:
+    """Roughness of a Beckmann distribution that blurs as much: half the standard deviation of the mirrored angle."""
+    match lobe:
+        case "jitter_on_plane":
+            variance = parameter**2 / 12
+        case "jitter_in_ball":
+            variance = parameter**2 / 5
+        case "sample_phong_lobe":
+            variance = 1 / max(parameter, 1.0)
+        case _:
+            variance = 0.0
+    return math.sqrt(variance / 2)
+
+
+def _light(light: dict[str, Any]) -> dict[str, Any]:
+    match light:
+        case {"type": "point"}:
+            return {
+                "type": "point",
+                "position": list(light["center"]),
+                "intensity": _color(light["intensity"]),
+            }
+        case {"type": "directional"}:
+            return {
+                "type": "directional",
+                "direction": [-x for x in light["towards"]],
+                "irradiance": _color(light["irradiance"]),
+            }
+        case {"type": "sphere", "radiance": radiance}:
+            return {
+                "type": "sphere",
+                "center": list(light["center"]),
+                "radius": light["radius"],
+                "emitter": {"type": "area", "radiance": _color(radiance)},
+            }
+    raise NotExportableError("Mitsuba has no lights by intensity that have a size")
+
+
+def _color(values: Any) -> dict[str, Any]:
+    return {"type": "rgb", "value": [float(x) for x in values]}

@@ -1,0 +1,114 @@
+"""What all stages have in common: film and sampler, lens, gloss, and the light."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from benchmarks.stress.axes import NOTHING, VISIBLE_TWIN
+from benchmarks.stress.cells import Cell
+from benchmarks.stress.placement import Placement
+
+BACKGROUND = [0.3, 0.4, 0.5]
+"""Radiance of the environment, where it is constant, and of the ambient light."""
+
+LIGHT = (0.2, 1.6, 0.3)
+"""The lowest point of the light, in the unit scene."""
+
+IRRADIANCE = 3.0
+"""What the light brings to the unit scene, about."""
+
+CUTOFF = 1 / 512
+
+
+def placement(cell: Cell) -> Placement:
+    """Where the cell's unit scene is put."""
+    return Placement(cell["scale"], cell["offset"], cell["orientation"])
+
+
+def samples(cell: Cell) -> int:
+    """Of each pixel: few, and fewer the more pixels there are."""
+    width, height = cell["resolution"]
+    pixels = width * height
+    return 16 if pixels < 10 else 4 if pixels < 5000 else 1
+
+
+def picture(cell: Cell) -> dict[str, Any]:
+    """`film`, `sampler` and `integrator`."""
+    width, height = cell["resolution"]
+    return {
+        "film": {"width": width, "height": height, "filter": cell["filter"]},
+        "sampler": {"type": cell["sampler"], "samples": samples(cell)},
+        "integrator": {"max_depth": cell["depth"], "cutoff": CUTOFF},
+    }
+
+
+def lens(cell: Cell, place: Placement, clearance: float, focus: float) -> dict[str, Any]:
+    """The camera's lens, in units of its clearance from the surfaces; nothing for a pinhole."""
+    if cell["aperture"] == 0:
+        return {}
+    return {
+        "lens": {
+            "aperture_radius": place.length(cell["aperture"] * clearance),
+            "focus_distance": place.length(focus),
+            "shape": cell["lens"],
+        }
+    }
+
+
+def gloss(cell: Cell) -> dict[str, Any]:
+    """The mirrors' lobe, about as wide as the roughness; nothing where that is 0."""
+    roughness = cell["roughness"]
+    if roughness == 0:
+        return {}
+    match cell["lobe"]:
+        case "plane":
+            return {"gloss": {"lobe": "plane", "roughness": roughness}}
+        case "ball":
+            return {"gloss": {"lobe": "ball", "glossiness": min(roughness, 1 - 1e-6)}}
+    # cos(angle)^n falls to one half at angle^2 = 2 log 2 / n.
+    exponent = 0.0 if roughness >= 1 else 2 / roughness**2
+    return {"gloss": {"lobe": "phong", "exponent": exponent}}
+
+
+def lamp(cell: Cell, place: Placement) -> dict[str, Any] | None:
+    """The light, its lowest point at LIGHT; None where the sky is the light.
+
+    Its power grows with its distance, so that it brings about the same irradiance at every size.
+    """
+    kind, size = cell["light"], cell["light size"]
+    x, y, z = LIGHT
+    if kind == "sky":
+        return None
+    if kind == "directional":
+        towards = place.direction(-0.2, -1, -0.1)
+        return {"type": "directional", "direction": towards, "irradiance": IRRADIANCE}
+    visible = kind.startswith("visible")
+    if visible and size in (0.0, NOTHING):
+        # A point of that power would be infinitely bright.
+        size = VISIBLE_TWIN
+    if size == 0:
+        intensity = place.intensity(IRRADIANCE * y * y)
+        return {"type": "point", "position": place.point(x, y, z), "intensity": intensity}
+    if kind in ("rectangle", "grid", "visible rectangle"):
+        light, power, area = _rectangle(place, size), y * y + size * size / 4, size * size
+        light["samples"] = "grid 3" if kind == "grid" else "point"
+    else:
+        middle, radius = place.point(x, y + size, z), place.length(size)
+        light = {"type": "sphere", "center": middle, "radius": radius}
+        power, area = (y + size) ** 2, math.pi * size * size
+        if not visible:
+            light["samples"] = kind
+    if visible:
+        return light | {"radiance": IRRADIANCE * power / area}
+    return light | {"intensity": place.intensity(IRRADIANCE * power)}
+
+
+def _rectangle(place: Placement, size: float) -> dict[str, Any]:
+    x, y, z = LIGHT
+    return {
+        "type": "rectangle",
+        "corner": place.point(x - size / 2, y, z - size / 2),
+        "edge_u": place.vector(size, 0, 0),
+        "edge_v": place.vector(0, 0, size),
+    }

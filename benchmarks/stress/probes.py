@@ -1,0 +1,114 @@
+"""How a twin's picture answers to small changes of its scene: how steeply where it is smooth, and where its edges are.
+
+A picture with fixed random numbers is a piecewise smooth function of where camera and lights are. The twin is rendered
+again with its view turned by H to either side, up and down, and with its lights moved by H. From f(+H), f(0), f(-H):
+
+    steepness  |f(+H) - f(-H)| / 2 H, summed over the three kinds of change
+    an edge    where f(+H) - 2 f(0) + f(-H) is more than a smooth function's: a sample has met another thing
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from benchmarks.stress.files import SceneFiles
+
+Array = NDArray[np.float64]
+
+H = 1e-3
+"""Size of the changes [radians, half extents]."""
+
+JUMP = 2e-5
+"""Second differences above this, as a share of the brightest pixel, are edges: an H^2 of curvature 20."""
+
+AWAY = np.array([0.6, 0.48, -0.64])
+"""Direction in which the lights are moved."""
+
+
+@dataclass(frozen=True)
+class Response:
+    """What the probes found.
+
+    Attributes
+    ----------
+    picture : (H, W, 3) of the twin
+    steepness : (H, W) [radiance / half extent], the largest of each pixel and its neighbours
+    edges : (H, W) bool, where a sample may see something else
+    contrast : (H, W) difference of the brightest and the darkest that is seen there
+    """
+
+    picture: Array
+    steepness: Array
+    edges: NDArray[np.bool_]
+    contrast: Array
+
+    @property
+    def brightest(self) -> float:
+        """The brightest pixel."""
+        return float(self.picture.max())
+
+
+def probe(files: SceneFiles, folder: Path) -> Response:
+    """Render a twin and its neighbours. The scene is that of a unit scene: scale 1, offset 0."""
+    picture = files.picture(folder)
+    steepness = np.zeros(picture.shape[:2])
+    bends = np.zeros(picture.shape[:2])
+    lowest, highest = picture, picture
+    for change in (_view_turned, _view_tilted, _lights_moved):
+        above, below = (change(files, sign * H).picture(folder) for sign in (1, -1))
+        steepness += (np.abs(above - below) / (2 * H)).max(axis=2)
+        bends = np.maximum(bends, np.abs(above - 2 * picture + below).max(axis=2))
+        lowest = np.minimum(np.minimum(above, below), lowest)
+        highest = np.maximum(np.maximum(above, below), highest)
+    spread = _around(highest, np.max) - _around(lowest, np.min)
+    return Response(
+        picture,
+        _around(steepness[..., None], np.max)[..., 0],
+        bends > JUMP * picture.max(),
+        spread.max(axis=2),
+    )
+
+
+def _around(picture: Array, function: Any) -> Array:
+    """A function of each pixel and its eight neighbours."""
+    padded = np.pad(picture, ((1, 1), (1, 1), (0, 0)), mode="edge")
+    height, width = picture.shape[:2]
+    near = [padded[i : i + height, j : j + width] for i in range(3) for j in range(3)]
+    return np.asarray(function(np.stack(near), axis=0))
+
+
+def _view_turned(files: SceneFiles, by: float) -> SceneFiles:
+    return _looking(files, by, 0.0)
+
+
+def _view_tilted(files: SceneFiles, by: float) -> SceneFiles:
+    return _looking(files, 0.0, by)
+
+
+def _looking(files: SceneFiles, right: float, up: float) -> SceneFiles:
+    """The camera looks elsewhere by these angles."""
+    camera = files.description["camera"]
+    eye, look_at = np.array(camera["eye"]), np.array(camera["look_at"])
+    view = look_at - eye
+    side = np.cross(view, camera["up"])
+    side /= np.linalg.norm(side)
+    upwards = np.cross(side, view / np.linalg.norm(view))
+    moved = look_at + np.linalg.norm(view) * (right * side + up * upwards)
+    return files.with_(camera=camera | {"look_at": moved.tolist()})
+
+
+def _lights_moved(files: SceneFiles, by: float) -> SceneFiles:
+    lights = []
+    for light in files.description["lights"]:
+        moved = dict(light)
+        for key in ("position", "center", "corner", "direction"):
+            if key in light:
+                length = np.linalg.norm(light[key]) if key == "direction" else 1.0
+                moved[key] = (np.array(light[key]) + by * length * AWAY).tolist()
+        lights.append(moved)
+    return files.with_(lights=lights)

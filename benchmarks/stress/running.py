@@ -1,0 +1,64 @@
+"""Judge many cells, on as many processes as there are cores."""
+
+from __future__ import annotations
+
+import multiprocessing
+import tempfile
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from itertools import groupby
+from pathlib import Path
+
+from benchmarks.stress.cells import Cell
+from benchmarks.stress.verdict import Judge, Verdict
+from course.rendering.pool import default_threads
+
+AT_ONCE = 16
+"""Cells that a process takes at a time, or all of a family."""
+
+
+def judge_all(
+    cells: Sequence[Cell], jobs: int | None = None, tick: Callable[[int], None] | None = None
+) -> list[Verdict]:
+    """The verdict on each cell, in order.
+
+    Parameters
+    ----------
+    jobs : processes; None for one a core, 1 for this one
+    tick : called now and then with the number of cells judged since
+    """
+    tasks = list(_tasks(cells))
+    jobs = jobs or default_threads()
+    if jobs == 1:
+        return _collected(map(judge_some, tasks), tick)
+    # Spawned, not forked: the same on all systems, and nothing is inherited.
+    context = multiprocessing.get_context("spawn")
+    with ProcessPoolExecutor(jobs, mp_context=context) as pool:
+        return _collected(pool.map(judge_some, tasks), tick)
+
+
+def judge_some(cells: Sequence[Cell]) -> list[Verdict]:
+    """The verdicts on some cells, in this process."""
+    with tempfile.TemporaryDirectory(prefix="stress-") as folder:
+        judge = Judge(Path(folder))
+        return [judge(cell) for cell in cells]
+
+
+def _collected(
+    results: Iterable[list[Verdict]], tick: Callable[[int], None] | None
+) -> list[Verdict]:
+    verdicts: list[Verdict] = []
+    for some in results:
+        verdicts += some
+        if tick is not None:
+            tick(len(some))
+    return verdicts
+
+
+def _tasks(cells: Sequence[Cell]) -> Iterator[list[Cell]]:
+    for stage, there in groupby(cells, key=lambda cell: cell.stage):
+        if stage == "room":
+            yield from (list(family) for _, family in groupby(there, key=lambda cell: cell.family))
+        else:
+            rest = list(there)
+            yield from (rest[k : k + AT_ONCE] for k in range(0, len(rest), AT_ONCE))

@@ -1,0 +1,34 @@
+"""What machine and which versions a measurement was made with."""
+
+from __future__ import annotations
+
+import os
+import platform
+from importlib.metadata import version
+from pathlib import Path
+
+from course import __version__
+from course.geometry.packets import available
+from course.rendering.pool import default_threads
+
+
+def machine() -> dict[str, str]:
+    """Names of the parts that decide a run time."""
+    names = ("embreex", "numpy", *(["numba"] if available() else []))
+    libraries = ", ".join(f"{name} {version(name)}" for name in names)
+    return {
+        "processor": _processor(),
+        "threads": f"{default_threads()} of {os.cpu_count()} logical cores",
+        "system": f"{platform.system()} {platform.release()}",
+        "software": f"Python {platform.python_version()}, {libraries}, course {__version__}",
+    }
+
+
+def _processor() -> str:
+    """The processor's name, as the system tells it."""
+    try:
+        lines = Path("/proc/cpuinfo").read_text(encoding="utf-8", errors="replace").splitlines()
+    except OSError:
+        lines = []
+    names = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
+    return names[0] if names else platform.processor() or platform.machine()

@@ -1,0 +1,259 @@
+"""Measure a module: render its references, then every estimator at every number of samples, in turn."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from course.benchmarking.curves import Converged, Curve
+from course.benchmarking.errors import dissimilarity, relative_mse, rmse
+from course.benchmarking.estimators import Estimator, Module
+from course.benchmarking.references import FOLDER, Reference, reference
+from course.benchmarking.variants import load_variant
+from course.core.types import Floats64
+from course.effects import Effects
+from course.geometry.packets import available
+from course.rendering.rendering import render
+from course.scene.overriding import Overrides
+from course.scene.scene import Scene
+
+Tick = Callable[[float], None]
+"""Called with the share of a module's work that is done."""
+
+
+@dataclass(frozen=True)
+class Effort:
+    """How much is measured.
+
+    Attributes
+    ----------
+    name : for the reports
+    height : pixels; the width follows from the scene's
+    samples : a pixel, square numbers; an estimator that takes k points on a light with each takes at most 4 / k of
+        the last
+    seeds : how many
+    reference : samples a pixel of the references
+    """
+
+    name: str
+    height: int
+    samples: tuple[int, ...]
+    seeds: int
+    reference: int
+
+
+FULL = Effort("full", 80, (1, 4, 16, 64, 256, 1024), 4, 8192)
+QUICK = Effort("quick", 48, (1, 4, 16, 64), 3, 2048)
+
+
+@dataclass(frozen=True)
+class Measured:
+    """What was measured of one module.
+
+    Attributes
+    ----------
+    size : (width, height) [pixels]
+    curves : one for each estimator
+    """
+
+    module: Module
+    size: tuple[int, int]
+    curves: tuple[Curve, ...]
+
+    @property
+    def references(self) -> dict[str, Converged]:
+        """Integral -> its reference."""
+        return {curve.estimator.integral: curve.reference for curve in self.curves}
+
+    def group(self, name: str) -> list[Curve]:
+        """The curves of one comparison."""
+        return [curve for curve in self.curves if name in curve.estimator.groups]
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain data."""
+        return {
+            "module": self.module.name,
+            "scene": self.module.scene.name,
+            "size": list(self.size),
+            "references": {name: vars(r) for name, r in self.references.items()},
+            "estimators": [curve.to_dict() for curve in self.curves],
+        }
+
+
+def measure(
+    module: Module,
+    estimators: tuple[Estimator, ...],
+    effort: Effort,
+    *,
+    folder: Path = FOLDER,
+    tick: Tick | None = None,
+) -> Measured:
+    """Measure some estimators of a module.
+
+    Parameters
+    ----------
+    folder : of the references
+    tick : called when a reference or a picture is done
+
+    Raises
+    ------
+    CourseError
+        As `course.load_scene` and `reference` do.
+    KeyboardInterrupt
+        Ctrl-C.
+
+    Notes
+    -----
+    For each seed and number of samples all estimators are rendered before the next, so that whatever else the machine
+    does meets them alike. Times are of these same renders, with all threads, without loading the scene, and with the
+    compiled loops if they are installed.
+    """
+    effects = Effects()
+    scenes = _scenes(module, estimators, effects)
+    film = scenes[0].loaded.description.film
+    size = (max(round(effort.height * film.width / film.height), 1), effort.height)
+    work = _Work(module, estimators, effort, tick)
+    references = _references(module, estimators, effort, size, folder, effects, work)
+    records = [_Record(_samples(estimator, effort), effort.seeds) for estimator in estimators]
+    for scene in {id(scene): scene for scene in scenes}.values():
+        # Embree's tree is built, tables are made, loops are compiled.
+        render(scene, spp=1, size=size, compiled=available())
+    for seed in range(1, effort.seeds + 1):
+        for samples in effort.samples:
+            for estimator, scene, record in zip(estimators, scenes, records, strict=True):
+                if samples in record.samples:
+                    ideal = references[estimator.integral]
+                    record.add(scene, estimator.sampler, samples, size, seed, ideal)
+                    work.done(samples * estimator.points)
+    curves = [
+        record.curve(estimator, references[estimator.integral])
+        for estimator, record in zip(estimators, records, strict=True)
+    ]
+    return Measured(module, size, tuple(curves))
+
+
+def _samples(estimator: Estimator, effort: Effort) -> tuple[int, ...]:
+    return tuple(n for n in effort.samples if n * estimator.points <= 4 * effort.samples[-1])
+
+
+def _scenes(module: Module, estimators: tuple[Estimator, ...], effects: Effects) -> list[Scene]:
+    """The scene of each estimator; those with the same overrides share one."""
+    loaded: list[tuple[Overrides, Scene]] = []
+    scenes = []
+    for estimator in estimators:
+        scene = next((s for overrides, s in loaded if overrides == estimator.overrides), None)
+        if scene is None:
+            scene = load_variant(module.scene, estimator.overrides, effects)
+            loaded.append((estimator.overrides, scene))
+        scenes.append(scene)
+    return scenes
+
+
+def _references(
+    module: Module,
+    estimators: tuple[Estimator, ...],
+    effort: Effort,
+    size: tuple[int, int],
+    folder: Path,
+    effects: Effects,
+    work: _Work,
+) -> dict[str, Reference]:
+    """Integral -> its converged picture."""
+    found: dict[str, Reference] = {}
+    for estimator in estimators:
+        if estimator.integral not in found:
+            found[estimator.integral] = reference(
+                module.scene,
+                samples=effort.reference,
+                size=size,
+                folder=folder,
+                overrides=estimator.reference,
+                effects=effects,
+            )
+            work.done(effort.reference)
+    return found
+
+
+class _Work:
+    """How much of a module's work is done, counted in samples."""
+
+    def __init__(
+        self,
+        module: Module,
+        estimators: tuple[Estimator, ...],
+        effort: Effort,
+        tick: Tick | None,
+    ) -> None:
+        integrals = {estimator.integral for estimator in estimators}
+        measured = sum(sum(_samples(e, effort)) * e.points for e in estimators)
+        self._all = len(integrals) * effort.reference + measured * effort.seeds
+        self._done = 0
+        self._tick = tick
+
+    def done(self, samples: int) -> None:
+        self._done += samples
+        if self._tick is not None:
+            self._tick(self._done / self._all)
+
+
+class _Record:
+    """The measurements of one estimator as they come in."""
+
+    def __init__(self, samples: tuple[int, ...], seeds: int) -> None:
+        self.samples = samples
+        self._values = {
+            name: np.full((len(samples), seeds), np.nan)
+            for name in ("mse", "relative_mse", "dissimilarity", "seconds")
+        }
+        self._sum: dict[int, Floats64] = {}
+        self._squares: dict[int, Floats64] = {}
+        self._seeds = seeds
+
+    def add(
+        self,
+        scene: Scene,
+        sampler: str,
+        samples: int,
+        size: tuple[int, int],
+        seed: int,
+        ideal: Reference,
+    ) -> None:
+        # Always or never: left to itself, a render decides by what was rendered before.
+        picture = render(
+            scene, spp=samples, size=size, sampler=sampler, seed=seed, compiled=available()
+        )
+        if picture.interrupted:
+            raise KeyboardInterrupt
+        linear = picture.linear.astype(np.float64)
+        at = self.samples.index(samples), seed - 1
+        self._values["mse"][at] = rmse(linear, ideal.linear) ** 2
+        self._values["relative_mse"][at] = relative_mse(linear, ideal.linear)
+        self._values["dissimilarity"][at] = dissimilarity(linear, ideal.linear)
+        self._values["seconds"][at] = picture.receipt.wall_seconds
+        self._sum[samples] = self._sum.get(samples, 0) + linear
+        self._squares[samples] = self._squares.get(samples, 0) + linear**2
+
+    def curve(self, estimator: Estimator, ideal: Reference) -> Curve:
+        bias = [self._bias(samples, ideal) for samples in self.samples]
+        return Curve(
+            estimator,
+            Converged(ideal.key, ideal.error, ideal.samples),
+            np.array(self.samples, np.float64),
+            bias=np.array(bias),
+            **self._values,
+        )
+
+    def _bias(self, samples: int, ideal: Reference) -> float:
+        """RMSE of the expected picture: the mean picture's, less the variance of the mean and of the reference."""
+        if self._seeds < 2:
+            return float("nan")
+        mean = self._sum[samples] / self._seeds
+        variance = np.maximum(self._squares[samples] / self._seeds - mean**2, 0)
+        noise = float(np.mean(variance)) / (self._seeds - 1) + ideal.error**2
+        squared = float(np.mean((mean - ideal.linear) ** 2)) - noise
+        return math.sqrt(max(squared, 0.0))

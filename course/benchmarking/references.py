@@ -1,0 +1,165 @@
+"""Converged pictures, kept on disk by a hash of all that decides them; each knows its own error."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from zipfile import BadZipFile
+
+import numpy as np
+
+from course.benchmarking.sources import scene_hash
+from course.core.types import Floats32
+from course.effects import Effects
+from course.errors import CourseError, OutputError
+from course.imaging.atomic import replacing
+from course.rendering.rendering import Progress, render
+from course.scene.compiling import compile_scene
+from course.scene.loading import Loaded, load_description
+from course.scene.overriding import Overrides
+from course.scene.scene import Scene
+
+FOLDER = Path("out", "references")
+SAMPLES = 8192
+HALVES = (0x5EED0001, 0x5EED0002)
+"""Seeds of the two halves; nobody measures with these."""
+
+
+@dataclass(frozen=True)
+class Reference:
+    """A converged picture.
+
+    Attributes
+    ----------
+    linear : (H, W, 3) float32 linear radiance
+    error : its own RMSE, estimated from its two independent halves
+    samples : a pixel
+    key : hash of all that decides it
+    """
+
+    linear: Floats32
+    error: float
+    samples: int
+    key: str
+
+
+def load_variant(
+    path: str | Path,
+    overrides: Overrides | None = None,
+    effects: str | Path | Effects | None = None,
+) -> Scene:
+    """`course.load_scene`, with other values at some key paths (`course.scene.overriding`)."""
+    bound = effects if isinstance(effects, Effects) else Effects(effects)
+    loaded = load_description(Path(path), overrides)
+    return Scene(loaded, compile_scene(loaded, bound), bound)
+
+
+def reference(
+    scene_path: str | Path,
+    *,
+    samples: int = SAMPLES,
+    size: tuple[int, int] | None = None,
+    folder: str | Path = FOLDER,
+    overrides: Overrides | None = None,
+    effects: str | Path | Effects | None = None,
+    progress: Progress | None = None,
+) -> Reference:
+    """The converged picture of a scene, from the folder or else rendered now and kept there.
+
+    Parameters
+    ----------
+    scene_path : the YAML file
+    samples : a pixel, an even number; Sobol points whatever the scene says, half of them with one seed, half with
+        another
+    size : (width, height) [pixels]; as the scene says if None
+    folder : where references are kept, as KEY.npz; made if it isn't there
+    overrides : other values at some key paths of the scene
+    effects : as `course.load_scene` takes it
+    progress : as `course.render` takes it, called for each half
+
+    Returns
+    -------
+    Reference
+
+    Raises
+    ------
+    CourseError
+        An odd number of samples, a scene that can't be rendered, or a folder that can't be written.
+    KeyboardInterrupt
+        Ctrl-C; the half that was done is kept, and the next call goes on from there.
+
+    Notes
+    -----
+    The mean of two independent halves a and b has the error variance E (a - b)^2 / 4, so the root of the mean of
+    that over pixels and channels is its RMSE; what both halves have in common (a bias) it can't tell.
+    """
+    if samples < 2 or samples % 2:
+        raise CourseError(f"a reference of {samples} samples has no two equal halves")
+    bound = effects if isinstance(effects, Effects) else Effects(effects)
+    loaded = _evenly_sampled(load_description(Path(scene_path), overrides), overrides)
+    film = loaded.description.film
+    size = size or (film.width, film.height)
+    key = scene_hash(loaded, bound, samples=samples, size=size)
+    path = Path(folder) / f"{key[:32]}.npz"
+    found = _read(path, key)
+    if found is not None:
+        return found
+    _make(path.parent)
+    scene = Scene(loaded, compile_scene(loaded, bound), bound)
+    halves = []
+    parts = [path.with_name(f"{path.stem}.half{number}.npz") for number in range(2)]
+    for part, seed in zip(parts, HALVES, strict=True):
+        half = _read(part, key)
+        if half is None:
+            picture = render(
+                scene, spp=samples // 2, size=size, sampler="sobol", seed=seed, progress=progress
+            )
+            if picture.interrupted:
+                raise KeyboardInterrupt
+            half = Reference(picture.linear, float("nan"), samples // 2, key)
+            _write(part, half)
+        halves.append(half.linear.astype(np.float64))
+    linear = (0.5 * (halves[0] + halves[1])).astype(np.float32)
+    error = 0.5 * float(np.sqrt(np.mean((halves[0] - halves[1]) ** 2)))
+    whole = Reference(linear, error, samples, key)
+    _write(path, whole)
+    for part in parts:
+        part.unlink(missing_ok=True)
+    return whole
+
+
+def _evenly_sampled(loaded: Loaded, overrides: Overrides | None) -> Loaded:
+    """The scene without an error to aim at: all pixels of a reference have all its samples."""
+    film = loaded.document.data.get("film") or {}
+    if film.get("error") is None:
+        return loaded
+    return load_description(loaded.path, {**(overrides or {}), ("film", "error"): None})
+
+
+def _read(path: Path, key: str) -> Reference | None:
+    """What a file holds; None if there is none, or not the one that is looked for."""
+    try:
+        with path.open("rb") as file, np.load(file, allow_pickle=False) as data:
+            head = json.loads(str(data["head"]))
+            linear = np.ascontiguousarray(data["linear"], np.float32)
+    except FileNotFoundError:
+        return None
+    except (OSError, ValueError, KeyError, EOFError, BadZipFile):
+        return None  # Damaged: rendered anew and replaced.
+    if head.get("key") != key:
+        return None
+    return Reference(linear, float(head["error"]), int(head["samples"]), key)
+
+
+def _write(path: Path, item: Reference) -> None:
+    head = json.dumps({"key": item.key, "error": item.error, "samples": item.samples})
+    with replacing(path) as temporary, temporary.open("wb") as file:
+        np.savez(file, head=np.array(head), linear=item.linear)
+
+
+def _make(folder: Path) -> None:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise OutputError(f"{folder}: this folder can't be made: {error.strerror}") from error

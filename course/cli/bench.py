@@ -1,0 +1,184 @@
+"""`course bench`: error over samples and over run time, for each module's scene and each estimator."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from course.cli import options
+from course.cli.progress import progress_bar
+from course.effects import MODULES, PROJECT
+from course.errors import CourseError, OutputError
+from course.imaging.atomic import check_writable, write_text
+
+if TYPE_CHECKING:
+    from course.benchmarking.estimators import Estimator, Module
+    from course.benchmarking.measuring import Effort, Measured
+
+DOCUMENTS = PROJECT / "docs"
+
+
+@click.command()
+@click.argument("modules", metavar="[MODULE]...", nargs=-1, type=click.Choice(list(MODULES)))
+@click.option(
+    "--estimator",
+    "words",
+    multiple=True,
+    help="Only estimators whose name holds this text, such as sobol, or ball; may be repeated.",
+)
+@click.option("--quick", is_flag=True, help="Smaller pictures and fewer samples: about a minute.")
+@click.option(
+    "--height",
+    type=click.IntRange(11, 4096),
+    help="Height of the pictures in pixels.  [default: 80, quick 48]",
+)
+@click.option(
+    "--references",
+    default=Path("out", "references"),
+    show_default=True,
+    type=click.Path(path_type=Path),
+    help="Folder where converged pictures are kept.",
+)
+@click.option(
+    "--json",
+    "json_path",
+    metavar="FILE",
+    callback=options.json_path,
+    help="Write everything that was measured as JSON.",
+)
+@click.option(
+    "--plots",
+    metavar="DIR",
+    type=click.Path(path_type=Path),
+    help="Write plots as SVG; needs the extra `bench`.",
+)
+@click.option(
+    "--write-docs",
+    is_flag=True,
+    help="Write tables and plots into docs/accuracy.md and docs/performance.md.",
+)
+def bench(
+    modules: tuple[str, ...],
+    words: tuple[str, ...],
+    quick: bool,
+    height: int | None,
+    references: Path,
+    json_path: Path | None,
+    plots: Path | None,
+    write_docs: bool,
+) -> None:
+    """Measure how error falls with samples and with run time.
+
+    For each MODULE (all of them without one) its scene in scenes/ is rendered by several estimators with several
+    seeds, and compared with a converged picture, which is rendered first and kept. All of it takes about a quarter of
+    an hour.
+    """
+    from course.benchmarking.estimators import BENCHED
+    from course.benchmarking.machine import machine
+    from course.benchmarking.measuring import FULL, QUICK
+    from course.benchmarking.tables import print_tables, summary_table
+
+    effort = QUICK if quick else FULL
+    effort = replace(effort, height=height or effort.height)
+    if write_docs and (modules or words):
+        raise click.UsageError(
+            "--write-docs is for all modules and estimators: leave MODULE and --estimator out"
+        )
+    chosen = _chosen([BENCHED[name] for name in dict.fromkeys(modules or BENCHED)], words)
+    _prepare(json_path, plots, write_docs)
+    results = []
+    for module, estimators in chosen:
+        measured = _measure(module, estimators, effort, references)
+        results.append(measured)
+        print_tables([summary_table(measured)])
+        click.echo()
+    made_with = machine()
+    if json_path is not None:
+        write_text(json_path, to_json(results, effort, made_with))
+    if plots:
+        _plot(results, plots, made_with["processor"])
+    if write_docs:
+        from course.benchmarking.documents import write_documents
+
+        _plot(results, DOCUMENTS / "figures", made_with["processor"])
+        for path in write_documents(results, effort, made_with, DOCUMENTS):
+            click.echo(f"written: {path}", err=True)
+
+
+def to_json(results: Sequence[Measured], effort: Effort, machine: dict[str, str]) -> str:
+    """Everything that was measured."""
+    data = {
+        "machine": machine,
+        "effort": vars(effort),
+        "modules": [measured.to_dict() for measured in results],
+    }
+    return json.dumps(data, indent=1, allow_nan=False) + "\n"
+
+
+def _chosen(
+    modules: Sequence[Module], words: Sequence[str]
+) -> list[tuple[Module, tuple[Estimator, ...]]]:
+    """The modules, each with the estimators whose names hold one of the words; all where there is no word."""
+    for word in words:
+        if not any(_holds(e, word) for module in modules for e in module.estimators):
+            names = dict.fromkeys(e.name for module in modules for e in module.estimators)
+            raise CourseError(f"no estimator is named like {word!r}; there are {', '.join(names)}")
+    chosen = [
+        (
+            module,
+            tuple(e for e in module.estimators if not words or any(_holds(e, w) for w in words)),
+        )
+        for module in modules
+    ]
+    return [(module, estimators) for module, estimators in chosen if estimators]
+
+
+def _holds(estimator: Estimator, word: str) -> bool:
+    return word.lower() in estimator.name.lower()
+
+
+def _prepare(json_path: Path | None, plots: Path | None, write_docs: bool) -> None:
+    """Find out before the work whether its results can be written."""
+    if json_path is not None:
+        check_writable(json_path)
+    if plots:
+        _make(plots)
+    if write_docs:
+        from course.benchmarking.documents import check_documents
+
+        check_documents(DOCUMENTS)
+        _make(DOCUMENTS / "figures")
+    if plots or write_docs:
+        from course.benchmarking.plots import check_matplotlib
+
+        check_matplotlib()
+
+
+def _make(folder: Path) -> None:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise OutputError(f"{folder}: this folder can't be made: {error.strerror}") from error
+
+
+def _measure(
+    module: Module, estimators: tuple[Estimator, ...], effort: Effort, references: Path
+) -> Measured:
+    from course.benchmarking.measuring import measure
+
+    with progress_bar(module.name) as report:
+        tick = None if report is None else (lambda done: report(done, False))
+        return measure(module, estimators, effort, folder=references, tick=tick)
+
+
+def _plot(results: Sequence[Measured], folder: Path, note: str) -> None:
+    from course.benchmarking.plots import write_plots
+
+    for measured in results:
+        for path in write_plots(measured, folder, note):
+            click.echo(f"written: {path}", err=True)

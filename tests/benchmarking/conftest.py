@@ -1,0 +1,29 @@
+"""A scene file that renders in milliseconds: a penumbra, and what it takes to bench it."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+SCENE: dict[str, Any] = {
+    "title": "a penumbra",
+    "camera": {"eye": [0, 3, 3], "look_at": [0, 0, 0]},
+    "film": {"width": 24, "height": 16},
+    "sampler": {"type": "sobol", "samples": 4},
+    "materials": {"matt": {"color": 0.8}},
+    "lights": [{"type": "sphere", "center": [1, 3, 1], "radius": 0.5, "intensity": 30}],
+    "objects": [
+        {"shape": "quad", "width": 8, "depth": 8, "material": "matt"},
+        {"shape": "box", "material": "matt", "transform": [{"translate": [0, 1, 0]}]},
+    ],
+}
+
+
+@pytest.fixture
+def penumbra(tmp_path: Path) -> Path:
+    path = tmp_path / "penumbra.yaml"
+    path.write_text(json.dumps(SCENE), encoding="utf-8")
+    return path

@@ -1,0 +1,7 @@
+"""`pytest tests/stress --hypothesis-profile=stress` tries many more examples."""
+
+from __future__ import annotations
+
+from hypothesis import settings
+
+settings.register_profile("stress", max_examples=2000)

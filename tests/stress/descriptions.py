@@ -1,0 +1,213 @@
+"""Random scene descriptions, drawn from the description classes themselves: whatever the format allows.
+
+Numbers are drawn from the whole range of each key, its ends among them; most are of ordinary size, for a scene in which
+all are extreme shows nothing. What takes more than one key to be right is repaired, or most scenes would be refused.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import cache
+from typing import Any
+
+from hypothesis import strategies as st
+from msgspec import inspect
+
+from course.scene.description.scene import SceneDescription
+from course.scene.description.transforms import STEP
+
+Strategy = st.SearchStrategy[Any]
+
+MATERIALS = ("one", "other", "third")
+FILES = {
+    "file": ("sliver.obj", "flat.obj", "tetrahedron.obj"),
+    "cross": ("cross.exr",),
+    "image": ("sky.exr",),
+}
+FACES = [f"face{number}.exr" for number in range(6)]
+
+ORDINARY = st.floats(-4, 4).map(lambda x: round(x, 3)).filter(bool)
+EXTREME = st.sampled_from(
+    [
+        0.0,
+        1e-150,
+        1e-60,
+        1e-45,
+        1e-38,
+        1e-20,
+        1e-10,
+        1e-7,
+        1e-4,
+        1e4,
+        1e7,
+        1e10,
+        1e20,
+        1e38,
+        1e60,
+        1e150,
+    ]
+)
+"""Sizes at which something may happen: the ends of float32 and of its square, and those of the format."""
+
+MOST = {
+    "width": 5,
+    "height": 4,
+    "max_depth": 6,
+    "segments": 12,
+    "sides": 8,
+    "p": 3,
+    "q": 3,
+    "size": 8,
+    "frequency": 50.0,
+}
+"""Bounds on what only costs time."""
+
+
+@cache
+def descriptions() -> Strategy:
+    """Plain data of scene files, most of which can be rendered."""
+    return _of(inspect.type_info(SceneDescription), "").map(_repaired)
+
+
+def _of(kind: inspect.Type, key: str) -> Strategy:
+    match kind:
+        case inspect.Metadata():
+            return _of(kind.type, key)
+        case inspect.StructType():
+            return _struct(kind)
+        case inspect.UnionType():
+            return st.one_of([_of(each, key) for each in kind.types])
+        case inspect.DictType():
+            return st.fixed_dictionaries({name: _of(kind.value_type, "") for name in MATERIALS})
+        case inspect.TupleType():
+            return st.tuples(*(_of(each, key) for each in kind.item_types)).map(list)
+        case inspect.VarTupleType():
+            # No scene without objects or lights, which show nothing.
+            least = kind.min_length or int(key in ("objects", "lights"))
+            most = kind.max_length or 3
+            return st.lists(_of(kind.item_type, key), min_size=least, max_size=most)
+        case inspect.LiteralType():
+            return st.sampled_from(kind.values)
+        case inspect.FloatType():
+            return _number(kind, key)
+        case inspect.IntType():
+            return _whole_number(kind, key)
+        case inspect.StrType():
+            return _text(key)
+        case inspect.BoolType():
+            return st.booleans()
+        case inspect.NoneType():
+            return st.none()
+    raise TypeError(f"no strategy for {kind}")
+
+
+def _struct(kind: inspect.StructType) -> Strategy:
+    required = {f.encode_name: _of(f.type, f.encode_name) for f in kind.fields if f.required}
+    optional = {f.encode_name: _of(f.type, f.encode_name) for f in kind.fields if not f.required}
+    if kind.cls is SceneDescription:
+        # Always there, or there would be nothing to see.
+        for key in ("film", "sampler", "integrator", "materials", "objects", "lights"):
+            required[key] = optional.pop(key)
+    for key in {"width", "height", "samples", "segments"} & set(optional):
+        # Their defaults cost too much.
+        required[key] = optional.pop(key)
+    if kind.tag_field and kind.tag_field != STEP:
+        required[kind.tag_field] = st.just(kind.tag)
+    return st.fixed_dictionaries(required, optional=optional)
+
+
+def _number(kind: inspect.FloatType, key: str) -> Strategy:
+    low = -math.inf if kind.ge is None and kind.gt is None else float(kind.ge or kind.gt or 0)
+    high = math.inf if kind.le is None and kind.lt is None else float(kind.le or kind.lt or 0)
+    high = min(high, MOST.get(key, high))
+
+    def legal(x: float) -> bool:
+        return (
+            low <= x <= high
+            and (kind.gt is None or x > kind.gt)
+            and (kind.lt is None or x < kind.lt)
+        )
+
+    ordinary = ORDINARY.map(abs) if low >= 0 else ORDINARY
+    extreme = EXTREME if low >= 0 else st.tuples(EXTREME, st.sampled_from((1, -1))).map(math.prod)
+    ends = [
+        x for x in (low, high, math.nextafter(low, high), math.nextafter(high, low)) if legal(x)
+    ]
+    ends = [x for x in ends if x == 0 or 1e-150 <= abs(x) <= 1e150]
+    within = ordinary
+    if low > -math.inf and high < math.inf:
+        within = st.floats(low, high).filter(lambda x: x == 0 or abs(x) > 1e-150)
+    rare = st.one_of(extreme.filter(legal), *([st.sampled_from(ends)] if ends else []))
+    # One in twenty: with more of them most scenes would be refused.
+    chance = st.integers(0, 19)
+    return chance.flatmap(lambda k: rare if k == 19 else within.filter(legal))
+
+
+def _whole_number(kind: inspect.IntType, key: str) -> Strategy:
+    if key == "samples":
+        # A square, as some samplers want it.
+        return st.sampled_from([1, 4, 9])
+    low = int(kind.ge if kind.ge is not None else 0)
+    high = int(kind.le if kind.le is not None else 100)
+    return st.integers(low, min(high, max(low, int(MOST.get(key, high)))))
+
+
+def _text(key: str) -> Strategy:
+    match key:
+        case "material":
+            return st.sampled_from(MATERIALS)
+        case "samples":
+            return st.sampled_from(["point", "grid 1", "grid 3"])
+        case "faces":
+            return st.sampled_from(FACES)
+        case "file" | "cross" | "image":
+            return st.sampled_from(FILES[key])
+    return st.text(st.characters(exclude_categories=("C", "Z")), max_size=6)
+
+
+def _repaired(description: dict[str, Any]) -> dict[str, Any]:
+    """What takes more than one key to be right, mostly put right."""
+    for light in description["lights"]:
+        if light["type"] in ("sphere", "rectangle"):
+            given = [key for key in ("intensity", "radiance") if light.get(key) is not None]
+            for key in ("intensity", "radiance"):
+                light.pop(key, None) if key not in given[:1] else None
+            if not given:
+                light["intensity"] = 5.0
+    for thing in description["objects"]:
+        small, large = {
+            "torus": ("tube", "radius"),
+            "displaced_sphere": ("amplitude", "radius"),
+        }.get(thing["shape"], ("", ""))
+        if small and thing.get(small, 0.2) >= thing.get(large, 1.0):
+            thing[small] = thing.get(large, 1.0) / 4
+        if thing["shape"] == "torus_knot":
+            thing |= {"p": 2, "q": 3, "segments": 40, "tube": thing.get("radius", 1.0) / 10}
+    environment = description.get("environment", {"type": "constant"})
+    if environment["type"] == "cube":
+        if environment.get("cross") is None:
+            environment["faces"] = FACES
+        else:
+            environment.pop("faces", None)
+    camera = description["camera"]
+    # Most cameras look at the things, which are about the origin.
+    camera["look_at"] = [x / 8 if abs(x) <= 4 else x for x in camera["look_at"]]
+    if camera["eye"] == camera["look_at"]:
+        camera["look_at"] = [x + 1 for x in camera["eye"]]
+    if "up" in camera and camera["up"].count(0) > 1:
+        camera.pop("up")
+    if description["film"].get("error") is not None:
+        # It takes a sampler that can go on, and enough samples to see an error.
+        description["sampler"] = {"type": "sobol", "samples": 16}
+    lens = camera.get("lens")
+    if lens:
+        if (lens.get("focus_distance") is None) == (lens.get("focus_point") is None):
+            lens.pop("focus_point", None)
+            lens["focus_distance"] = 3.0
+        if lens.get("focus_distance") is not None:
+            lens["focus_distance"] = abs(lens["focus_distance"]) or 1.0
+    shutter = camera.get("shutter")
+    if shutter:
+        first, last = sorted((shutter.get("open", 0.0), shutter.get("close", 1.0)))
+        shutter |= {"open": first, "close": last}
+    return description
