@@ -16,6 +16,9 @@ PARTS = 4
 _NEARLY_NOTHING = np.float32(1e-30)
 """As in ``Film``: the weight of a mean whose own weights vanish."""
 
+_FARTHEST_APART = np.float32(1e28)
+"""Squared differences beyond it count as this, so that sums of many, times their samples, stay within float32."""
+
 
 class AdaptiveFilm:
     """A picture in the making, with an estimate of its error.
@@ -159,4 +162,5 @@ def _apart(a: Floats32, b: Floats32) -> Floats32:
     difference = a[:3] / a[3] - b[:3] / b[3]
     squared: Floats32 = np.einsum("cn,cn->n", difference, difference)
     squared *= np.float32(1 / 3)
-    return squared
+    # The squares of the brightest lights overflow float32.
+    return np.minimum(squared, _FARTHEST_APART, out=squared)

@@ -54,19 +54,18 @@ class Camera:
 
 
 def make_camera(
-    eye: Floats64, look_at: Floats64, up: Floats64, vertical_fov: float, width: int, height: int
+    eye: Floats64, view: Floats64, up: Floats64, vertical_fov: float, width: int, height: int
 ) -> Camera:
-    """A camera from where it is and what it looks at.
+    """A camera from where it is and which way it looks.
 
     Parameters
     ----------
-    eye, look_at, up : (3,) float64; up is any vector not parallel to the view
+    eye, view, up : (3,) float64; the view of any length, up any vector not parallel to it
     vertical_fov : radians
     width, height : pixels
     """
-    forward = (look_at - eye) / np.linalg.norm(look_at - eye)
-    right = np.cross(forward, up)
-    right /= np.linalg.norm(right)
+    forward = _unit(view)
+    right = _unit(np.cross(forward, _unit(up)))
     true_up = np.cross(right, forward)
     half_height = np.tan(vertical_fov / 2)
     pixel = 2 * half_height / height
@@ -80,3 +79,11 @@ def make_camera(
         step_x=(right * pixel).astype(np.float32),
         step_y=(-true_up * pixel).astype(np.float32),
     )
+
+
+def _unit(vector: Floats64) -> Floats64:
+    # Scaled by a power of two before the squares, which changes no digit: they neither overflow nor vanish.
+    _, exponent = np.frexp(np.abs(vector).max())
+    scaled: Floats64 = np.ldexp(vector, -exponent)
+    scaled /= np.linalg.norm(scaled)
+    return scaled

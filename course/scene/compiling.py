@@ -23,7 +23,7 @@ from course.scene.light_compiling import compile_lights
 from course.scene.loading import Loaded
 from course.scene.lobe_compiling import compile_lobes
 from course.scene.material_table import compile_materials
-from course.scene.motion_compiling import compile_motion
+from course.scene.motion_compiling import check_sweeps, compile_motion
 from course.scene.reach import in_reach
 from course.scene.shutter import shutter_of
 from course.scene.world import World
@@ -67,6 +67,7 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
         meshes.append(_moved(mesh, start))
         boxes += [bounds[-1] + start, bounds[-1] + start + shutter.sweep(thing.motion)]
     frame = frame_of(boxes)
+    check_sweeps(loaded, frame, shutter)
     # Materials that no object has are as good as not there.
     used = {
         name: scene.materials[name]
@@ -77,7 +78,7 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
         Part(frame.mesh(mesh), names.index(thing.material), shutter.velocity(thing.motion, frame))
         for mesh, thing in zip(meshes, scene.objects, strict=True)
     ]
-    emitters, emission = emitter_parts(scene.lights, frame, shutter, first_material=len(names))
+    emitters, emission = emitter_parts(loaded, frame, shutter, first_material=len(names))
     materials = compile_materials(used, emission, frame)
     lights, skipped = compile_lights(loaded, frame, shutter, effects, materials)
     motion = compile_motion(loaded, frame, shutter, effects, materials)
@@ -113,8 +114,9 @@ def compile_camera(loaded: Loaded, frame: Frame, width: int, height: int) -> Cam
     in_reach(eye, loaded, ("camera", "eye"), "the camera's distance")
     return make_camera(
         eye,
-        frame.position(np.array(camera.look_at) + start),
-        np.array(camera.up) / np.abs(camera.up).max(),
+        # In the file's units: in a huge scene the two positions may round to one.
+        np.array(camera.look_at) - np.array(camera.eye),
+        np.array(camera.up),
         np.radians(camera.vertical_fov),
         width,
         height,

@@ -100,6 +100,12 @@ def _check_emission(light: RectangleLight | SphereLight, path: KeyPath, document
             (*path, "radius"),
             "a number > 0 [world unit] for a light by radiance; a point has no area to emit from",
         )
+    if isinstance(light, SphereLight) and light.radiance is not None and light.samples != "sphere":
+        raise document.unexpected(
+            (*path, "samples"),
+            '"sphere" for a light by radiance, which shines from its surface; by intensity'
+            " it may be a ball or a facing disk",
+        )
 
 
 def _check_object(

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
 import numpy as np
 
 from course.core.types import Floats64
 from course.geometry import shapes
 from course.geometry.mesh import Mesh
 from course.geometry.surface import Part
-from course.scene.description import Light, RectangleLight, SphereLight
+from course.scene.brightness import in_range
+from course.scene.description import RectangleLight, SphereLight
 from course.scene.description.values import rgb
 from course.scene.frame import Frame
+from course.scene.loading import Loaded
 from course.scene.shutter import Shutter
 
 SEGMENTS = 128
@@ -20,22 +20,23 @@ SEGMENTS = 128
 
 
 def emitter_parts(
-    lights: Iterable[Light], frame: Frame, shutter: Shutter, first_material: int
+    loaded: Loaded, frame: Frame, shutter: Shutter, first_material: int
 ) -> tuple[list[Part], list[Floats64]]:
     """Meshes of the visible lights, and the radiance of the material that each of them gets.
 
-    Materials are numbered from ``first_material``.
+    Materials are numbered from ``first_material``. SceneError where float32 can't carry the radiance.
     """
     parts: list[Part] = []
     emission: list[Floats64] = []
-    for light in lights:
+    for number, light in enumerate(loaded.description.lights):
         if not isinstance(light, RectangleLight | SphereLight) or light.radiance is None:
             continue
         mesh = _rectangle(light) if isinstance(light, RectangleLight) else _sphere(light)
         mesh = Mesh(mesh.vertices + shutter.start(light.motion), mesh.triangles)
         velocity = shutter.velocity(light.motion, frame)
         parts.append(Part(frame.mesh(mesh), first_material + len(emission), velocity))
-        emission.append(rgb(light.radiance))
+        radiance = in_range(rgb(light.radiance), loaded, ("lights", number), "the light's radiance")
+        emission.append(radiance.astype(np.float64))
     return parts, emission
 
 

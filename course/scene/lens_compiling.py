@@ -8,6 +8,7 @@ from course.effects import Effects
 from course.imaging.lens import Lens
 from course.scene.frame import Frame
 from course.scene.loading import Loaded
+from course.scene.reach import in_reach
 
 
 def compile_lens(loaded: Loaded, frame: Frame, effects: Effects) -> Lens | None:
@@ -35,9 +36,12 @@ def compile_lens(loaded: Loaded, frame: Frame, effects: Effects) -> Lens | None:
         raise document.unexpected((*path, key), "a plane in front of the camera")
     if lens.aperture_radius == 0:
         return None
+    radius, focus = lens.aperture_radius / frame.scale, distance / frame.scale
+    in_reach(np.array(radius), loaded, (*path, "aperture_radius"), "the aperture's size")
+    in_reach(np.array(focus), loaded, (*path, key), "the focus's distance")
     return Lens(
-        aperture_radius=lens.aperture_radius / frame.scale,
-        focus_distance=distance / frame.scale,
+        aperture_radius=radius,
+        focus_distance=focus,
         shape=lens.shape,
         blades=lens.blades,
         point_on_disk=effects.function("thin_lens", "point_on_disk")

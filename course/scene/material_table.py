@@ -15,6 +15,9 @@ from course.scene.frame import Frame
 DEFAULT_COLOR = 0.8
 """Of the light that the mirror leaves, where the file names no colour."""
 
+LARGEST = 1e30
+"""An exponent or absorption beyond it is as good as infinite, and float32 carries it."""
+
 
 def base_color(material: MaterialDescription) -> Floats64:
     """(3,) float64 colour of the ambient and diffuse terms, as given or as the mirror leaves it."""
@@ -51,7 +54,8 @@ def compile_materials(
             diffuse[:, column] = color * material.diffuse
         else:
             index[column] = material.dielectric.refraction_index
-            absorption[:, column] = rgb(material.dielectric.absorption) * frame.scale
+            per_unit = np.minimum(rgb(material.dielectric.absorption), LARGEST / frame.scale)
+            absorption[:, column] = per_unit * frame.scale
     for column, radiance in enumerate(emission, start=len(materials)):
         emitted[:, column] = radiance
     f = np.float32
@@ -59,9 +63,9 @@ def compile_materials(
         ambient.astype(f),
         diffuse.astype(f),
         specular.astype(f),
-        exponent.astype(f),
+        np.minimum(exponent, LARGEST).astype(f),
         mirror.astype(f),
         index.astype(f),
-        np.minimum(absorption, 1e30).astype(f),
+        absorption.astype(f),
         emitted.astype(f),
     )

@@ -11,6 +11,7 @@ from course.scene import description as d
 from course.scene.frame import Frame
 from course.scene.light_power import why_dark
 from course.scene.loading import Loaded
+from course.scene.reach import in_reach
 from course.scene.shutter import Shutter
 from course.scene.world import Motion
 
@@ -36,6 +37,23 @@ def movers(
     if shutter.moves(scene.camera.motion):
         found.append(("camera", "motion"))
     return found
+
+
+def check_sweeps(loaded: Loaded, frame: Frame, shutter: Shutter) -> None:
+    """SceneError for a light or a camera that moves too far for float32; objects set the scene's size themselves."""
+    camera, lights = loaded.description.camera, loaded.description.lights
+    moved: list[tuple[tuple[str | int, ...], d.MotionDescription]] = [
+        (("lights", number), light.motion)
+        for number, light in enumerate(lights)
+        if not isinstance(light, d.AmbientLight | d.DirectionalLight)
+    ]
+    for path, motion in [(("camera",), camera.motion), *moved]:
+        in_reach(
+            frame.vector(shutter.sweep(motion)),
+            loaded,
+            (*path, "motion", "velocity"),
+            "the way it moves while the shutter is open",
+        )
 
 
 def compile_motion(

@@ -29,8 +29,6 @@ from course import Scene, render
 from course.effects import PROJECT
 from tests.conftest import MakeScene
 
-pytestmark = pytest.mark.skip(reason="being written")
-
 SIZE = (24, 24)
 BATCHES = 24
 LIMIT = 9.0

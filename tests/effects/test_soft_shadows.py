@@ -175,7 +175,13 @@ def test_an_unoccluded_rectangle_by_radiance_is_lamberts_polygon(
 
 @pytest.mark.parametrize(
     ("center", "radius"),
-    [([0.3, 1.2, -0.4], 0.5), ([1.5, 0.1, 0.2], 0.4), ([0.6, -0.05, 0.5], 0.3)],
+    [
+        ([0.3, 1.2, -0.4], 0.5),
+        ([1.5, 0.1, 0.2], 0.4),
+        ([0.6, -0.05, 0.5], 0.3),
+        # Not larger than a float32 step of its centre.
+        ([0.3, 1.2, -0.4], 1e-7),
+    ],
 )
 def test_an_unoccluded_sphere_by_radiance_is_its_cone_of_directions(
     make_scene: MakeScene, center: list[float], radius: float
@@ -188,10 +194,11 @@ def test_an_unoccluded_sphere_by_radiance_is_its_cone_of_directions(
     # The integral of max(cos, 0) over the cone; the axis has the height y, and pi sin^2 y is all of it above the floor.
     y = c[1] / length
     # Equal solid angles in rings and sectors.
-    cos = 1 - (1 - math.sqrt(1 - sine**2)) * (np.arange(1000) + 0.5) / 1000
+    height_of_cap = -math.expm1(0.5 * math.log1p(-(sine**2)))
+    cos = 1 - height_of_cap * (np.arange(1000) + 0.5) / 1000
     phi = 2 * np.pi * (np.arange(1000) + 0.5) / 1000
     height = cos[:, None] * y + np.sqrt(1 - cos[:, None] ** 2) * np.cos(phi) * math.sqrt(1 - y * y)
-    exact = 2 * np.maximum(height, 0).mean() * 2 * np.pi * (1 - math.sqrt(1 - sine**2))
+    exact = 2 * np.maximum(height, 0).mean() * 2 * np.pi * height_of_cap
     if y > sine:
         assert exact == pytest.approx(2 * np.pi * sine**2 * y, rel=1e-5)
     assert tolerance < 0.1 * exact, "the estimate is worth something"

@@ -14,7 +14,7 @@ UP = np.array([0.0, 1.0, 0.0])
 
 def camera(width: int = 64, height: int = 48, fov: float = math.radians(40)) -> Camera:
     return make_camera(
-        np.array([1.0, 2.0, 5.0]), np.array([0.0, 0.5, -1.0]), UP, fov, width, height
+        np.array([1.0, 2.0, 5.0]), np.array([-1.0, -1.5, -6.0]), UP, fov, width, height
     )
 
 
@@ -71,8 +71,9 @@ def test_directions_have_unit_length() -> None:
         assert np.abs(np.linalg.norm(directions.astype(float), axis=0) - 1).max() < 3e-7
 
 
-def test_the_length_of_up_does_not_matter() -> None:
-    eye, target = np.array([1.0, 2.0, 5.0]), np.zeros(3)
-    a, b = (make_camera(eye, target, UP * k, 0.7, 8, 6) for k in (1.0, 2.0**40))
+@pytest.mark.parametrize("k", [2.0**40, 2.0**1020, 2.0**-1020])
+def test_the_lengths_of_up_and_of_the_view_do_not_matter(k: float) -> None:
+    eye, view = np.array([1.0, 2.0, 5.0]), np.array([-1.0, -2.0, -5.0])
+    a, b = (make_camera(eye, view * k, UP * k, 0.7, 8, 6) for k in (1.0, k))
     assert np.array_equal(a.corner, b.corner)
     assert np.array_equal(a.step_x, b.step_x)

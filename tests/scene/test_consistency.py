@@ -117,6 +117,14 @@ def test_the_default_up_is_blamed_at_the_camera(refusal: Callable[[str], str]) -
             ),
         ),
         (
+            "radius: 0, intensity: 3",
+            "radius: 1, radiance: 3, samples: facing disk",
+            (
+                '22: lights[4].samples is "facing disk": expected "sphere" for a light by radiance, '
+                "which shines from its surface; by intensity it may be a ball or a facing disk"
+            ),
+        ),
+        (
             "direction: [0, -1, 0]",
             "direction: [0, 0, -0.0]",
             "20: lights[2].direction is [0, 0, -0.0]: expected a vector that is not zero",

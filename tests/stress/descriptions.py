@@ -174,6 +174,8 @@ def _repaired(description: dict[str, Any]) -> dict[str, Any]:
                 light.pop(key, None) if key not in given[:1] else None
             if not given:
                 light["intensity"] = 5.0
+            if light.get("radiance") is not None and light["type"] == "sphere":
+                light["samples"] = "sphere"
     for thing in description["objects"]:
         small, large = {
             "torus": ("tube", "radius"),

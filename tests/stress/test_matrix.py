@@ -39,10 +39,6 @@ from benchmarks.stress.triangles import cut
 from benchmarks.stress.verdict import FALSE_FAIL, Judge, Verdict, compare, most_of
 from course.geometry import surface
 
-pytestmark = pytest.mark.skip(
-    reason="one cell of the room is being mended: python -m benchmarks.stress --cell room-0313"
-)
-
 CELLS = all_cells()
 SHORT = short_form(CELLS)
 

@@ -27,8 +27,6 @@ from course.scene.description.objects import Object
 from tests.stress.descriptions import FACES, FILES, descriptions
 from tests.stress.examples import examples
 
-pytestmark = pytest.mark.skip(reason="absorption that overflows float32 is being mended")
-
 MESHES = {
     "sliver.obj": "v 0 0 0\nv 1 1e-9 0\nv 2 0 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n",
     "flat.obj": "v 0 0 0\nv 0 0 0\nv 1 0 0\nf 1 2 3\n",

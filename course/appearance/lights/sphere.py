@@ -44,15 +44,23 @@ class SphereLight:
     def sample(self, points: Floats32, u: Floats32 | None) -> Sample:
         """See ``course.appearance.lights``."""
         assert u is not None
+        if self.emitter:
+            return self._sample_emitter(points, u)
         if self.method == "point_on_facing_disk":
             on_light = self.place(self.center, self.radius, np.ascontiguousarray(points), u)
         else:
             on_light = self.place(self.center, self.radius, u)
         to_light = on_light - points
+        return Sample(to_light, *inverse_square(to_light))
+
+    def _sample_emitter(self, points: Floats32, u: Floats32) -> Sample:
+        # About the origin, and moved afterwards: a radius of a few float32 steps of the centre keeps its normals.
+        from_center = self.place(np.zeros(3, np.float32), self.radius, u)
+        to_light = from_center + self.center[:, None]
+        to_light -= points
         inverse_length, factor = inverse_square(to_light)
-        if self.emitter:
-            cosine = dot(on_light - self.center[:, None], to_light)
-            cosine *= inverse_length
-            cosine *= np.float32(-1 / self.radius)
-            factor *= np.maximum(cosine, 0, out=cosine)
+        cosine = dot(from_center, to_light)
+        cosine *= inverse_length
+        cosine *= np.float32(-1 / self.radius)
+        factor *= np.maximum(cosine, 0, out=cosine)
         return Sample(to_light, inverse_length, factor)
