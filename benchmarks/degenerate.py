@@ -47,7 +47,7 @@ def measure_degenerate() -> list[Figure]:
 def _figure(name: str, path: Path, keys: Overrides, without: Overrides) -> Figure:
     scenes = load_variant(path, keys), load_variant(path, without)
     for scene in scenes:
-        render(scene)
+        render(scene, compiled=False)
     ratios = []
     for number in range(REPETITIONS):
         # The other one first every other time, so that a drift of the clock favours neither.
@@ -58,4 +58,4 @@ def _figure(name: str, path: Path, keys: Overrides, without: Overrides) -> Figur
 
 
 def _seconds(scene: Scene) -> float:
-    return render(scene).receipt.wall_seconds
+    return render(scene, compiled=False).receipt.wall_seconds

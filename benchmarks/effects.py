@@ -17,8 +17,8 @@ def measure_effects() -> list[Figure]:
     plain = load_scene(SCENES / "direct_light.yaml")
     for name in ("lens", "motion"):
         with_effect = load_scene(SCENES / f"direct_light_{name}.yaml")
-        render(plain)
-        render(with_effect)
+        render(plain, compiled=False)
+        render(with_effect, compiled=False)
         added = []
         for _ in range(REPETITIONS):
             own, embree = _seconds(plain)
@@ -33,16 +33,16 @@ def measure_effects() -> list[Figure]:
 def _embree_bound(name: str) -> Figure:
     scene = load_scene(PROJECT / "scenes" / f"{name}.yaml")
     size = (400, 300)
-    render(scene, size=size, spp=16)
+    render(scene, size=size, spp=16, compiled=False)
     ratios = []
     for _ in range(REPETITIONS):
-        receipt = render(scene, size=size, spp=16).receipt
+        receipt = render(scene, size=size, spp=16, compiled=False).receipt
         ratios.append(receipt.wall_seconds * receipt.threads / receipt.embree_seconds)
     return summary(f"scenes/{name}: threads x wall clock / inside Embree", ratios, 1.9)
 
 
 def _seconds(scene: Scene) -> tuple[float, float]:
     """Seconds of all threads outside and inside Embree."""
-    receipt = render(scene).receipt
+    receipt = render(scene, compiled=False).receipt
     whole = receipt.wall_seconds * receipt.threads
     return whole - receipt.embree_seconds, receipt.embree_seconds

@@ -16,11 +16,11 @@ def measure_engine() -> list[Figure]:
     figures = []
     for name, goal in (("direct_light", 1.7), ("mirrors_and_glass", 2.2)):
         scene = load_scene(SCENES / f"{name}.yaml")
-        render(scene, threads=2)
+        render(scene, threads=2, compiled=False)
         ratios, speedups = [], []
         for _ in range(REPETITIONS):
-            one = render(scene, threads=1).receipt
-            two = render(scene, threads=2).receipt
+            one = render(scene, threads=1, compiled=False).receipt
+            two = render(scene, threads=2, compiled=False).receipt
             ratios.append(two.wall_seconds * 2 / two.embree_seconds)
             speedups.append(one.wall_seconds / two.wall_seconds)
         figures.append(summary(f"{name}: 2 x wall clock / inside Embree", ratios, goal))

@@ -5,8 +5,7 @@ radiance as a function of direction, so each is a function of directions (3, N) 
 make pictures of them:
 
 - ``sky.exr``, ``studio.exr``: latitude and longitude, linear, brighter than 1 where light comes from. Their lights
-  are large and soft on purpose. A scene with ``lights: true`` samples them by the cosine alone, and a small hot sun
-  would be hit rarely and then too hard: noise.
+  are large and soft, and so are the shadows in a scene with ``lights: true``.
 - ``valley.png``: the six faces of a cube as a cross, sRGB of 8 bits, so nothing in it is brighter than 1.
 """
 
