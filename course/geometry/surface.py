@@ -39,14 +39,17 @@ place (2^-24) of the triangle's coordinates; measured in tests/geometry/test_sur
 """
 
 SLIVER = 8.0
-"""Length over height from which on a triangle's offset grows in proportion.
+"""Length over height beyond which a triangle is long and thin.
 
-Embree's plane of a long thin triangle is tilted by the rounding of a cross product of nearly parallel edges: the
-error in height is about 2^-24 length / height times its length.
+Embree's plane of such a triangle is tilted by the rounding of a cross product of nearly parallel edges, which it takes
+from the ray's origin: the error in height is about 2^-24 length / height times its length.
 """
 
+TILT = 0.5
+"""Its offset is at least OFFSET times its length times this for each unit of length / height beyond SLIVER."""
+
 MOST = 1024.0
-"""The offset never grows by more than this."""
+"""The offset never exceeds OFFSET times this many lengths of the triangle."""
 
 INSET = 2.0
 """Rays leave from at least this many offsets inside the triangle's edges.
@@ -183,8 +186,9 @@ def _tables(part: Part, smooth: bool) -> _Tables:
     ng /= twice_area
     edges = np.sqrt(np.stack([dot(e, e) for e in (e2 - e1, e2, e1)]))
     longest = edges.max(axis=0, initial=0)
-    thinness = np.clip(longest * longest / twice_area / SLIVER, 1, MOST)
-    offset = OFFSET * np.abs(p).max(axis=(0, 1), initial=0) * thinness
+    thinness = longest * longest / twice_area
+    tilt = longest * np.clip(TILT * (thinness - SLIVER), 0, MOST)
+    offset = OFFSET * np.maximum(np.abs(p).max(axis=(0, 1), initial=0), tilt)
     # A barycentric is the distance from its edge over the height on that edge, which is twice the area over its length.
     inset = np.minimum(INSET * offset * edges / twice_area, 1 / 3)
     corner_normals, bulge = np.zeros((2, 0, 0), np.float32)

@@ -6,9 +6,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from course.geometry.joining import join
 from course.geometry.mesh import Mesh
 from course.geometry.shapes.checks import count, length
-from course.geometry.shapes.grid import circle
+from course.geometry.shapes.grid import circle, lattice_triangles, lattice_uv
 
 
 def quad(width: float = 1.0, depth: float = 1.0) -> Mesh:
@@ -33,13 +34,20 @@ def quad(width: float = 1.0, depth: float = 1.0) -> Mesh:
     )
 
 
+SLENDER = 16.0
+"""A box whose length is more than this many times its other extents is cut into pieces of that many at most.
+
+Rays leave long thin triangles from further above them, see ``course.geometry.surface``.
+"""
+
+
 def box(size: Sequence[float] = (1.0, 1.0, 1.0)) -> Mesh:
     """Return a box centred at the origin, six faces with 0..1 uv each and hard edges.
 
     Parameters
     ----------
     size : three floats
-        Extent along x, y and z [m], each > 0.
+        Extent along x, y and z [m], each > 0. Long sides of a slender box are strips of quads, at most 256.
 
     Raises
     ------
@@ -48,26 +56,25 @@ def box(size: Sequence[float] = (1.0, 1.0, 1.0)) -> Mesh:
     """
     if len(size) != 3:
         raise ValueError(f"size has {len(size)} numbers: expected 3")
-    half = 0.5 * np.array([length(f"size[{i}]", s) for i, s in enumerate(size)])
-    corner_uv = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
-    vertices, normals = np.empty((6, 4, 3)), np.zeros((6, 4, 3))
+    extent = np.array([length(f"size[{i}]", s) for i, s in enumerate(size)])
+    # All faces are cut at the same places, so no corner of one lies on an edge of another.
+    _, second, longest = np.argsort(extent, kind="stable")
+    cuts = np.ones(3, int)
+    cuts[longest] = np.clip(np.ceil(extent[longest] / (SLENDER * extent[second])), 1, 256)
+    faces = []
     for face in range(6):
         axis, sign = face // 2, 1.0 - 2.0 * (face % 2)
         # The u axis turns with the sign, so that u cross v points out of either face.
         u, v = (axis + 1) % 3, (axis + 2) % 3
-        signs = 2.0 * corner_uv - 1.0
-        vertices[face, :, axis] = sign * half[axis]
-        vertices[face, :, u] = sign * signs[:, 0] * half[u]
-        vertices[face, :, v] = signs[:, 1] * half[v]
-        normals[face, :, axis] = sign
-    first = 4 * np.arange(6, dtype=np.int32)[:, None, None]
-    triangles = first + np.array([[0, 1, 2], [0, 2, 3]], np.int32)
-    return Mesh(
-        vertices=vertices.reshape(-1, 3),
-        triangles=triangles.reshape(-1, 3),
-        normals=normals.reshape(-1, 3),
-        uv=np.tile(corner_uv, (6, 1)),
-    )
+        uv = lattice_uv(int(cuts[u]), int(cuts[v]))
+        vertices, normals = np.empty((len(uv), 3)), np.zeros((len(uv), 3))
+        vertices[:, axis] = sign * 0.5 * extent[axis]
+        vertices[:, u] = sign * (uv[:, 0] - 0.5) * extent[u]
+        vertices[:, v] = (uv[:, 1] - 0.5) * extent[v]
+        normals[:, axis] = sign
+        triangles = lattice_triangles(int(cuts[u]), int(cuts[v]))
+        faces.append(Mesh(vertices, triangles, normals, uv))
+    return join(faces)
 
 
 def disk(radius: float = 1.0, segments: int = 64) -> Mesh:
