@@ -78,12 +78,14 @@ def make_plan(world: World, settings: Settings) -> Plan:
     lens_dimension = dimensions.take(2) if world.lens else None
     time_dimension = dimensions.take(1) if world.motion else None
     first = dimensions.next
+    # Where lens and time need none, gloss gets the pair that is joined to the pixel's: mirror images are sharper, so
+    # worth more, than soft shadows.
+    gloss_dimension = dimensions.take(max((lobe.width for lobe in world.lobes), default=0))
     light_dimensions = tuple(
         dimensions.take(light.width) if light.width else None for light in world.lights
     )
     sky = world.environment.lights and not world.environment.black and bool(m.diffuses.any())
     sky_dimension = dimensions.take(2) if sky else None
-    gloss_dimension = dimensions.take(max((lobe.width for lobe in world.lobes), default=0))
     return Plan(
         shades=sky or (bool(m.shaded.any()) and bool(world.lights)),
         all_shade=bool(m.shaded.all()),

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from itertools import product
+
 import numpy as np
 import pytest
 from scipy.stats import qmc
 
-from course.core.sobol import owen_scrambled, reversed_bits, shuffled, sobol_words
+from course.core.sobol import joined, owen_scrambled, reversed_bits, shuffled, sobol_words
 from course.core.types import Words
 
 
@@ -109,3 +111,24 @@ def test_scrambling_halves_the_error_of_plain_points_on_a_peak_in_the_middle() -
     shift = rng.integers(0, 2**32, (2, 512, 1), np.uint32)
     seeds = rng.integers(0, 2**32, (2, 512, 1), np.uint32)
     assert means(owen_scrambled(words, seeds) ^ shift) < 0.55 * means(words ^ shift)
+
+
+@pytest.mark.parametrize("m", range(1, 15))
+def test_joined_indices_permute_every_block(m: int) -> None:
+    n = 2**m
+    for block in (0, 1, 2, 5):
+        order = np.sort(joined(indices(block * n, n)))
+        assert order[0] % n == 0
+        assert np.array_equal(order, indices(int(order[0]), n))
+
+
+@pytest.mark.parametrize(("m", "t"), [(1, 0), (2, 1), (4, 1), (6, 1), (8, 3), (9, 2), (10, 3)])
+def test_the_first_four_dimensions_are_a_net(m: int, t: int) -> None:
+    index = shuffled(indices(0, 2**m), 1)[0]
+    words = np.concatenate([sobol_words(index), sobol_words(joined(index))]).astype(np.uint64)
+    for digits in product(range(m - t + 1), repeat=4):
+        if sum(digits) == m - t:
+            box = np.zeros(2**m, np.uint64)
+            for row, count in zip(words, digits, strict=True):
+                box = (box << np.uint64(count)) + (row >> np.uint64(32 - count))
+            assert (np.bincount(box.astype(np.int64), minlength=2 ** (m - t)) == 2**t).all(), digits

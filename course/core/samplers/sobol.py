@@ -1,5 +1,7 @@
 """The engine's default: for each pair of dimensions of a path a shuffled and scrambled (0, 2)-sequence.
 
+The first two pairs, the pixel's and whatever a path decides next, are one net in four dimensions.
+
 The first n points are the same whether n or 2n are asked for, so that a picture can be continued.
 """
 
@@ -11,13 +13,16 @@ import numpy as np
 
 from course.core.hashing import combine, hash_words
 from course.core.samplers.block import Block
-from course.core.sobol import owen_scrambled, shuffled, sobol_words
+from course.core.sobol import joined, owen_scrambled, shuffled, sobol_words
 from course.core.types import Floats32, Words
 
 _TO_UNIT = np.float32(2.0**-24)
 
 ORDERS = 1024
 """Orders and scrambles of the points; two pairs of a pixel share one by chance of 1 in this many."""
+
+_JOINED_PAIRS = 2
+"""The first pairs of dimensions, which share their order."""
 
 
 class SobolSampler:
@@ -44,14 +49,19 @@ class SobolSampler:
         last = dimension + width - 1
         pairs = range(dimension // 2, last // 2 + 1)
         table = _points(block.first, block.samples)
-        salts = [combine(self._seed, pair, word) for pair in pairs for word in range(3)]
+        salts = [
+            combine(self._seed, 0 if word == 0 and pair < _JOINED_PAIRS else pair, word)
+            for pair in pairs
+            for word in range(3)
+        ]
         hashes = hash_words(block.pixels, *salts).reshape(len(pairs), 3, len(block.pixels))
         mixed = np.empty((2 * len(pairs), len(block.pixels), block.samples), np.uint32)
         for number, (order, *scramble) in enumerate(hashes):
             order %= table.shape[1]
+            first_row = 2 * pairs[number] if pairs[number] < _JOINED_PAIRS else 0
             for row in range(2):
                 words = mixed[2 * number + row]
-                table[row].take(order, axis=0, out=words, mode="clip")
+                table[first_row + row].take(order, axis=0, out=words, mode="clip")
                 words ^= scramble[row][:, None]
         first = dimension % 2
         chosen = mixed[first : first + width]
@@ -62,10 +72,14 @@ class SobolSampler:
 
 @lru_cache(maxsize=64)
 def _points(first: int, samples: int) -> Words:
-    """(2, orders, samples) uint32: a stretch of the sequence in every order, each scrambled in its way."""
+    """(4, orders, samples) uint32: a stretch of the sequence in every order, each scrambled in its way.
+
+    Rows 0 and 1 are any pair's, rows 2 and 3 those of the pair that is joined to the first.
+    """
     index = np.arange(first, first + samples, dtype=np.uint32)
     # The renderer asks for 16 samples at a time; whoever asks for very long stretches gets fewer orders of them.
     orders = min(ORDERS, max(2**20 // samples, 1))
-    words = sobol_words(shuffled(index, orders))
-    seeds = hash_words(np.arange(orders, dtype=np.uint32), combine(1), combine(2))
+    order = shuffled(index, orders)
+    words = np.concatenate([sobol_words(order), sobol_words(joined(order))])
+    seeds = hash_words(np.arange(orders, dtype=np.uint32), *(combine(row) for row in range(1, 5)))
     return owen_scrambled(words, seeds[:, :, None])
