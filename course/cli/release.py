@@ -14,7 +14,7 @@ from course.errors import OutputError
 from course.imaging.atomic import write_text
 
 if TYPE_CHECKING:
-    from course.grading.stubs import Stub
+    from course.grading.release.stubs import Stub
 
 SOLUTIONS = PROJECT / "solutions"
 ASSIGNMENTS = PROJECT / "assignments"
@@ -36,10 +36,10 @@ def release(check: bool, force: bool, out: Path | None) -> None:
 
     A stub is its solution without what stands between ### BEGIN SOLUTION and ### END SOLUTION.
     """
-    from course.grading.stubs import make_stubs
+    from course.grading.release.stubs import make_stubs
 
     if out is not None:
-        from course.grading.archive import write_archive
+        from course.grading.release.archive import write_archive
 
         files = write_archive(PROJECT, out)
         click.echo(f"{out}: {count(files, 'file')}, searched for solutions and free of them")

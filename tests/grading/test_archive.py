@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from course.errors import OutputError
-from course.grading.archive import LeakError, archive_contents, write_archive
+from course.grading.release.archive import LeakError, archive_contents, write_archive
 
 ROOT = Path(__file__).parents[2]
 

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from course.effects import MODULES, PROJECT
-from course.grading.regions import SolutionError
-from course.grading.stubs import Stub, make_stub, make_stubs
+from course.grading.release.regions import SolutionError
+from course.grading.release.stubs import Stub, make_stub, make_stubs
 
 SOLUTION = '''\
 """lens - a lens."""

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeGuard
 
-from course.grading.regions import Region, SolutionError, find_regions
+from course.grading.release.regions import Region, SolutionError, find_regions
 
 _KEPT = {"np", "annotations"}
 """Imported names that a stub keeps even where it doesn't use them."""

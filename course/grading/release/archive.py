@@ -11,8 +11,8 @@ import zipfile
 from pathlib import Path
 
 from course.errors import CourseError, OutputError
-from course.grading.regions import find_regions
-from course.grading.stubs import make_stubs
+from course.grading.release.regions import find_regions
+from course.grading.release.stubs import make_stubs
 from course.imaging.atomic import replacing
 
 FOLDERS = {

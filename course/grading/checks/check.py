@@ -1,0 +1,152 @@
+"""One check of one student function, and what it hands back.
+
+A check is a plain function that takes a ``Trial`` and returns; it raises ``Failure`` where the student's function is
+wrong. Whatever else it raises is the grader's own fault and never counts against a student.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any, Literal, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[Any]
+Kind = Literal["contract", "property", "distribution", "picture", "bias", "order", "speed", "whole"]
+
+
+@dataclass(frozen=True)
+class Figure:
+    """Something that a report can draw.
+
+    Attributes
+    ----------
+    kind : "points" draws (2, N) numbers in the unit square or disk, "histogram" values beside their density,
+        "pictures" two pictures and their difference
+    title : str
+    arrays : what is drawn, by name: ``yours`` and, if there is one, ``expected``; pictures are (3, H, W) linear RGB
+    """
+
+    kind: Literal["points", "histogram", "pictures"]
+    title: str
+    arrays: Mapping[str, Array]
+
+
+class Failure(Exception):  # noqa: N818 - it is no error of the program
+    """A student's function is wrong.
+
+    Parameters
+    ----------
+    expected, found : what should have come, and what came; short, with numbers
+    where : the worst ray or pixel, with the arguments that show it
+    hint : what to look at; never the code
+    """
+
+    def __init__(self, expected: str, found: str, where: str = "", hint: str = "") -> None:
+        super().__init__(f"expected {expected}, found {found}" + (f" ({where})" if where else ""))
+        self.expected, self.found, self.where, self.hint = expected, found, where, hint
+
+
+class Caller(Protocol):
+    """Whoever calls the functions of one module: a worker, or this process for trusted ones."""
+
+    def call(self, function: str, *arguments: Any, **named: Any) -> Any:
+        """The function's value: an ndarray, a number, or a tuple of these; ``StudentError`` if there is none."""
+        ...
+
+    def call_and_look(self, function: str, *arguments: Any) -> tuple[Any, list[Any], bool]:
+        """The value, the arguments as they are after the call, and whether NumPy's global random state moved."""
+        ...
+
+
+@dataclass
+class Trial:
+    """One run of one check.
+
+    Attributes
+    ----------
+    function : the function's name
+    caller : of the student's module
+    rng : numbers for this check; the same for the same seed, task and check
+    references : arrays that ``Check.prepare`` made with the reference solution
+    figures : what the check has shown so far
+    """
+
+    function: str
+    caller: Caller
+    rng: np.random.Generator
+    references: Mapping[str, Array] = field(default_factory=dict)
+    figures: list[Figure] = field(default_factory=list)
+
+    def call(self, *arguments: Any, **named: Any) -> Any:
+        """Call the function that the check is about."""
+        return self.caller.call(self.function, *arguments, **named)
+
+    def call_other(self, function: str, *arguments: Any, **named: Any) -> Any:
+        """Call another function of the same module."""
+        return self.caller.call(function, *arguments, **named)
+
+    def show(
+        self, kind: Literal["points", "histogram", "pictures"], title: str, **arrays: Array
+    ) -> None:
+        """Keep something for the report to draw; it is drawn if the check fails."""
+        self.figures.append(Figure(kind, title, arrays))
+
+
+Prepare = Callable[["Caller", np.random.Generator], dict[str, Array]]
+"""(the reference solution's module, rng) -> arrays; rng is the very one that ``run`` will get in ``Trial.rng``."""
+
+
+@dataclass(frozen=True)
+class Check:
+    """One check.
+
+    Attributes
+    ----------
+    function : what it checks
+    name : short, unique among the function's checks: "uniform"
+    title : what is right if it passes: "Points are uniform over the disk's area"
+    run : raises ``Failure``
+    kind : which sort of check it is
+    points : its weight
+    false_fail : probability that a right function fails by chance; 0 for checks without chance
+    prepare : makes the arrays that a student's copy can't; None if the check needs none
+    """
+
+    function: str
+    name: str
+    title: str
+    run: Callable[[Trial], None]
+    kind: Kind = "property"
+    points: float = 1.0
+    false_fail: float = 0.0
+    prepare: Prepare | None = None
+
+
+@dataclass(frozen=True)
+class Mistake:
+    """A mistake that students make, and how to tell it from the others.
+
+    Attributes
+    ----------
+    function : where it is made
+    name : short and unique within the module: "crowded-centre"
+    says : what the student is told; names the mistake without the code that mends it
+    matches : True when the student's function does just that; called only after a check of the function has failed
+    """
+
+    function: str
+    name: str
+    says: str
+    matches: Callable[[Trial], bool]
+
+
+@dataclass(frozen=True)
+class ModuleChecks:
+    """Everything that is checked in one module."""
+
+    module: str
+    checks: tuple[Check, ...]
+    mistakes: tuple[Mistake, ...]

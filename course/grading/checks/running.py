@@ -1,0 +1,199 @@
+"""Run the checks of a module on somebody's functions.
+
+One result for each check, whatever happens: a mistake costs the checks that it concerns, and an exception in a check
+itself is the grader's error, with its points given. A function that has run out of time once is not called again.
+"""
+
+from __future__ import annotations
+
+import traceback
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from time import perf_counter
+from zlib import crc32
+
+import numpy as np
+
+from course.grading.checks.check import (
+    Array,
+    Caller,
+    Check,
+    Failure,
+    Figure,
+    Mistake,
+    ModuleChecks,
+    Trial,
+)
+from course.grading.errors import StudentError
+
+
+class Status(StrEnum):
+    """How a check ended."""
+
+    PASSED = "passed"
+    FAILED = "failed"
+    NOT_ATTEMPTED = "not attempted"
+    TIMEOUT = "timeout"
+    CRASHED = "crashed"
+    GRADER_ERROR = "grader error"
+
+
+@dataclass(frozen=True)
+class Result:
+    """How one check ended.
+
+    Attributes
+    ----------
+    module, function, check, title : which one
+    status : how
+    points, of : what it earned, and what it could; a grader's error earns all
+    expected, found, where, hint : what a failure says
+    mistake, says : the known mistake that the function makes, if it is one
+    seconds : it took
+    figures : what there is to draw
+    """
+
+    module: str
+    function: str
+    check: str
+    title: str
+    kind: str
+    status: Status
+    points: float
+    of: float
+    expected: str = ""
+    found: str = ""
+    where: str = ""
+    hint: str = ""
+    mistake: str = ""
+    says: str = ""
+    seconds: float = 0.0
+    figures: tuple[Figure, ...] = ()
+
+    @property
+    def id(self) -> str:
+        """Such as "thin_lens.point_on_disk/uniform"."""
+        return f"{self.module}.{self.function}/{self.check}"
+
+
+References = Callable[[str, Check], Mapping[str, Array]]
+"""(module, check) -> the arrays that the check's ``prepare`` made."""
+
+
+def generator(seed: int, module: str, check: Check) -> np.random.Generator:
+    """The numbers of one check: its own, whatever other checks there are."""
+    name = f"{module}.{check.function}/{check.name}"
+    return np.random.default_rng((seed, crc32(name.encode())))
+
+
+def prepared(reference: Caller, seed: int) -> References:
+    """References made on the spot with the reference solution's module."""
+
+    def make(module: str, check: Check) -> Mapping[str, Array]:
+        return (
+            {}
+            if check.prepare is None
+            else check.prepare(reference, generator(seed, module, check))
+        )
+
+    return make
+
+
+def run_checks(
+    checks: ModuleChecks,
+    caller: Caller,
+    references: References,
+    seed: int,
+    only: Callable[[Check], bool] = lambda check: True,
+) -> Iterator[Result]:
+    """Results in the order of the checks, each as soon as it is there."""
+    timed_out: set[str] = set()
+    matched: dict[str, Mistake | None] = {}
+    for check in checks.checks:
+        if not only(check):
+            continue
+        if check.function in timed_out:
+            yield _result(
+                checks.module,
+                check,
+                Status.TIMEOUT,
+                found="an earlier check of this function ran out of time",
+            )
+            continue
+        started = perf_counter()
+        trial = Trial(check.function, caller, generator(seed, checks.module, check))
+        try:
+            # The check's numbers begin where prepare's do.
+            trial.references = references(checks.module, check)
+            check.run(trial)
+            result = _result(checks.module, check, Status.PASSED)
+        except Failure as failure:
+            result = _result(
+                checks.module,
+                check,
+                Status.FAILED,
+                expected=failure.expected,
+                found=failure.found,
+                where=failure.where,
+                hint=failure.hint,
+            )
+        except StudentError as error:
+            result = _troubled(checks.module, check, error)
+            if result.status is Status.TIMEOUT:
+                timed_out.add(check.function)
+        except Exception as error:  # noqa: BLE001 - the grader's own fault must not end the grading of others
+            result = _result(
+                checks.module,
+                check,
+                Status.GRADER_ERROR,
+                found=f"{type(error).__name__}: {error}",
+                where=traceback.format_exc(limit=-3),
+                hint="This is no fault of yours; please pass it on.",
+            )
+        if result.status is Status.FAILED:
+            if check.function not in matched:
+                matched[check.function] = _matching(checks, check.function, caller, seed)
+            mistake = matched[check.function]
+            if mistake is not None:
+                result = replace(result, mistake=mistake.name, says=mistake.says)
+        yield replace(result, seconds=perf_counter() - started, figures=tuple(trial.figures))
+
+
+def _matching(checks: ModuleChecks, function: str, caller: Caller, seed: int) -> Mistake | None:
+    for mistake in checks.mistakes:
+        if mistake.function == function:
+            trial = Trial(
+                function, caller, np.random.default_rng((seed, crc32(mistake.name.encode())))
+            )
+            try:
+                if mistake.matches(trial):
+                    return mistake
+            except (Failure, StudentError, ArithmeticError, ValueError, IndexError, TypeError):
+                continue  # What comes back is too wrong to be this mistake.
+    return None
+
+
+def _troubled(module: str, check: Check, error: StudentError) -> Result:
+    status = {
+        "not written": Status.NOT_ATTEMPTED,
+        "timeout": Status.TIMEOUT,
+        "crashed": Status.CRASHED,
+    }.get(error.kind, Status.FAILED)
+    found = f"{error.type}: {error}" if error.kind == "raised" else str(error)
+    return _result(module, check, status, expected="a value", found=found, where=error.traceback)
+
+
+def _result(module: str, check: Check, status: Status, **words: str) -> Result:
+    earned = check.points if status in (Status.PASSED, Status.GRADER_ERROR) else 0.0
+    return Result(
+        module,
+        check.function,
+        check.name,
+        check.title,
+        check.kind,
+        status,
+        earned,
+        check.points,
+        **words,
+    )
