@@ -49,11 +49,11 @@ def known(module: str, folder: Path = PROJECT / "solutions") -> list[Known]:
         A file of the collection lacks its docstring or a constant.
     """
     solution = (folder / f"{module}.py").read_text(encoding="utf-8")
-    found = []
-    for kind in ("right", "wrong"):
-        for path in sorted((folder / kind / module).glob("*.py")):
-            found.append(_read(path, module, solution, right=kind == "right"))
-    return found
+    return [
+        _read(path, module, solution, right=kind == "right")
+        for kind in ("right", "wrong")
+        for path in sorted((folder / kind / module).glob("*.py"))
+    ]
 
 
 def _read(path: Path, module: str, solution: str, *, right: bool) -> Known:

@@ -1,0 +1,285 @@
+"""The grader's end of a worker: calls in, values out, and every way in which that can go wrong told apart."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import select
+import signal
+import subprocess
+import threading
+from collections.abc import Callable
+from dataclasses import dataclass
+from time import monotonic
+from types import TracebackType
+from typing import Any
+
+import numpy as np
+
+from course.grading.errors import StudentError
+from course.grading.worker.framing import BrokenMessage, pack, unpack
+from course.grading.worker.sandbox import Sandbox, program, sandbox
+
+LARGEST_SOURCE = 1_000_000
+"""Bytes; a file that is larger was not written by a student."""
+
+SHOWN = 4000
+"""Characters of what a student prints that are kept."""
+
+
+@dataclass(frozen=True)
+class Limits:
+    """What one worker may use.
+
+    Attributes
+    ----------
+    call_seconds : wall clock of one call, and of importing the file
+    cpu_seconds : processor time of one worker process
+    memory : bytes of address space
+    restarts : processes after the first, for one submission
+    """
+
+    call_seconds: float = 10.0
+    cpu_seconds: int = 60
+    memory: int = 2 << 30
+    restarts: int = 12
+
+
+class Worker:
+    """A ``Caller`` whose functions run in a process of their own.
+
+    The process is started at the first call, and again at the first call after it has died. Use it as a context, or
+    call ``close``.
+
+    Parameters
+    ----------
+    module : its name, "thin_lens"
+    source : the student's file
+    limits : what it may use
+    shut_in : how it is started; the best that the machine has if not given
+    """
+
+    def __init__(
+        self, module: str, source: bytes, limits: Limits = Limits(), shut_in: Sandbox | None = None
+    ) -> None:
+        self.module = module
+        self.limits = limits
+        self.sandbox = shut_in or sandbox()
+        self._source = source
+        self._process: subprocess.Popen[bytes] | None = None
+        self._replies = -1
+        self._starts = 0
+        self._broken: StudentError | None = None
+        self._printed = bytearray()
+        self._drain: threading.Thread | None = None
+        self._lock = threading.Lock()
+        if len(source) > LARGEST_SOURCE:
+            self._broken = StudentError(
+                "not loaded",
+                f"the file has {len(source):,} bytes; more than {LARGEST_SOURCE:,} are not read",
+            )
+
+    def __enter__(self) -> Worker:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    @property
+    def printed(self) -> str:
+        """What the student's code has printed so far, cut."""
+        return bytes(self._printed).decode("utf-8", "replace")
+
+    def call(self, function: str, *arguments: Any, **named: Any) -> Any:
+        """The function's value.
+
+        Raises
+        ------
+        StudentError
+            There is none; its ``kind`` says why.
+        """
+        values, _ = self._ask(function, arguments, named, look=False)
+        return values[0]
+
+    def call_and_look(self, function: str, *arguments: Any) -> tuple[Any, list[Any], bool]:
+        """The value, the arguments as they are after the call, and whether NumPy's global random state moved."""
+        values, head = self._ask(function, arguments, {}, look=True)
+        return values[0], values[1:], bool(head.get("moved"))
+
+    def close(self) -> None:
+        """End the process and everything that it may have started."""
+        process, self._process = self._process, None
+        if process is None:
+            return
+        with contextlib.suppress(ProcessLookupError, PermissionError):
+            if hasattr(os, "killpg"):
+                os.killpg(process.pid, signal.SIGKILL)
+            else:
+                process.kill()
+        process.wait()
+        if process.stdin is not None:
+            with contextlib.suppress(OSError):
+                process.stdin.close()
+        os.close(self._replies)
+        if self._drain is not None:
+            # A daemon that escaped would keep the pipe open; nobody waits for it.
+            self._drain.join(0.5)
+
+    def _ask(
+        self, function: str, arguments: tuple[Any, ...], named: dict[str, Any], *, look: bool
+    ) -> tuple[list[Any], dict[str, Any]]:
+        with self._lock:
+            deadline = self._ready()
+            head = {"function": function, "names": [*named], "look": look}
+            head, values = self._exchange(pack(head, [*arguments, *named.values()]), deadline)
+            self._raise(head)
+            expected = 1 + (len(arguments) if look else 0)
+            if len(values) != expected:
+                raise self._lost("its replies are not replies to calls")
+            return values, head
+
+    def _ready(self) -> float:
+        """Start the process if there is none; when the call must have ended."""
+        if self._broken is not None:
+            raise self._broken
+        if self._process is not None and self._process.poll() is None:
+            return monotonic() + self.limits.call_seconds
+        self.close()
+        if self._starts > self.limits.restarts:
+            self._broken = StudentError(
+                "crashed", f"the worker has died {self._starts} times; it isn't started again"
+            )
+            raise self._broken
+        self._start()
+        # Python's own start is not the student's time.
+        self._exchange(
+            pack({"module": self.module}, [np.frombuffer(self._source, np.uint8)]), monotonic() + 60
+        )
+        head, _ = self._read(monotonic() + self.limits.call_seconds)
+        try:
+            self._raise(head)
+        except StudentError as error:
+            message = f"{self.module}.py can't be imported: {error.type + ': ' if error.type else ''}{error}"
+            self.close()
+            self._broken = StudentError("not loaded", message, error.type, error.traceback)
+            raise self._broken from None
+        return monotonic() + self.limits.call_seconds
+
+    def _start(self) -> None:
+        self._starts += 1
+        self._replies, theirs = os.pipe()
+        settings = {
+            "path": self.sandbox.path,
+            "readable": self.sandbox.readable,
+            "reply": theirs,
+            "limits": {
+                "CPU": self.limits.cpu_seconds,
+                "AS": self.limits.memory,
+                "CORE": 0,
+                "FSIZE": 0,
+                "NOFILE": 64,
+            },
+        }
+        try:
+            self._process = subprocess.Popen(
+                [*self.sandbox.command, program(self.sandbox), json.dumps(settings)],
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.STDOUT,
+                pass_fds=(theirs,),
+                start_new_session=True,
+                cwd="/" if os.name == "posix" else None,
+                env={"OPENBLAS_NUM_THREADS": "1", "PYTHONHASHSEED": "0"},
+            )
+        finally:
+            os.close(theirs)
+        assert self._process.stdin is not None
+        os.set_blocking(self._process.stdin.fileno(), False)
+        self._drain = threading.Thread(
+            target=self._keep_printed, args=(self._process.stdout,), daemon=True
+        )
+        self._drain.start()
+
+    def _keep_printed(self, pipe: Any) -> None:
+        with pipe:
+            while data := pipe.read1(65536):
+                room = SHOWN - len(self._printed)
+                if room > 0:
+                    self._printed += data[:room]
+                    if len(data) > room:
+                        self._printed += b"\n... (more was printed)"
+
+    def _exchange(self, message: bytes, deadline: float) -> tuple[dict[str, Any], list[Any]]:
+        assert self._process is not None
+        assert self._process.stdin is not None
+        data = memoryview(message)
+        pipe = self._process.stdin.fileno()
+        while data:
+            _, ready, _ = select.select([], [pipe], [], max(deadline - monotonic(), 0))
+            if not ready:
+                raise self._timeout()
+            try:
+                data = data[os.write(pipe, data) :]
+            except BlockingIOError:
+                continue
+            except OSError:
+                raise self._lost("the process is gone") from None
+        return self._read(deadline)
+
+    def _read(self, deadline: float) -> tuple[dict[str, Any], list[Any]]:
+        try:
+            return unpack(self._reader(deadline))
+        except BrokenMessage as error:
+            raise self._lost(f"what it wrote is no reply ({error})") from None
+
+    def _reader(self, deadline: float) -> Callable[[int], bytes]:
+        def read(count: int) -> bytes:
+            parts = bytearray()
+            while len(parts) < count:
+                ready, _, _ = select.select([self._replies], [], [], max(deadline - monotonic(), 0))
+                if not ready:
+                    raise self._timeout()
+                data = os.read(self._replies, min(count - len(parts), 1 << 20))
+                if not data:
+                    raise self._lost("the process has ended")
+                parts += data
+            return bytes(parts)
+
+        return read
+
+    def _raise(self, head: dict[str, Any]) -> None:
+        kind = head.get("error")
+        if kind is None:
+            return
+        if kind not in ("not written", "raised", "bad value"):
+            raise self._lost("its replies are not replies to calls")
+        raise StudentError(
+            kind,
+            str(head.get("message", ""))[:500],
+            str(head.get("type", ""))[:80],
+            str(head.get("traceback", ""))[:3000],
+        )
+
+    def _timeout(self) -> StudentError:
+        self.close()
+        return StudentError("timeout", f"no answer within {self.limits.call_seconds:g} s")
+
+    def _lost(self, why: str) -> StudentError:
+        process = self._process
+        code = None
+        if process is not None:
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                code = process.wait(0.5)
+        self.close()
+        meaning = {
+            -signal.SIGXCPU: f"; it used more than {self.limits.cpu_seconds} s of processor time",
+            -signal.SIGSEGV: "; a segmentation fault",
+            -signal.SIGKILL: "; it was killed",
+        }.get(code or 0, "")
+        return StudentError("crashed", f"{why}{meaning}")

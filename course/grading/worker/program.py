@@ -1,0 +1,199 @@
+"""What runs in the worker process: it imports the student's file and answers calls, nothing else.
+
+Started by ``client.py`` as ``python -I -S program.py SETTINGS``; needs only NumPy and ``framing.py`` beside it, so that
+a sandbox need show it nothing of the course. Nothing that this process says is believed: it hands back arrays, and
+whether these are right is decided elsewhere. The audit hook keeps students' code from what a function on arrays has
+no business with; it is the second wall where there is a sandbox, and the only one of its kind where there is none.
+"""
+
+from __future__ import annotations
+
+import json
+import linecache
+import os
+import sys
+import traceback
+from types import ModuleType
+from typing import Any
+
+
+def main() -> None:
+    """Answer calls until the grader hangs up."""
+    settings = json.loads(sys.argv[1])
+    sys.path[:0] = settings["path"]
+    import framing  # type: ignore[import-not-found]  # its folder has just been put there
+    import numpy as np
+    import numpy.fft
+    import numpy.linalg
+    import numpy.random
+
+    sys.path.remove(settings["path"][0])
+    reply_to = settings["reply"]
+    requests = os.fdopen(os.dup(0), "rb")
+    os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
+
+    def read(count: int) -> bytes:
+        data = requests.read(count)
+        if len(data) < count:
+            os._exit(0)  # The grader has hung up.
+        return data
+
+    def send(head: dict[str, Any], values: list[Any]) -> None:
+        sys.stdout.flush()
+        data = memoryview(framing.pack(head, values))
+        while data:
+            data = data[os.write(reply_to, data) :]
+
+    head, (source,) = framing.unpack(read)
+    name = head["module"]
+    _limit(settings["limits"])
+    sys.addaudithook(_guard(tuple(settings["readable"])))
+    send({"ready": True}, [])
+    module = ModuleType(name)
+    try:
+        sys.modules[name] = module
+        text = bytes(source)
+        linecache.cache[f"{name}.py"] = (
+            len(text),
+            None,
+            text.decode("utf-8", "replace").splitlines(keepends=True),
+            f"{name}.py",
+        )
+        exec(compile(text, f"{name}.py", "exec", dont_inherit=True), module.__dict__)
+    except BaseException as error:  # noqa: BLE001 - SystemExit too
+        send(_told(error, name), [])
+        os._exit(0)
+    send({"loaded": True}, [])
+    while True:
+        head, values = framing.unpack(read)
+        answer, given = _call(module, head, values, np)
+        try:
+            send(answer, given)
+        except TypeError as error:
+            send({"error": "bad value", "message": f"it returned {error}"}, [])
+
+
+def _call(
+    module: ModuleType, head: dict[str, Any], values: list[Any], np: Any
+) -> tuple[dict[str, Any], list[Any]]:
+    function = getattr(module, head["function"], None)
+    if not callable(function):
+        return {
+            "error": "not written",
+            "message": f"{module.__name__}.py has no function {head['function']}",
+        }, []
+    named = dict(zip(head["names"], values[len(values) - len(head["names"]) :], strict=True))
+    arguments = values[: len(values) - len(named)]
+    before = repr(np.random.get_state(legacy=False)) if head["look"] else ""
+    try:
+        value = function(*arguments, **named)
+    except BaseException as error:  # noqa: BLE001 - SystemExit too
+        return _told(error, module.__name__), []
+    if head["look"]:
+        moved = repr(np.random.get_state(legacy=False)) != before
+        return {"moved": moved}, [value, *arguments]
+    return {"moved": False}, [value]
+
+
+def _told(error: BaseException, name: str) -> dict[str, Any]:
+    if isinstance(error, NotImplementedError):
+        return {"error": "not written", "message": str(error)[:500]}
+    rows = traceback.format_exception(type(error), error, error.__traceback__)
+    # Only what stands in the student's file concerns the student.
+    kept = [row for row in rows if f'"{name}.py"' in row] + rows[-1:]
+    try:
+        message = str(error)[:500]
+    except Exception:  # noqa: BLE001 - a message that can't be made is none
+        message = ""
+    return {
+        "error": "raised",
+        "type": type(error).__name__[:80],
+        "message": message,
+        "traceback": "".join(kept[-6:])[-3000:],
+    }
+
+
+def _limit(limits: dict[str, int]) -> None:
+    try:
+        import resource
+    except ImportError:  # Windows has none; the clock is watched from outside
+        return
+    for name, value in limits.items():
+        which = getattr(resource, f"RLIMIT_{name}", None)
+        if which is not None:
+            try:
+                resource.setrlimit(which, (value, value))
+            except (ValueError, OSError):
+                continue  # The system's own limit is lower.
+
+
+_FORBIDDEN = (
+    "ctypes.",
+    "ftplib.",
+    "gc.",
+    "http.",
+    "mmap.",
+    "os.",
+    "pty.",
+    "resource.",
+    "shutil.",
+    "signal.",
+    "smtplib.",
+    "socket.",
+    "sqlite3.",
+    "subprocess.",
+    "tempfile.",
+    "urllib.",
+    "webbrowser.",
+)
+_HARMLESS = {"os.listdir", "os.scandir", "os.add_dll_directory", "os.putenv", "os.unsetenv"}
+_NO_IMPORT = {
+    "_posixsubprocess",
+    "_ctypes",
+    "ctypes",
+    "_socket",
+    "_multiprocessing",
+    "resource",
+    "course",
+    "solutions",
+}
+
+
+def _guard(readable: tuple[str, ...]) -> Any:
+    fspath, realpath, separator = os.fspath, os.path.realpath, os.sep
+    write_flags = os.O_WRONLY | os.O_RDWR | os.O_CREAT | os.O_TRUNC | os.O_APPEND
+
+    def refuse(what: str) -> None:
+        raise PermissionError(f"not allowed while grading: {what}")
+
+    def visible(path: Any) -> bool:
+        if isinstance(path, int):
+            return True
+        text = realpath(fspath(path))
+        text = text.decode("utf-8", "replace") if isinstance(text, bytes) else text
+        return any(text == root or text.startswith(root + separator) for root in readable)
+
+    def guard(event: str, arguments: tuple[Any, ...]) -> None:
+        if event == "open":
+            path, mode, flags = arguments
+            writes = (
+                bool(flags & write_flags)
+                if isinstance(flags, int)
+                else any(c in str(mode) for c in "wax+")
+            )
+            if writes or not visible(path):
+                refuse(f"opening {path!r}")
+        elif event in ("os.listdir", "os.scandir"):
+            if not visible(arguments[0] if arguments and arguments[0] is not None else "."):
+                refuse(f"{event}({arguments[0]!r})")
+        elif event == "import":
+            if arguments[0].partition(".")[0] in _NO_IMPORT:
+                refuse(f"import {arguments[0]}")
+        elif event.startswith(_FORBIDDEN) and event not in _HARMLESS:
+            refuse(event)
+
+    return guard
+
+
+if __name__ == "__main__":
+    main()
