@@ -1,0 +1,120 @@
+"""Checks that render: one function of the student's inside the pipeline, against the same with the reference's."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Callable, Mapping
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import yaml
+from PIL import Image
+
+from course.grading.checks.check import Array, Caller, Check, Trial
+from course.grading.pictures import scenes
+from course.grading.pictures.judging import BIAS_FALSE_FAIL, block_means, check_bias, check_ssim
+from course.grading.pictures.stage import Stage
+from course.rendering.rendering import render
+from course.scene.scene import load_scene
+
+BIAS_SAMPLES = 16
+BIAS_REFERENCES = 32
+BIAS_PICTURES = 4
+
+MakeScene = Callable[[np.random.Generator], scenes.Scene]
+
+
+def rendered(
+    description: scenes.Scene, effects: Stage, rng: np.random.Generator, **options: Any
+) -> Array:
+    """A small picture (3, H, W), linear."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "scene.yaml"
+        path.write_text(yaml.safe_dump(description), encoding="utf-8")
+        if "cross" in description.get("environment", {}):
+            Image.fromarray(scenes.cross(rng)).save(path.with_name("cross.png"))
+        # One thread: a tape is replayed in the order in which it was recorded.
+        scene = load_scene(path, effects)
+        picture = render(scene, threads=1, compiled=False, **options).linear
+    return np.ascontiguousarray(np.moveaxis(picture, -1, 0))
+
+
+def picture_checks(
+    module: str, function: str, make: MakeScene, *, noisy: bool
+) -> tuple[Check, ...]:
+    """The picture by SSIM and, where the function makes noise, its bias.
+
+    Parameters
+    ----------
+    make : describes the scene
+    noisy : whether right functions may give pictures that differ by noise
+    """
+    name = f"{module}.{function}/picture"
+
+    def prepare(caller: Caller, rng: np.random.Generator) -> dict[str, Array]:
+        tape: dict[str, Array] = {}
+        stage = Stage(module, caller, function, recording=tape)
+        return {"picture": rendered(make(rng), stage, rng)} | {
+            f"tape/{k}": v for k, v in tape.items()
+        }
+
+    def run(trial: Trial) -> None:
+        stage = Stage(module, trial.caller, function, tape=_tape(trial.references))
+        yours = rendered(make(trial.rng), stage, trial.rng)
+        expected = trial.references["picture"]
+        trial.show("pictures", "The scene", yours=yours, expected=expected)
+        check_ssim(yours, expected, name)
+
+    looks = Check(
+        function,
+        "picture",
+        "The picture looks like the reference",
+        run,
+        kind="picture",
+        points=2,
+        prepare=prepare,
+    )
+    if not noisy:
+        return (looks,)
+
+    def prepare_bias(caller: Caller, rng: np.random.Generator) -> dict[str, Array]:
+        description = make(rng)
+        first = int(rng.integers(1 << 20))
+        stage = Stage(module, caller, function)
+        seeds = range(first + BIAS_PICTURES, first + BIAS_PICTURES + BIAS_REFERENCES)
+        pictures = [
+            rendered(description, stage, rng, spp=BIAS_SAMPLES, seed=seed) for seed in seeds
+        ]
+        return {"blocks": np.stack([block_means(picture) for picture in pictures])}
+
+    def run_bias(trial: Trial) -> None:
+        description = make(trial.rng)
+        first = int(trial.rng.integers(1 << 20))
+        stage = Stage(module, trial.caller, function)
+        draw = partial(rendered, description, stage, trial.rng, spp=BIAS_SAMPLES)
+        check_bias(
+            [draw(seed=first + number) for number in range(BIAS_PICTURES)],
+            trial.references["blocks"],
+        )
+
+    bias = Check(
+        function,
+        "bias",
+        "The picture's brightness is right everywhere on average",
+        run_bias,
+        kind="bias",
+        points=1,
+        false_fail=BIAS_FALSE_FAIL,
+        prepare=prepare_bias,
+    )
+    return looks, bias
+
+
+def _tape(references: Mapping[str, Array]) -> dict[str, Array]:
+    return {
+        name.removeprefix("tape/"): array
+        for name, array in references.items()
+        if name.startswith("tape/")
+    }

@@ -1,0 +1,222 @@
+"""Small scenes in which one function's effect fills the picture; seeds move their parts."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+Scene = dict[str, Any]
+
+SIZE = (48, 36)
+
+
+def edges(
+    rng: np.random.Generator, sampler: str = "regular", samples: int = 16, **film: Any
+) -> Scene:
+    """Thin bright bars at slight angles: a picture that is nothing but edges."""
+    angles = rng.uniform(-40, 40, 7)
+    colors = rng.uniform(0.3, 1, (7, 3))
+    return _scene(
+        camera={"eye": [0, 0, 10], "look_at": [0, 0, 0], "vertical_fov": 30},
+        film=film,
+        sampler={"type": sampler, "samples": samples},
+        materials={
+            f"bar {i}": {"color": 0, "ambient": 1} | _color(c) for i, c in enumerate(colors)
+        },
+        lights=[{"type": "ambient", "radiance": 1}],
+        objects=[
+            _box(
+                f"bar {i}",
+                [0.12 + 0.05 * i, 9, 0.1],
+                [-3 + i, 0, 0.05 * i],
+                [0, 0, 1],
+                float(angle),
+            )
+            for i, angle in enumerate(angles)
+        ],
+    )
+
+
+def shadows(rng: np.random.Generator, light: dict[str, Any], samples: int = 64) -> Scene:
+    """Posts and a ball on a floor, whose shadows cross the picture."""
+    x = rng.uniform(-0.25, 0.25, 4)
+    return _scene(
+        camera={"eye": [0, 4.2, 7], "look_at": [0.5, 0.3, 0.4], "vertical_fov": 27},
+        sampler={"samples": samples},
+        materials={"floor": {"color": 0.7}, "post": {"color": [0.7, 0.3, 0.2]}},
+        lights=[light, {"type": "ambient", "radiance": 0.1}],
+        objects=[
+            {"shape": "quad", "material": "floor", "width": 30, "depth": 30},
+            *(
+                _box("post", [0.3, 1.5, 0.3], [-1.8 + 1.2 * i + float(d), 0.75, -0.4])
+                for i, d in enumerate(x)
+            ),
+            _ball("post", 0.4, [float(x[0]), 0.4, 1.4]),
+        ],
+    )
+
+
+def area_light(rng: np.random.Generator, **keys: Any) -> dict[str, Any]:
+    """A parallelogram, slightly above and behind the posts."""
+    a, b = rng.uniform(0.6, 1.2, 2)
+    corner = [-3 + float(rng.uniform(-0.3, 0.3)), 4, -2]
+    return {
+        "type": "rectangle",
+        "corner": corner,
+        "edge_u": [float(a), 0.3, 0],
+        "edge_v": [0.2, 0, float(b)],
+        "intensity": 30,
+    } | keys
+
+
+def ball_light(rng: np.random.Generator, method: str) -> dict[str, Any]:
+    """A ball, slightly above and behind the posts."""
+    center = [-3 + float(rng.uniform(-0.4, 0.4)), 4, -2]
+    radius = float(rng.uniform(0.5, 0.8))
+    return {
+        "type": "sphere",
+        "center": center,
+        "radius": radius,
+        "intensity": 30,
+        "samples": method,
+    }
+
+
+def reflections(rng: np.random.Generator, gloss: dict[str, Any], samples: int = 64) -> Scene:
+    """Bright posts over a glossy floor."""
+    colors = rng.uniform(0.1, 1, (5, 3))
+    return _scene(
+        camera={"eye": [0, 2.4, 6], "look_at": [0, 0.4, 0], "vertical_fov": 34},
+        sampler={"samples": samples},
+        materials={
+            "floor": {"color": 0, "mirror": 0.9, "gloss": gloss},
+            **{
+                f"post {i}": {"color": [float(v) for v in c], "ambient": 1}
+                for i, c in enumerate(colors)
+            },
+        },
+        lights=[{"type": "ambient", "radiance": 1}],
+        objects=[
+            {"shape": "quad", "material": "floor", "width": 30, "depth": 30},
+            *(
+                _box(
+                    f"post {i}",
+                    [0.5, 1.4, 0.3],
+                    [-2 + i + float(rng.uniform(-0.2, 0.2)), 0.7, -0.6],
+                )
+                for i in range(5)
+            ),
+        ],
+    )
+
+
+def out_of_focus(rng: np.random.Generator) -> Scene:
+    """Pieces before, in and behind the plane of focus, seen obliquely so that no axis is the lens's own."""
+    colors = rng.uniform(0.2, 1, (6, 3))
+    return _scene(
+        camera={
+            "eye": [2.4, 1.6, 5.0],
+            "look_at": [0, 0.5, 0],
+            "vertical_fov": 30,
+            "lens": {
+                "aperture_radius": float(rng.uniform(0.2, 0.3)),
+                "focus_distance": float(rng.uniform(4, 5)),
+            },
+        },
+        sampler={"samples": 16},
+        materials={
+            f"piece {i}": {"color": [float(v) for v in c], "ambient": 1}
+            for i, c in enumerate(colors)
+        },
+        lights=[{"type": "ambient", "radiance": 1}],
+        objects=[
+            _box(
+                f"piece {i}",
+                [0.25, 1.3, 0.25],
+                [-2.2 + 0.9 * i, 0.5, 2.6 - 1.3 * i],
+                [0, 0, 1],
+                25.0 * (i % 3 - 1),
+            )
+            for i in range(6)
+        ],
+    )
+
+
+def moving(rng: np.random.Generator, *, lit: bool = False) -> Scene:
+    """A ball and a bar that cross the picture while the shutter is open; or a light and a camera that move."""
+    speed = rng.uniform(0.8, 1.6, 2)
+    light: dict[str, Any] = {"type": "point", "position": [-2, 4, 2], "intensity": 40}
+    camera: dict[str, Any] = {
+        "eye": [0, 2.6, 6],
+        "look_at": [0, 0.4, 0],
+        "vertical_fov": 34,
+        "shutter": {"open": float(rng.uniform(-0.6, -0.3)), "close": float(rng.uniform(0.4, 0.8))},
+    }
+    ball = _ball("bright", 0.5, [-0.6, 0.5, 0.6])
+    bar = _box("bright", [0.2, 1.6, 0.2], [0.9, 0.8, -0.8])
+    if lit:
+        light |= {"motion": {"velocity": [float(speed[0]), 0, 0.5]}}
+    ball |= {"motion": {"velocity": [float(speed[0]), 0.1, 0.3]}}
+    bar |= {"motion": {"velocity": [-float(speed[1]), 0, 0.4]}}
+    return _scene(
+        camera=camera,
+        sampler={"samples": 64},
+        materials={"floor": {"color": 0.4}, "bright": {"color": [0.9, 0.6, 0.2], "ambient": 0.3}},
+        lights=[light, {"type": "ambient", "radiance": 0.3}],
+        objects=[{"shape": "quad", "material": "floor", "width": 30, "depth": 30}, ball, bar],
+    )
+
+
+def surroundings(rng: np.random.Generator, lookup: str) -> Scene:
+    """A mirror ball before a cube map of few large texels; ``cross.png`` beside the scene is made by the caller."""
+    direction = rng.uniform(-1, 1, 3)
+    eye = 5 * direction / np.linalg.norm(direction)
+    return _scene(
+        camera={"eye": [float(x) for x in eye], "look_at": [0, 0, 0], "vertical_fov": 75},
+        environment={"type": "cube", "cross": "cross.png", "lookup": lookup},
+        sampler={"samples": 16},
+        integrator={"max_depth": 1},
+        materials={"silver": {"color": 0, "mirror": 1}},
+        objects=[_ball("silver", 1.9, [0, 0, 0])],
+    )
+
+
+def cross(rng: np.random.Generator) -> np.ndarray[Any, np.dtype[np.uint8]]:
+    """A horizontal cross (18, 24, 3) of six faces of 6 x 6 texels, every one of another colour."""
+    return rng.integers(30, 255, (18, 24, 3)).astype(np.uint8)
+
+
+def _scene(**parts: Any) -> Scene:
+    film = {"width": SIZE[0], "height": SIZE[1]} | parts.pop("film", {})
+    return {"integrator": {"max_depth": 1}, "film": film} | parts
+
+
+def _color(values: Any) -> dict[str, Any]:
+    return {"color": [float(v) for v in values]}
+
+
+def _box(
+    material: str,
+    size: list[float],
+    at: list[float],
+    axis: list[float] | None = None,
+    degrees: float = 0,
+) -> dict[str, Any]:
+    turn = [{"rotate": {"axis": axis, "degrees": degrees}}] if axis else []
+    return {
+        "shape": "box",
+        "material": material,
+        "size": size,
+        "transform": [*turn, {"translate": at}],
+    }
+
+
+def _ball(material: str, radius: float, at: list[float]) -> dict[str, Any]:
+    return {
+        "shape": "sphere",
+        "material": material,
+        "radius": radius,
+        "segments": 96,
+        "transform": [{"translate": at}],
+    }

@@ -1,0 +1,107 @@
+"""The pipeline around one student function: what else a small scene needs of the same module is not the student's.
+
+So one mistake costs once. What comes before the function on a ray's way is replayed from a tape that the reference
+solution has recorded: it doesn't depend on the student's result. What comes after it has a stand-in that needs no
+solution: the same for the reference picture, so that only the function in question can make a difference.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from course.effects import Effects
+from course.grading.checks.check import Array, Caller
+
+
+def _mean(radiance: Array, weights: Array) -> Array:
+    """The pixel's mean; weights are all alike where the filter is the box."""
+    wide = np.broadcast_to(weights, radiance.shape)
+    mean: Array = np.average(radiance, axis=-1, weights=wide).astype(radiance.dtype)
+    return mean
+
+
+def _as_it_is(directions: Array, _: Array) -> Array:
+    """Below the surface stays below."""
+    return directions
+
+
+def _gone(velocity: Array, time: Array) -> Array:
+    distance: Array = np.multiply.outer(np.asarray(velocity, time.dtype), time)
+    return distance
+
+
+def _seen(origins: Array, velocity: Array, time: Array) -> Array:
+    return origins - _gone(velocity, time)
+
+
+STAND_INS: dict[str, Callable[..., Array]] = {
+    "supersampling.resolve": _mean,
+    "glossy.keep_above": _as_it_is,
+    "motion_blur.displacement": _gone,
+    "motion_blur.to_object_space": _seen,
+}
+"""Functions that come last on a ray's way, in a form that does for the grader's scenes."""
+
+
+class Stage(Effects):
+    """Effects of which one module's are somebody's and the others stand-ins.
+
+    Parameters
+    ----------
+    module : whose functions ``caller`` has
+    caller : the student's, or the reference's
+    only : the one function that is taken from the caller; None takes all of the module
+    tape : recorded results of functions that come before it, ``NAME/NUMBER`` -> array
+    recording : where to put results of the others instead, when the caller is the reference
+    """
+
+    def __init__(
+        self,
+        module: str,
+        caller: Caller,
+        only: str | None = None,
+        tape: Mapping[str, Array] | None = None,
+        recording: dict[str, Array] | None = None,
+    ) -> None:
+        self.folder = Path(module)
+        self._modules = {}
+        self._own, self._caller, self._only = module, caller, only
+        self._tape, self._recording = tape or {}, recording
+        self._played: dict[str, int] = {}
+
+    def function(self, module: str, name: str) -> Callable[..., Any]:
+        """The function that the picture is to be made with."""
+        if module == self._own and self._only in (None, name):
+            return lambda *arguments: _usable(self._caller.call(name, *arguments))
+        stand_in = STAND_INS.get(f"{module}.{name}")
+        if stand_in is not None:
+            return stand_in
+        if self._recording is not None:
+            return lambda *arguments: self._record(name, self._caller.call(name, *arguments))
+        return lambda *_: self._replay(name)
+
+    def _record(self, name: str, value: Array) -> Array:
+        assert self._recording is not None
+        self._recording[f"{name}/{self._next(name)}"] = value
+        return value.copy()
+
+    def _replay(self, name: str) -> Array:
+        return self._tape[f"{name}/{self._next(name)}"].copy()
+
+    def _next(self, name: str) -> int:
+        number = self._played.get(name, 0)
+        self._played[name] = number + 1
+        return number
+
+
+def _usable(value: Any) -> Any:
+    """What the engine may use: its own copy, in float32, so that a wrong dtype costs where it is checked."""
+    if isinstance(value, tuple):
+        return tuple(_usable(item) for item in value)
+    if isinstance(value, np.ndarray) and value.dtype.kind == "f":
+        return np.nan_to_num(np.ascontiguousarray(value, np.float32))
+    return value
