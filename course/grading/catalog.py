@@ -1,0 +1,29 @@
+"""Everything that is checked in a module: its own checks, its pictures and its convergence."""
+
+from __future__ import annotations
+
+from importlib import import_module
+
+from course.effects import MODULES
+from course.errors import CourseError
+from course.grading.checks.check import ModuleChecks
+from course.grading.checks.order import ORDERS
+from course.grading.pictures.catalog import PICTURES
+
+
+def module_checks(module: str) -> ModuleChecks:
+    """The checks of a module, function by function in the order of the course.
+
+    Raises
+    ------
+    CourseError
+        There is no such module.
+    """
+    if module not in MODULES:
+        raise CourseError(f"no module {module!r}; the modules are {', '.join(MODULES)}")
+    own: ModuleChecks = import_module(f"course.grading.checks.{module}").CHECKS
+    found = (*own.checks, *ORDERS.get(module, ()), *PICTURES.get(module, ()))
+    place = {name: number for number, name in enumerate(MODULES[module])}
+    return ModuleChecks(
+        module, tuple(sorted(found, key=lambda check: place[check.function])), own.mistakes
+    )

@@ -1,0 +1,109 @@
+"""Arrays that checks compare with: made with the reference solutions, or read where there are none.
+
+A student's copy has no solutions; ``course references`` writes there what the checks of the usual seed need.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from importlib.resources import as_file, files
+from pathlib import Path
+
+import numpy as np
+
+from course.effects import MODULES, PROJECT, Effects
+from course.errors import CourseError
+from course.grading.catalog import module_checks
+from course.grading.checks.check import Array, Caller, Check
+from course.grading.checks.running import References, prepared
+from course.grading.checks.trusted import TrustedModule
+from course.imaging.atomic import replacing
+
+USUAL_SEED = 0
+"""Of checks whose references a student's copy has."""
+
+SOLUTIONS = PROJECT / "solutions"
+
+
+def reference(module: str) -> Caller:
+    """The reference solution of a module.
+
+    Raises
+    ------
+    EffectError
+        It isn't there.
+    """
+    effects = Effects(SOLUTIONS)
+    return TrustedModule({name: effects.function(module, name) for name in MODULES[module]})
+
+
+def make_references(modules: Iterable[str], seed: int, out: Path) -> int:
+    """Write the arrays of some modules' checks as one .npz file; how many arrays there are."""
+    arrays: dict[str, Array] = {}
+    for module in modules:
+        make = prepared(reference(module), seed)
+        for check in module_checks(module).checks:
+            for name, array in make(module, check).items():
+                arrays[f"{_key(module, check)}/{name}"] = array
+    arrays["seed"] = np.array(seed)
+    out.parent.mkdir(parents=True, exist_ok=True)
+    with replacing(out) as temporary, temporary.open("wb") as file:
+        np.savez_compressed(file, **arrays)  # type: ignore[arg-type]  # its stub takes no arrays by name
+    return len(arrays)
+
+
+def read_references(path: Path, seed: int) -> References:
+    """References from such a file.
+
+    Raises
+    ------
+    CourseError
+        The file can't be read, or was made for another seed.
+    """
+    try:
+        with np.load(path, allow_pickle=False) as file:
+            arrays = {name: file[name] for name in file.files}
+    except (OSError, ValueError) as error:
+        raise CourseError(f"{path}: is no file of references: {error}") from error
+    found = int(arrays.pop("seed", -1))
+    if found != seed:
+        raise CourseError(f"{path}: holds references for the seed {found}, not {seed}")
+    by_check: dict[str, dict[str, Array]] = {}
+    for name, array in arrays.items():
+        # A check's own name has one slash: "thin_lens.lens_rays/picture".
+        parts = name.split("/", 2)
+        by_check.setdefault("/".join(parts[:2]), {})[parts[2]] = array
+
+    def find(module: str, check: Check) -> Mapping[str, Array]:
+        if check.prepare is None:
+            return {}
+        if _key(module, check) not in by_check:
+            raise CourseError(
+                f"{path}: has no references for {_key(module, check)}; make them anew"
+            )
+        return by_check[_key(module, check)]
+
+    return find
+
+
+def references(seed: int = USUAL_SEED) -> References:
+    """References for a seed: made on the spot where the solutions are, else those that came with this copy.
+
+    Raises
+    ------
+    CourseError
+        There are neither.
+    """
+    if SOLUTIONS.is_dir():
+        makers = {module: prepared(reference(module), seed) for module in MODULES}
+        return lambda module, check: makers[module](module, check)
+    with as_file(files("course.grading") / "data" / "references.npz") as path:
+        if not path.is_file():
+            raise CourseError(
+                "this copy has neither solutions nor references; get the course's archive anew"
+            )
+        return read_references(path, seed)
+
+
+def _key(module: str, check: Check) -> str:
+    return f"{module}.{check.function}/{check.name}"

@@ -1,0 +1,62 @@
+"""What grading one submission gives, before anybody writes it down."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from course.grading.checks.running import Result, Status
+
+
+@dataclass(frozen=True)
+class Report:
+    """All results of one submission.
+
+    Attributes
+    ----------
+    student : whose it is; empty for one's own
+    results : in the order of the course
+    printed : module -> what its code printed
+    protections : what kept the grader safe from the code
+    seed, version : with which the result can be had again
+    seconds : wall clock of it all
+    trouble : why the submission could not be graded; empty if it was
+    """
+
+    student: str
+    results: tuple[Result, ...]
+    printed: Mapping[str, str] = field(default_factory=dict)
+    protections: Sequence[str] = ()
+    seed: int = 0
+    version: str = ""
+    seconds: float = 0.0
+    trouble: str = ""
+
+    @property
+    def points(self) -> float:
+        """Earned."""
+        return sum(result.points for result in self.results)
+
+    @property
+    def of(self) -> float:
+        """That could be earned."""
+        return sum(result.of for result in self.results)
+
+    @property
+    def score(self) -> float:
+        """Share from 0 to 1; 0 where there is nothing to earn."""
+        return self.points / self.of if self.of else 0.0
+
+    def count(self, status: Status) -> int:
+        """Checks that ended so."""
+        return sum(result.status is status for result in self.results)
+
+
+def reproduce(result: Result, seed: int) -> str:
+    """The one line that runs this check again."""
+    return f"course check {result.module} --only {result.function}/{result.check} --seed {seed}"
+
+
+def docs_page(result: Result) -> str:
+    """The page of the docs that explains the function."""
+    return f"docs/modules/{result.module}.md#{result.function}"
