@@ -1,7 +1,7 @@
 """The command `course`: its subcommands, and what becomes of errors.
 
 Exit codes: 0 done, 1 refused (a mistake in the input, told in one message), 2 wrong usage,
-130 interrupted by Ctrl-C.
+3 a check that found something wrong, 130 interrupted by Ctrl-C.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from course import __version__
 from course.cli.options import INTERRUPTED
 from course.errors import CourseError
 
-COMMANDS = ("render", "info", "schema", "demo", "bench", "release")
+COMMANDS = ("render", "check", "info", "schema", "demo", "bench", "release")
 """Each is the command of that name in the module of that name beside this file."""
 
 

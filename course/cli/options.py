@@ -15,6 +15,9 @@ import click
 INTERRUPTED = 130
 """Exit code after Ctrl-C: 128 + SIGINT, as shells have it."""
 
+FAILED = 3
+"""Exit code of a check that found something wrong; 1 is a command that was refused."""
+
 LARGEST_SIDE = 65536
 """Pixels; the limit of `film.width` and `film.height` in a scene file."""
 

@@ -53,7 +53,7 @@ def _places(rng: np.random.Generator, n: int, margin: float = EPSILON) -> tuple[
 
 def _units(rng: np.random.Generator, n: int, dtype: Any = np.float64) -> Array:
     directions = rng.standard_normal((3, n))
-    return (directions / np.linalg.norm(directions, axis=0)).astype(dtype)
+    return np.asarray(directions / np.linalg.norm(directions, axis=0), dtype)
 
 
 def _lattice(dtype: Any) -> Array:
@@ -796,9 +796,6 @@ def _other_place(trial: Trial) -> bool:
         return False
     one, other, _ = _jumps(trial, _random_faces(trial.rng, SIZE, np.float64))
     return bool(np.abs(one - other).max() > 0.01)
-
-
-_LOOKUPS = ("lookup", "lookup_seamless")
 
 
 def _of_lookup(function: str) -> tuple[Check, ...]:

@@ -135,7 +135,7 @@ def _instant(trial: Trial) -> None:
 def _even(trial: Trial) -> None:
     for dtype in DTYPES:
         first, last = _shutter(trial.rng)
-        u = np.arange(256, dtype=dtype) / dtype(256)
+        u = (np.arange(256) / 256).astype(dtype)
         times = _shaped(trial.call(first, last, u), u.shape)
         slack = _slack(dtype, abs(first) + abs(last))
         check_close(

@@ -1,0 +1,211 @@
+"""`course check`: what a student runs while working."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from course.cli.options import FAILED
+from course.cli.tables import count
+from course.effects import MODULES, PROJECT
+from course.errors import CourseError
+
+if TYPE_CHECKING:
+    from course.grading.checks.check import Check
+    from course.grading.checks.running import References, Result
+    from course.grading.report import Report
+
+POLL = 0.4
+"""Seconds between two looks at a watched file."""
+
+
+@click.command()
+@click.argument("modules", nargs=-1, metavar="[MODULE]...")
+@click.option(
+    "--folder",
+    type=click.Path(path_type=Path, file_okay=False),
+    default=PROJECT / "assignments",
+    show_default="assignments",
+    help="Where the modules are.",
+)
+@click.option(
+    "--only", metavar="FUNCTION[/CHECK]", help="Run only this function's checks, or this one check."
+)
+@click.option(
+    "--seed", type=click.IntRange(0), default=0, help="Chooses the parameters of scenes and checks."
+)
+@click.option("--watch", is_flag=True, help="Check again whenever a file is saved, until Ctrl-C.")
+@click.option(
+    "--html",
+    type=click.Path(path_type=Path, dir_okay=False),
+    help="Write a page with pictures and plots.",
+)
+@click.option(
+    "--json",
+    "json_file",
+    type=click.Path(path_type=Path, dir_okay=False),
+    help="Write the results.",
+)
+@click.pass_context
+def check(
+    ctx: click.Context,
+    modules: tuple[str, ...],
+    folder: Path,
+    only: str | None,
+    seed: int,
+    watch: bool,
+    html: Path | None,
+    json_file: Path | None,
+) -> None:
+    """Check your functions: all of them, or those of some modules.
+
+    Each function is checked by itself, so that one mistake costs once. The exit code is 0 when everything is right.
+    """
+    from course.grading.references import references
+
+    for module in modules:
+        if module not in MODULES:
+            raise click.BadParameter(
+                f"{module!r}; the modules are {', '.join(MODULES)}", param_hint="MODULE"
+            )
+    if not folder.is_dir():
+        raise CourseError(f"{folder}: no such folder; --folder says where your modules are")
+    chosen = modules or tuple(MODULES)
+    arrays = references(seed)
+    while True:
+        seen = _times(folder, chosen)
+        report = _check(folder, chosen, only, seed, arrays)
+        if html is not None:
+            from course.grading.reports.page import write_page
+
+            write_page(report, html)
+            click.echo(f"{html} written")
+        if json_file is not None:
+            from course.grading.reports.files import write_json
+
+            write_json(report, json_file)
+            click.echo(f"{json_file} written")
+        if not watch:
+            ctx.exit(0 if report.points == report.of else FAILED)
+        click.echo("watching; Ctrl-C ends it", err=True)
+        while _times(folder, chosen) == seen:
+            time.sleep(POLL)
+
+
+def _check(
+    folder: Path, modules: tuple[str, ...], only: str | None, seed: int, arrays: References
+) -> Report:
+    from course.grading.grading import grade
+    from course.grading.submissions import read_folder
+
+    shown = _Printer(seed)
+    report = grade(
+        read_folder(folder),
+        arrays,
+        seed=seed,
+        modules=modules,
+        only=_chooser(only),
+        each=shown.result,
+    )
+    if not report.results:
+        raise CourseError(f"--only {only}: no check of {', '.join(modules)} has that name")
+    shown.end(report)
+    return report
+
+
+def _chooser(only: str | None) -> Callable[[Check], bool] | None:
+    if only is None:
+        return None
+    function, _, name = only.partition("/")
+    return lambda check: check.function == function and name in ("", check.name)
+
+
+def _times(folder: Path, modules: tuple[str, ...]) -> list[int]:
+    found = []
+    for module in modules:
+        try:
+            found.append((folder / f"{module}.py").stat().st_mtime_ns)
+        except OSError:
+            found.append(0)
+    return found
+
+
+class _Printer:
+    """Prints results as they come: a line for each function, and what went wrong under it."""
+
+    def __init__(self, seed: int) -> None:
+        self._seed = seed
+        self._module = ""
+        self._pending: list[Result] = []
+
+    def result(self, result: Result) -> None:
+        if self._pending and self._pending[0].function != result.function:
+            self._flush()
+        if result.module != self._module:
+            self._flush()
+            self._module = result.module
+            click.secho(result.module, bold=True)
+        self._pending.append(result)
+
+    def end(self, report: Report) -> None:
+        self._flush()
+        for module, text in report.printed.items():
+            click.echo(f"\n{module}.py printed:")
+            click.echo("\n".join(f"  | {line}" for line in text.splitlines()[:12]))
+        passed = sum(result.status == "passed" for result in report.results)
+        click.secho(
+            f"\n{report.points:g} of {report.of:g} points, {passed} of {count(len(report.results), 'check')} passed, "
+            f"{report.seconds:.1f} s",
+            bold=True,
+        )
+
+    def _flush(self) -> None:
+        results, self._pending = self._pending, []
+        if not results:
+            return
+        function = results[0].function
+        wrong = [result for result in results if result.status != "passed"]
+        if not wrong:
+            click.echo(
+                f"  {click.style('right', fg='green')}    {function}  ({count(len(results), 'check')})"
+            )
+            return
+        if all(result.status == "not attempted" for result in results):
+            click.echo(f"  {click.style('to do', fg='yellow')}    {function}")
+            return
+        click.echo(
+            f"  {click.style('wrong', fg='red')}    {function}  ({len(wrong)} of {count(len(results), 'check')})"
+        )
+        told: set[str] = set()
+        for result in wrong:
+            self._tell(result, told)
+
+    def _tell(self, result: Result, told: set[str]) -> None:
+        from course.grading.report import docs_page, reproduce
+
+        what = "" if result.status == "failed" else f" [{result.status}]"
+        click.echo(f"      {click.style(result.check, bold=True)}{what}: {result.title}")
+        if result.says and result.mistake not in told:
+            told.add(result.mistake)
+            _line("looks like", click.style(result.says, fg="cyan"))
+        for label, text in (
+            ("expected", result.expected),
+            ("found", result.found),
+            ("where", result.where),
+            ("hint", result.hint),
+        ):
+            if text:
+                _line(label, text)
+        _line("again", reproduce(result, self._seed))
+        _line("read", docs_page(result))
+
+
+def _line(label: str, text: str) -> None:
+    first, *rest = text.rstrip().splitlines() or [""]
+    click.echo(f"        {label:<10}  {first}")
+    for line in rest[-8:]:
+        click.echo(f"        {'':<10}  {line}")
