@@ -692,6 +692,14 @@ def _looked(trial: Trial, face: Array, u: Array, v: Array, dtype: Any = np.float
     return _colors(trial, faces, _toward(face, u, v).astype(dtype))
 
 
+def _map_wrong(trial: Trial) -> bool:
+    """Whether the student's face_and_uv is to blame for what the lookup does."""
+    face, u, v = _places(trial.rng, 300, 0.01)
+    d = _toward(face, u, v)
+    found = trial.call_other("face_and_uv", d / np.linalg.norm(d, axis=0))
+    return not all(_same(a, b) for a, b in zip(_three(found), (face, u, v), strict=True))
+
+
 def _inside_right(trial: Trial) -> bool:
     face, u, v = _inner_places(trial.rng, 120, SIZE)
     return _same(_looked(trial, face, u, v), np.stack((u, v, face)))
@@ -839,6 +847,12 @@ def _of_lookup(function: str) -> tuple[Check, ...]:
 def _mistakes_of_lookup(function: str) -> tuple[Mistake, ...]:
     """The mistakes that are made in both lookups."""
     return (
+        Mistake(
+            function,
+            f"{function}-map",
+            "Your face_and_uv isn't right yet, and this lookup most likely builds on it; mend that one first.",
+            _map_wrong,
+        ),
         Mistake(
             function,
             f"{function}-nearest",

@@ -82,7 +82,7 @@ def _pair(value: Any) -> tuple[Any, Any]:
 def _exact(w: Array) -> Array:
     """The same directions, unit length to double precision."""
     w = w.astype(np.float64)
-    return w / np.linalg.norm(w, axis=0)
+    return np.asarray(w / np.linalg.norm(w, axis=0))
 
 
 def _dot(a: Array, b: Array) -> Array:
