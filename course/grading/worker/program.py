@@ -84,7 +84,12 @@ def _call(
         }, []
     named = dict(zip(head["names"], values[len(values) - len(head["names"]) :], strict=True))
     arguments = values[: len(values) - len(named)]
-    before = repr(np.random.get_state(legacy=False)) if head["look"] else ""
+    before = ""
+    if head["look"]:
+        np.random.seed(
+            None
+        )  # A state that no call before can have left, so that seeding shows too.
+        before = repr(np.random.get_state(legacy=False))
     try:
         value = function(*arguments, **named)
     except BaseException as error:  # noqa: BLE001 - SystemExit too
