@@ -81,12 +81,14 @@ def _edges(rng: np.random.Generator, n: int) -> tuple[Array, Array]:
 
 def _ramps(rng: np.random.Generator) -> Array:
     """A colour (6, 3) at each face's top left, its changes along u and v, and along both: bilinear pictures."""
-    return rng.uniform(0.1, 0.9, (4, 6, 3)) * np.array([1, 0.6, -0.5, 0.4])[:, None, None]
+    scale = np.array([1, 0.6, -0.5, 0.4])
+    return np.asarray(rng.uniform(0.1, 0.9, (4, 6, 3)) * scale[:, None, None])
 
 
 def _ramp_at(ramps: Array, face: Array, u: Array, v: Array) -> Array:
     weights = np.stack((np.ones_like(u), u, v, u * v))
-    return np.einsum("kn,knc->cn", weights, ramps[:, face])
+    colors: Array = np.einsum("kn,knc->cn", weights, ramps[:, face])
+    return colors
 
 
 def _centers(size: int) -> tuple[Array, Array, Array]:

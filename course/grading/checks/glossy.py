@@ -31,6 +31,9 @@ UNIT = 1e-5
 NEAR_POLE = (0.00038527316, 0.00038460016, -0.99999988079)
 """Where a basis in single precision that divides by 1 + z falls to pieces."""
 
+TINY = 1e-200
+"""A length that stands for none where something has to be divided by it."""
+
 POINTS = 5000
 """Of each axis, in a check of a distribution."""
 
@@ -80,9 +83,9 @@ def _pair(value: Any) -> tuple[Any, Any]:
 
 
 def _exact(w: Array) -> Array:
-    """The same directions, unit length to double precision."""
+    """The same directions, unit length to double precision; zero stays zero."""
     w = w.astype(np.float64)
-    return np.asarray(w / np.linalg.norm(w, axis=0))
+    return np.asarray(w / np.maximum(np.linalg.norm(w, axis=0), TINY))
 
 
 def _dot(a: Array, b: Array) -> Array:
@@ -104,7 +107,7 @@ def _about(axis: Array, result: Array) -> tuple[Array, Array]:
     w = axis.astype(np.float64) / np.linalg.norm(axis.astype(np.float64))
     a = np.cross(w, np.eye(3)[np.abs(w).argmin()])
     a /= np.linalg.norm(a)
-    result = result / np.linalg.norm(result, axis=0)
+    result = _exact(result)
     turn = np.arctan2(np.cross(w, a) @ result, a @ result) / (2 * np.pi) % 1
     return ((result - w[:, None]) ** 2).sum(axis=0) / 2, turn
 
@@ -547,8 +550,9 @@ def _steady(trial: Trial) -> Array:
 
 def _basis_errors(trial: Trial, w: Array) -> tuple[float, float, float]:
     """The worst of lengths, of dot products and of the cross product; inf where something isn't finite."""
-    u, v = (np.asarray(x, np.float64) for x in _pair(trial.call(w)))
-    if not (np.isfinite(u).all() and np.isfinite(v).all()):
+    try:
+        u, v = _basis(trial, w)
+    except Failure:  # something isn't finite
         return np.inf, np.inf, np.inf
     exact = _exact(w)
     lengths = np.linalg.norm(u, axis=0), np.linalg.norm(v, axis=0)
@@ -645,7 +649,7 @@ def _plane_one_number(trial: Trial) -> bool:
 def _plane_not_normalised(trial: Trial) -> bool:
     roughness, sides, centre, rest, length = _plane_fit(trial)
     right = rest < 1e-3 and _square_of(sides, roughness) and np.linalg.norm(centre) < 1e-3
-    return bool(right and length.max() > 1.01)
+    return bool(right and length.max() > 1.01 and length.min() > 0.99 and length.max() < 1.5)
 
 
 def _plane_world_axes(trial: Trial) -> bool:
@@ -722,8 +726,10 @@ def _ball_not_normalised(trial: Trial) -> bool:
 
 def _phong_cosines(trial: Trial, exponent: float) -> Array:
     d = np.repeat(_steady(trial)[:, :1], 4000, axis=1)
-    result = _exact(_batch(trial.call(d, exponent, _random(trial, 2, 4000)), d.shape))
-    return np.asarray(np.clip(_dot(result, _exact(d)), 0, 1))
+    cos = _dot(_exact(_batch(trial.call(d, exponent, _random(trial, 2, 4000)), d.shape)), _exact(d))
+    if not cos.min() >= -1e-3:
+        raise Failure("a lobe in front", "none")
+    return np.asarray(np.clip(cos, 0, 1))
 
 
 def _phong_with(trial: Trial, warp: Callable[[Array, float], Array]) -> bool:
@@ -747,7 +753,8 @@ def _phong_sine(trial: Trial) -> bool:
 
 
 def _phong_no_exponent(trial: Trial) -> bool:
-    return _apart(_phong_cosines(trial, 20.0), _phong_cosines(trial, 2.0)) < CLOSE
+    narrow, wide = _phong_cosines(trial, 20.0), _phong_cosines(trial, 2.0)
+    return _apart(narrow, wide) < CLOSE and float(wide.std()) > 0.01
 
 
 def _phong_half_turn(trial: Trial) -> bool:
@@ -763,7 +770,7 @@ def _phong_world_axis(trial: Trial) -> bool:
     result = _batch(trial.call(d, 300.0, _random(trial, 2, d.shape[1])), d.shape)
     middle = result.mean(axis=1)
     # Whatever the directions are, the results are those of a narrow lobe about one of the axes.
-    return bool(np.abs(middle).max() > 0.98)
+    return 0.98 < float(np.abs(middle).max()) < 1 - 1e-4
 
 
 def _above_is(trial: Trial, model: Callable[[Array, Array, Array], Array]) -> bool:
@@ -1096,15 +1103,15 @@ CHECKS = ModuleChecks(
         ),
         Mistake(
             "sample_phong_lobe",
-            "half-turn",
-            "Your lobe is only half of one: the directions go half way around the axis.",
-            _phong_half_turn,
-        ),
-        Mistake(
-            "sample_phong_lobe",
             "world-axis",
             "Your lobe always points along the same axis, whatever the direction is.",
             _phong_world_axis,
+        ),
+        Mistake(
+            "sample_phong_lobe",
+            "half-turn",
+            "Your lobe is only half of one: the directions go half way around the axis.",
+            _phong_half_turn,
         ),
         Mistake(
             "keep_above",

@@ -406,12 +406,8 @@ def _backwards(trial: Trial) -> bool:
 
 def _u_unused(trial: Trial) -> bool:
     times, _, first, last = _some_times(trial)
-    again = trial.call(first, last, trial.rng.random(100))
-    regular = np.sort(times)
-    # So many even steps are never drawn by chance.
-    return _near(np.diff(regular), np.full(99, regular[1] - regular[0]), 1e-9) and (
-        np.ptp(times) > 0 and _near(np.sort(again), regular)
-    )
+    again = _shaped(trial.call(first, last, trial.rng.random(100)), (100,))
+    return bool(np.ptp(times) > 0 and _near(again, times))
 
 
 def _uneven(trial: Trial) -> bool:
@@ -469,6 +465,13 @@ def _gone_at_once(trial: Trial) -> bool:
 def _gone_faster(trial: Trial) -> bool:
     gone, velocity, time = _gone(trial)
     return any(_near(gone, f * np.outer(velocity, time**2)) for f in (0.5, 1.0))
+
+
+def _way_wrong(trial: Trial) -> bool:
+    """Whether the student's displacement is to blame for where the origins go."""
+    velocity, time = _velocity(trial.rng), _times(trial.rng, 50)
+    gone = _shaped(trial.call_other("displacement", velocity.copy(), time.copy()), (3, 50))
+    return not _near(gone, np.outer(velocity, time))
 
 
 def _shift(trial: Trial) -> tuple[Array, Array, Array, Array]:
@@ -671,8 +674,7 @@ CHECKS = ModuleChecks(
         Mistake(
             "shutter_times",
             "u-unused",
-            "Your times are a regular row that doesn't depend on u; neighbouring pixels will show the same"
-            " few ghosts.",
+            "Your times are a row that doesn't depend on u, so that every batch shows the same few ghosts.",
             _u_unused,
         ),
         Mistake(
@@ -684,7 +686,7 @@ CHECKS = ModuleChecks(
         ),
         Mistake(
             "displacement",
-            "backwards",
+            "against-velocity",
             "Your object moves against its velocity; a sign is the wrong way round.",
             _gone_backwards,
         ),
@@ -702,20 +704,20 @@ CHECKS = ModuleChecks(
         ),
         Mistake(
             "displacement",
-            "first-time",
+            "gone-at-first-time",
             "You use the first ray's time for all rays; each has its own.",
             _gone_at_first_time,
         ),
         Mistake(
             "displacement",
-            "mean-time",
+            "gone-at-mean-time",
             "You use the mean time for all rays, which moves the object but leaves no streak; each ray has"
             " a time of its own.",
             _gone_at_mean_time,
         ),
         Mistake(
             "displacement",
-            "time-ignored",
+            "gone-at-once",
             "Your object has gone the way of one second at every time.",
             _gone_at_once,
         ),
@@ -727,6 +729,12 @@ CHECKS = ModuleChecks(
         ),
         Mistake(
             "to_object_space",
+            "displacement-wrong",
+            "Your displacement isn't right yet, and this function most likely builds on it; mend that one first.",
+            _way_wrong,
+        ),
+        Mistake(
+            "to_object_space",
             "wrong-way",
             "You move the rays along with the object; seen from an object that moves to the right, the rest"
             " of the world moves to the left.",
@@ -734,13 +742,13 @@ CHECKS = ModuleChecks(
         ),
         Mistake(
             "to_object_space",
-            "first-time",
+            "seen-at-first-time",
             "You use the first ray's time for all rays; each has its own.",
             _moved_at_first_time,
         ),
         Mistake(
             "to_object_space",
-            "time-ignored",
+            "seen-at-once",
             "You move every ray by the way of one whole second, whatever its time is.",
             _moved_at_once,
         ),

@@ -16,7 +16,7 @@ from course.grading.release.stubs import make_stubs
 from course.imaging.atomic import replacing
 
 FOLDERS = {
-    "course": {".py", ".typed", ".json"},
+    "course": {".py", ".typed", ".json", ".jinja", ".npz"},
     "scenes": {".yaml", ".png", ".exr", ".ply", ".obj", ".stl", ".glb", ".md"},
 }
 """Folders that students get, and the kinds of file in them."""

@@ -13,7 +13,7 @@ import pytest
 from course.errors import OutputError
 from course.grading.release.archive import LeakError, archive_contents, write_archive
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 
 
 @pytest.fixture(scope="module")

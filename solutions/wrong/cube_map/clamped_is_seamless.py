@@ -1,0 +1,12 @@
+"""Uses the seamless lookup for the clamped one too."""
+
+FUNCTION = "lookup"
+CAUGHT_BY = "clamped"
+MISTAKE = "mixes-faces"
+
+
+def lookup(faces, direction):
+    """What the environment looks like."""
+    _check_faces(faces)
+    _check_batch("direction", direction, 3)
+    return lookup_seamless(faces, direction)

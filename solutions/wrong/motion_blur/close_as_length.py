@@ -1,0 +1,15 @@
+"""Takes the end of the exposure for its length."""
+
+import numpy as np
+
+FUNCTION = "shutter_times"
+CAUGHT_BY = "even"
+MISTAKE = "close-as-length"
+
+
+def shutter_times(open, close, u):  # noqa: A002
+    """Times while the shutter is open."""
+    _check_scalars("u", u)
+    if not -np.inf < open <= close < np.inf:
+        raise ValueError("open <= close, both finite")
+    return u.dtype.type(open) + u.dtype.type(close) * u

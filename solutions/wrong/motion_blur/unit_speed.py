@@ -1,0 +1,18 @@
+"""Normalises the velocity as if it were a direction."""
+
+import numpy as np
+
+FUNCTION = "displacement"
+CAUGHT_BY = "one-second"
+MISTAKE = "unit-speed"
+
+
+def displacement(velocity, time):
+    """How far an object has gone."""
+    _check_single(velocity=velocity)
+    _check_scalars("time", time)
+    velocity = np.asarray(velocity, time.dtype)
+    length = np.linalg.norm(velocity)
+    if length > 0:
+        velocity = velocity / length
+    return velocity[:, None] * time

@@ -1,0 +1,26 @@
+"""A square instead of a disk."""
+
+import numpy as np
+
+FUNCTION = "point_on_facing_disk"
+CAUGHT_BY = "inside"
+MISTAKE = "square"
+
+
+def point_on_facing_disk(center, radius, point, u):
+    """Uniform points on the disk that faces each point."""
+    _check_single(center=center)
+    _check_batch("point", point, 3)
+    _check_batch("u", u, 2, np.shape(point)[1])
+    _check_radius(radius)
+    dtype = np.result_type(point, u)
+    c = np.array(center, float)[:, None]
+    w = c - point
+    w = w / np.maximum(np.sqrt((w * w).sum(axis=0)), 1e-20)
+    helper = np.where(np.abs(w[0]) > 0.9, [[0.0], [1.0], [0.0]], [[1.0], [0.0], [0.0]])
+    s = np.cross(w, helper, axis=0)
+    s = s / np.sqrt((s * s).sum(axis=0))
+    t = np.cross(w, s, axis=0)
+    a = float(radius) * (2 * u[0] - 1)
+    b = float(radius) * (2 * u[1] - 1)
+    return (c + a * s + b * t).astype(dtype)

@@ -1,0 +1,15 @@
+"""Single points of float64 turn the result into float64."""
+
+import numpy as np
+
+FUNCTION = "point_on_rectangle"
+CAUGHT_BY = "contract"
+MISTAKE = "point-on-rectangle-float64"
+
+
+def point_on_rectangle(corner, edge_u, edge_v, u):
+    """Uniform points on a parallelogram."""
+    _check_single(corner=corner, edge_u=edge_u, edge_v=edge_v)
+    _check_batch("u", u, 2)
+    edges = np.array([edge_u, edge_v], dtype=float).T
+    return np.array(corner, dtype=float)[:, None] + edges @ u

@@ -1,0 +1,15 @@
+"""Jitter as wide as the pixel, not as wide as a cell."""
+
+import numpy as np
+
+FUNCTION = "jittered"
+CAUGHT_BY = "cells"
+MISTAKE = "jitter-too-wide"
+
+
+def jittered(k, n, rng):
+    """One uniform point in each cell."""
+    _check_counts(k, n)
+    number = np.arange(k * k)
+    corner = np.stack([number % k, number // k])[:, None, :] / k
+    return (corner + rng.random((2, n, k * k))).astype(np.float32)

@@ -1,0 +1,11 @@
+"""Returns float64, as rng.random does by itself."""
+
+FUNCTION = "random"
+CAUGHT_BY = "contract"
+MISTAKE = "random-float64"
+
+
+def random(k, n, rng):
+    """Independent uniform points."""
+    _check_counts(k, n)
+    return rng.random((2, n, k * k))

@@ -1,0 +1,12 @@
+"""The formula divides by zero for an object at the focal length."""
+
+FUNCTION = "image_distance"
+CAUGHT_BY = "limits"
+MISTAKE = "limits"
+
+
+def image_distance(focal_length, object_distance):
+    """The lens formula."""
+    _check_positive("focal_length", focal_length)
+    _check_positive("object_distance", object_distance)
+    return focal_length * object_distance / (object_distance - focal_length)

@@ -1,0 +1,13 @@
+"""The angle is u itself: the factor of a whole turn is missing."""
+
+import numpy as np
+
+FUNCTION = "point_on_disk"
+CAUGHT_BY = "uniform"
+MISTAKE = "part-turn"
+
+
+def point_on_disk(u):
+    """Points by radius and angle."""
+    _check_batch("u", u, 2)
+    return np.sqrt(u[0]) * np.stack((np.cos(u[1]), np.sin(u[1])))
