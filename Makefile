@@ -22,7 +22,7 @@ endif
 RUN := $(BIN)/python
 STAMP := $(VENV)/.installed
 
-.PHONY: help setup check test demo bench stress clean
+.PHONY: help setup check test demo bench stress mutants clean
 
 help:  ## list what make can do
 	@echo "make demo    render four scenes and a page that shows them, in $(DEMO_FOLDER)"
@@ -30,6 +30,7 @@ help:  ## list what make can do
 	@echo "make check   formatting, lint, types, layers"
 	@echo "make bench   measure, print and write JSON"
 	@echo "make stress  thousands of ill-conditioned scenes beside their well-conditioned twins"
+	@echo "make mutants grade every known submission, right and wrong, and print what became of it"
 	@echo "make setup   make $(VENV) and install into it (the others do it when needed)"
 	@echo "make clean   remove $(VENV) and all that was made"
 
@@ -67,6 +68,9 @@ bench: $(STAMP)
 stress: $(STAMP)
 	"$(RUN)" -m benchmarks.stress
 	"$(RUN)" -m pytest -q -n auto --hypothesis-profile=stress tests/stress
+
+mutants: $(STAMP)
+	"$(RUN)" -m benchmarks.mutants
 
 clean:
 	@"$(or $(PYTHON),python3)" -c "import shutil; [shutil.rmtree(f, True) for f in '$(VENV) build dist out .pytest_cache .mypy_cache .ruff_cache .hypothesis'.split()]"

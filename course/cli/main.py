@@ -16,7 +16,19 @@ from course import __version__
 from course.cli.options import INTERRUPTED
 from course.errors import CourseError
 
-COMMANDS = ("render", "check", "info", "schema", "demo", "bench", "release")
+COMMANDS = (
+    "render",
+    "check",
+    "info",
+    "schema",
+    "demo",
+    "bench",
+    "release",
+    "calibrate",
+    "references",
+    "grade",
+    "bundle",
+)
 """Each is the command of that name in the module of that name beside this file."""
 
 

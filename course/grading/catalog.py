@@ -1,4 +1,4 @@
-"""Everything that is checked in a module: its own checks, its pictures and its convergence."""
+"""Everything that is checked in a module: its own checks, its convergence, its pictures and its speed."""
 
 from __future__ import annotations
 
@@ -8,7 +8,9 @@ from course.effects import MODULES
 from course.errors import CourseError
 from course.grading.checks.check import ModuleChecks
 from course.grading.checks.order import ORDERS
+from course.grading.checks.speed import SPEEDS
 from course.grading.pictures.catalog import PICTURES
+from course.grading.pictures.whole import NAME, WHOLE
 
 
 def module_checks(module: str) -> ModuleChecks:
@@ -19,10 +21,17 @@ def module_checks(module: str) -> ModuleChecks:
     CourseError
         There is no such module.
     """
+    if module == NAME:
+        return WHOLE
     if module not in MODULES:
         raise CourseError(f"no module {module!r}; the modules are {', '.join(MODULES)}")
     own: ModuleChecks = import_module(f"course.grading.checks.{module}").CHECKS
-    found = (*own.checks, *ORDERS.get(module, ()), *PICTURES.get(module, ()))
+    found = (
+        *own.checks,
+        *ORDERS.get(module, ()),
+        *PICTURES.get(module, ()),
+        *SPEEDS.get(module, ()),
+    )
     place = {name: number for number, name in enumerate(MODULES[module])}
     return ModuleChecks(
         module, tuple(sorted(found, key=lambda check: place[check.function])), own.mistakes

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
+from contextlib import AbstractContextManager, ExitStack, nullcontext
 from time import perf_counter
 
 from course import __version__
 from course.effects import MODULES
 from course.grading.catalog import module_checks
-from course.grading.checks.check import Check
+from course.grading.checks.check import Caller, Check
 from course.grading.checks.running import References, Result, run_checks
+from course.grading.pictures.whole import ALL, NAME, Together
+from course.grading.references import SOLUTIONS
 from course.grading.report import Report
 from course.grading.worker.client import Limits, Worker
 from course.grading.worker.sandbox import Sandbox, sandbox
@@ -41,15 +44,23 @@ def grade(
     shut_in = shut_in or sandbox()
     started = perf_counter()
     results: list[Result] = []
-    printed: dict[str, str] = {}
-    for module in modules:
-        with Worker(module, sources.get(module, b""), limits, shut_in) as worker:
-            for result in run_checks(module_checks(module), worker, references, seed, only):
-                results.append(result)
-                if each is not None:
-                    each(result)
-        if worker.printed:
-            printed[module] = worker.printed
+    chosen = tuple(modules)
+    with ExitStack() as stack:
+        # A worker's process starts at its first call, so those of modules that nobody asks cost nothing.
+        workers = {
+            module: stack.enter_context(Worker(module, sources.get(module, b""), limits, shut_in))
+            for module in chosen
+        }
+        for module in (*chosen, *([NAME] if set(ALL) <= set(chosen) else [])):
+            caller: Caller = workers[module] if module in workers else Together(workers)
+            with _yardstick(module, limits, shut_in) as yardstick:
+                for result in run_checks(
+                    module_checks(module), caller, references, seed, only, yardstick
+                ):
+                    results.append(result)
+                    if each is not None:
+                        each(result)
+        printed = {module: worker.printed for module, worker in workers.items() if worker.printed}
     return Report(
         student,
         tuple(results),
@@ -59,3 +70,11 @@ def grade(
         __version__,
         perf_counter() - started,
     )
+
+
+def _yardstick(
+    module: str, limits: Limits, shut_in: Sandbox
+) -> AbstractContextManager[Worker | None]:
+    """The reference solution in a worker of its own, where there is one."""
+    path = SOLUTIONS / f"{module}.py"
+    return Worker(module, path.read_bytes(), limits, shut_in) if path.is_file() else nullcontext()

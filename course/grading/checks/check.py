@@ -72,6 +72,8 @@ class Trial:
     rng : numbers for this check; the same for the same seed, task and check
     references : arrays that ``Check.prepare`` made with the reference solution
     figures : what the check has shown so far
+    notes : what the student should know though nothing is wrong
+    yardstick : the reference solution in a worker of its own, to compare times with; None where there is no solution
     """
 
     function: str
@@ -79,6 +81,8 @@ class Trial:
     rng: np.random.Generator
     references: Mapping[str, Array] = field(default_factory=dict)
     figures: list[Figure] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+    yardstick: Caller | None = None
 
     def call(self, *arguments: Any, **named: Any) -> Any:
         """Call the function that the check is about."""

@@ -106,6 +106,7 @@ def run_checks(
     references: References,
     seed: int,
     only: Callable[[Check], bool] | None = None,
+    yardstick: Caller | None = None,
 ) -> Iterator[Result]:
     """Results in the order of the checks, each as soon as it is there."""
     timed_out: set[str] = set()
@@ -128,11 +129,12 @@ def run_checks(
             continue
         started = perf_counter()
         trial = Trial(check.function, caller, generator(seed, checks.module, check))
+        trial.yardstick = yardstick
         try:
             # The check's numbers begin where prepare's do.
             trial.references = references(checks.module, check)
             check.run(trial)
-            result = _result(checks.module, check, Status.PASSED)
+            result = _result(checks.module, check, Status.PASSED, hint=" ".join(trial.notes))
         except Failure as failure:
             result = _result(
                 checks.module,

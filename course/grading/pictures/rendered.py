@@ -12,6 +12,7 @@ import numpy as np
 import yaml
 from PIL import Image
 
+from course.effects import Effects
 from course.grading.checks.check import Array, Caller, Check, Trial
 from course.grading.pictures import scenes
 from course.grading.pictures.judging import BIAS_FALSE_FAIL, block_means, check_bias, check_ssim
@@ -27,7 +28,7 @@ MakeScene = Callable[[np.random.Generator], scenes.Scene]
 
 
 def rendered(
-    description: scenes.Scene, effects: Stage, rng: np.random.Generator, **options: Any
+    description: scenes.Scene, effects: Effects, rng: np.random.Generator, **options: Any
 ) -> Array:
     """A small picture (3, H, W), linear."""
     with tempfile.TemporaryDirectory() as folder:

@@ -182,6 +182,38 @@ def surroundings(rng: np.random.Generator, lookup: str) -> Scene:
     )
 
 
+def everything(rng: np.random.Generator) -> Scene:
+    """Every effect at once: lens, shutter, ball light, glossy floor, cube map and a Gaussian filter."""
+    colors = rng.uniform(0.2, 0.9, (3, 3))
+    ball = _ball("ball", 0.6, [-1.2, 0.6, 0.4]) | {
+        "motion": {"velocity": [float(rng.uniform(0.8, 1.4)), 0, 0]}
+    }
+    return _scene(
+        camera={
+            "eye": [0.4, 2.2, 6],
+            "look_at": [0, 0.6, 0],
+            "vertical_fov": 36,
+            "shutter": {"open": 0, "close": 0.8},
+            "lens": {"aperture_radius": 0.1, "focus_distance": float(rng.uniform(5.5, 6.5))},
+        },
+        film={"filter": "gaussian", "sigma": 0.3},
+        sampler={"samples": 64},
+        integrator={"max_depth": 2},
+        environment={"type": "cube", "cross": "cross.png", "scale": 0.5},
+        materials={
+            "floor": {"color": 0.3, "mirror": 0.5, "gloss": {"lobe": "phong", "exponent": 80}},
+            "ball": _color(colors[0]),
+            "post": _color(colors[1]),
+        },
+        lights=[ball_light(rng, "sphere"), {"type": "ambient", "radiance": 0.2}],
+        objects=[
+            {"shape": "quad", "material": "floor", "width": 8, "depth": 8},
+            ball,
+            *(_box("post", [0.3, 1.6, 0.3], [-0.6 + 1.2 * i, 0.8, -1.2 - i]) for i in range(3)),
+        ],
+    )
+
+
 def cross(rng: np.random.Generator) -> np.ndarray[Any, np.dtype[np.uint8]]:
     """A horizontal cross (18, 24, 3) of six faces of 6 x 6 texels, every one of another colour."""
     return rng.integers(30, 255, (18, 24, 3)).astype(np.uint8)

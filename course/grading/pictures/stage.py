@@ -76,7 +76,7 @@ class Stage(Effects):
     def function(self, module: str, name: str) -> Callable[..., Any]:
         """The function that the picture is to be made with."""
         if module == self._own and self._only in (None, name):
-            return lambda *arguments: _usable(self._caller.call(name, *arguments))
+            return lambda *arguments: usable(self._caller.call(name, *arguments))
         stand_in = STAND_INS.get(f"{module}.{name}")
         if stand_in is not None:
             return stand_in
@@ -98,10 +98,10 @@ class Stage(Effects):
         return number
 
 
-def _usable(value: Any) -> Any:
+def usable(value: Any) -> Any:
     """What the engine may use: its own copy, in float32, so that a wrong dtype costs where it is checked."""
     if isinstance(value, tuple):
-        return tuple(_usable(item) for item in value)
+        return tuple(usable(item) for item in value)
     if isinstance(value, np.ndarray) and value.dtype.kind == "f":
         return np.nan_to_num(np.ascontiguousarray(value, np.float32))
     return value

@@ -1,27 +1,33 @@
 """The student archive: the course without its solutions.
 
 What goes in is listed, not what stays out: a file that nobody thought of can't give a solution away. Stubs are made
-afresh, so that no half-written assignment of the author is handed out, and the finished archive is searched for every
-line of every solution before it gets its name.
+afresh, so that no half-written assignment of the author is handed out, and so are the references that checks need
+where no solutions are. The finished archive is searched for every line of every solution before it gets its name.
 """
 
 from __future__ import annotations
 
+import tempfile
 import zipfile
 from pathlib import Path
 
+from course.effects import MODULES
 from course.errors import CourseError, OutputError
+from course.grading.pictures.whole import NAME
+from course.grading.references import USUAL_SEED, make_references
 from course.grading.release.regions import find_regions
 from course.grading.release.stubs import make_stubs
 from course.imaging.atomic import replacing
 
 FOLDERS = {
-    "course": {".py", ".typed", ".json", ".jinja", ".npz"},
+    "course": {".py", ".typed", ".json", ".jinja"},
     "scenes": {".yaml", ".png", ".exr", ".ply", ".obj", ".stl", ".glb", ".md"},
 }
 """Folders that students get, and the kinds of file in them."""
 
 FILES = ("README.md", "LICENSE", "pyproject.toml", "Makefile")
+
+REFERENCES = "course/grading/data/references.npz"
 
 TELLING = 24
 """Lines shorter than this are nobody's solution: `return x` stands everywhere."""
@@ -50,6 +56,7 @@ def archive_contents(project: Path) -> dict[str, bytes]:
         for path in sorted((project / folder).rglob("*")):
             if path.is_file() and path.suffix in suffixes and "__pycache__" not in path.parts:
                 contents[path.relative_to(project).as_posix()] = path.read_bytes()
+    contents[REFERENCES] = _references()
     _search(contents, project)
     return contents
 
@@ -84,6 +91,13 @@ def write_archive(project: Path, out: Path) -> int:
     except OSError as error:
         raise OutputError(f"{out}: can't be written: {error.strerror}") from error
     return len(contents)
+
+
+def _references() -> bytes:
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "references.npz"
+        make_references((*MODULES, NAME), USUAL_SEED, path)
+        return path.read_bytes()
 
 
 def solution_lines(folder: Path) -> set[str]:

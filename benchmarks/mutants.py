@@ -1,0 +1,115 @@
+"""`make mutants`: the kill matrix of all known submissions, each graded in a worker as a student's would be.
+
+Exit code 1 when a wrong submission gets past the check meant for it, or a right one loses a point. ``--false-fail``
+estimates instead how often a right submission fails by chance: the statistical checks alone, for thousands of seeds.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
+from pathlib import Path
+
+import click
+
+from course.effects import MODULES
+from course.grading.catalog import module_checks
+from course.grading.checks.running import Status, prepared, run_checks
+from course.grading.known import Known, known
+from course.grading.mutants import Verdict, judge, matrix
+from course.grading.references import make_references, read_references, reference
+from course.grading.worker.client import Limits, Worker
+
+CHANCE = ("distribution", "order")
+"""Kinds of checks in which chance decides; bias is estimated from its own distribution, for it renders."""
+
+
+@click.command(help=__doc__)
+@click.argument("modules", nargs=-1, metavar="[MODULE]...", type=click.Choice([*MODULES]))
+@click.option("--seed", default=0, show_default=True)
+@click.option("--jobs", default=2, show_default=True)
+@click.option(
+    "--false-fail",
+    type=int,
+    metavar="SEEDS",
+    help="Estimate the false-fail rate over that many seeds.",
+)
+@click.option("--json", "json_file", type=click.Path(path_type=Path), help="Write the results.")
+def main(
+    modules: tuple[str, ...], seed: int, jobs: int, false_fail: int | None, json_file: Path | None
+) -> None:
+    """Print the matrix."""
+    chosen = modules or tuple(MODULES)
+    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
+        if false_fail is not None:
+            sys.exit(_false_fail(pool, chosen, false_fail, json_file))
+        file = Path("out/mutants/references.npz")
+        make_references(chosen, seed, file)
+        submissions = [submission for module in chosen for submission in known(module)]
+        verdicts = []
+        for verdict in pool.map(
+            _judged, submissions, [seed] * len(submissions), [file] * len(submissions)
+        ):
+            verdicts.append(verdict)
+            print("\n".join(matrix([verdict])), flush=True)
+    faults = sum(bool(verdict.fault) for verdict in verdicts)
+    right = sum(verdict.submission.right for verdict in verdicts)
+    print(
+        f"\n{right} right and {len(verdicts) - right} wrong submissions, {faults} faults of the grader"
+    )
+    if json_file:
+        json_file.write_text(json.dumps([_plain(verdict) for verdict in verdicts], indent=1))
+    sys.exit(1 if faults else 0)
+
+
+def _judged(submission: Known, seed: int, file: Path) -> Verdict:
+    arrays = read_references(file, seed)
+    with Worker(
+        submission.module, submission.source.encode(), Limits(call_seconds=60, cpu_seconds=600)
+    ) as worker:
+        return judge(submission, worker, arrays, seed)
+
+
+def _false_fail(
+    pool: ProcessPoolExecutor, modules: tuple[str, ...], seeds: int, json_file: Path | None
+) -> int:
+    stated = sum(check.false_fail for module in modules for check in module_checks(module).checks)
+    graded, failed = 0, []
+    for module in modules:
+        for wrong in pool.map(_chance, [module] * seeds, range(seeds), chunksize=25):
+            graded += 1
+            failed += wrong
+    print(f"{seeds} seeds of {len(modules)} modules: {len(failed)} false fails {failed[:5]}")
+    print(f"by design: {stated:.1e} for an assignment of all {len(modules)} modules")
+    if json_file:
+        json_file.write_text(json.dumps({"seeds": seeds, "failed": failed, "by design": stated}))
+    return 1 if failed else 0
+
+
+def _chance(module: str, seed: int) -> list[str]:
+    caller = reference(module)
+    results = run_checks(
+        module_checks(module),
+        caller,
+        prepared(caller, seed),
+        seed,
+        only=lambda check: check.kind in CHANCE,
+    )
+    return [f"{result.id} seed {seed}" for result in results if result.status is not Status.PASSED]
+
+
+def _plain(verdict: Verdict) -> dict[str, object]:
+    return {
+        "module": verdict.submission.module,
+        "name": verdict.submission.name,
+        "right": verdict.submission.right,
+        "failed": verdict.failed,
+        "told": verdict.told,
+        "fault": verdict.fault,
+    }
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,38 @@
+"""`course calibrate`: SSIM tolerances from the known submissions."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from course.effects import MODULES, PROJECT
+
+
+@click.command()
+@click.argument("modules", nargs=-1, metavar="[MODULE]...", type=click.Choice([*MODULES]))
+@click.option(
+    "--seeds",
+    type=click.IntRange(1),
+    default=12,
+    show_default=True,
+    help="Pictures of each submission.",
+)
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path, dir_okay=False),
+    default=PROJECT / "course" / "grading" / "data" / "tolerances.json",
+    show_default="where the checks read them",
+)
+def calibrate(modules: tuple[str, ...], seeds: int, out: Path) -> None:
+    """Put the tolerance of each picture between the known right and the known wrong submissions.
+
+    Renders both with several seeds and writes the tolerances, with what they lie between.
+    """
+    from course.grading.calibration import calibrate as measured
+    from course.grading.calibration import write_tolerances
+    from course.grading.pictures.judging import tolerances
+
+    found = dict(tolerances()) | measured(modules or tuple(MODULES), seeds, click.echo)
+    write_tolerances(found, seeds, out)
+    click.echo(f"{out} written")

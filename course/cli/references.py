@@ -1,0 +1,29 @@
+"""`course references`: the arrays that a copy without solutions needs."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from course.cli.tables import count
+from course.effects import MODULES, PROJECT
+
+
+@click.command()
+@click.option(
+    "--seed", type=click.IntRange(0), default=0, show_default=True, help="The seed of the checks."
+)
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path, dir_okay=False),
+    default=PROJECT / "course" / "grading" / "data" / "references.npz",
+    show_default="where `course check` reads them",
+)
+def references(seed: int, out: Path) -> None:
+    """Make the reference pictures and arrays of all checks with the solutions, and write them as one file."""
+    from course.grading.pictures.whole import NAME
+    from course.grading.references import make_references
+
+    arrays = make_references((*MODULES, NAME), seed, out)
+    click.echo(f"{out}: {count(arrays, 'array')}, {out.stat().st_size / 1e6:.1f} MB")

@@ -1,0 +1,159 @@
+"""Grade the one submission that Gradescope has put into its container: ``run_autograder`` runs this.
+
+Gradescope ends what takes longer than its limit, so the results are written anew after every check: what has been
+earned until then counts. Whatever has not been reached stands in them with its points to earn.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+import traceback
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+from course import __version__
+from course.effects import MODULES
+from course.errors import CourseError
+from course.grading.catalog import module_checks
+from course.grading.checks.running import References, Result, Status
+from course.grading.classes.bundle import REFERENCES
+from course.grading.classes.job import json_bytes, troubled
+from course.grading.classes.submitted import read_one
+from course.grading.grading import grade
+from course.grading.references import read_references, references
+from course.grading.report import Report
+from course.grading.worker.client import Limits
+from course.imaging.atomic import replacing
+
+LIMITS = Limits(call_seconds=20.0)
+"""Half a core, as Gradescope gives it, takes twice the time."""
+
+NOT_REACHED = "the time was over before this check"
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Grade ROOT/submission into ROOT/results/results.json; 0, or 1 after a fault of the grader.
+
+    Parameters
+    ----------
+    arguments : of the command line; this process's if not given
+    """
+    parser = argparse.ArgumentParser(prog="run_autograder", description="Grade on Gradescope.")
+    parser.add_argument("--root", type=Path, default=Path("/autograder"))
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--modules", default=",".join(MODULES))
+    options = parser.parse_args(arguments)
+    writer = _Writer(
+        options.root / "results" / "results.json",
+        _student(options.root / "submission_metadata.json"),
+        options.seed,
+        options.modules.split(","),
+    )
+    try:
+        return _grade(options.root, writer)
+    except Exception:  # noqa: BLE001 - whatever it is, it is no mistake of the student's
+        traceback.print_exc()
+        # Without results Gradescope says that the autograder has failed; with some, they would be a grade.
+        writer.remove()
+        return 1
+
+
+def _grade(root: Path, writer: _Writer) -> int:
+    submission = read_one(writer.student, (root / "submission").resolve())
+    if submission.trouble:
+        writer.fail(submission.trouble)
+        return 0
+    writer.write(None)
+    report = grade(
+        submission.sources,
+        _references(root / "source" / REFERENCES, writer.seed),
+        seed=writer.seed,
+        modules=writer.modules,
+        student=writer.student,
+        limits=LIMITS,
+        each=writer.add,
+    )
+    writer.write(report)
+    return 0
+
+
+class _Writer:
+    """Keeps results.json what is known so far."""
+
+    def __init__(self, path: Path, student: str, seed: int, modules: Sequence[str]) -> None:
+        self.student, self.seed, self.modules = student, seed, modules
+        self._path = path
+        self._started = perf_counter()
+        self._results: list[Result] = []
+
+    def add(self, result: Result) -> None:
+        """Write with one result more."""
+        self._results.append(result)
+        self.write(None)
+
+    def fail(self, trouble: str) -> None:
+        """Write why there are no results."""
+        self.write(troubled(self.student, trouble, self.seed))
+
+    def remove(self) -> None:
+        """Leave no results."""
+        self._path.unlink(missing_ok=True)
+
+    def write(self, report: Report | None) -> None:
+        """Write a report, or what it will be if no more comes."""
+        from course.grading.reports.gradescope import results
+
+        if report is None:
+            all_results = (*self._results, *unreached(self.modules, self._results))
+            report = Report(self.student, all_results, seed=self.seed, version=__version__)
+        seconds = round(perf_counter() - self._started, 3)
+        self._path.parent.mkdir(parents=True, exist_ok=True)
+        with replacing(self._path) as temporary:
+            temporary.write_bytes(json_bytes(results(report) | {"execution_time": seconds}))
+
+
+def unreached(modules: Iterable[str], done: Iterable[Result]) -> tuple[Result, ...]:
+    """Results of the checks that are not among those done: not attempted."""
+    ids = {result.id for result in done}
+    return tuple(
+        Result(
+            module,
+            check.function,
+            check.name,
+            check.title,
+            check.kind,
+            Status.NOT_ATTEMPTED,
+            0.0,
+            check.points,
+            found=NOT_REACHED,
+        )
+        for module in modules
+        for check in module_checks(module).checks
+        if f"{module}.{check.function}/{check.name}" not in ids
+    )
+
+
+def _references(path: Path, seed: int) -> References:
+    """Those that came with the bundle, or made now."""
+    try:
+        return read_references(path, seed)
+    except CourseError:
+        return references(seed)
+
+
+def _student(path: Path) -> str:
+    """Names of those who have handed it in; empty if nobody says."""
+    try:
+        metadata: Any = json.loads(path.read_text(encoding="utf-8"))
+        users = [user.get("name") or user.get("email") or "" for user in metadata["users"]]
+        return ", ".join(str(user) for user in users if user)
+    except (OSError, ValueError, KeyError, TypeError, AttributeError):
+        return ""
+
+
+if __name__ == "__main__":
+    sys.exit(main())

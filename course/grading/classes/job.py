@@ -1,0 +1,118 @@
+"""One submission graded into the files of its student: what a process of the pool or a machine of a cluster does.
+
+A job and what comes of it are plain data, and a job needs no folder that others can see too: references are a file's
+name or, for another machine, the file's bytes.
+"""
+
+from __future__ import annotations
+
+import json
+import tempfile
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from pathlib import Path
+
+from course import __version__
+from course.grading.checks.running import References
+from course.grading.grading import grade
+from course.grading.references import read_references
+from course.grading.report import Report
+
+
+@dataclass(frozen=True)
+class Job:
+    """What is to be graded.
+
+    Attributes
+    ----------
+    student : the name, safe as a folder's
+    sources : module -> the student's file
+    trouble : why there are none
+    seed, modules : what to check
+    """
+
+    student: str
+    sources: Mapping[str, bytes]
+    trouble: str
+    seed: int
+    modules: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Graded:
+    """What came of a job.
+
+    Attributes
+    ----------
+    report : without what there was to draw
+    files : name in the student's folder -> content
+    """
+
+    report: Report
+    files: Mapping[str, bytes]
+
+
+def grade_job(job: Job, references: Path | bytes) -> Graded:
+    """Grade one submission and write its reports, as bytes.
+
+    Parameters
+    ----------
+    references : a file of ``make_references``, or its content
+    """
+    if job.trouble:
+        report = troubled(job.student, job.trouble, job.seed)
+    else:
+        report = grade(
+            job.sources,
+            _references(references, job.seed),
+            seed=job.seed,
+            modules=job.modules,
+            student=job.student,
+        )
+    return Graded(without_figures(report), report_files(report))
+
+
+def troubled(student: str, trouble: str, seed: int) -> Report:
+    """The report of a submission that can't be graded: it has no results, for a 0 would be a grade."""
+    return Report(student, (), seed=seed, version=__version__, trouble=trouble)
+
+
+def without_figures(report: Report) -> Report:
+    """The report without arrays to draw, which are most of its bytes."""
+    return replace(report, results=tuple(replace(result, figures=()) for result in report.results))
+
+
+def report_files(report: Report) -> dict[str, bytes]:
+    """Everything that is written for one student, by file name."""
+    from course.grading.reports import gradescope, prairielearn
+    from course.grading.reports.files import as_json
+    from course.grading.reports.junit import write_junit
+    from course.grading.reports.page import write_page
+
+    with tempfile.TemporaryDirectory() as folder:
+        page, junit = Path(folder) / "report.html", Path(folder) / "junit.xml"
+        write_page(report, page)
+        write_junit(report, junit)
+        files = {path.name: path.read_bytes() for path in (page, junit)}
+    return files | {
+        "gradescope.json": json_bytes(gradescope.results(report)),
+        "prairielearn.json": json_bytes(prairielearn.results(report)),
+        "results.json": json_bytes(as_json(report)),
+    }
+
+
+def json_bytes(value: object) -> bytes:
+    """As a JSON file."""
+    return json.dumps(value, indent=1, allow_nan=False).encode() + b"\n"
+
+
+@lru_cache(maxsize=2)
+def _references(file: Path | bytes, seed: int) -> References:
+    """Read once in each process."""
+    if isinstance(file, Path):
+        return read_references(file, seed)
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "references.npz"
+        path.write_bytes(file)
+        return read_references(path, seed)

@@ -1,0 +1,79 @@
+"""The last check: one picture for which all of a student's own functions work together."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from course.effects import MODULES, Effects
+from course.grading.checks.check import Array, Caller, Check, ModuleChecks, Trial
+from course.grading.pictures import scenes
+from course.grading.pictures.judging import check_ssim
+from course.grading.pictures.rendered import rendered
+from course.grading.pictures.stage import usable
+
+NAME = "whole"
+
+
+class Together:
+    """A ``Caller`` of all modules; functions are called "MODULE.NAME"."""
+
+    def __init__(self, callers: Mapping[str, Caller]) -> None:
+        self._callers = callers
+
+    def call(self, function: str, *arguments: Any, **named: Any) -> Any:
+        """The function's value."""
+        module, _, name = function.partition(".")
+        return self._callers[module].call(name, *arguments, **named)
+
+    def call_and_look(self, function: str, *arguments: Any) -> tuple[Any, list[Any], bool]:
+        """As a single module's caller does."""
+        module, _, name = function.partition(".")
+        return self._callers[module].call_and_look(name, *arguments)
+
+
+class _All(Effects):
+    """Effects that are all one caller's."""
+
+    def __init__(self, caller: Caller) -> None:
+        self.folder = Path("together")
+        self._modules = {}
+        self._caller = caller
+
+    def function(self, module: str, name: str) -> Callable[..., Any]:
+        return lambda *arguments: usable(self._caller.call(f"{module}.{name}", *arguments))
+
+
+def _prepare(caller: Caller, rng: np.random.Generator) -> dict[str, Array]:
+    return {"picture": rendered(scenes.everything(rng), _All(caller), rng)}
+
+
+def _run(trial: Trial) -> None:
+    yours = rendered(scenes.everything(trial.rng), _All(trial.caller), trial.rng)
+    expected = trial.references["picture"]
+    trial.show("pictures", "All effects at once", yours=yours, expected=expected)
+    check_ssim(yours, expected, f"{NAME}.scene/picture")
+
+
+WHOLE = ModuleChecks(
+    NAME,
+    (
+        Check(
+            "scene",
+            "picture",
+            "A picture with all of your functions looks like the reference",
+            _run,
+            kind="whole",
+            points=3,
+            prepare=_prepare,
+        ),
+    ),
+    (),
+)
+"""Needs all of the modules in ``ALL``."""
+
+ALL = ("supersampling", "soft_shadows", "glossy", "thin_lens", "motion_blur", "cube_map")
+assert set(ALL) <= set(MODULES)

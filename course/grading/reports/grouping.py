@@ -1,0 +1,116 @@
+"""The results of a report by module and function.
+
+The checks of one function need not run one after the other: those that judge pictures come last in a module.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from course.grading.checks.running import Result, Status
+from course.grading.report import Report
+
+State = Literal["right", "wrong", "to do", "undecided"]
+
+
+@dataclass(frozen=True)
+class FunctionResults:
+    """All results of one function.
+
+    Attributes
+    ----------
+    module, name : which one
+    results : in the order of the checks
+    """
+
+    module: str
+    name: str
+    results: tuple[Result, ...]
+
+    @property
+    def state(self) -> State:
+        """What the function is; undecided where nothing but the grader itself has failed."""
+        statuses = {result.status for result in self.results}
+        if statuses <= {Status.PASSED}:
+            return "right"
+        if statuses == {Status.NOT_ATTEMPTED}:
+            return "to do"
+        return "undecided" if statuses <= {Status.PASSED, Status.GRADER_ERROR} else "wrong"
+
+    @property
+    def passed(self) -> tuple[Result, ...]:
+        """Results of the checks that passed."""
+        return tuple(result for result in self.results if result.status is Status.PASSED)
+
+    @property
+    def others(self) -> tuple[Result, ...]:
+        """Results of the checks that didn't."""
+        return tuple(result for result in self.results if result.status is not Status.PASSED)
+
+    @property
+    def points(self) -> float:
+        """Earned."""
+        return sum(result.points for result in self.results)
+
+    @property
+    def of(self) -> float:
+        """That could be earned."""
+        return sum(result.of for result in self.results)
+
+
+@dataclass(frozen=True)
+class ModuleResults:
+    """All functions of one module.
+
+    Attributes
+    ----------
+    name : the module's
+    functions : in the order in which they were first checked
+    """
+
+    name: str
+    functions: tuple[FunctionResults, ...]
+
+    @property
+    def points(self) -> float:
+        """Earned."""
+        return sum(function.points for function in self.functions)
+
+    @property
+    def of(self) -> float:
+        """That could be earned."""
+        return sum(function.of for function in self.functions)
+
+    def count(self, state: State) -> int:
+        """Functions that are so."""
+        return sum(function.state == state for function in self.functions)
+
+
+def grouped(report: Report) -> tuple[ModuleResults, ...]:
+    """Modules and functions in the order in which they first appear."""
+    modules: dict[str, dict[str, list[Result]]] = {}
+    for result in report.results:
+        modules.setdefault(result.module, {}).setdefault(result.function, []).append(result)
+    return tuple(
+        ModuleResults(
+            module,
+            tuple(
+                FunctionResults(module, function, tuple(results))
+                for function, results in functions.items()
+            ),
+        )
+        for module, functions in modules.items()
+    )
+
+
+def explained(result: Result) -> str:
+    """What a check that didn't pass has to say, as lines of plain text."""
+    lines = [
+        ("looks like", result.says),
+        ("expected", result.expected),
+        ("found", result.found),
+        ("where", result.where),
+        ("hint", result.hint),
+    ]
+    return "\n".join(f"{label}: {text.rstrip()}" for label, text in lines if text)

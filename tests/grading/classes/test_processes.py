@@ -1,0 +1,45 @@
+"""A pool of processes that outlives the death of one of them."""
+
+from __future__ import annotations
+
+import multiprocessing
+from collections import Counter
+from pathlib import Path
+from time import monotonic, sleep
+
+from course.grading.classes.processes import DIED, in_processes
+from tests.grading.classes.work import work
+
+
+def calls(folder: Path) -> Counter[str]:
+    return Counter(path.name.rpartition(" ")[0] for path in folder.iterdir())
+
+
+def test_the_one_that_kills_its_process_twice_loses_nobody_else(tmp_path: Path) -> None:
+    items = ["a", "b", "die", "c", "die-once", "d", "raise", "e"]
+    outcomes = {one.item: one for one in in_processes(work, items, tmp_path, 2)}
+
+    assert outcomes.keys() == set(items)
+    right = set(items) - {"die", "raise"}
+    assert {item: outcomes[item].value for item in right} == {item: item.upper() for item in right}
+    assert not any(outcomes[item].fault for item in right)
+    assert outcomes["die"].fault == DIED
+    assert outcomes["die"].value is None
+    assert outcomes["raise"].fault == "ValueError: a fault of the grader"
+    assert calls(tmp_path)["die"] == 2
+    assert calls(tmp_path)["die-once"] == 2
+    # What was done when the pool broke is not done again.
+    assert calls(tmp_path)["a"] == 1
+
+
+def test_closing_ends_work_that_is_under_way(tmp_path: Path) -> None:
+    before = set(multiprocessing.active_children())
+    outcomes = in_processes(work, ["a", "sleep 1", "sleep 2", "b"], tmp_path, 2)
+    assert next(outcomes).value == "A"
+    while not calls(tmp_path)["sleep 1"]:
+        sleep(0.05)
+    started = monotonic()
+    outcomes.close()
+    assert monotonic() - started < 5
+    assert set(multiprocessing.active_children()) <= before
+    assert calls(tmp_path)["b"] == 0

@@ -1,0 +1,154 @@
+"""What students hand in: names, and files that are not what they say."""
+
+from __future__ import annotations
+
+import os
+import struct
+import zipfile
+from pathlib import Path
+
+import pytest
+
+from course.errors import CourseError
+from course.grading.classes.submitted import find_submissions, safe_name
+
+STUB = (Path(__file__).parents[3] / "assignments" / "motion_blur.py").read_bytes()
+
+
+def zipped(path: Path, **entries: bytes) -> None:
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, content in entries.items():
+            archive.writestr(name, content)
+
+
+def trouble(folder: Path) -> str:
+    (found,) = find_submissions(folder)
+    assert not found.sources
+    return found.trouble
+
+
+def test_folders_and_zip_files_are_submissions(tmp_path: Path) -> None:
+    (tmp_path / "Ada Lovelace").mkdir()
+    (tmp_path / "Ada Lovelace" / "motion_blur.py").write_bytes(STUB)
+    zipped(tmp_path / "bob.ZIP", **{"work/motion_blur.py": b"pass"})
+    (tmp_path / ".git").mkdir()
+    (tmp_path / "__MACOSX").mkdir()
+    (tmp_path / "list.csv").write_text("ada")
+    found = {one.student: one.sources for one in find_submissions(tmp_path)}
+    assert found == {"Ada Lovelace": {"motion_blur": STUB}, "bob": {"motion_blur": b"pass"}}
+
+
+def test_a_declared_bomb(tmp_path: Path) -> None:
+    with zipfile.ZipFile(tmp_path / "bomb.zip", "w", zipfile.ZIP_DEFLATED) as archive:
+        for number in range(3):
+            archive.writestr(f"{number}/motion_blur.py", bytes(70_000_000))
+    assert "too large" in trouble(tmp_path)
+
+
+def test_a_bomb_that_lies_about_its_size(tmp_path: Path) -> None:
+    path = tmp_path / "bomb.zip"
+    zipped(path, **{"motion_blur.py": bytes(70_000_000)})
+    data = path.read_bytes()
+    assert data.count(struct.pack("<I", 70_000_000)) == 2
+    path.write_bytes(data.replace(struct.pack("<I", 70_000_000), struct.pack("<I", 100)))
+    (found,) = find_submissions(tmp_path)
+    assert found.trouble
+    assert not found.sources
+
+
+@pytest.mark.parametrize(
+    "name", ["../motion_blur.py", "a/../../motion_blur.py", "/motion_blur.py", "c:/motion_blur.py"]
+)
+def test_paths_that_lead_out(tmp_path: Path, name: str) -> None:
+    zipped(tmp_path / "out.zip", **{name: STUB})
+    assert "leads out" in trouble(tmp_path)
+
+
+def test_a_link_in_a_zip_file(tmp_path: Path) -> None:
+    with zipfile.ZipFile(tmp_path / "link.zip", "w") as archive:
+        entry = zipfile.ZipInfo("motion_blur.py")
+        entry.create_system, entry.external_attr = 3, 0o120777 << 16
+        archive.writestr(entry, "/etc/passwd")
+    assert "link" in trouble(tmp_path)
+
+
+def test_links_in_folders(tmp_path: Path) -> None:
+    target = tmp_path / "motion_blur.py"
+    target.write_bytes(STUB)
+    folder = tmp_path / "class"
+    (folder / "file").mkdir(parents=True)
+    (folder / "file" / "motion_blur.py").symlink_to(target)
+    (folder / "whole").symlink_to(tmp_path, target_is_directory=True)
+    for found in find_submissions(folder):
+        assert "link" in found.trouble
+        assert not found.sources
+
+
+def test_a_pipe_keeps_nobody_waiting(tmp_path: Path) -> None:
+    (tmp_path / "pipe").mkdir()
+    os.mkfifo(tmp_path / "pipe" / "motion_blur.py")
+    assert "no ordinary file" in trouble(tmp_path)
+
+
+@pytest.mark.parametrize("where", [10, 60, -30])
+def test_damaged_zip_files(tmp_path: Path, where: int) -> None:
+    path = tmp_path / "damaged.zip"
+    zipped(path, **{"motion_blur.py": os.urandom(50) + STUB})
+    data = bytearray(path.read_bytes())
+    data[where : where + 8] = b"damaged!"
+    path.write_bytes(data)
+    assert trouble(tmp_path)
+
+
+def test_an_entry_without_a_name(tmp_path: Path) -> None:
+    zipped(tmp_path / "nameless.zip", **{".": b""})
+    assert trouble(tmp_path)
+
+
+def test_the_trouble_is_told_without_the_grader_s_folders(tmp_path: Path) -> None:
+    (tmp_path / "damaged.zip").write_bytes(b"PK")
+    assert str(tmp_path) not in trouble(tmp_path)
+
+
+@pytest.mark.parametrize(("first", "second"), [("ada", "ada.zip"), ("Ada", "ada.zip")])
+def test_two_submissions_with_one_name_are_both_named(
+    tmp_path: Path, first: str, second: str
+) -> None:
+    (tmp_path / first).mkdir()
+    zipped(tmp_path / second, **{"motion_blur.py": STUB})
+    with pytest.raises(CourseError) as error:
+        find_submissions(tmp_path)
+    assert str(tmp_path / first) in str(error.value)
+    assert str(tmp_path / second) in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("name", "safe"),
+    [
+        ("Zoë Müller-Lüdenscheidt (2)", "Zoë Müller-Lüdenscheidt (2)"),
+        ("..", "%2E%2E"),
+        (".", "%2E"),
+        ("", "%00"),
+        ("-rf", "%2Drf"),
+        ("a/b\\c", "a%2Fb%5Cc"),
+        ("50%", "50%25"),
+        ("a\nb", "a%0Ab"),
+        ("con", "%63on"),
+        ("grades.csv", "%67rades.csv"),
+        ("end.", "end%2E"),
+        ("\udcff", "%FF"),
+    ],
+)
+def test_names_are_safe_as_folders(name: str, safe: str) -> None:
+    assert safe_name(name) == safe
+
+
+def test_a_zip_file_named_after_the_folder_above_stays_inside(tmp_path: Path) -> None:
+    zipped(tmp_path / "...zip", **{"motion_blur.py": STUB})
+    (found,) = find_submissions(tmp_path)
+    assert found.student == "%2E%2E"
+
+
+def test_an_empty_class_is_told(tmp_path: Path) -> None:
+    with pytest.raises(CourseError, match="holds no submissions"):
+        find_submissions(tmp_path)

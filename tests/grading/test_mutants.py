@@ -1,0 +1,79 @@
+"""The grader's own test: wrong submissions fail where they should, right ones nowhere.
+
+In this process and without the pictures that make noise; `make mutants` does the whole of it in workers.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from course.effects import MODULES
+from course.grading.calibration import trusted
+from course.grading.checks.check import Check
+from course.grading.checks.running import References, prepared
+from course.grading.known import Known, known
+from course.grading.mutants import judge, matrix
+from course.grading.references import reference
+
+ALL = [submission for module in MODULES for submission in known(module)]
+
+
+def quick(check: Check) -> bool:
+    return check.kind not in ("bias", "order")
+
+
+@cache
+def arrays(module: str) -> References:
+    make = prepared(reference(module), 0)
+    made = {}
+
+    def find(name: str, check: Check):  # type: ignore[no-untyped-def]
+        key = (check.function, check.name)
+        if key not in made:
+            made[key] = make(name, check)
+        return made[key]
+
+    return find
+
+
+@pytest.mark.filterwarnings("ignore::RuntimeWarning")
+@pytest.mark.parametrize("submission", ALL, ids=[f"{k.module}-{k.name}" for k in ALL])
+def test_the_grader_says_what_it_should(submission: Known) -> None:
+    verdict = judge(submission, trusted(submission), arrays(submission.module), 0, quick)
+    assert not verdict.fault, "\n".join(matrix([verdict]))
+
+
+@pytest.mark.parametrize("module", MODULES)
+def test_there_are_enough_of_them(module: str) -> None:
+    found = known(module)
+    assert sum(submission.right for submission in found) >= 3
+    assert sum(not submission.right for submission in found) >= 5
+    # Each function has a submission that gets it wrong.
+    assert {submission.function for submission in found if not submission.right} == set(
+        MODULES[module]
+    )
+    wrong = [submission.about for submission in found if not submission.right]
+    assert len(set(wrong)) == len(wrong)
+
+
+def test_a_grader_that_lets_everything_pass_is_found_out() -> None:
+    wrong = next(submission for submission in ALL if not submission.right)
+    verdict = judge(wrong, reference(wrong.module), arrays(wrong.module), 0, quick)
+    assert "meant for it" in verdict.fault
+
+
+def test_a_grader_that_fails_the_right_is_found_out() -> None:
+    right = next(submission for submission in ALL if submission.right)
+
+    class Wrong:
+        def call(self, *_: object, **__: object) -> object:
+            return np.zeros(3)
+
+        def call_and_look(self, *_: object) -> tuple[object, list[object], bool]:
+            return np.zeros(3), [], False
+
+    verdict = judge(right, Wrong(), arrays(right.module), 0, quick)
+    assert verdict.fault.startswith(("right, but fails", "the grader's own error"))
