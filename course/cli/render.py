@@ -10,6 +10,7 @@ import click
 from course.cli import options
 from course.cli.progress import progress_bar
 from course.cli.tables import print_sections, receipt_sections
+from course.errors import CourseError
 from course.imaging.atomic import check_writable, write_text
 
 SAMPLERS = ("sobol", "random", "jittered", "regular")
@@ -32,6 +33,14 @@ SAMPLERS = ("sobol", "random", "jittered", "regular")
 @click.option(
     "--threads", type=click.IntRange(1, 1024), help="Threads to use.  [default: every core]"
 )
+@click.option(
+    "--engine",
+    type=click.Choice(["threads", "dask"]),
+    default="threads",
+    show_default=True,
+    help="Where to render: on this machine or on a dask cluster.",
+)
+@click.option("--address", metavar="tcp://HOST:PORT", help="Of the dask scheduler.")
 @click.option(
     "--effects",
     help="Whose functions to call: solutions, assignments, or a folder of modules."
@@ -68,6 +77,8 @@ def render(
     sampler: str | None,
     seed: int | None,
     threads: int | None,
+    engine: str,
+    address: str | None,
     effects: str | None,
     time_limit: float | None,
     error: float | None,
@@ -84,6 +95,7 @@ def render(
     from course.imaging.files import check_picture_path
     from course.scene.needs import why_black
 
+    _check_engine(engine, address, threads)
     out = Path(f"{scene.stem}.png") if out is None else out
     for path in (out, heat_map):
         if path is not None:
@@ -105,6 +117,7 @@ def render(
             time_limit=time_limit,
             error=error,
             progress=progress,
+            address=address,
         )
     if picture.interrupted:
         partial = out.with_name(f"{out.stem}.partial{out.suffix}")
@@ -118,3 +131,14 @@ def render(
     if receipt_path is not None:
         write_text(receipt_path, json.dumps(receipt, indent=2, allow_nan=False) + "\n")
     print_sections(str(out), receipt_sections(receipt))
+
+
+def _check_engine(engine: str, address: str | None, threads: int | None) -> None:
+    if engine != "dask":
+        if address is not None:
+            raise CourseError("--address is for --engine dask")
+        return
+    if address is None:
+        raise CourseError("--engine dask needs --address tcp://HOST:PORT, that of its scheduler")
+    if threads is not None:
+        raise CourseError("--threads is for --engine threads; a cluster has workers of its own")

@@ -17,11 +17,12 @@ from typing import Any
 from course import __version__
 from course.effects import MODULES
 from course.grading.catalog import module_checks
-from course.grading.checks.check import Check, ModuleChecks
+from course.grading.checks.check import Caller, Check, ModuleChecks
 from course.grading.checks.running import Status, prepared, run_checks
 from course.grading.checks.trusted import TrustedModule
 from course.grading.known import Known, known
 from course.grading.pictures.judging import ssim
+from course.grading.pictures.whole import ALL, NAME, Together
 from course.grading.references import reference
 from course.imaging.atomic import write_text
 
@@ -70,6 +71,9 @@ def calibrate(
             name = f"{module}.{check.function}/{check.name}"
             found[name] = _calibrated(module, check, submissions, seeds)
             told(f"{name}: {found[name]}")
+    name = f"{NAME}.scene/picture"
+    found[name] = _calibrated_whole(seeds)
+    told(f"{name}: {found[name]}")
     return found
 
 
@@ -86,9 +90,8 @@ def _calibrated(module: str, check: Check, submissions: list[Known], seeds: int)
     for submission in submissions:
         if not submission.right and submission.function != check.function:
             continue
-        values = [
-            _similarity(module, check, submission, seed, references[seed]) for seed in references
-        ]
+        caller = trusted(submission)
+        values = [_similarity(module, check, caller, seed, references[seed]) for seed in references]
         if submission.right:
             right = min(right, *values)
         else:
@@ -107,12 +110,34 @@ def _calibrated(module: str, check: Check, submissions: list[Known], seeds: int)
     }
 
 
-def _similarity(module: str, check: Check, submission: Known, seed: int, references: Any) -> float:
+def _calibrated_whole(seeds: int) -> dict[str, Any]:
+    """The picture that takes all modules: the right variants of all, one after the other."""
+    (check,) = module_checks(NAME).checks
+    variants = {module: [k for k in known(module) if k.right] for module in ALL}
+    right = 1.0
+    for seed in range(seeds):
+        references = prepared(reference(NAME), seed)(NAME, check)
+        for number in range(min(map(len, variants.values()))):
+            caller = Together(
+                {module: trusted(found[number]) for module, found in variants.items()}
+            )
+            right = min(right, _similarity(NAME, check, caller, seed, references))
+    least = max(1 - right, ROUNDING)
+    return {
+        "tolerance": round(1 - MARGIN * least, 6),
+        "right": round(right, 6),
+        "wrong": None,
+        "nearest": "",
+        "unseen": [],
+    }
+
+
+def _similarity(module: str, check: Check, caller: Caller, seed: int, references: Any) -> float:
     """SSIM of one picture; -1 where there is none."""
     alone = ModuleChecks(module, (check,), ())
-    (result,) = run_checks(alone, trusted(submission), lambda *_: references, seed)
+    (result,) = run_checks(alone, caller, lambda *_: references, seed)
     if result.status is Status.GRADER_ERROR:
-        raise RuntimeError(f"{submission.name}, seed {seed}: {result.found}\n{result.where}")
+        raise RuntimeError(f"seed {seed}: {result.found}\n{result.where}")
     if not result.figures:
         return -1.0
     arrays = result.figures[0].arrays

@@ -41,14 +41,19 @@ class Pool:
     ----------
     counters : of all threads, after each run
     interrupted : Ctrl-C was pressed
+    threads : that render
     """
 
     def __init__(self, tracer: Tracer, film: Sink, threads: int) -> None:
         self._tracer = tracer
         self._film = film
-        self._threads = threads
+        self.threads = threads
         self.counters = Counters()
         self.interrupted = False
+
+    def prepare(self, began: float) -> float:
+        """When a time limit begins to count [``time.monotonic()``]: with the render, for threads have the scene."""
+        return began
 
     def run(
         self,
@@ -67,7 +72,7 @@ class Pool:
         run = _Run(self._tracer, self._film, work, deadline)
         threads = [
             threading.Thread(target=run.worker, name=f"tiles-{number}", daemon=True)
-            for number in range(self._threads)
+            for number in range(self.threads)
         ]
         for thread in threads:
             thread.start()
@@ -87,6 +92,9 @@ class Pool:
             tick(run.done, run.done_first)
         self.counters.add(run.counters)
         return run.exhausted and not self.interrupted
+
+    def close(self) -> None:
+        """Nothing: each run ends its threads."""
 
 
 class _Run:

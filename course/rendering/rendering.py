@@ -4,20 +4,20 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable
+from contextlib import closing
 from dataclasses import replace
 from math import isfinite
 from time import monotonic
 from typing import TYPE_CHECKING
 
 from course import __version__
-from course.core.samplers import make_sampler
 from course.errors import CourseError, EffectError, OutputError
 from course.geometry.packets import available as packets_available
 from course.imaging.adaptive_film import AdaptiveFilm
 from course.imaging.film import Film
-from course.imaging.reconstruction import Reconstruction
 from course.rendering.adaptive import render_adaptively
 from course.rendering.allocation import FIRST
+from course.rendering.binding import bind as _tracer
 from course.rendering.memory import keep_freed_memory
 from course.rendering.passes import (
     Work,
@@ -29,17 +29,17 @@ from course.rendering.passes import (
 from course.rendering.picture import Picture
 from course.rendering.pool import Pool, default_threads
 from course.rendering.receipt import Receipt
-from course.scene.compiling import compile_camera
 from course.scene.consistency import nearest_squares
 from course.scene.needs import Need, needs_of, skipped_modules
 from course.scene.scene import Scene
 from course.scene.world import Settings
 from course.transport.counters import Counters
 from course.transport.plan import Plan
-from course.transport.tracing import Tracer, make_tracer
+from course.transport.tracing import Tracer
 
 if TYPE_CHECKING:
     from course.core.samplers import Sampler
+    from course.rendering.cluster import Cluster
 
 Progress = Callable[[float, bool], None]
 
@@ -64,6 +64,7 @@ def render(
     progress: Progress | None = None,
     start: Picture | None = None,
     compiled: bool | None = None,
+    address: str | None = None,
 ) -> Picture:
     """Render a scene; what isn't given is as the scene file says.
 
@@ -81,6 +82,8 @@ def render(
     compiled : whether Numba's loops are used (``pip install .[fast]``), which give the same picture sooner; None means
         where that pays
     start : a picture of the same scene and settings with fewer samples, to be continued
+    address : of the scheduler of a Dask cluster, such as tcp://127.0.0.1:8786, whose workers render (``pip install
+        .[dask]``) and decide how many threads; None means this machine
 
     Returns
     -------
@@ -90,19 +93,25 @@ def render(
     ------
     SceneError, EffectError, OutputError
         For settings that don't fit together, functions that are not written yet, and pictures larger than memory.
+    CourseError
+        For a cluster that can't be reached or is lost.
 
     Notes
     -----
     Ctrl-C ends the render with a picture whose ``interrupted`` is true. A picture is a function of scene, settings
-    and seed alone: the same bits for any number of threads.
+    and seed alone: the same bits for any number of threads or workers.
     """
     began = monotonic()
+    if address is not None and threads is not None:
+        raise CourseError(
+            "threads are for renders on this machine; the workers of a cluster have their own"
+        )
     keep_freed_memory()
     settings = _settings(scene, spp, size, sampler, seed, time_limit, error)
     _check_memory(settings)
     needs = needs_of(scene.loaded, settings, scene.compiled.world)
-    count = threads or default_threads()
-    scene.compiled.world.surface.accelerator.use_packets(_use_compiled(settings, compiled))
+    packets = _use_compiled(settings, compiled)
+    scene.compiled.world.surface.accelerator.use_packets(packets)
     try:
         tracer = _tracer(scene, settings)
         film: Film | AdaptiveFilm
@@ -116,19 +125,27 @@ def render(
             assert isinstance(film, Film)
             assert isinstance(start.film, Film)
             film = start.film.continued(done)
-        pool = Pool(tracer, film, count)
-        if isinstance(film, AdaptiveFilm):
-            deadline = None if time_limit is None else began + time_limit
-            complete = _render_adaptively(pool, film, settings, deadline, progress)
-        elif time_limit is None:
-            complete = _render_all(pool, tracer, settings, done, progress)
+        pool: Pool | Cluster
+        if address is None:
+            pool = Pool(tracer, film, threads or default_threads())
         else:
-            deadline = began + time_limit
-            complete = _render_until(pool, tracer, settings, done, deadline, time_limit, progress)
+            from course.rendering.cluster import Cluster
+
+            pool = Cluster(address, scene, settings, film, packets)
+        with closing(pool):
+            deadline = None if time_limit is None else pool.prepare(began) + time_limit
+            if isinstance(film, AdaptiveFilm):
+                complete = _render_adaptively(pool, film, settings, deadline, progress)
+            elif deadline is None or time_limit is None:
+                complete = _render_all(pool, tracer, settings, done, progress)
+            else:
+                complete = _render_until(
+                    pool, tracer, settings, done, deadline, time_limit, progress
+                )
     except NotImplementedError as error:
         raise _not_written(scene, needs, error) from error
     wall = monotonic() - began
-    receipt = _receipt(scene, settings, needs, tracer.plan, pool.counters, film, count, wall)
+    receipt = _receipt(scene, settings, needs, tracer.plan, pool.counters, film, pool.threads, wall)
     return Picture(film, settings, receipt, complete, pool.interrupted)
 
 
@@ -212,29 +229,6 @@ def _check_memory(settings: Settings) -> None:
         )
 
 
-def _tracer(scene: Scene, settings: Settings) -> Tracer:
-    effects = scene.effects
-    place = None
-    if settings.sampler != "sobol":
-        place = effects.function("supersampling", settings.sampler)
-    film = scene.loaded.description.film
-    reconstruction = Reconstruction(
-        effects.function("supersampling", "resolve") if settings.samples > 1 else None,
-        effects.function("supersampling", "gaussian_weights")
-        if film.filter == "gaussian"
-        else None,
-        film.sigma,
-    )
-    compiled = scene.compiled
-    return make_tracer(
-        compiled.world,
-        settings,
-        compile_camera(scene.loaded, compiled.frame, settings.width, settings.height),
-        make_sampler(settings.sampler, settings.seed, place),
-        reconstruction,
-    )
-
-
 def _check_start(start: Picture, settings: Settings, sampler: Sampler) -> int:
     """How many samples of the picture to continue can be kept."""
     if settings.error is not None or start.settings.error is not None:
@@ -252,7 +246,7 @@ def _check_start(start: Picture, settings: Settings, sampler: Sampler) -> int:
 
 
 def _render_all(
-    pool: Pool, tracer: Tracer, settings: Settings, done: int, progress: Progress | None
+    pool: Pool | Cluster, tracer: Tracer, settings: Settings, done: int, progress: Progress | None
 ) -> bool:
     work = list(passes(settings, tracer.sampler, done))
     first_pass = sum(item.order == 0 for item in work)
@@ -265,7 +259,7 @@ def _render_all(
 
 
 def _render_until(
-    pool: Pool,
+    pool: Pool | Cluster,
     tracer: Tracer,
     settings: Settings,
     done: int,
@@ -296,7 +290,7 @@ def _render_until(
 
 
 def _render_adaptively(
-    pool: Pool,
+    pool: Pool | Cluster,
     film: AdaptiveFilm,
     settings: Settings,
     deadline: float | None,

@@ -53,7 +53,9 @@ def on_cluster(
             future = client.submit(function, item, everywhere, pure=False, retries=1)
             futures[future.key] = future
             by_key[future.key] = item
-        for future in distributed.as_completed([*futures.values()], raise_errors=False):
+        for future in distributed.as_completed(
+            [*futures.values()], loop=client.loop, raise_errors=False
+        ):
             item = by_key[future.key]
             del futures[future.key]
             if future.status == "finished":

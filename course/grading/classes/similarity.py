@@ -32,6 +32,9 @@ FEWEST = 40
 LARGEST = 200_000
 """Bytes of a file that is looked at."""
 
+Given = frozenset[tuple[str, ...]]
+"""Statements of a stub, as their nodes."""
+
 _BUILTINS = frozenset(dir(builtins))
 
 
@@ -90,14 +93,17 @@ def find_similar(
     )
 
 
-def statements(stub: str) -> frozenset[str]:
+def statements(stub: str) -> Given:
     """Statements of a stub as `shingles` leaves them out."""
+    nothing: Given = frozenset()
     return frozenset(
-        ast.dump(node) for node in ast.walk(ast.parse(stub)) if isinstance(node, ast.stmt)
+        tuple(_tokens(node, nothing))
+        for node in ast.walk(ast.parse(stub))
+        if isinstance(node, ast.stmt)
     )
 
 
-def shingles(module: str, source: bytes, given: frozenset[str]) -> set[int]:
+def shingles(module: str, source: bytes, given: Given) -> set[int]:
     """What a submission is compared by: hashes of runs of nodes in what the student wrote.
 
     Parameters
@@ -157,8 +163,8 @@ def _names_defined(node: ast.stmt) -> Iterable[str]:
     ]
 
 
-def _tokens(top: ast.stmt, given: frozenset[str]) -> Iterator[str]:
-    """The nodes of a definition, parents before children, without what counts for nothing."""
+def _tokens(top: ast.stmt, given: Given) -> Iterator[str]:
+    """The nodes of a statement, parents before children, without what counts for nothing."""
     waiting: list[ast.AST] = [top]
     while waiting:
         node = waiting.pop()
@@ -170,14 +176,15 @@ def _tokens(top: ast.stmt, given: frozenset[str]) -> Iterator[str]:
         waiting += reversed([*ast.iter_child_nodes(node)])
 
 
-def _counts_for_nothing(node: ast.stmt, given: frozenset[str]) -> bool:
+def _counts_for_nothing(node: ast.stmt, given: Given) -> bool:
     if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
         return True  # a docstring
     if isinstance(node, ast.Import | ast.ImportFrom | ast.Raise | ast.Pass):
         return True
     if isinstance(node, ast.If) and not node.orelse and isinstance(node.body[-1], ast.Raise):
         return True
-    return ast.dump(node) in given
+    nothing: Given = frozenset()
+    return bool(given) and tuple(_tokens(node, nothing)) in given
 
 
 def _token(node: ast.AST) -> str:
@@ -185,8 +192,8 @@ def _token(node: ast.AST) -> str:
     kind = type(node).__name__
     if isinstance(node, ast.Attribute):
         return f"{kind} {node.attr}"
-    if isinstance(node, ast.Name) and node.id in _BUILTINS:
-        return f"{kind} {node.id}"
+    if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in _BUILTINS:
+        return f"{kind} {node.func.id}"
     if isinstance(node, ast.keyword):
         return f"{kind} {node.arg}"
     return kind

@@ -125,7 +125,9 @@ def read_one(student: str, path: Path) -> Submission:
                     return Submission(student, path, trouble=f"{file.name} is no ordinary file")
         return Submission(student, path, read_submission(path))
     except CourseError as error:
-        return Submission(student, path, trouble=str(error).removeprefix(f"{path}: "))
+        # The folders above are the grader's business, not the student's.
+        told = str(error).replace(f"{path}: ", "").replace(f"{path}/", "")
+        return Submission(student, path, trouble=told)
     except Exception as error:  # noqa: BLE001 - the ways in which a zip file can be damaged have no common class
         return Submission(
             student, path, trouble=f"it can't be read: {type(error).__name__}: {error}"

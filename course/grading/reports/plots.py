@@ -204,7 +204,7 @@ def _density(axes: Any, density: Array | None, low: float, high: float, notes: l
 def _axes(inches: tuple[float, float]) -> tuple[Any, Any]:
     canvas = Canvas(figsize=inches)
     canvas.patch.set_visible(False)
-    axes = canvas.add_axes((0.17, 0.17, 0.79, 0.79))
+    axes = canvas.add_axes((0.2, 0.17, 0.76, 0.79))
     axes.patch.set_visible(False)
     axes.spines[["top", "right"]].set_visible(False)
     axes.spines[["left", "bottom"]].set_color(_INK)

@@ -1,0 +1,34 @@
+"""A tracer for a scene and the settings of one render, on whatever machine renders it."""
+
+from __future__ import annotations
+
+from course.core.samplers import make_sampler
+from course.imaging.reconstruction import Reconstruction
+from course.scene.compiling import compile_camera
+from course.scene.scene import Scene
+from course.scene.world import Settings
+from course.transport.tracing import Tracer, make_tracer
+
+
+def bind(scene: Scene, settings: Settings) -> Tracer:
+    """Bind a scene to its settings and to the functions that place and weigh its samples."""
+    effects = scene.effects
+    place = None
+    if settings.sampler != "sobol":
+        place = effects.function("supersampling", settings.sampler)
+    film = scene.loaded.description.film
+    reconstruction = Reconstruction(
+        effects.function("supersampling", "resolve") if settings.samples > 1 else None,
+        effects.function("supersampling", "gaussian_weights")
+        if film.filter == "gaussian"
+        else None,
+        film.sigma,
+    )
+    compiled = scene.compiled
+    return make_tracer(
+        compiled.world,
+        settings,
+        compile_camera(scene.loaded, compiled.frame, settings.width, settings.height),
+        make_sampler(settings.sampler, settings.seed, place),
+        reconstruction,
+    )
