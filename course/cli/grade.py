@@ -121,7 +121,11 @@ def _tell(result: ClassResult, out: Path) -> None:
     for report in ungraded:
         click.echo(f"{report.student}: {report.trouble}", err=True)
     for student in result.doubtful:
-        click.echo(f"{student}: a check had an error of its own; its points are given", err=True)
+        click.echo(
+            f"{student}: a check had an error of its own; its points are given, "
+            "and the same command checks it again",
+            err=True,
+        )
     kept = len(result.reports) - result.graded
     click.echo(
         f"{count(len(result.reports), 'submission')}: {result.graded} graded now, {kept} kept from before, "

@@ -40,6 +40,7 @@ def test_what_options_leave_open_is_left_to_the_scene(run: Run, engine: Engine) 
         "time_limit",
         "error",
         "progress",
+        "address",
     }
     assert set(options.values()) == {None}
 
@@ -61,14 +62,42 @@ def test_options_reach_the_renderer(run: Run, engine: Engine, tmp_path: Path) ->
             "time_limit": 2.5,
             "error": 0.25,
             "progress": None,
+            "address": None,
         }
     ]
     assert files(tmp_path) == {"a.EXR"}
 
 
+def test_the_address_of_a_cluster_reaches_the_renderer(run: Run, engine: Engine) -> None:
+    assert run("render", "box.yaml", *"--engine dask --address tcp://far:1".split()).exit_code == 0
+    (options,) = engine.rendered
+    assert options["address"] == "tcp://far:1"
+    assert options["threads"] is None
+
+
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        ("--engine dask", "--engine dask needs --address tcp://HOST:PORT"),
+        ("--address tcp://far:1", "--address is for --engine dask"),
+        ("--engine threads --address tcp://far:1", "--address is for --engine dask"),
+        ("--engine dask --address tcp://far:1 --threads 2", "--threads is for --engine threads"),
+    ],
+)
+def test_what_a_cluster_needs_and_does_not_take_is_told_before_the_work(
+    run: Run, engine: Engine, tmp_path: Path, options: str, told: str
+) -> None:
+    result = run("render", "box.yaml", *options.split())
+    assert result.exit_code == 1
+    assert result.stderr.startswith(f"error: {told}")
+    assert not engine.loaded
+    assert not files(tmp_path)
+
+
 @pytest.mark.parametrize(
     "options",
     [
+        "--engine cloud",
         "--spp 0",
         "--spp 65537",
         "--spp many",

@@ -13,6 +13,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from course.effects import MODULES
+from course.grading.classes.job import with_whole
 from course.grading.references import make_references
 from course.imaging.atomic import replacing
 
@@ -107,6 +108,6 @@ def gradescope_contents(project: Path, seed: int, modules: Sequence[str]) -> dic
                 contents[f"penumbra/{name}"] = path.read_bytes()
     with tempfile.TemporaryDirectory() as folder:
         references = Path(folder) / REFERENCES
-        make_references(modules, seed, references)
+        make_references(with_whole(modules), seed, references)
         contents[REFERENCES] = references.read_bytes()
     return contents

@@ -21,7 +21,7 @@ from course.errors import CourseError
 from course.grading.catalog import module_checks
 from course.grading.checks.running import References, Result, Status
 from course.grading.classes.bundle import REFERENCES
-from course.grading.classes.job import json_bytes, troubled
+from course.grading.classes.job import json_bytes, troubled, with_whole
 from course.grading.classes.submitted import read_one
 from course.grading.grading import grade
 from course.grading.references import read_references, references
@@ -116,7 +116,7 @@ class _Writer:
             temporary.write_bytes(json_bytes(results(report) | {"execution_time": seconds}))
 
 
-def unreached(modules: Iterable[str], done: Iterable[Result]) -> tuple[Result, ...]:
+def unreached(modules: Sequence[str], done: Iterable[Result]) -> tuple[Result, ...]:
     """Results of the checks that are not among those done: not attempted."""
     ids = {result.id for result in done}
     return tuple(
@@ -131,7 +131,7 @@ def unreached(modules: Iterable[str], done: Iterable[Result]) -> tuple[Result, .
             check.points,
             found=NOT_REACHED,
         )
-        for module in modules
+        for module in with_whole(modules)
         for check in module_checks(module).checks
         if f"{module}.{check.function}/{check.name}" not in ids
     )

@@ -15,7 +15,7 @@ from course import __version__
 from course.effects import PROJECT
 from course.errors import CourseError, OutputError
 from course.grading.checks.running import Status
-from course.grading.classes.job import Graded, Job, grade_job, report_files, troubled
+from course.grading.classes.job import Graded, Job, grade_job, report_files, troubled, with_whole
 from course.grading.classes.keeping import LAST, fingerprint, keep, kept
 from course.grading.classes.outcome import Engine
 from course.grading.classes.similarity import Similar, find_similar
@@ -104,7 +104,7 @@ def grade_class(
         progress(len(reports), len(submissions))
     if jobs:
         references = out / f"references_{seed}.npz"
-        make_references(modules, seed, references)
+        make_references(with_whole(modules), seed, references)
         shared = references.read_bytes() if send_references else references
         outcomes = engine(grade_job, jobs, shared)
         try:
@@ -117,7 +117,9 @@ def grade_class(
                     faults.append(student)
                     reports[student] = _keep_fault(out / student, student, fault, seed)
                 else:
-                    keep(out / student, graded, marks[student])
+                    # The next run grades it again if a check had an error of its own.
+                    doubtful = graded.report.count(Status.GRADER_ERROR) > 0
+                    keep(out / student, graded, "" if doubtful else marks[student])
                     reports[student] = graded.report
                 if progress is not None:
                     progress(len(reports), len(submissions))
@@ -131,8 +133,8 @@ def grade_class(
         [(pair.first, pair.second, pair.module, pair.share) for pair in similar],
         out / "class.html",
     )
-    doubtful = tuple(report.student for report in ordered if report.count(Status.GRADER_ERROR))
-    return ClassResult(ordered, len(jobs), tuple(sorted(faults)), doubtful, similar)
+    with_errors = tuple(report.student for report in ordered if report.count(Status.GRADER_ERROR))
+    return ClassResult(ordered, len(jobs), tuple(sorted(faults)), with_errors, similar)
 
 
 def _keep_fault(folder: Path, student: str, fault: str, seed: int) -> Report:
@@ -140,8 +142,9 @@ def _keep_fault(folder: Path, student: str, fault: str, seed: int) -> Report:
     report = troubled(student, f"{FAULT}: {fault}", seed)
     try:
         files = report_files(report)
+        del files[LAST]
     except Exception:  # noqa: BLE001 - it may be the reports that are at fault
-        files = {LAST: b"{}"}
+        files = {}
     keep(folder, Graded(report, files), "")
     return report
 

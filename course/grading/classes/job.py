@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
@@ -16,6 +16,7 @@ from pathlib import Path
 from course import __version__
 from course.grading.checks.running import References
 from course.grading.grading import grade
+from course.grading.pictures.whole import ALL, NAME
 from course.grading.references import read_references
 from course.grading.report import Report
 
@@ -71,6 +72,11 @@ def grade_job(job: Job, references: Path | bytes) -> Graded:
             student=job.student,
         )
     return Graded(without_figures(report), report_files(report))
+
+
+def with_whole(modules: Sequence[str]) -> tuple[str, ...]:
+    """The modules whose checks are run: with all of the course's comes the one for all of them together."""
+    return (*modules, *([NAME] if set(ALL) <= set(modules) else []))
 
 
 def troubled(student: str, trouble: str, seed: int) -> Report:

@@ -51,7 +51,7 @@ def keep(folder: Path, graded: Graded, mark: str) -> None:
     for name, content in graded.files.items():
         if name != LAST:
             _write(folder / name, content)
-    if mark:
+    if LAST in graded.files:
         results = json.loads(graded.files[LAST])
         _write(folder / LAST, json_bytes(results | {"fingerprint": mark}))
 

@@ -125,6 +125,7 @@ def _end(pool: ProcessPoolExecutor, processes: set[multiprocessing.process.BaseP
         process.join(max(deadline - monotonic(), 0))
         if process.is_alive():
             process.kill()
+            process.join(GRACE)
     pool.shutdown(wait=False, cancel_futures=True)
 
 

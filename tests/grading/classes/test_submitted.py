@@ -90,7 +90,7 @@ def test_a_pipe_keeps_nobody_waiting(tmp_path: Path) -> None:
     assert "no ordinary file" in trouble(tmp_path)
 
 
-@pytest.mark.parametrize("where", [10, 60, -30])
+@pytest.mark.parametrize("where", [0, 60, -20])
 def test_damaged_zip_files(tmp_path: Path, where: int) -> None:
     path = tmp_path / "damaged.zip"
     zipped(path, **{"motion_blur.py": os.urandom(50) + STUB})

@@ -1,0 +1,143 @@
+"""Grading on a dask cluster: the same as on this machine, though a worker is lost."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from collections.abc import Iterator
+from importlib.util import find_spec
+from pathlib import Path
+from time import monotonic, sleep
+from typing import Any
+
+import pytest
+from click.testing import CliRunner
+
+from course.cli.main import commands
+from course.errors import CourseError
+from course.grading.classes import cluster as cluster_engine
+from course.grading.known import known
+
+PROJECT = Path(__file__).parents[3]
+STUB = (PROJECT / "assignments" / "motion_blur.py").read_text("utf-8")
+
+needs_distributed = pytest.mark.skipif(
+    find_spec("distributed") is None, reason="distributed isn't installed (the extra dask)"
+)
+
+
+class Cluster:
+    """A scheduler and two workers, each a process."""
+
+    def __init__(self, folder: Path) -> None:
+        self.processes: list[subprocess.Popen[bytes]] = []
+        self._folder = folder
+        file = folder / "scheduler.json"
+        quiet = ["--no-dashboard", "--scheduler-file", str(file)]
+        self._start("scheduler", "--host", "127.0.0.1", "--port", "0", *quiet)
+        for name in ("one", "two"):
+            self._start("worker", "--nthreads", "1", "--no-nanny", "--name", name, *quiet)
+        deadline = monotonic() + 30
+        while not file.exists() and monotonic() < deadline:
+            sleep(0.05)
+        self.address: str = json.loads(file.read_text())["address"]
+
+    def _start(self, kind: str, *arguments: str) -> None:
+        command = [sys.executable, "-m", f"distributed.cli.dask_{kind}", *arguments]
+        with (self._folder / f"{kind}.txt").open("ab") as log:
+            self.processes.append(
+                subprocess.Popen(command, stdout=log, stderr=log, cwd=self._folder)
+            )
+
+    def close(self) -> None:
+        for process in self.processes:
+            process.kill()
+            process.wait()
+
+
+@pytest.fixture
+def cluster(tmp_path: Path) -> Iterator[Cluster]:
+    folder = tmp_path / "cluster"
+    folder.mkdir()
+    started = Cluster(folder)
+    yield started
+    started.close()
+
+
+def command(folder: Path, out: Path, *arguments: str) -> list[str]:
+    module = ("--modules", "motion_blur", "--seed", "3")
+    return ["grade", str(folder), "--out", str(out), *module, *arguments]
+
+
+def results(out: Path) -> dict[str, Any]:
+    """Of all students, without the times."""
+    found = {}
+    for path in out.glob("*/results.json"):
+        result = json.loads(path.read_text())
+        del result["seconds"]
+        # How fast something was is never the same again.
+        result["results"] = [check for check in result["results"] if check["kind"] != "speed"]
+        for check in result["results"]:
+            del check["seconds"]
+        found[path.parent.name] = result
+    return found
+
+
+@needs_distributed
+def test_a_worker_is_lost_and_no_result(cluster: Cluster, tmp_path: Path) -> None:
+    folder, here, there = tmp_path / "class", tmp_path / "here", tmp_path / "there"
+    collection = known("motion_blur")
+    sources = {one.name: one.source for one in (collection[0], collection[-1])}
+    for number in range(5):
+        sources[f"slow{number}"] = f"import time\ntime.sleep(0.7)\n{STUB}\n# {number}"
+    for name, source in sources.items():
+        (folder / name).mkdir(parents=True)
+        (folder / name / "motion_blur.py").write_text(source)
+    (folder / "damaged.zip").write_bytes(b"PK")
+
+    remote = ("--engine", "dask", "--address", cluster.address)
+    process = subprocess.Popen(
+        [sys.executable, "-m", "course", *command(folder, there, *remote)],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        cwd=PROJECT,
+    )
+    while process.poll() is None and len(results(there)) < 2:
+        sleep(0.02)
+    assert process.poll() is None, process.communicate()
+    cluster.processes[1].kill()
+    done = len(results(there))
+    output, errors = process.communicate(timeout=60)
+    assert process.returncode == 0, errors
+    assert "8 graded now" in output
+    assert done < 8
+
+    local = CliRunner().invoke(commands, command(folder, here, "--jobs", "2"))
+    assert local.exit_code == 0, local.output
+    assert len(results(here)) == 8
+    assert results(there) == results(here)
+    assert (there / "grades.csv").read_bytes() == (here / "grades.csv").read_bytes()
+
+
+@needs_distributed
+@pytest.mark.filterwarnings("ignore")
+def test_a_scheduler_that_does_not_answer(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert cluster_engine.PATIENCE == 10
+    monkeypatch.setattr(cluster_engine, "PATIENCE", 1)
+    started = monotonic()
+    with pytest.raises(
+        CourseError, match=r"tcp://127.0.0.1:9: no dask scheduler answered within 1 s"
+    ):
+        next(cluster_engine.on_cluster(max, ["a"], "b", "tcp://127.0.0.1:9"))
+    assert monotonic() - started < 8
+
+
+def test_without_distributed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    (tmp_path / "class" / "ada").mkdir(parents=True)
+    arguments = ("--engine", "dask", "--address", "tcp://127.0.0.1:9")
+    result = CliRunner().invoke(commands, command(tmp_path / "class", tmp_path / "out", *arguments))
+    assert result.exit_code == 1
+    assert 'pip install "penumbra-course[dask]"' in result.output

@@ -1,0 +1,129 @@
+"""Copies are found however they were renamed; what was written independently is not."""
+
+from __future__ import annotations
+
+import ast
+from pathlib import Path
+from time import perf_counter
+
+import pytest
+
+from course.effects import MODULES
+from course.grading.classes.similarity import find_similar, shingles, statements
+from course.grading.known import known
+from course.grading.release.stubs import make_stub
+
+SOLUTIONS = Path(__file__).parents[3] / "solutions"
+STUBS = {
+    module: make_stub((SOLUTIONS / f"{module}.py").read_text("utf-8"), module, module).text
+    for module in MODULES
+}
+
+
+def right(module: str) -> dict[str, bytes]:
+    """Right submissions that were written independently."""
+    found = {path.stem: path.read_bytes() for path in (SOLUTIONS / "right" / module).glob("*.py")}
+    return found | {"solution": (SOLUTIONS / f"{module}.py").read_bytes()}
+
+
+class Disguise(ast.NodeTransformer):
+    """What somebody does to a copy: other names, other constants, no docstrings, functions in another order."""
+
+    def visit_Module(self, node: ast.Module) -> ast.AST:
+        self.generic_visit(node)
+        functions = [one for one in node.body if isinstance(one, ast.FunctionDef)]
+        others = [one for one in node.body if one not in functions]
+        node.body = [*others, *reversed(functions)]
+        return node
+
+    def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.AST:
+        self.generic_visit(node)
+        local = {arg.arg for arg in ast.walk(node) if isinstance(arg, ast.arg)}
+        local |= {
+            name.id
+            for name in ast.walk(node)
+            if isinstance(name, ast.Name) and isinstance(name.ctx, ast.Store)
+        }
+        for inner in ast.walk(node):
+            if isinstance(inner, ast.Name) and inner.id in local:
+                inner.id = f"my_{inner.id}"
+            elif isinstance(inner, ast.arg):
+                inner.arg = f"my_{inner.arg}"
+        if ast.get_docstring(node):
+            node.body = node.body[1:]
+        return node
+
+    def visit_Constant(self, node: ast.Constant) -> ast.AST:
+        return ast.Constant(node.value + 1) if type(node.value) is int else node
+
+
+def disguised(source: bytes) -> bytes:
+    return (ast.unparse(Disguise().visit(ast.parse(source))) + "\n\nSPARE = 1\n").encode()
+
+
+@pytest.mark.parametrize("module", MODULES)
+def test_independent_submissions_are_not_alike(module: str) -> None:
+    assert len(right(module)) >= 3
+    assert not find_similar(module, right(module), STUBS[module], 0.3)
+
+
+@pytest.mark.parametrize("module", MODULES)
+def test_what_is_never_called_is_not_compared(module: str) -> None:
+    # Each holds the whole solution too, whose functions its own ones take the place of.
+    sources = {one.name: one.source.encode() for one in known(module) if one.right}
+    assert not find_similar(module, sources, STUBS[module], 0.3)
+
+
+@pytest.mark.parametrize("module", MODULES)
+def test_renamed_copies_are_found(module: str) -> None:
+    sources = right(module)
+    copy = disguised(sources["loops" if "loops" in sources else "concentric"])
+    (pair,) = find_similar(module, sources | {"zz": copy}, STUBS[module])
+    assert pair.second == "zz"
+    assert pair.first in ("loops", "concentric")
+    assert pair.share > 0.9
+
+
+def test_a_copy_with_padding_is_found() -> None:
+    sources = right("thin_lens")
+    padding = b"\n\ndef unused(a, b):\n    return [a * i + b for i in range(9) if i % 2]\n" * 9
+    used = sources["loops"].replace(
+        b"    return ", b"    for _ in []:\n        print(_)\n    return ", 2
+    )
+    found = find_similar("thin_lens", sources | {"zz": padding + used}, STUBS["thin_lens"])
+    assert [(pair.first, pair.second) for pair in found] == [("loops", "zz")]
+
+
+def test_stubs_and_short_files_are_not_compared() -> None:
+    stub = STUBS["motion_blur"].encode()
+    body = b"return np.add(np.multiply(time, 2), np.sqrt(time)) - time * 3  #"
+    short = stub.replace(b"raise NotImplementedError", body)
+    given = statements(STUBS["motion_blur"])
+    assert len(shingles("motion_blur", stub, frozenset())) > 10
+    assert not shingles("motion_blur", stub, given)
+    assert shingles("motion_blur", short, given)
+    sources = {"a": stub, "b": stub, "c": short, "d": short, "e": b"", "f": b""}
+    assert not find_similar("motion_blur", sources, STUBS["motion_blur"])
+
+
+def test_what_is_no_python_is_nobody_s_copy() -> None:
+    nested = b"x = " + b"(" * 5000 + b")" * 5000
+    signs = b"x = " + b"-" * 90_000 + b"1"
+    sources = {
+        f"{name} {i}": text
+        for name, text in {"no": b"def f(:", "deep": nested, "nul": b"\0", "signs": signs}.items()
+        for i in range(2)
+    }
+    assert not find_similar("motion_blur", sources, STUBS["motion_blur"])
+
+
+def test_a_class_of_200_takes_seconds() -> None:
+    started = perf_counter()
+    for module in MODULES:
+        variants = [*right(module).values()]
+        class_ = {f"{i:03}": variants[i % len(variants)] for i in range(200)}
+        found = find_similar(module, class_, STUBS[module])
+        assert len(found) == sum(
+            1 for i in range(200) for j in range(i) if (i - j) % len(variants) == 0
+        )
+    assert perf_counter() - started < 30

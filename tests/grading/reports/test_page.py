@@ -1,0 +1,289 @@
+"""The student's page: whole, readable, and closed to what is not its own."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import replace
+from html.parser import HTMLParser
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from course.effects import MODULES
+from course.errors import OutputError
+from course.grading.catalog import module_checks
+from course.grading.checks.running import Result, prepared, run_checks
+from course.grading.checks.trusted import TrustedModule
+from course.grading.references import reference
+from course.grading.report import Report, docs_page, reproduce
+from course.grading.reports.classes import write_class_page
+from course.grading.reports.page import write_page
+
+VOID = {"meta", "img", "br"}
+# What SVG writes as <path/> comes as handle_startendtag.
+
+
+class Page(HTMLParser):
+    """A page, read strictly: every element is closed in its turn."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__(convert_charrefs=True)
+        self.open: list[str] = []
+        self.tags: list[tuple[str, dict[str, str]]] = []
+        self.words: list[tuple[str, str]] = []
+        self.feed(text)
+        self.close()
+        assert not self.open
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.tags.append((tag, {name: value or "" for name, value in attrs}))
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.tags.append((tag, {name: value or "" for name, value in attrs}))
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open
+        assert self.open.pop() == tag
+
+    def handle_data(self, data: str) -> None:
+        self.words.append((self.open[-1] if self.open else "", data))
+
+    @property
+    def text(self) -> str:
+        return " ".join(" ".join(data for tag, data in self.words if tag != "style").split())
+
+    def count(self, tag: str) -> int:
+        return sum(name == tag for name, _ in self.tags)
+
+
+def read(report: Report, folder: Path) -> Page:
+    path = folder / "report.html"
+    write_page(report, path)
+    return Page(path.read_text(encoding="utf-8"))
+
+
+def check_closed(page: Page) -> None:
+    """Nothing runs, and nothing is loaded."""
+    assert not {"script", "link", "iframe", "object", "embed", "base", "form"} & {
+        tag for tag, _ in page.tags
+    }
+    for _tag, attributes in page.tags:
+        assert not [name for name in attributes if name.startswith("on")]
+        for name in ("src", "href", "xlink:href", "srcset", "poster", "data"):
+            assert re.match(r"data:image/|#|\./|$", attributes.get(name, ""))
+        assert "url(" not in attributes.get("style", "").replace("url(#", "")
+    styles = "".join(data for tag, data in page.words if tag == "style")
+    assert styles
+    assert not re.search(r"url\(|@import|http", styles)
+
+
+def test_the_page_says_everything(report: Report, tmp_path: Path) -> None:
+    page = read(report, tmp_path)
+    check_closed(page)
+    for text in (
+        "ada",
+        "3 of 11.5 points",
+        "2 passed",
+        "2 failed",
+        "1 not attempted",
+        "1 timeout",
+        "1 crashed",
+        "1 grader error",
+        "a process; no network",
+        "Seed 7",
+        "Version 1.2.3",
+        "hello from thin_lens",
+        "Not attempted yet",
+    ):
+        assert text in page.text
+    for result in report.results:
+        assert result.title in page.text
+        assert result.function in page.text
+        if result.status not in ("passed", "not attempted"):
+            for text in (result.expected, result.found, result.hint, result.says):
+                assert text in page.text
+            assert reproduce(result, 7) in page.text
+            assert docs_page(result) in page.text
+
+
+def test_headings_go_down_step_by_step(report: Report, tmp_path: Path) -> None:
+    page = read(report, tmp_path)
+    levels = [int(tag[1]) for tag, _ in page.tags if re.fullmatch(r"h\d", tag)]
+    assert levels.count(1) == 1
+    assert all(after <= before + 1 for before, after in pairwise(levels))
+
+
+def test_a_known_mistake_is_told_once_for_a_function(report: Report, tmp_path: Path) -> None:
+    page = read(report, tmp_path)
+    assert page.text.count("You focus on a sphere") == 1
+    assert "same mistake as above: wrong-plane" in page.text
+
+
+def test_passed_checks_are_folded(report: Report, tmp_path: Path) -> None:
+    read(report, tmp_path)
+    text = (tmp_path / "report.html").read_text(encoding="utf-8")
+    folded = "".join(re.findall(r"<details>.*?</details>", text, re.DOTALL))
+    assert "2 checks passed" in folded
+    assert "The picture looks like the reference" in folded
+    assert "Rays meet in focus" not in folded
+
+
+def test_hostile_texts_stay_texts(hostile_report: Report, tmp_path: Path) -> None:
+    page = read(hostile_report, tmp_path)
+    check_closed(page)
+    assert "<script>alert(1)</script> \"quote\" 'quote' &" in page.text
+    assert "{{ 7 * 7 }}" in page.text
+    raw = (tmp_path / "report.html").read_bytes().decode("utf-8")
+    assert not re.search("[\x00-\x08\x0b-\x1f\ud800-\udfff\u202e]", raw)
+    assert "red" in page.text
+    assert "[31m" not in page.text
+
+
+def test_without_a_name_and_without_results(tmp_path: Path) -> None:
+    page = read(Report("", (), trouble="The archive is <broken>."), tmp_path)
+    assert "could not be graded" in page.text
+    assert "The archive is <broken>." in page.text
+
+
+def test_endless_output_is_cut(report: Report, tmp_path: Path) -> None:
+    page = read(replace(report, printed={"thin_lens": "x" * 10_000_000}), tmp_path)
+    assert len(page.text) < 100_000
+    assert "characters left out" in page.text
+
+
+def test_a_wrong_sized_picture_is_readable(
+    with_figure: Callable[..., Report], tmp_path: Path
+) -> None:
+    report = with_figure(
+        "pictures", yours=np.full((3, 20, 30), 0.5), expected=np.full((3, 36, 48), 0.5)
+    )
+    page = read(report, tmp_path)
+    check_closed(page)
+    assert "yours is 30 × 20 pixels, the reference 48 × 36" in page.text
+    images = [attributes for tag, attributes in page.tags if tag == "img"]
+    assert [(image["width"], image["height"]) for image in images] == [("48", "36"), ("30", "20")]
+    assert all(image["alt"] and image["src"].startswith("data:image/png") for image in images)
+
+
+def test_a_picture_of_nothing_but_nan_is_a_page(
+    with_figure: Callable[..., Report], tmp_path: Path
+) -> None:
+    report = with_figure(
+        "pictures", yours=np.full((3, 36, 48), np.nan), expected=np.full((3, 36, 48), 0.5)
+    )
+    page = read(report, tmp_path)
+    assert "NaN or infinite at 1728 of 1728 pixels" in page.text
+    assert page.count("img") >= 3
+
+
+@pytest.mark.parametrize("kind", ["points", "histogram"])
+def test_plots_are_in_the_page(
+    with_figure: Callable[..., Report], tmp_path: Path, kind: str
+) -> None:
+    page = read(with_figure(kind, yours=np.random.default_rng(0).random((2, 60))), tmp_path)
+    check_closed(page)
+    assert page.count("svg") == 1
+    assert [attributes["aria-label"] for _, attributes in page.tags if "role" in attributes]
+
+
+def test_figures_of_passed_checks_are_not_drawn(
+    with_figure: Callable[..., Report], report: Report, tmp_path: Path
+) -> None:
+    shown = with_figure("points", yours=np.zeros((2, 9))).results[0]
+    passed = replace(report.results[0], figures=shown.figures)
+    assert not read(replace(report, results=(passed,)), tmp_path).count("svg")
+
+
+def test_a_page_that_cannot_be_written_is_told(report: Report, tmp_path: Path) -> None:
+    with pytest.raises(OutputError):
+        write_page(report, tmp_path / "nowhere" / "report.html")
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_really_wrong_submission(tmp_path: Path) -> None:
+    right = reference("motion_blur")
+    functions = {
+        name: lambda *arguments, name=name: right.call(name, *arguments)
+        for name in MODULES["motion_blur"]
+    }
+    functions["shutter_times"] = lambda first, last, u: first + (last - first) * u * u
+    results: list[Result] = list(
+        run_checks(
+            module_checks("motion_blur"),
+            TrustedModule(functions),
+            prepared(right, 0),
+            0,
+            lambda check: (
+                check.function == "shutter_times" and check.kind not in ("picture", "bias")
+            ),
+        )
+    )
+    assert any(result.status == "failed" and result.figures for result in results)
+    page = read(Report("ada", tuple(results)), tmp_path)
+    check_closed(page)
+    assert page.count("svg") >= 1
+    assert "course check motion_blur --only shutter_times/uniform --seed 0" in page.text
+
+
+# ---------------------------------------------------------------- the class
+
+
+def class_page(
+    reports: list[Report], similar: list[tuple[str, str, str, float]], folder: Path
+) -> Page:
+    write_class_page(reports, similar, folder / "class.html")
+    return Page((folder / "class.html").read_text(encoding="utf-8"))
+
+
+def test_the_class_at_a_glance(report: Report, tmp_path: Path) -> None:
+    perfect = replace(report, student="bob", results=report.results[:1])
+    broken = Report("eve/../x y", (), trouble="no zip file", seed=7, version="1.2.3")
+    similar = [("ada", "bob", "glossy", 0.5), ("ada", "eve/../x y", "thin_lens", 0.93)]
+    page = class_page([report, perfect, broken], similar, tmp_path)
+    check_closed(page)
+    for text in (
+        "3 submissions",
+        "2 graded: mean score 63 %, median 63 %, from 26 % to 100 %",
+        "no zip file",
+        "thin_lens.lens_rays/focus",
+        "1 not attempted",
+        "wrong-plane × 1",
+        "93 %",
+        "Seed 7",
+        "Version 1.2.3",
+        "26 % 3 of 11.5",
+    ):
+        assert text in page.text
+    assert page.text.index("93 %") < page.text.index("glossy 50 %")
+    links = {attributes["href"] for tag, attributes in page.tags if tag == "a"}
+    assert links == {
+        "./ada/report.html",
+        "./bob/report.html",
+        "./eve%2F..%2Fx%20y/report.html",
+    }
+    (chart,) = [attributes for tag, attributes in page.tags if tag == "svg"]
+    assert "1 from 20 to 30 %" in chart["aria-label"]
+    assert "1 from 90 to 100 %" in chart["aria-label"]
+
+
+def test_the_most_frequent_failure_comes_first(report: Report, tmp_path: Path) -> None:
+    late = replace(report, results=(replace(report.results[-1], status=report.results[1].status),))
+    page = class_page([late, report, replace(report, results=report.results[:2])], [], tmp_path)
+    assert page.text.index("lens_rays/focus") < page.text.index("lens_rays/picture")
+    assert "67 %" in page.text
+
+
+def test_a_class_of_hostile_texts(hostile_report: Report, hostile: str, tmp_path: Path) -> None:
+    broken = Report(hostile, (), trouble=hostile)
+    page = class_page([hostile_report, broken], [(hostile, hostile, hostile, 1.0)], tmp_path)
+    check_closed(page)
+    assert "<script>alert(1)</script>" in page.text
+
+
+def test_an_empty_class_is_a_page(tmp_path: Path) -> None:
+    assert "0 submissions" in class_page([], [], tmp_path).text

@@ -1,0 +1,386 @@
+"""Rendering on a Dask cluster: a real scheduler and its workers, each a process of its own on this machine."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from course import Picture, Scene, load_scene, render
+from course.effects import MODULES
+from course.errors import CourseError, EffectError
+from course.geometry.mesh_files import save_ply
+from course.geometry.shapes.spheres import sphere
+from course.imaging.files import save
+from course.imaging.tiles import Tile
+from course.rendering import cluster as cluster_module
+from course.rendering import kept_scenes
+from course.rendering.cluster import PIECE, _Rest
+from course.rendering.kept_scenes import KeptScenes, Order, edition
+from course.rendering.parcel import pack, unpack
+from course.rendering.passes import Work
+
+EveryStage = Callable[..., Scene]
+ROOT = Path(__file__).parents[2]
+START = 60
+"""Seconds in which a busy machine has started what a test needs."""
+
+
+class Cluster:
+    """A scheduler and its workers."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self._file = folder / "scheduler.json"
+        self.processes: list[subprocess.Popen[bytes]] = []
+        self.scheduler = self._start("scheduler", "--port", "0", "--dashboard-address", ":0")
+        wait_until(self._file.exists)
+        self.address: str = json.loads(self._file.read_text())["address"]
+
+    def add_worker(self) -> subprocess.Popen[bytes]:
+        return self._start(
+            *("worker", "--nthreads", "1", "--no-nanny", "--no-dashboard"),
+            *("--local-directory", str(self._folder), "--memory-limit", "0"),
+        )
+
+    def wait_for_workers(self, count: int) -> None:
+        import distributed
+
+        with distributed.Client(self.address, set_as_default=False) as client:
+            client.wait_for_workers(count, timeout=START)
+
+    def close(self) -> None:
+        for process in self.processes:
+            process.kill()
+            process.wait()
+
+    def _start(self, kind: str, *options: str) -> subprocess.Popen[bytes]:
+        command = [sys.executable, "-m", f"distributed.cli.dask_{kind}", "--host", "127.0.0.1"]
+        with (self._folder / f"{kind}-{len(self.processes)}.log").open("wb") as log:
+            process = subprocess.Popen(
+                [*command, "--scheduler-file", str(self._file), *options],
+                cwd=self._folder,
+                env={**os.environ, "PYTHONPATH": str(ROOT)},
+                stdout=log,
+                stderr=log,
+            )
+        self.processes.append(process)
+        return process
+
+
+def wait_until(true: Callable[[], bool]) -> None:
+    end = time.monotonic() + START
+    while not true():
+        assert time.monotonic() < end, "it takes too long"
+        time.sleep(0.02)
+
+
+@pytest.fixture(scope="module")
+def cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Cluster]:
+    """A scheduler with two workers of one thread each."""
+    pytest.importorskip("distributed", reason='the engine dask is an extra: pip install ".[dask]"')
+    started = Cluster(tmp_path_factory.mktemp("cluster"))
+    try:
+        started.add_worker()
+        started.add_worker()
+        started.wait_for_workers(2)
+        yield started
+    finally:
+        started.close()
+
+
+def film_of(kind: str) -> dict[str, Any]:
+    # 80 x 70 pixels make several tiles at 16 samples, the last of a row and of a column narrower.
+    return {"width": 80, "height": 70, "filter": kind}
+
+
+def assert_same(here: Picture, there: Picture) -> None:
+    assert here.linear.std() > 0
+    assert here.linear.tobytes() == there.linear.tobytes()
+    assert np.array_equal(here.film.samples, there.film.samples)
+    assert here.receipt.rays == there.receipt.rays
+    assert here.receipt.numbers == there.receipt.numbers
+    assert here.receipt.samples == there.receipt.samples
+    assert here.complete
+    assert there.complete
+
+
+@pytest.mark.parametrize("filter_", ["box", "gaussian"])
+@pytest.mark.parametrize(
+    ("sampler", "samples"), [("sobol", 40), ("random", 24), ("jittered", 16), ("regular", 16)]
+)
+def test_a_cluster_renders_the_same_bits_and_counts_the_same(
+    every_stage: EveryStage, cluster: Cluster, sampler: str, samples: int, filter_: str
+) -> None:
+    scene = every_stage(film=film_of(filter_))
+    there = render(scene, sampler=sampler, spp=samples, address=cluster.address)
+    assert_same(render(scene, sampler=sampler, spp=samples, threads=1), there)
+    assert there.receipt.threads == 2
+    assert there.receipt.seconds["trace"] > 0
+    assert there.receipt.embree_seconds > 0
+
+
+def test_samples_go_where_the_error_is_as_they_do_here(
+    every_stage: EveryStage, cluster: Cluster
+) -> None:
+    scene = every_stage()
+    here = render(scene, error=0.008, spp=256)
+    assert len(np.unique(here.film.samples)) > 1
+    there = render(scene, error=0.008, spp=256, address=cluster.address)
+    assert_same(here, there)
+    assert here.receipt.error == there.receipt.error
+
+
+def test_a_picture_is_continued_elsewhere(every_stage: EveryStage, cluster: Cluster) -> None:
+    scene = every_stage()
+    start = render(scene, spp=24)
+    more = render(scene, spp=40, start=start, address=cluster.address)
+    assert more.linear.tobytes() == render(scene, spp=40).linear.tobytes()
+
+
+def test_the_best_picture_within_a_time_limit(every_stage: EveryStage, cluster: Cluster) -> None:
+    scene = every_stage()
+    began = time.monotonic()
+    picture = render(scene, time_limit=1, address=cluster.address)
+    assert time.monotonic() - began < 20
+    assert picture.film.samples.min() >= 1
+    assert not picture.complete
+
+
+def test_progress_goes_from_nothing_to_all(every_stage: EveryStage, cluster: Cluster) -> None:
+    told: list[tuple[float, bool]] = []
+    scene = every_stage(film=film_of("box"))
+    render(scene, spp=64, address=cluster.address, progress=lambda *now: told.append(now))
+    assert told == sorted(told)
+    assert told[0][0] < 1
+    assert not told[0][1]
+    assert told[-1] == (1.0, True)
+
+
+def test_ctrl_c_keeps_what_there_is(every_stage: EveryStage, cluster: Cluster) -> None:
+    scene = every_stage(film={"width": 96, "height": 64})
+
+    def progress(_done: float, covered: bool) -> None:
+        if covered:
+            signal.raise_signal(signal.SIGINT)
+
+    picture = render(scene, spp=65536, progress=progress, address=cluster.address)
+    assert picture.interrupted
+    assert not picture.complete
+    samples = np.unique(picture.film.samples)
+    assert 16 <= samples[0] <= samples[-1] < 65536
+    these = picture.film.samples == samples[0]
+    assert np.array_equal(
+        picture.linear[these], render(scene, spp=int(samples[0])).linear[these]
+    ), "every pixel is right for its samples"
+
+
+def test_a_worker_lost_half_way_loses_nothing(every_stage: EveryStage, cluster: Cluster) -> None:
+    scene = every_stage(film={"width": 160, "height": 120, "filter": "gaussian"})
+    lost = cluster.add_worker()
+    cluster.wait_for_workers(3)
+    killed_at: list[float] = []
+
+    def progress(done: float, _covered: bool) -> None:
+        if 0.3 < done < 0.7 and not killed_at:
+            lost.kill()
+            lost.wait()
+            killed_at.append(done)
+
+    there = render(scene, spp=256, progress=progress, address=cluster.address)
+    assert killed_at
+    assert there.receipt.threads == 3
+    assert_same(render(scene, spp=256), there)
+
+
+def test_a_scheduler_that_goes_is_told(every_stage: EveryStage, tmp_path: Path) -> None:
+    pytest.importorskip("distributed", reason='the engine dask is an extra: pip install ".[dask]"')
+    scene = every_stage()
+    lone = Cluster(tmp_path)
+
+    def progress(done: float, _covered: bool) -> None:
+        if done > 0:
+            lone.scheduler.kill()
+
+    try:
+        lone.add_worker()
+        lone.wait_for_workers(1)
+        with pytest.raises(CourseError, match="the scheduler has gone"):
+            render(scene, spp=65536, progress=progress, address=lone.address)
+    finally:
+        lone.close()
+
+
+def test_what_a_function_raises_on_a_worker_is_raised_here(
+    every_stage: EveryStage, cluster: Cluster, tmp_path: Path
+) -> None:
+    scene = every_stage(lights=[])
+    module = tmp_path / "supersampling.py"
+    module.write_text("def resolve(radiance, weights):\n    raise ZeroDivisionError('in a tile')\n")
+    with pytest.raises(ZeroDivisionError, match="in a tile"):
+        render(load_scene(scene.path, effects=tmp_path), address=cluster.address)
+    module.write_text(
+        "def resolve(radiance, weights):\n"
+        "    raise NotImplementedError('supersampling.resolve: not written yet')\n"
+    )
+    with pytest.raises(EffectError, match=r"supersampling.resolve: not written yet .*asks for it"):
+        render(load_scene(scene.path, effects=tmp_path), address=cluster.address)
+
+
+def test_an_address_where_nobody_answers_is_told(
+    every_stage: EveryStage, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("distributed", reason='the engine dask is an extra: pip install ".[dask]"')
+    assert cluster_module.PATIENCE == 10
+    monkeypatch.setattr(cluster_module, "PATIENCE", 0.5)
+    scene = every_stage()
+    with socket.socket() as deaf:
+        deaf.bind(("127.0.0.1", 0))
+        port = deaf.getsockname()[1]
+        for listens in (False, True):
+            if listens:
+                deaf.listen()
+            began = time.monotonic()
+            with pytest.raises(CourseError, match=rf"^tcp://127.0.0.1:{port}: no dask scheduler"):
+                render(scene, address=f"tcp://127.0.0.1:{port}")
+            assert time.monotonic() - began < 10
+    with pytest.raises(CourseError, match="^nonsense: no dask scheduler"):
+        render(scene, address="nonsense")
+
+
+def test_a_missing_package_is_told_with_the_way_to_get_it(
+    every_stage: EveryStage, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    with pytest.raises(CourseError, match=r'pip install "penumbra-course\[dask\]"'):
+        render(every_stage(), address="tcp://127.0.0.1:1")
+
+
+def test_threads_are_not_for_a_cluster(every_stage: EveryStage) -> None:
+    with pytest.raises(CourseError, match="workers of a cluster have their own"):
+        render(every_stage(), threads=2, address="tcp://127.0.0.1:1")
+
+
+@pytest.fixture
+def far(make_scene: Callable[..., Scene], tmp_path: Path) -> Scene:
+    """A scene of all effects whose mesh, pictures and functions have paths up, down and from the root."""
+    shutil.copytree(ROOT / "solutions", tmp_path / "mine")
+    (tmp_path / "meshes").mkdir()
+    save_ply(sphere(1.0, 16), tmp_path / "meshes" / "ball.ply")
+    rng = np.random.default_rng(5)
+    for name in "abcdef":
+        save(tmp_path / f"{name}.exr", rng.random((3, 4, 4), np.float32))
+    plain = make_scene(
+        camera={
+            "eye": [0, 0.5, 4],
+            "look_at": [0.5, 0, 0],
+            "lens": {"aperture_radius": 0.1, "focus_point": [0, 0, 1]},
+            "shutter": {"open": 0, "close": 0.5},
+        },
+        film={"width": 80, "height": 70, "filter": "gaussian"},
+        sampler={"type": "sobol", "samples": 20},
+        environment={
+            "type": "cube",
+            "faces": [str(tmp_path / "a.exr"), *(f"{name}.exr" for name in "bcdef")],
+        },
+        materials={
+            "grey": {},
+            "gold": {"mirror": 0.9, "gloss": {"lobe": "phong", "exponent": 40}},
+            "glass": {"dielectric": {"refraction_index": 1.5}},
+        },
+        lights=[{"type": "sphere", "center": [1, 3, 3], "radius": 0.5, "intensity": 9}],
+        objects=[
+            {"shape": "mesh", "file": f"../{tmp_path.name}/meshes/ball.ply", "material": "gold"},
+            {"shape": "mesh", "file": "meshes/ball.ply", "material": "grey"}
+            | {"transform": [{"translate": [1.5, 0, 0.1]}], "motion": {"velocity": [0, 1, 0]}},
+            {"shape": "sphere", "radius": 0.4, "material": "glass"}
+            | {"transform": [{"translate": [0.6, 0.1, 1.6]}]},
+        ],
+    )
+    return load_scene(plain.path, effects=tmp_path / "mine")
+
+
+def test_a_parcel_is_the_scene_where_none_of_its_files_is(far: Scene, tmp_path: Path) -> None:
+    here = render(far)
+    parcel = pack(far)
+    assert parcel == pack(far), "the digest is that of the content"
+    for path in (far.path.parent, far.effects.folder):
+        shutil.rmtree(path)
+    there = tmp_path / "there"
+    there.mkdir(parents=True)
+    assert_same(here, render(unpack(parcel.content, there)))
+
+
+def test_a_scene_of_all_effects_and_its_files_is_sent_to_a_cluster(
+    far: Scene, cluster: Cluster
+) -> None:
+    here = render(far)
+    called = {function.partition(".")[0] for function in here.receipt.effects["called"]}
+    assert called == set(MODULES)
+    assert_same(here, render(far, address=cluster.address))
+
+
+def test_a_file_that_has_gone_is_told(far: Scene) -> None:
+    (far.path.parent / "meshes" / "ball.ply").unlink()
+    with pytest.raises(CourseError, match=r"scene.yaml: a file that it names has gone.*ball.ply"):
+        render(far, address="tcp://127.0.0.1:1")
+
+
+def test_a_worker_compiles_a_scene_once_and_keeps_two(
+    every_stage: EveryStage, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folders: list[Path] = []
+
+    def counted(content: bytes, folder: Path) -> Scene:
+        folders.append(folder)
+        return unpack(content, folder)
+
+    monkeypatch.setattr(kept_scenes, "unpack", counted)
+    scene = every_stage()
+    order = Order(scene.settings, False, edition())
+    kept = KeptScenes()
+    parcels = [pack(every_stage(seed=seed)) for seed in range(3)]
+    first = kept.tracer(parcels[0], order)
+    assert kept.tracer(parcels[0], order) is first
+    more = kept.tracer(parcels[0], replace(order, settings=replace(scene.settings, samples=9)))
+    assert more.settings.samples == 9
+    assert more.world is first.world
+    assert len(folders) == 1
+    kept.tracer(parcels[1], order)
+    kept.tracer(parcels[0], order)
+    assert len(folders) == 2
+    kept.tracer(parcels[2], order)
+    assert [folder.exists() for folder in folders] == [True, False, True], "the oldest goes"
+    for parcel in (parcels[0], parcels[2]):
+        kept.tracer(parcel, order)
+    assert len(folders) == 3
+
+
+def test_a_worker_with_another_edition_of_the_course_refuses(every_stage: EveryStage) -> None:
+    scene = every_stage()
+    with pytest.raises(CourseError, match=r"a worker runs course .*, and here is course 0.0"):
+        KeptScenes().tracer(pack(scene), Order(scene.settings, False, "course 0.0"))
+
+
+@pytest.mark.parametrize(
+    ("seconds_a_tile", "tiles"), [(0.0, 1), (PIECE / 5, 5), (PIECE * 2, 1), (1e-6, 16)]
+)
+def test_pieces_are_worth_handing_out(seconds_a_tile: float, tiles: int) -> None:
+    work = [Work(Tile(number, 0, 0, 8, 4), 0, 0, 2, True) for number in range(40)]
+    rest = _Rest(work)
+    pieces = list(iter(lambda: rest.take(seconds_a_tile / 64), []))
+    assert rest.exhausted
+    assert [item for piece in pieces for item in piece] == work
+    assert {len(piece) for piece in pieces[:-1]} == {tiles}
