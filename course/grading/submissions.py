@@ -57,6 +57,8 @@ def read_folder(folder: Path) -> dict[str, bytes]:
         for path in paths:
             if path.is_symlink() or not path.resolve().is_relative_to(folder.resolve()):
                 raise SubmissionError(f"{path}: is a link; submit the file itself")
+            if not path.is_file():
+                raise SubmissionError(f"{path}: is no ordinary file")
             try:
                 with path.open("rb") as file:
                     found[module] = file.read(LARGEST_FILE)
@@ -75,14 +77,9 @@ def read_zip(path: Path) -> dict[str, bytes]:
     try:
         with zipfile.ZipFile(path) as archive:
             return _read_zip(path, archive)
-    except (
-        zipfile.BadZipFile,
-        OSError,
-        NotImplementedError,
-        RuntimeError,
-        EOFError,
-        ValueError,
-    ) as error:
+    except SubmissionError:
+        raise
+    except Exception as error:  # noqa: BLE001 - zipfile has many ways to say that a file is none
         raise SubmissionError(f"{path}: is no zip file that can be read: {error}") from error
 
 
