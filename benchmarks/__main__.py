@@ -18,6 +18,7 @@ from benchmarks.dragons import measure_dragons
 from benchmarks.effects import measure_effects
 from benchmarks.engine import measure_engine
 from benchmarks.figures import Figure, markdown, print_figures
+from benchmarks.grading import measure_grading
 from benchmarks.process import measure_processes
 from course.benchmarking.documents import replace_marked
 from course.benchmarking.machine import machine
@@ -32,6 +33,7 @@ MEASURES = {
     "process": measure_processes,
     "convergence": measure_convergence,
     "dragons": measure_dragons,
+    "grading": measure_grading,
 }
 
 
@@ -42,7 +44,7 @@ MEASURES = {
 def main(names: tuple[str, ...], quick: bool, write_docs: bool) -> None:
     """Measure everything, or what NAME says; print and write it.
 
-    NAME: engine, effects, degenerate, process, convergence, dragons, or errors (`course bench`).
+    NAME: engine, effects, degenerate, process, convergence, dragons, grading, or errors (`course bench`).
     """
     OUT.mkdir(parents=True, exist_ok=True)
     figures = [

@@ -10,9 +10,10 @@ A worker that is lost costs nothing but time: the scheduler hands its work to an
 
 from __future__ import annotations
 
+import asyncio
 import threading
 from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import CancelledError
+from concurrent.futures import CancelledError, ThreadPoolExecutor
 from contextlib import suppress
 from importlib import import_module
 from itertools import islice
@@ -277,10 +278,13 @@ def connect(address: str) -> tuple[Any, Any]:
             'the engine dask needs more: pip install "penumbra-course[dask]"'
         ) from error
     try:
+        # Where somebody else listens, a client would wait for ever. The thread is for notebooks, which have a loop.
+        with ThreadPoolExecutor(1) as thread:
+            thread.submit(asyncio.run, _ask(distributed, address)).result()
         client = distributed.Client(address, timeout=PATIENCE, set_as_default=False)
     except (OSError, ValueError) as error:
         raise CourseError(
-            f"{address}: no dask scheduler answered within {PATIENCE} s: {error}"
+            f"{address}: no dask scheduler answered within {PATIENCE} s: {error}".removesuffix(": ")
         ) from error
     try:
         client.wait_for_workers(1, timeout=PATIENCE)
@@ -288,6 +292,12 @@ def connect(address: str) -> tuple[Any, Any]:
         client.close(timeout=2)
         raise CourseError(f"{address}: the scheduler has no workers; start some") from error
     return distributed, client
+
+
+async def _ask(distributed: Any, address: str) -> None:
+    """Raise OSError, TimeoutError among them, or ValueError where no scheduler answers."""
+    async with asyncio.timeout(PATIENCE), distributed.rpc(address, timeout=PATIENCE) as scheduler:
+        await scheduler.identity()
 
 
 def render_piece(parcel: Parcel, order: Order, piece: list[Work]) -> tuple[list[Result], Counters]:

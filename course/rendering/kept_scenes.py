@@ -84,11 +84,20 @@ class KeptScenes:
         with self._lock:
             kept = self._kept.get(parcel.digest)
             if kept is None:
-                while len(self._kept) >= MOST:
-                    self._kept.popitem(last=False)[1].folder.cleanup()
+                self._drop_all_but(MOST - 1)
                 kept = self._kept[parcel.digest] = _Kept(parcel)
             self._kept.move_to_end(parcel.digest)
             return kept.tracer(order)
+
+    def close(self) -> None:
+        """Forget all scenes and delete what was written for them."""
+        with self._lock:
+            self._drop_all_but(0)
+
+    def _drop_all_but(self, count: int) -> None:
+        """Drop those that were used longest ago."""
+        while len(self._kept) > count:
+            self._kept.popitem(last=False)[1].folder.cleanup()
 
 
 class _Kept:

@@ -69,7 +69,7 @@ def test_options_reach_the_renderer(run: Run, engine: Engine, tmp_path: Path) ->
 
 
 def test_the_address_of_a_cluster_reaches_the_renderer(run: Run, engine: Engine) -> None:
-    assert run("render", "box.yaml", *"--engine dask --address tcp://far:1".split()).exit_code == 0
+    assert run("render", "box.yaml", "--engine", "dask", "--address", "tcp://far:1").exit_code == 0
     (options,) = engine.rendered
     assert options["address"] == "tcp://far:1"
     assert options["threads"] is None
