@@ -79,7 +79,7 @@ def read_zip(path: Path) -> dict[str, bytes]:
             return _read_zip(path, archive)
     except SubmissionError:
         raise
-    except Exception as error:  # noqa: BLE001 - zipfile has many ways to say that a file is none
+    except Exception as error:
         raise SubmissionError(f"{path}: is no zip file that can be read: {error}") from error
 
 

@@ -15,6 +15,7 @@ import numpy as np
 
 from course.effects import Effects
 from course.grading.checks.check import Array, Caller
+from course.grading.pictures.shapes import usable
 
 
 def _mean(radiance: Array, weights: Array) -> Array:
@@ -76,7 +77,9 @@ class Stage(Effects):
     def function(self, module: str, name: str) -> Callable[..., Any]:
         """The function that the picture is to be made with."""
         if module == self._own and self._only in (None, name):
-            return lambda *arguments: usable(self._caller.call(name, *arguments))
+            return lambda *arguments: usable(
+                f"{module}.{name}", self._caller.call(name, *arguments), arguments
+            )
         stand_in = STAND_INS.get(f"{module}.{name}")
         if stand_in is not None:
             return stand_in
@@ -96,12 +99,3 @@ class Stage(Effects):
         number = self._played.get(name, 0)
         self._played[name] = number + 1
         return number
-
-
-def usable(value: Any) -> Any:
-    """What the engine may use: its own copy, in float32, so that a wrong dtype costs where it is checked."""
-    if isinstance(value, tuple):
-        return tuple(usable(item) for item in value)
-    if isinstance(value, np.ndarray) and value.dtype.kind == "f":
-        return np.nan_to_num(np.ascontiguousarray(value, np.float32))
-    return value

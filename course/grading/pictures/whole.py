@@ -13,7 +13,7 @@ from course.grading.checks.check import Array, Caller, Check, ModuleChecks, Tria
 from course.grading.pictures import scenes
 from course.grading.pictures.judging import check_ssim
 from course.grading.pictures.rendered import rendered
-from course.grading.pictures.stage import usable
+from course.grading.pictures.shapes import usable
 
 NAME = "whole"
 
@@ -44,7 +44,8 @@ class _All(Effects):
         self._caller = caller
 
     def function(self, module: str, name: str) -> Callable[..., Any]:
-        return lambda *arguments: usable(self._caller.call(f"{module}.{name}", *arguments))
+        path = f"{module}.{name}"
+        return lambda *arguments: usable(path, self._caller.call(path, *arguments), arguments)
 
 
 def _prepare(caller: Caller, rng: np.random.Generator) -> dict[str, Array]:

@@ -1,0 +1,139 @@
+"""Pictures as checks: whatever a student returns is never the renderer's trouble; tapes play what they recorded."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from course.effects import MODULES, PROJECT, Effects
+from course.grading.checks.check import Check, Failure, ModuleChecks
+from course.grading.checks.running import Result, Status, prepared, run_checks
+from course.grading.checks.trusted import TrustedModule
+from course.grading.pictures.catalog import PICTURES
+from course.grading.pictures.judging import check_bias, ssim
+from course.grading.pictures.shapes import SHAPES
+from course.grading.pictures.whole import WHOLE, Together
+from course.grading.references import reference
+
+LOOKS = [
+    (module, check)
+    for module, checks in PICTURES.items()
+    for check in checks
+    if check.kind == "picture"
+]
+IDS = [f"{module}.{check.function}" for module, check in LOOKS]
+
+
+def solution(module: str, **others: Any) -> TrustedModule:
+    effects = Effects(PROJECT / "solutions")
+    return TrustedModule(
+        {name: effects.function(module, name) for name in MODULES[module]} | others
+    )
+
+
+def judged(module: str, check: Check, caller: TrustedModule) -> Result:
+    alone = ModuleChecks(module, (check,), ())
+    (result,) = run_checks(alone, caller, prepared(reference(module), 0), 0)
+    return result
+
+
+@pytest.mark.parametrize(("module", "check"), LOOKS, ids=IDS)
+def test_the_reference_looks_like_itself(module: str, check: Check) -> None:
+    result = judged(module, check, solution(module))
+    assert result.status is Status.PASSED, result
+    arrays = result.figures[0].arrays
+    assert np.array_equal(arrays["yours"], arrays["expected"])
+    # A scene that shows nothing of the effect would pass everything.
+    assert arrays["expected"].std() > 0.05
+
+
+JUNK: dict[str, Any] = {
+    "None": None,
+    "one number": 0.5,
+    "a list": (1.0, 2.0, 3.0, 4.0),
+    "transposed": np.zeros((7, 3), np.float32),
+    "booleans": np.zeros((9, 5), bool),
+}
+
+
+@pytest.mark.parametrize("junk", JUNK)
+@pytest.mark.parametrize(("module", "check"), LOOKS, ids=IDS)
+def test_junk_is_the_students_failure(module: str, check: Check, junk: str) -> None:
+    result = judged(module, check, solution(module, **{check.function: lambda *_: JUNK[junk]}))
+    assert result.status is Status.FAILED, result
+    assert "instead of" in result.found
+
+
+@pytest.mark.parametrize("number", [np.nan, np.inf, -np.inf, 3e38, 0.0])
+@pytest.mark.parametrize(("module", "check"), LOOKS, ids=IDS)
+def test_numbers_that_make_no_sense_fail_too(module: str, check: Check, number: float) -> None:
+    right = solution(module)
+
+    def wrong(*arguments: Any) -> Any:
+        value = right.call(check.function, *arguments)
+        if isinstance(value, tuple):
+            return tuple(np.full_like(part, number) for part in value)
+        return np.full_like(value, number)
+
+    result = judged(module, check, solution(module, **{check.function: wrong}))
+    if check.function == "gaussian_weights" and number == 0:
+        return  # Weights that are all zero mean the plain mean.
+    assert result.status is Status.FAILED, result
+
+
+def test_every_function_that_is_rendered_has_its_shape() -> None:
+    rendered = {f"{module}.{check.function}" for module, check in LOOKS}
+    # The lens's points are only in the picture of all effects.
+    assert rendered | {"thin_lens.point_on_disk"} == set(SHAPES)
+
+
+def test_a_mistake_before_or_after_a_function_costs_nothing_there() -> None:
+    for module, check in LOOKS:
+        others = {name: None for name in MODULES[module] if name != check.function}
+        broken = dict.fromkeys(others, _raises)
+        assert judged(module, check, solution(module, **broken)).status is Status.PASSED, (
+            check.function
+        )
+
+
+def _raises(*_: Any) -> Any:
+    raise RuntimeError("broken")
+
+
+def test_the_whole_picture_needs_every_function_of_it() -> None:
+    (check,) = WHOLE.checks
+    references = prepared(reference("whole"), 0)
+    for module, name in (("thin_lens", "point_on_disk"), ("cube_map", "lookup_seamless")):
+        callers = {other: solution(other) for other in MODULES}
+        callers[module] = solution(module, **{name: _raises})
+        (result,) = run_checks(WHOLE, Together(callers), references, 0)
+        assert result.status is Status.FAILED
+        assert "broken" in result.found
+    assert check.points > 0
+
+
+def test_ssim_knows_equal_from_noise() -> None:
+    rng = np.random.default_rng(0)
+    picture = rng.random((3, 36, 48)).astype(np.float32)
+    assert ssim(picture, picture) == 1
+    assert ssim(picture, rng.random((3, 36, 48)).astype(np.float32)) < 0.2
+
+
+def test_a_bias_of_one_percent_is_found_under_noise_of_ten() -> None:
+    # Means of 36 pixels and of 4 pictures: noise of 0.1 becomes 0.008; a block 0.1 brighter is 12 of these.
+    rng = np.random.default_rng(0)
+
+    def picture(brighter: float) -> Any:
+        noise = rng.normal(0.5, 0.1, (36, 48))
+        noise[:6, :6] += brighter
+        return np.stack([noise] * 3)
+
+    blocks = (BLOCKS[0], 6, BLOCKS[1], 6)
+    expected = np.stack(
+        [picture(0).mean(axis=0).reshape(blocks).mean(axis=(1, 3)) for _ in range(32)]
+    )
+    check_bias([picture(0) for _ in range(4)], expected)
+    with pytest.raises(Failure, match="block 0 across, 0 down"):
+        check_bias([picture(0.12) for _ in range(4)], expected)
