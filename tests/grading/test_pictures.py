@@ -12,7 +12,7 @@ from course.grading.checks.check import Check, Failure, ModuleChecks
 from course.grading.checks.running import Result, Status, prepared, run_checks
 from course.grading.checks.trusted import TrustedModule
 from course.grading.pictures.catalog import PICTURES
-from course.grading.pictures.judging import check_bias, ssim
+from course.grading.pictures.judging import BLOCKS, check_bias, ssim
 from course.grading.pictures.shapes import SHAPES
 from course.grading.pictures.whole import WHOLE, Together
 from course.grading.references import reference

@@ -48,7 +48,12 @@ class Cluster:
         self._file = folder / "scheduler.json"
         self.processes: list[subprocess.Popen[bytes]] = []
         self.scheduler = self._start("scheduler", "--port", "0", "--dashboard-address", ":0")
-        wait_until(self._file.exists)
+        try:
+            # Its last character is there when the others are.
+            wait_until(lambda: self._file.exists() and self._file.read_text().rstrip()[-1:] == "}")
+        except BaseException:
+            self.close()
+            raise
         self.address: str = json.loads(self._file.read_text())["address"]
 
     def add_worker(self) -> subprocess.Popen[bytes]:
@@ -152,11 +157,17 @@ def test_a_picture_is_continued_elsewhere(every_stage: EveryStage, cluster: Clus
     assert more.linear.tobytes() == render(scene, spp=40).linear.tobytes()
 
 
-def test_the_best_picture_within_a_time_limit(every_stage: EveryStage, cluster: Cluster) -> None:
-    scene = every_stage()
+def test_a_time_limit_begins_when_the_workers_have_the_scene(
+    every_stage: EveryStage, cluster: Cluster, tmp_path: Path
+) -> None:
+    mine = tmp_path / "mine"
+    shutil.copytree(ROOT / "solutions", mine)
+    with (mine / "supersampling.py").open("a") as module:
+        module.write("\nimport sys, time\nif 'dask_worker' in sys.argv[0]:\n    time.sleep(2.5)\n")
+    scene = load_scene(every_stage().path, effects=mine)
     began = time.monotonic()
     picture = render(scene, time_limit=1, address=cluster.address)
-    assert time.monotonic() - began < 20
+    assert 3.5 <= time.monotonic() - began < 20
     assert picture.film.samples.min() >= 1
     assert not picture.complete
 
@@ -189,14 +200,18 @@ def test_ctrl_c_keeps_what_there_is(every_stage: EveryStage, cluster: Cluster) -
     ), "every pixel is right for its samples"
 
 
-def test_a_worker_lost_half_way_loses_nothing(every_stage: EveryStage, cluster: Cluster) -> None:
+def test_a_worker_lost_half_way_loses_nothing(
+    every_stage: EveryStage, cluster: Cluster, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # A tile a task, so that there is much to do half-way.
+    monkeypatch.setattr(cluster_module, "PIECE", 1e-9)
     scene = every_stage(film={"width": 160, "height": 120, "filter": "gaussian"})
     lost = cluster.add_worker()
     cluster.wait_for_workers(3)
     killed_at: list[float] = []
 
     def progress(done: float, _covered: bool) -> None:
-        if 0.3 < done < 0.7 and not killed_at:
+        if 0.2 < done < 0.9 and not killed_at:
             lost.kill()
             lost.wait()
             killed_at.append(done)
@@ -207,19 +222,30 @@ def test_a_worker_lost_half_way_loses_nothing(every_stage: EveryStage, cluster: 
     assert_same(render(scene, spp=192), there)
 
 
-def test_a_scheduler_that_goes_is_told(every_stage: EveryStage, tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("which", "told"),
+    [("scheduler", "the scheduler has gone"), ("worker", "all workers have gone")],
+)
+def test_a_cluster_that_goes_is_told(
+    every_stage: EveryStage,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    which: str,
+    told: str,
+) -> None:
     pytest.importorskip("distributed", reason='the engine dask is an extra: pip install ".[dask]"')
+    monkeypatch.setattr(cluster_module, "ALONE", 0.3)
     scene = every_stage()
     lone = Cluster(tmp_path)
 
     def progress(done: float, _covered: bool) -> None:
         if done > 0:
-            lone.scheduler.kill()
+            (lone.scheduler if which == "scheduler" else worker).kill()
 
     try:
-        lone.add_worker()
+        worker = lone.add_worker()
         lone.wait_for_workers(1)
-        with pytest.raises(CourseError, match="the scheduler has gone"):
+        with pytest.raises(CourseError, match=told):
             render(scene, spp=65536, progress=progress, address=lone.address)
     finally:
         lone.close()
