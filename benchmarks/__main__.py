@@ -12,6 +12,7 @@ from pathlib import Path
 
 import click
 
+from benchmarks.adaptive import measure_adaptive
 from benchmarks.convergence import measure_convergence
 from benchmarks.degenerate import measure_degenerate
 from benchmarks.dragons import measure_dragons
@@ -33,6 +34,7 @@ MEASURES = {
     "process": measure_processes,
     "convergence": measure_convergence,
     "dragons": measure_dragons,
+    "adaptive": measure_adaptive,
     "grading": measure_grading,
 }
 
@@ -44,7 +46,7 @@ MEASURES = {
 def main(names: tuple[str, ...], quick: bool, write_docs: bool) -> None:
     """Measure everything, or what NAME says; print and write it.
 
-    NAME: engine, effects, degenerate, process, convergence, dragons, grading, or errors (`course bench`).
+    NAME: engine, effects, degenerate, process, convergence, dragons, adaptive, grading, or errors (`course bench`).
     """
     OUT.mkdir(parents=True, exist_ok=True)
     figures = [
