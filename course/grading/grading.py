@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import AbstractContextManager, ExitStack, nullcontext
+from functools import partial
 from time import perf_counter
 
 from course import __version__
@@ -12,7 +13,7 @@ from course.grading.catalog import module_checks
 from course.grading.checks.check import Caller, Check
 from course.grading.checks.running import References, Result, run_checks
 from course.grading.pictures.whole import ALL, NAME, Together
-from course.grading.references import SOLUTIONS
+from course.grading.references import SOLUTIONS, reference
 from course.grading.report import Report
 from course.grading.worker.client import Limits, Worker
 from course.grading.worker.sandbox import Sandbox, sandbox
@@ -51,11 +52,38 @@ def grade(
             module: stack.enter_context(Worker(module, sources.get(module, b""), limits, shut_in))
             for module in chosen
         }
+
+        def lend(module: str, function: str) -> Caller | None:
+            """The student's module again, the reference's functions before this one in place of the student's."""
+            functions = MODULES.get(module, ())
+            before = functions[: functions.index(function)] if function in functions else ()
+            if not before or not (SOLUTIONS / f"{module}.py").is_file():
+                return None
+            if (module, function) not in lenders:
+                lenders[module, function] = stack.enter_context(
+                    Worker(
+                        module,
+                        sources.get(module, b""),
+                        limits,
+                        shut_in,
+                        lender=reference(module),
+                        lent=before,
+                    )
+                )
+            return lenders[module, function]
+
+        lenders: dict[tuple[str, str], Worker] = {}
         for module in (*chosen, *([NAME] if set(ALL) <= set(chosen) else [])):
             caller: Caller = workers[module] if module in workers else Together(workers)
             with _yardstick(module, limits, shut_in) as yardstick:
                 for result in run_checks(
-                    module_checks(module), caller, references, seed, only, yardstick
+                    module_checks(module),
+                    caller,
+                    references,
+                    seed,
+                    only,
+                    yardstick,
+                    partial(lend, module),
                 ):
                     results.append(result)
                     if each is not None:

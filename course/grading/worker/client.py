@@ -9,7 +9,7 @@ import select
 import signal
 import subprocess
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from time import monotonic
 from types import TracebackType
@@ -17,6 +17,7 @@ from typing import Any
 
 import numpy as np
 
+from course.grading.checks.check import Caller
 from course.grading.errors import StudentError
 from course.grading.worker.framing import BrokenMessage, pack, unpack
 from course.grading.worker.sandbox import Sandbox, program, sandbox
@@ -58,12 +59,21 @@ class Worker:
     source : the student's file
     limits : what it may use
     shut_in : how it is started; the best that the machine has if not given
+    lender, lent : functions of the module, by name, that take the place of the student's own when other functions of
+        the module call them; they are worked out by ``lender``, on this side of the pipe
     """
 
     def __init__(
-        self, module: str, source: bytes, limits: Limits = Limits(), shut_in: Sandbox | None = None
+        self,
+        module: str,
+        source: bytes,
+        limits: Limits = Limits(),
+        shut_in: Sandbox | None = None,
+        lender: Caller | None = None,
+        lent: Sequence[str] = (),
     ) -> None:
         self.module = module
+        self._lender, self._lent = lender, tuple(lent)
         self.limits = limits
         self.sandbox = shut_in or sandbox()
         self._source = source
@@ -159,7 +169,10 @@ class Worker:
         self._start()
         # Python's own start is not the student's time.
         self._exchange(
-            pack({"module": self.module}, [np.frombuffer(self._source, np.uint8)]), monotonic() + 60
+            pack(
+                {"module": self.module, "lent": self._lent}, [np.frombuffer(self._source, np.uint8)]
+            ),
+            monotonic() + 60,
         )
         head, _ = self._read(monotonic() + self.limits.call_seconds)
         try:
@@ -216,6 +229,25 @@ class Worker:
                         self._printed += b"\n... (more was printed)"
 
     def _exchange(self, message: bytes, deadline: float) -> tuple[dict[str, Any], list[Any]]:
+        self._write(message, deadline)
+        head, values = self._read(deadline)
+        while "borrowed" in head:
+            self._write(self._worked_out(head, values), deadline)
+            head, values = self._read(deadline)
+        return head, values
+
+    def _worked_out(self, head: dict[str, Any], values: list[Any]) -> bytes:
+        name, names = head["borrowed"], head.get("names")
+        if self._lender is None or name not in self._lent or not isinstance(names, list):
+            raise self._lost("it asks for what it hasn't been lent")
+        split = len(values) - len(names)
+        named = dict(zip(map(str, names), values[split:], strict=False))
+        try:
+            return pack({}, [self._lender.call(name, *values[:split], **named)])
+        except StudentError as error:
+            return pack({"error": error.kind, "type": error.type, "message": str(error)}, [])
+
+    def _write(self, message: bytes, deadline: float) -> None:
         assert self._process is not None
         assert self._process.stdin is not None
         data = memoryview(message)
@@ -230,7 +262,6 @@ class Worker:
                 continue
             except OSError:
                 raise self._lost("the process is gone") from None
-        return self._read(deadline)
 
     def _read(self, deadline: float) -> tuple[dict[str, Any], list[Any]]:
         try:

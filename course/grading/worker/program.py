@@ -63,6 +63,8 @@ def main() -> None:
     except BaseException as error:  # noqa: BLE001 - SystemExit too
         send(_told(error, name), [])
         os._exit(0)
+    for borrowed in head["lent"]:
+        setattr(module, borrowed, _borrowed(borrowed, send, lambda: framing.unpack(read)))
     send({"loaded": True}, [])
     while True:
         head, values = framing.unpack(read)
@@ -71,6 +73,19 @@ def main() -> None:
             send(answer, given)
         except TypeError as error:
             send({"error": "bad value", "message": f"it returned {error}"}, [])
+
+
+def _borrowed(name: str, send: Any, receive: Any) -> Any:
+    """A function that the grader works out: it has the right one, and this process only sees what comes of it."""
+
+    def function(*arguments: Any, **named: Any) -> Any:
+        send({"borrowed": name, "names": [*named]}, [*arguments, *named.values()])
+        head, values = receive()
+        if "error" in head:
+            raise (ValueError if head["type"] == "ValueError" else RuntimeError)(head["message"])
+        return values[0]
+
+    return function
 
 
 def _call(

@@ -34,7 +34,7 @@ if any("bubblewrap: no network" in line for line in sandbox().protections):
 
 
 def quick(check: Check) -> bool:
-    return check.kind not in ("picture", "bias", "order")
+    return check.kind not in ("picture", "bias", "order", "speed")
 
 
 def points(function: str | None = None) -> float:
@@ -295,3 +295,41 @@ def test_checks_draw_the_same_numbers_whoever_is_graded() -> None:
     assert not np.array_equal(
         generator(3, MODULE, check).random(4), generator(4, MODULE, check).random(4)
     )
+
+
+def test_a_function_pays_for_no_other_functions_mistake() -> None:
+    body = "    return -np.multiply.outer(np.asarray(velocity, time.dtype), time)\n"
+    wrong = f"{SOLUTION}\ndef displacement(velocity, time):\n{body}"
+    report = graded(wrong, bubblewrap=True)
+    lost = {result.function for result in report.results if result.status is not Status.PASSED}
+    assert lost == {"displacement"}
+    # Unwritten is as wrong.
+    unwritten = f"{SOLUTION}\ndef displacement(velocity, time):\n    raise NotImplementedError\n"
+    report = graded(unwritten, bubblewrap=True)
+    assert {result.function for result in report.results if result.status is not Status.PASSED} == {
+        "displacement"
+    }
+
+
+def test_nobody_passes_by_two_functions_that_call_each_other() -> None:
+    circle = (
+        "def displacement(velocity, time):\n"
+        "    return -to_object_space(np.zeros((3, len(time)), time.dtype), velocity, time)\n"
+        "def to_object_space(origins, velocity, time):\n    return origins - displacement(velocity, time)\n"
+    )
+    report = graded(f"{SOLUTION}\n{circle}", bubblewrap=True)
+    lost = {result.function for result in report.results if result.status is not Status.PASSED}
+    assert "displacement" in lost
+
+
+def test_what_is_borrowed_can_only_be_what_was_lent() -> None:
+    forged = (
+        "    import os, json\n"
+        "    head = json.dumps({'borrowed': 'displacement', 'names': [], 'values': [], 'arrays': 0}).encode()\n"
+        "    for fd in range(3, 64):\n"
+        "        try: os.write(fd, b'%08x' % len(head) + head)\n"
+        "        except OSError: pass\n" + RIGHT
+    )
+    report = graded(with_body(forged), bubblewrap=False)
+    ended = {result.status for result in report.results if result.function == FUNCTION}
+    assert Status.CRASHED in ended or Status.FAILED in ended
