@@ -14,7 +14,7 @@ from pathlib import Path
 
 import click
 
-from course.effects import MODULES
+from course.effects import COURSE
 from course.grading.catalog import module_checks
 from course.grading.checks.running import Status, prepared, run_checks
 from course.grading.known import Known, known
@@ -27,7 +27,7 @@ CHANCE = ("distribution", "order")
 
 
 @click.command(help=__doc__)
-@click.argument("modules", nargs=-1, metavar="[MODULE]...", type=click.Choice([*MODULES]))
+@click.argument("modules", nargs=-1, metavar="[MODULE]...", type=click.Choice([*COURSE]))
 @click.option("--seed", default=0, show_default=True)
 @click.option("--jobs", default=2, show_default=True)
 @click.option(
@@ -41,7 +41,7 @@ def main(
     modules: tuple[str, ...], seed: int, jobs: int, false_fail: int | None, json_file: Path | None
 ) -> None:
     """Print the matrix."""
-    chosen = modules or tuple(MODULES)
+    chosen = modules or tuple(COURSE)
     with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
         if false_fail is not None:
             sys.exit(_false_fail(pool, chosen, false_fail, json_file))

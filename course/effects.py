@@ -35,7 +35,13 @@ MODULES: dict[str, tuple[str, ...]] = {
     "motion_blur": ("shutter_times", "displacement", "to_object_space"),
     "cube_map": ("face_and_uv", "lookup", "lookup_seamless"),
 }
-"""Each module of the course and its functions, in the course's order."""
+"""Each module that the renderer calls and its functions, in the course's order."""
+
+FURTHER: dict[str, tuple[str, ...]] = {}
+"""Modules that are written and checked like those, and that stand by themselves."""
+
+COURSE = MODULES | FURTHER
+"""All modules of the course."""
 
 PROJECT = Path(__file__).resolve().parent.parent
 

@@ -8,7 +8,7 @@ import click
 
 from course.cli.grade import modules_from
 from course.cli.tables import count
-from course.effects import MODULES, PROJECT
+from course.effects import COURSE, PROJECT
 from course.errors import CourseError
 
 
@@ -44,5 +44,5 @@ def bundle(system: str, out: Path, seed: int, modules: tuple[str, ...]) -> None:
         raise CourseError("an autograder needs the solutions, and this copy has none")
     # Before references are made, which takes a while.
     check_writable(out)
-    files = write_gradescope_bundle(PROJECT, out, seed, modules or tuple(MODULES))
+    files = write_gradescope_bundle(PROJECT, out, seed, modules or tuple(COURSE))
     click.echo(f"{out}: {count(files, 'file')} for {system}, solutions included: not for students")

@@ -6,11 +6,11 @@ from pathlib import Path
 
 import click
 
-from course.effects import MODULES, PROJECT
+from course.effects import COURSE, PROJECT
 
 
 @click.command()
-@click.argument("modules", nargs=-1, metavar="[MODULE]...", type=click.Choice([*MODULES]))
+@click.argument("modules", nargs=-1, metavar="[MODULE]...", type=click.Choice([*COURSE]))
 @click.option(
     "--seeds",
     type=click.IntRange(1),
@@ -33,6 +33,6 @@ def calibrate(modules: tuple[str, ...], seeds: int, out: Path) -> None:
     from course.grading.calibration import write_tolerances
     from course.grading.pictures.judging import tolerances
 
-    found = dict(tolerances()) | measured(modules or tuple(MODULES), seeds, click.echo)
+    found = dict(tolerances()) | measured(modules or tuple(COURSE), seeds, click.echo)
     write_tolerances(found, seeds, out)
     click.echo(f"{out} written")

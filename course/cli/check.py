@@ -11,7 +11,7 @@ import click
 
 from course.cli.options import FAILED
 from course.cli.tables import count
-from course.effects import MODULES, PROJECT
+from course.effects import COURSE, PROJECT
 from course.errors import CourseError
 
 if TYPE_CHECKING:
@@ -68,13 +68,13 @@ def check(
     from course.grading.references import references
 
     for module in modules:
-        if module not in MODULES:
+        if module not in COURSE:
             raise click.BadParameter(
-                f"{module!r}; the modules are {', '.join(MODULES)}", param_hint="MODULE"
+                f"{module!r}; the modules are {', '.join(COURSE)}", param_hint="MODULE"
             )
     if not folder.is_dir():
         raise CourseError(f"{folder}: no such folder; --folder says where your modules are")
-    chosen = modules or tuple(MODULES)
+    chosen = modules or tuple(COURSE)
     arrays = references(seed)
     while True:
         seen = _times(folder, chosen)

@@ -11,7 +11,7 @@ import click
 
 from course.cli.progress import progress_bar
 from course.cli.tables import count
-from course.effects import MODULES
+from course.effects import COURSE
 from course.errors import CourseError
 
 if TYPE_CHECKING:
@@ -24,9 +24,9 @@ def modules_from(
     """Return modules in the order of the course from names, several in one separated by commas."""
     given = [name for text in names for name in text.split(",")]
     for name in given:
-        if name not in MODULES:
-            raise click.BadParameter(f"{name!r}; the modules are {', '.join(MODULES)}")
-    return tuple(name for name in MODULES if not given or name in given)
+        if name not in COURSE:
+            raise click.BadParameter(f"{name!r}; the modules are {', '.join(COURSE)}")
+    return tuple(name for name in COURSE if not given or name in given)
 
 
 @click.command()

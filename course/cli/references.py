@@ -7,7 +7,7 @@ from pathlib import Path
 import click
 
 from course.cli.tables import count
-from course.effects import MODULES, PROJECT
+from course.effects import COURSE, PROJECT
 
 
 @click.command()
@@ -25,5 +25,5 @@ def references(seed: int, out: Path) -> None:
     from course.grading.pictures.whole import NAME
     from course.grading.references import make_references
 
-    arrays = make_references((*MODULES, NAME), seed, out)
+    arrays = make_references((*COURSE, NAME), seed, out)
     click.echo(f"{out}: {count(arrays, 'array')}, {out.stat().st_size / 1e6:.1f} MB")

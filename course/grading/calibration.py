@@ -15,7 +15,7 @@ from types import ModuleType
 from typing import Any
 
 from course import __version__
-from course.effects import MODULES
+from course.effects import COURSE
 from course.grading.catalog import module_checks
 from course.grading.checks.check import Caller, Check, ModuleChecks
 from course.grading.checks.running import Status, prepared, run_checks
@@ -44,7 +44,7 @@ def trusted(submission: Known) -> TrustedModule:
         compile(submission.source, f"{submission.name}.py", "exec", dont_inherit=True),
         module.__dict__,
     )
-    return TrustedModule({name: getattr(module, name) for name in MODULES[submission.module]})
+    return TrustedModule({name: getattr(module, name) for name in COURSE[submission.module]})
 
 
 def calibrate(

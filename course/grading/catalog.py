@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from importlib import import_module
 
-from course.effects import MODULES
+from course.effects import COURSE
 from course.errors import CourseError
 from course.grading.checks.check import ModuleChecks
 from course.grading.checks.order import ORDERS
@@ -23,8 +23,8 @@ def module_checks(module: str) -> ModuleChecks:
     """
     if module == NAME:
         return WHOLE
-    if module not in MODULES:
-        raise CourseError(f"no module {module!r}; the modules are {', '.join(MODULES)}")
+    if module not in COURSE:
+        raise CourseError(f"no module {module!r}; the modules are {', '.join(COURSE)}")
     own: ModuleChecks = import_module(f"course.grading.checks.{module}").CHECKS
     found = (
         *own.checks,
@@ -32,7 +32,7 @@ def module_checks(module: str) -> ModuleChecks:
         *PICTURES.get(module, ()),
         *SPEEDS.get(module, ()),
     )
-    place = {name: number for number, name in enumerate(MODULES[module])}
+    place = {name: number for number, name in enumerate(COURSE[module])}
     return ModuleChecks(
         module, tuple(sorted(found, key=lambda check: place[check.function])), own.mistakes
     )

@@ -8,7 +8,7 @@ from functools import partial
 from time import perf_counter
 
 from course import __version__
-from course.effects import MODULES
+from course.effects import COURSE
 from course.grading.catalog import module_checks
 from course.grading.checks.check import Caller, Check
 from course.grading.checks.running import References, Result, run_checks
@@ -24,7 +24,7 @@ def grade(
     references: References,
     *,
     seed: int = 0,
-    modules: Iterable[str] = tuple(MODULES),
+    modules: Iterable[str] = tuple(COURSE),
     student: str = "",
     limits: Limits | None = None,
     shut_in: Sandbox | None = None,
@@ -55,7 +55,7 @@ def grade(
 
         def lend(module: str, function: str) -> Caller | None:
             """The student's module again, the reference's functions before this one in place of the student's."""
-            functions = MODULES.get(module, ())
+            functions = COURSE.get(module, ())
             before = functions[: functions.index(function)] if function in functions else ()
             if not before or not (SOLUTIONS / f"{module}.py").is_file():
                 return None

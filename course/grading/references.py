@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from course.effects import MODULES, PROJECT, Effects
+from course.effects import COURSE, PROJECT, Effects
 from course.errors import CourseError
 from course.grading.catalog import module_checks
 from course.grading.checks.check import Array, Caller, Check
@@ -37,7 +37,7 @@ def reference(module: str) -> Caller:
     effects = Effects(SOLUTIONS)
     if module == NAME:
         return Together({name: reference(name) for name in ALL})
-    return TrustedModule({name: effects.function(module, name) for name in MODULES[module]})
+    return TrustedModule({name: effects.function(module, name) for name in COURSE[module]})
 
 
 def make_references(modules: Iterable[str], seed: int, out: Path) -> int:
@@ -98,7 +98,7 @@ def references(seed: int = USUAL_SEED) -> References:
         There are neither.
     """
     if SOLUTIONS.is_dir():
-        makers = {module: prepared(reference(module), seed) for module in (*MODULES, NAME)}
+        makers = {module: prepared(reference(module), seed) for module in (*COURSE, NAME)}
         return lambda module, check: makers[module](module, check)
     with as_file(files("course.grading") / "data" / "references.npz") as path:
         if not path.is_file():

@@ -9,7 +9,7 @@ from __future__ import annotations
 import zipfile
 from pathlib import Path, PurePosixPath
 
-from course.effects import MODULES
+from course.effects import COURSE
 from course.errors import CourseError
 
 LARGEST_FILE = 2_000_000
@@ -44,7 +44,7 @@ def read_folder(folder: Path) -> dict[str, bytes]:
         One is a link or lies twice in it.
     """
     found: dict[str, bytes] = {}
-    for module in MODULES:
+    for module in COURSE:
         paths = sorted(
             path for path in folder.rglob(f"{module}.py") if "__MACOSX" not in path.parts
         )
@@ -96,7 +96,7 @@ def _read_zip(path: Path, archive: zipfile.ZipFile) -> dict[str, bytes]:
         if (entry.external_attr >> 28) == 0xA:
             raise SubmissionError(f"{path}: {entry.filename!r} is a link; submit the file itself")
         module = name.stem
-        if name.suffix != ".py" or module not in MODULES or "__MACOSX" in name.parts:
+        if name.suffix != ".py" or module not in COURSE or "__MACOSX" in name.parts:
             continue
         if module in chosen and len(name.parts) == depth[module]:
             raise SubmissionError(f"{path}: {module}.py is in it more than once")

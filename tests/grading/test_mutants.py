@@ -10,7 +10,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from course.effects import MODULES
+from course.effects import COURSE
 from course.grading.calibration import trusted
 from course.grading.checks.check import Check
 from course.grading.checks.running import References, prepared
@@ -18,7 +18,7 @@ from course.grading.known import Known, known
 from course.grading.mutants import judge, matrix
 from course.grading.references import reference
 
-ALL = [submission for module in MODULES for submission in known(module)]
+ALL = [submission for module in COURSE for submission in known(module)]
 
 
 def quick(check: Check) -> bool:
@@ -46,14 +46,14 @@ def test_the_grader_says_what_it_should(submission: Known) -> None:
     assert not verdict.fault, "\n".join(matrix([verdict]))
 
 
-@pytest.mark.parametrize("module", MODULES)
+@pytest.mark.parametrize("module", COURSE)
 def test_there_are_enough_of_them(module: str) -> None:
     found = known(module)
     assert sum(submission.right for submission in found) >= 3
     assert sum(not submission.right for submission in found) >= 5
     # Each function has a submission that gets it wrong.
     assert {submission.function for submission in found if not submission.right} == set(
-        MODULES[module]
+        COURSE[module]
     )
     wrong = [submission.about for submission in found if not submission.right]
     assert len(set(wrong)) == len(wrong)

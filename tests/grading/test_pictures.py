@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from course.effects import MODULES, PROJECT, Effects
+from course.effects import COURSE, PROJECT, Effects
 from course.grading.checks.check import Check, Failure, ModuleChecks
 from course.grading.checks.running import Result, Status, prepared, run_checks
 from course.grading.checks.trusted import TrustedModule
@@ -29,7 +29,7 @@ IDS = [f"{module}.{check.function}" for module, check in LOOKS]
 def solution(module: str, **others: Any) -> TrustedModule:
     effects = Effects(PROJECT / "solutions")
     return TrustedModule(
-        {name: effects.function(module, name) for name in MODULES[module]} | others
+        {name: effects.function(module, name) for name in COURSE[module]} | others
     )
 
 
@@ -91,7 +91,7 @@ def test_every_function_that_is_rendered_has_its_shape() -> None:
 
 def test_a_mistake_before_or_after_a_function_costs_nothing_there() -> None:
     for module, check in LOOKS:
-        others = {name: None for name in MODULES[module] if name != check.function}
+        others = {name: None for name in COURSE[module] if name != check.function}
         broken = dict.fromkeys(others, _raises)
         assert judged(module, check, solution(module, **broken)).status is Status.PASSED, (
             check.function
@@ -106,7 +106,7 @@ def test_the_whole_picture_needs_every_function_of_it() -> None:
     (check,) = WHOLE.checks
     references = prepared(reference("whole"), 0)
     for module, name in (("thin_lens", "point_on_disk"), ("cube_map", "lookup_seamless")):
-        callers = {other: solution(other) for other in MODULES}
+        callers = {other: solution(other) for other in COURSE}
         callers[module] = solution(module, **{name: _raises})
         (result,) = run_checks(WHOLE, Together(callers), references, 0)
         assert result.status is Status.FAILED

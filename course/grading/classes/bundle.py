@@ -12,7 +12,7 @@ import zipfile
 from collections.abc import Sequence
 from pathlib import Path
 
-from course.effects import MODULES
+from course.effects import COURSE
 from course.grading.classes.job import with_whole
 from course.grading.references import make_references
 from course.imaging.atomic import replacing
@@ -68,7 +68,7 @@ exec /autograder/source/.venv/bin/python -m course.grading.classes.gradescope_ru
 
 
 def write_gradescope_bundle(
-    project: Path, out: Path, seed: int, modules: Sequence[str] = tuple(MODULES)
+    project: Path, out: Path, seed: int, modules: Sequence[str] = tuple(COURSE)
 ) -> int:
     """Write the archive; the number of its files.
 

@@ -16,7 +16,7 @@ from time import perf_counter
 from typing import Any
 
 from course import __version__
-from course.effects import MODULES
+from course.effects import COURSE
 from course.errors import CourseError
 from course.grading.catalog import module_checks
 from course.grading.checks.running import References, Result, Status
@@ -45,7 +45,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="run_autograder", description="Grade on Gradescope.")
     parser.add_argument("--root", type=Path, default=Path("/autograder"))
     parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--modules", default=",".join(MODULES))
+    parser.add_argument("--modules", default=",".join(COURSE))
     options = parser.parse_args(arguments)
     writer = _Writer(
         options.root / "results" / "results.json",

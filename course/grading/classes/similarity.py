@@ -18,7 +18,7 @@ from zlib import crc32
 
 import numpy as np
 
-from course.effects import MODULES
+from course.effects import COURSE
 
 SHINGLE = 9
 """Nodes of the tree that are compared together."""
@@ -138,7 +138,7 @@ def _reachable(module: str, tree: ast.Module) -> Iterator[ast.stmt]:
     for node in tree.body:
         for name in _names_defined(node):
             defined[name] = node
-    waiting, seen = [name for name in MODULES[module] if name in defined], set[int]()
+    waiting, seen = [name for name in COURSE[module] if name in defined], set[int]()
     while waiting:
         node = defined[waiting.pop()]
         if id(node) not in seen:

@@ -11,7 +11,7 @@ import tempfile
 import zipfile
 from pathlib import Path
 
-from course.effects import MODULES
+from course.effects import COURSE
 from course.errors import CourseError, OutputError
 from course.grading.pictures.whole import NAME
 from course.grading.references import USUAL_SEED, make_references
@@ -96,7 +96,7 @@ def write_archive(project: Path, out: Path) -> int:
 def _references() -> bytes:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "references.npz"
-        make_references((*MODULES, NAME), USUAL_SEED, path)
+        make_references((*COURSE, NAME), USUAL_SEED, path)
         return path.read_bytes()
 
 

@@ -21,7 +21,7 @@ import pytest
 from click.testing import CliRunner, Result
 
 from course.cli.main import commands
-from course.effects import MODULES
+from course.effects import COURSE
 from course.errors import CourseError
 from course.grading.checks.running import Status
 from course.grading.classes import grading
@@ -225,7 +225,7 @@ def test_a_check_with_an_error_of_its_own_is_run_again(tmp_path: Path) -> None:
 
 def test_the_last_check_is_for_all_modules_together() -> None:
     assert with_whole(("motion_blur",)) == ("motion_blur",)
-    assert with_whole(tuple(MODULES)) == (*MODULES, "whole")
+    assert with_whole(tuple(COURSE)) == (*COURSE, "whole")
 
 
 def test_results_may_not_lie_among_submissions(tmp_path: Path) -> None:

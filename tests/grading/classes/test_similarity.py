@@ -8,7 +8,7 @@ from time import perf_counter
 
 import pytest
 
-from course.effects import MODULES
+from course.effects import COURSE
 from course.grading.classes.similarity import find_similar, shingles, statements
 from course.grading.known import known
 from course.grading.release.stubs import make_stub
@@ -16,7 +16,7 @@ from course.grading.release.stubs import make_stub
 SOLUTIONS = Path(__file__).parents[3] / "solutions"
 STUBS = {
     module: make_stub((SOLUTIONS / f"{module}.py").read_text("utf-8"), module, module).text
-    for module in MODULES
+    for module in COURSE
 }
 
 
@@ -61,20 +61,20 @@ def disguised(source: bytes) -> bytes:
     return (ast.unparse(Disguise().visit(ast.parse(source))) + "\n\nSPARE = 1\n").encode()
 
 
-@pytest.mark.parametrize("module", MODULES)
+@pytest.mark.parametrize("module", COURSE)
 def test_independent_submissions_are_not_alike(module: str) -> None:
     assert len(right(module)) >= 3
     assert not find_similar(module, right(module), STUBS[module], 0.3)
 
 
-@pytest.mark.parametrize("module", MODULES)
+@pytest.mark.parametrize("module", COURSE)
 def test_what_is_never_called_is_not_compared(module: str) -> None:
     # Each holds the whole solution too, whose functions its own ones take the place of.
     sources = {one.name: one.source.encode() for one in known(module) if one.right}
     assert not find_similar(module, sources, STUBS[module], 0.3)
 
 
-@pytest.mark.parametrize("module", MODULES)
+@pytest.mark.parametrize("module", COURSE)
 def test_renamed_copies_are_found(module: str) -> None:
     sources = right(module)
     copy = disguised(sources["loops" if "loops" in sources else "concentric"])
@@ -119,7 +119,7 @@ def test_what_is_no_python_is_nobody_s_copy() -> None:
 
 def test_a_class_of_200_takes_seconds() -> None:
     started = perf_counter()
-    for module in MODULES:
+    for module in COURSE:
         variants = [*right(module).values()]
         class_ = {f"{i:03}": variants[i % len(variants)] for i in range(200)}
         found = find_similar(module, class_, STUBS[module])

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from course.effects import MODULES, PROJECT
+from course.effects import COURSE, PROJECT
 from course.grading.release.regions import SolutionError
 from course.grading.release.stubs import Stub, make_stub, make_stubs
 
@@ -286,15 +286,15 @@ def public(text: str) -> dict[str, ast.FunctionDef]:
 
 
 def test_every_module_that_the_engine_knows_has_its_stub() -> None:
-    assert STUBS.keys() == MODULES.keys()
+    assert STUBS.keys() == COURSE.keys()
 
 
-@pytest.mark.parametrize("module", MODULES)
+@pytest.mark.parametrize("module", COURSE)
 def test_the_tasks_of_a_stub_are_the_functions_of_its_module(module: str) -> None:
-    assert STUBS[module].tasks == tuple(f"{module}.{name}" for name in MODULES[module])
+    assert STUBS[module].tasks == tuple(f"{module}.{name}" for name in COURSE[module])
 
 
-@pytest.mark.parametrize("module", MODULES)
+@pytest.mark.parametrize("module", COURSE)
 def test_a_stub_has_the_signatures_and_docstrings_of_the_solution(module: str) -> None:
     stub = public(STUBS[module].text)
     solution = public((SOLUTIONS / f"{module}.py").read_text(encoding="utf-8"))
@@ -305,7 +305,7 @@ def test_a_stub_has_the_signatures_and_docstrings_of_the_solution(module: str) -
         assert f"Task: {module}.{name}." in str(ast.get_docstring(node))
 
 
-@pytest.mark.parametrize("module", MODULES)
+@pytest.mark.parametrize("module", COURSE)
 def test_no_line_of_a_region_is_in_a_stub(module: str) -> None:
     inside = False
     secret, open_ = set(), set()

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from course.effects import MODULES
+from course.effects import COURSE
 from course.errors import OutputError
 from course.grading.catalog import module_checks
 from course.grading.checks.running import Result, prepared, run_checks
@@ -209,7 +209,7 @@ def test_a_really_wrong_submission(tmp_path: Path) -> None:
     right = reference("motion_blur")
     functions = {
         name: lambda *arguments, name=name: right.call(name, *arguments)
-        for name in MODULES["motion_blur"]
+        for name in COURSE["motion_blur"]
     }
     functions["shutter_times"] = lambda first, last, u: first + (last - first) * u * u
     results: list[Result] = list(
