@@ -37,7 +37,28 @@ MODULES: dict[str, tuple[str, ...]] = {
 }
 """Each module that the renderer calls and its functions, in the course's order."""
 
-FURTHER: dict[str, tuple[str, ...]] = {}
+FURTHER: dict[str, tuple[str, ...]] = {
+    "sampling": (
+        "disk_by_rejection",
+        "disk_by_polar",
+        "ball_by_rejection",
+        "ball_by_polar",
+        "sphere_by_polar",
+        "xorshift32",
+    ),
+    "importance_sampling": (
+        "uniform_hemisphere",
+        "cosine_hemisphere",
+        "cosine_hemisphere_pdf",
+        "phong_lobe_pdf",
+        "estimate",
+        "power_heuristic",
+    ),
+    "blurred_transparency": ("refract", "jitter_refraction", "fresnel"),
+    "adaptive_sampling": ("needs_subdivision", "subdivide"),
+    "textures": ("rectangle_uv", "sphere_uv", "triangle_uv", "texture_lookup"),
+    "quasi_monte_carlo": ("radical_inverse", "halton", "hammersley", "chain"),
+}
 """Modules that are written and checked like those, and that stand by themselves."""
 
 COURSE = MODULES | FURTHER

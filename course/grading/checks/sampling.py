@@ -1,7 +1,7 @@
 """Checks of the sampling module: points on a disk, in a ball and on a sphere, and the generator xorshift32.
 
-What uniform means is asked of coordinates that are uniform in [0, 1] for the right points: r^2 and the turn on the disk,
-r^3, the height over r and the turn in the ball, the height and the turn on the sphere.
+Whether points are uniform is asked of coordinates that are then uniform in [0, 1]: r^2 and the turn on the disk; r^3,
+the height over r and the turn in the ball; the height and the turn on the sphere.
 """
 
 from __future__ import annotations
@@ -80,13 +80,13 @@ def _turn(points: Array) -> Array:
 def _height(points: Array) -> Array:
     """Where z lies between the bottom and the top of the sphere through each point."""
     r = np.maximum(np.sqrt((points * points).sum(axis=0)), 1e-200)
-    return np.clip((points[2] / r + 1) / 2, 0, 1)
+    return np.asarray(np.clip((points[2] / r + 1) / 2, 0, 1))
 
 
 def _volume(points: Array) -> Array:
     """The share of the disk's area or of the ball's volume that is nearer to the centre."""
     r = np.sqrt((points * points).sum(axis=0))
-    return np.clip(r ** len(points), 0, 1)
+    return np.asarray(np.clip(r ** len(points), 0, 1))
 
 
 def _even(function: str, points: Array) -> dict[str, Array]:
@@ -239,7 +239,7 @@ def _rejection_rate(trial: Trial) -> None:
     if not least <= found <= most:
         raise Failure(
             f"{least:.0f} to {most:.0f} candidates drawn for {POINTS} points, since {rate} of them are accepted",
-            f"{found:.0f}",
+            f"as many numbers as {found:.0f} candidates take",
             hint="Draw points of the square or cube from rng, and draw others for those outside.",
         )
 
@@ -292,7 +292,7 @@ def _pair(value: Any) -> tuple[Any, Any]:
 
 def _step(trial: Trial, state: Array) -> tuple[Array, Array]:
     """The student's next states as whole numbers, and the random numbers."""
-    new, random = _pair(trial.call(state))
+    new, random = _pair(trial.call(state.copy()))
     kind = getattr(getattr(new, "dtype", None), "kind", "")
     if kind not in ("u", "i"):
         raise Failure("states that are whole numbers", f"dtype {getattr(new, 'dtype', type(new))}")
@@ -428,7 +428,7 @@ def _too_few(trial: Trial) -> bool:
     value = trial.call(1000, _generator(trial))
     if not isinstance(value, np.ndarray) or value.ndim != 2 or len(value) != ROWS[trial.function]:
         return False
-    return abs(value.shape[1] / 1000 - ACCEPTED[len(value)]) < 0.1
+    return bool(abs(value.shape[1] / 1000 - ACCEPTED[len(value)]) < 0.1)
 
 
 def _nothing_rejected(trial: Trial) -> bool:
@@ -436,6 +436,10 @@ def _nothing_rejected(trial: Trial) -> bool:
     even = _even(trial.function, points)
     u = trial.rng.random(4000)
     return found < _least(len(points), 4000) and all(_apart(x, u) < CLOSE for x in even.values())
+
+
+def _nothing_drawn(trial: Trial) -> bool:
+    return _candidates(trial, 1000)[0] == 0
 
 
 def _left_at_centre(trial: Trial) -> bool:
@@ -487,7 +491,7 @@ def _from_one_state(state: int) -> int:
 def _too_wide(trial: Trial) -> bool:
     state = np.array([MARSAGLIA], np.uint32)
     new, _ = _pair(trial.call(state))
-    return new.dtype.itemsize > 4
+    return bool(new.dtype.itemsize > 4)
 
 
 def _random_is(trial: Trial, mistaken: Callable[[Array, Array], Array]) -> bool:
@@ -601,6 +605,12 @@ def _rejection_mistakes(function: str) -> tuple[Mistake, ...]:
             f"{shape}-too-few",
             "You draw n candidates and return those that are accepted: fewer than n.",
             _too_few,
+        ),
+        Mistake(
+            function,
+            f"{shape}-own-generator",
+            "Nothing is drawn from rng: your random numbers come from elsewhere.",
+            _nothing_drawn,
         ),
         Mistake(
             function,

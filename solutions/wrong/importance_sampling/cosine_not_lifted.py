@@ -1,0 +1,16 @@
+"""Points of the disk whose height is 1."""
+
+import numpy as np
+
+FUNCTION = "cosine_hemisphere"
+CAUGHT_BY = "hemisphere"
+MISTAKE = None
+
+
+def cosine_hemisphere(u):
+    """With a mistake."""
+    _check_rows("u", u, 2)
+    phi = u.dtype.type(2 * np.pi) * u[1]
+    r = np.sqrt(u[0])
+    z = np.ones_like(r)
+    return np.stack((r * np.cos(phi), r * np.sin(phi), z))

@@ -1,0 +1,13 @@
+"""Negative below the horizon."""
+
+import numpy as np
+
+FUNCTION = "cosine_hemisphere_pdf"
+CAUGHT_BY = "below"
+MISTAKE = "cosine-below-horizon"
+
+
+def cosine_hemisphere_pdf(cos):
+    """With a mistake."""
+    _check_numbers("cos", cos)
+    return cos / cos.dtype.type(np.pi)

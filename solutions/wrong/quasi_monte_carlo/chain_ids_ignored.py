@@ -1,0 +1,23 @@
+"""A random sample for each ray."""
+
+import numpy as np
+
+FUNCTION = "chain"
+CAUGHT_BY = "by_id"
+MISTAKE = "ids-ignored"
+
+
+def chain(patterns, ids, rng):
+    """With a mistake."""
+    _check_chain(patterns, ids)
+    s = patterns[0].shape[1]
+    return tuple(pattern[:, rng.integers(s, size=ids.size)] for pattern in patterns)
+
+
+def _check_chain(patterns, ids):
+    for k, pattern in enumerate(patterns):
+        if np.ndim(pattern) != 2 or np.shape(pattern)[1:] != np.shape(patterns[0])[1:]:
+            raise ValueError(f"patterns[{k}] has shape {np.shape(pattern)}")
+    _check_indices("ids", ids)
+    if len(patterns) and not (ids < np.shape(patterns[0])[1]).all():
+        raise ValueError("ids must be < s")

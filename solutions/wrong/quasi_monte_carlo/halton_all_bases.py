@@ -1,0 +1,14 @@
+"""2, 3, 4, 5, ..."""
+
+import numpy as np
+
+FUNCTION = "halton"
+CAUGHT_BY = "exact"
+MISTAKE = "bases-not-prime"
+
+
+def halton(i, dims):
+    """With a mistake."""
+    _check_indices("i", i)
+    _check_dims(dims)
+    return np.stack([_mirrored(base, i) for base in range(2, dims + 2)])

@@ -1,0 +1,14 @@
+"""2 and the odd numbers."""
+
+import numpy as np
+
+FUNCTION = "halton"
+CAUGHT_BY = "exact"
+MISTAKE = "odd-bases"
+
+
+def halton(i, dims):
+    """With a mistake."""
+    _check_indices("i", i)
+    _check_dims(dims)
+    return np.stack([_mirrored(base, i) for base in [2, *range(3, 2 * dims + 1, 2)][:dims]])

@@ -1,0 +1,13 @@
+"""A radius that is uniform in the ball."""
+
+import numpy as np
+
+FUNCTION = "ball_by_polar"
+CAUGHT_BY = "uniform"
+MISTAKE = "ball-crowded-centre"
+
+
+def ball_by_polar(u):
+    """A polar warp."""
+    _check_batch("u", u, 3)
+    return u[2] * _on_sphere(u[:2])

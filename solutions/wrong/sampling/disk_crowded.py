@@ -1,0 +1,14 @@
+"""A radius that is uniform on the disk."""
+
+import numpy as np
+
+FUNCTION = "disk_by_polar"
+CAUGHT_BY = "uniform"
+MISTAKE = "disk-crowded-centre"
+
+
+def disk_by_polar(u):
+    """A polar warp."""
+    _check_batch("u", u, 2)
+    phi = u.dtype.type(2 * np.pi) * u[1]
+    return u[0] * np.stack((np.cos(phi), np.sin(phi)))

@@ -1,0 +1,13 @@
+"""The polar warp, where rejection is asked for."""
+
+import numpy as np
+
+FUNCTION = "disk_by_rejection"
+CAUGHT_BY = "acceptance"
+MISTAKE = "disk-no-rejection"
+
+
+def disk_by_rejection(n, rng):
+    """Points by rejection."""
+    _check_count(n)
+    return disk_by_polar(rng.random((2, n), np.float32))

@@ -1,0 +1,23 @@
+"""By 5, 17 and 13."""
+
+import numpy as np
+
+FUNCTION = "xorshift32"
+CAUGHT_BY = "known"
+MISTAKE = "other-order"
+
+
+def xorshift32(state):
+    """The next number of each stream."""
+    _check_state(state)
+    state = state ^ (state << 5)
+    state = state ^ (state >> 17)
+    state = state ^ (state << 13)
+    return state, (state >> 8).astype(np.float32) * np.float32(2**-24)
+
+
+def _check_state(state):
+    if np.ndim(state) != 1:
+        raise ValueError(f"state must have shape (N,), got {np.shape(state)}")
+    if getattr(state, "dtype", None) != np.uint32:
+        raise ValueError("state must be uint32")

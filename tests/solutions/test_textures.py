@@ -1,0 +1,246 @@
+"""Textures: places on rectangles, spheres and triangles, and the colours of a repeated picture."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+import pytest
+
+from tests.solutions.batches import CHECKS, DTYPES, Call, directions, numbers, worst_directions
+from tests.solutions.contract import SOLUTIONS, Array, frozen, unit
+
+rectangle_uv = SOLUTIONS.function("textures", "rectangle_uv")
+sphere_uv = SOLUTIONS.function("textures", "sphere_uv")
+triangle_uv = SOLUTIONS.function("textures", "triangle_uv")
+texture_lookup = SOLUTIONS.function("textures", "texture_lookup")
+
+P1, P2, P3 = np.array((1.0, 2, 3)), np.array((3.0, 2, 3)), np.array((1.0, 2, -1))
+"""A rectangle of 2 x 4."""
+
+IMAGE = np.random.default_rng(0).random((4, 7, 3))
+
+CORNERS = {"uv0": np.array((0.1, 0.2)), "uv1": np.array((0.9, 0.3)), "uv2": np.array((0.4, 0.8))}
+
+CALLS = {
+    "rectangle_uv": Call(
+        rectangle_uv, {"p": numbers(3, -2, 2)}, {"p1": P1, "p2": P2, "p3": P3}, result=((2,),)
+    ),
+    "sphere_uv": Call(
+        sphere_uv, {"p": directions}, {"center": np.array((0.1, -0.2, 0.05))}, result=((2,),)
+    ),
+    "triangle_uv": Call(triangle_uv, {"barycentric": numbers(3)}, CORNERS, result=((2,),)),
+    "triangle_uv, each its own": Call(
+        triangle_uv,
+        {"barycentric": numbers(3), "uv0": numbers(2), "uv1": numbers(2), "uv2": numbers(2)},
+        result=((2,),),
+    ),
+    "texture_lookup": Call(
+        texture_lookup, {"uv": numbers(2, -2, 2)}, {"image": IMAGE}, tolerance=1e-5
+    ),
+}
+
+# Corners may be (2,) as well, so the message about their shape is another.
+PAIRS = [
+    (name, check)
+    for name in CALLS
+    for check in CHECKS
+    if check != "shapes_are_refused" or "uv0" not in CALLS[name].batches
+]
+
+dtypes = pytest.mark.parametrize("dtype", DTYPES)
+
+
+@pytest.mark.parametrize(("name", "check"), PAIRS)
+def test_contract_of_batches(name: str, check: str) -> None:
+    CHECKS[check](CALLS[name])
+
+
+@pytest.mark.parametrize("shape", [(), (3,), (2, 4), (2, 1), (5, 2), (2, 5, 1)])
+@pytest.mark.parametrize("name", CORNERS)
+def test_corners_of_another_shape_are_refused(name: str, shape: tuple[int, ...]) -> None:
+    message = f"{name} must have shape (2,) or (2, 5), got {shape}"
+    with pytest.raises(ValueError, match=f"^{re.escape(message)}$"):
+        triangle_uv(np.ones((3, 5)), **{**CORNERS, name: np.ones(shape)})
+
+
+@pytest.mark.parametrize(
+    "shape", [(), (4, 7), (4, 7, 4), (3, 4, 7), (1, 4, 7, 3), (0, 7, 3), (4, 0, 3)]
+)
+def test_pictures_of_another_shape_are_refused(shape: tuple[int, ...]) -> None:
+    message = f"image must have shape (H, W, 3) with H, W >= 1, got {shape}"
+    with pytest.raises(ValueError, match=f"^{re.escape(message)}$"):
+        texture_lookup(np.ones(shape), np.ones((2, 5)))
+
+
+def test_rectangles_without_extent_are_refused() -> None:
+    for name, corners in (("p2", (P1, P1, P3)), ("p3", (P1, P2, P1))):
+        with pytest.raises(ValueError, match=f"^{name} must be another point than p1, got "):
+            rectangle_uv(np.ones((3, 5)), *corners)
+
+
+# ---------------------------------------------------------------- rectangles
+
+
+@dtypes
+def test_corners_of_a_rectangle(dtype: type) -> None:
+    p = np.stack((P1, P2, P3, P2 + P3 - P1, (P2 + P3) / 2, 2 * P1 - P2), axis=1).astype(dtype)
+    expected = np.array([(0, 0), (1, 0), (0, 1), (1, 1), (0.5, 0.5), (-1, 0)]).T
+    assert (rectangle_uv(frozen(p), P1, P2, P3) == expected).all()
+
+
+@dtypes
+def test_rectangles_of_any_size_and_turn(dtype: type) -> None:
+    rng = np.random.default_rng(1)
+    for size in (1e-3, 1.0, 1e3):
+        frame = np.linalg.qr(rng.standard_normal((3, 3)))[0]
+        p1 = size * rng.uniform(-1, 1, 3)
+        a, b, normal = size * frame[0], 3 * size * frame[1], size * frame[2]
+        uv, off = rng.uniform(-1, 2, (2, 500)), rng.uniform(-1, 1, 500)
+        p = p1[:, None] + np.outer(a, uv[0]) + np.outer(b, uv[1]) + np.outer(normal, off)
+        found = rectangle_uv(p.astype(dtype), p1, p1 + a, p1 + b)
+        assert np.abs(found - uv).max() < 50 * np.finfo(dtype).eps
+
+
+# ---------------------------------------------------------------- spheres
+
+
+@dtypes
+@pytest.mark.parametrize(
+    ("point", "u", "v"),
+    [
+        ((1, 0, -1e-30), 0, 0.5),
+        ((0, 0, -1), 0.25, 0.5),
+        ((-1, 0, 0), 0.5, 0.5),
+        ((0, 0, 1), 0.75, 0.5),
+        ((1, 0, 1), 0.875, 0.5),
+        ((0, 1, -1), 0.25, 0.75),
+        ((0, -1, 1), 0.75, 0.25),
+    ],
+)
+def test_places_on_a_sphere(
+    dtype: type, point: tuple[float, float, float], u: float, v: float
+) -> None:
+    for size in (1e-3, 1.0, 1e3):
+        found = sphere_uv(size * np.array(point, dtype)[:, None], np.zeros(3))
+        assert found[:, 0] == pytest.approx((u, v), abs=1e-6)
+
+
+@dtypes
+def test_places_on_a_sphere_are_in_range_and_lead_back(dtype: type) -> None:
+    d = np.concatenate((worst_directions(dtype), directions(5000, dtype, 2)), axis=1)
+    u, v = found = sphere_uv(frozen(d), np.zeros(3))
+    assert found.min() >= 0
+    assert found.max() <= 1
+    phi, theta = 2 * np.pi * u.astype(float), np.pi * v.astype(float)
+    s = np.sin(theta)
+    back = np.stack((s * np.cos(phi), -np.cos(theta), -s * np.sin(phi)))
+    exact = d / np.linalg.norm(d.astype(float), axis=0)
+    assert np.abs(back - exact).max() < 10 * np.finfo(dtype).eps
+
+
+@dtypes
+def test_poles_of_a_sphere(dtype: type) -> None:
+    center = np.array((1.0, 2, 3))
+    p = np.array([(1, 1, 3), (1, 4, 3)], dtype).T
+    u, v = sphere_uv(p, center)
+    assert v.tolist() == [0, 1]
+    assert u.min() >= 0
+    assert u.max() <= 1
+
+
+# ---------------------------------------------------------------- triangles
+
+
+@dtypes
+def test_corners_and_middle_of_a_triangle(dtype: type) -> None:
+    corners = np.stack([*CORNERS.values()], axis=1)
+    found = triangle_uv(np.eye(3, dtype=dtype), **CORNERS)
+    assert (found == corners.astype(dtype)).all()
+    middle = triangle_uv(np.full((3, 1), 1 / 3, dtype), **CORNERS)[:, 0]
+    assert middle == pytest.approx(corners.mean(axis=1), rel=1e-6)
+
+
+@pytest.mark.parametrize("n", [1, 2, 3, 50])
+def test_each_point_has_its_own_triangle(n: int) -> None:
+    w, corners = unit(3, n, np.float64, 3), unit(6, n, np.float64, 4).reshape(3, 2, n)
+    found = triangle_uv(w, *corners)
+    for k in range(n):
+        alone = triangle_uv(w[:, k : k + 1], *corners[:, :, k])
+        assert found[:, k] == pytest.approx(alone[:, 0])
+    # One corner for all, the others each point's own.
+    shared = triangle_uv(w, corners[0], np.array((0.5, 0.25)), corners[2])
+    half = np.array(((0.5,), (0.25,)))
+    assert shared == pytest.approx(w[0] * corners[0] + w[1] * half + w[2] * corners[2])
+
+
+# ---------------------------------------------------------------- the lookup
+
+
+def centers(height: int, width: int) -> tuple[Array, Array]:
+    """Places (H, W) of the texels' centres, u and v; row 0 is on top, where v is 1."""
+    j, i = np.indices((height, width))
+    return (i + 0.5) / width, 1 - (j + 0.5) / height
+
+
+@dtypes
+@pytest.mark.parametrize("size", [(1, 1), (1, 5), (6, 1), (4, 7), (8, 8)])
+def test_texels_at_their_centres(dtype: type, size: tuple[int, int]) -> None:
+    image = frozen(np.random.default_rng(5).random((*size, 3)).astype(dtype))
+    u, v = centers(*size)
+    found = texture_lookup(image, np.stack((u.ravel(), v.ravel())).astype(dtype))
+    assert np.abs(found - image.reshape(-1, 3).T).max() < 20 * np.finfo(dtype).eps
+
+
+@dtypes
+def test_bilinear_pictures_are_exact_inside(dtype: type) -> None:
+    def colors(u: Array, v: Array) -> Array:
+        return np.stack((0.2 + 0.5 * u, 0.9 - 0.7 * v, 0.1 + 0.3 * u + 0.2 * v - 0.4 * u * v), -1)
+
+    image = colors(*centers(5, 9)).astype(dtype)
+    uv = unit(2, 2000, dtype, 6) * dtype(0.8) + dtype(0.1)
+    expected = colors(*uv.astype(float)).T
+    assert np.abs(texture_lookup(image, uv) - expected).max() < 30 * np.finfo(dtype).eps
+
+
+def test_edges_mix_with_the_opposite_ones() -> None:
+    across_u, across_v = (IMAGE[:, 0] + IMAGE[:, -1]) / 2, (IMAGE[0] + IMAGE[-1]) / 2
+    for edge in (-3.0, 0.0, 1.0, 2.0):
+        v = 1 - (np.arange(4) + 0.5) / 4
+        found = texture_lookup(IMAGE, np.stack((np.full(4, edge), v)))
+        assert found == pytest.approx(across_u.T)
+        u = (np.arange(7) + 0.5) / 7
+        found = texture_lookup(IMAGE, np.stack((u, np.full(7, edge))))
+        assert found == pytest.approx(across_v.T)
+
+
+def test_the_picture_repeats_without_a_seam() -> None:
+    uv = unit(2, 2000, np.float64, 7)
+    whole = np.random.default_rng(8).integers(-9, 10, uv.shape)
+    first = texture_lookup(IMAGE, uv)
+    assert np.abs(texture_lookup(IMAGE, uv + whole) - first).max() < 1e-12
+    for edge in (0.0, 1.0, -2.0):
+        for row in (0, 1):
+            sides = uv.copy(), uv.copy()
+            for side, step in zip(sides, (-1e-10, 1e-10), strict=True):
+                side[row] = edge + step
+            below, above = (texture_lookup(IMAGE, side) for side in sides)
+            assert np.abs(below - above).max() < 1e-8
+
+
+@dtypes
+def test_the_worst_places_have_colours_of_the_picture(dtype: type) -> None:
+    tiny = float(np.finfo(dtype).smallest_subnormal)
+    ends = [0, tiny, -tiny, 1e-9, -1e-9, 0.5, 1 - 2.0**-24, 1, 1e6 + 0.25, -1e6, 1e30, -1e30]
+    uv = np.stack([x.ravel() for x in np.meshgrid(ends, ends)]).astype(dtype)
+    for image in (IMAGE, IMAGE[:1], IMAGE[:, :1], IMAGE[:1, :1]):
+        found = texture_lookup(image, uv)
+        assert found.min() >= image.min() - 1e-6
+        assert found.max() <= image.max() + 1e-6
+
+
+def test_mean_of_the_picture_is_that_of_its_texels() -> None:
+    # Periodic tents all weigh the same: by the midpoint rule, sixteen to a texel, exactly so.
+    v, u = ((x + 0.5) / s for x, s in zip(np.indices((64, 112)), (64, 112), strict=True))
+    found = texture_lookup(IMAGE, np.stack((u.ravel(), v.ravel())))
+    assert found.mean(axis=1) == pytest.approx(IMAGE.mean(axis=(0, 1)), rel=1e-12)
