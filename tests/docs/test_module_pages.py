@@ -10,21 +10,21 @@ import click
 import pytest
 
 from course.cli.main import commands
-from course.effects import MODULES, PROJECT
+from course.effects import COURSE, PROJECT
 from course.grading.catalog import module_checks
 from course.grading.release.archive import solution_lines
 
 PAGES = PROJECT / "docs" / "modules"
 
 
-@pytest.mark.parametrize("module", MODULES)
+@pytest.mark.parametrize("module", COURSE)
 def test_every_function_has_its_heading(module: str) -> None:
     text = (PAGES / f"{module}.md").read_text(encoding="utf-8")
     headings = re.findall(r"^## (\w+)$", text, re.MULTILINE)
-    assert set(MODULES[module]) <= set(headings)
+    assert set(COURSE[module]) <= set(headings)
 
 
-@pytest.mark.parametrize("module", MODULES)
+@pytest.mark.parametrize("module", COURSE)
 def test_a_page_gives_no_solution_away(module: str) -> None:
     lines = {
         line.strip() for line in (PAGES / f"{module}.md").read_text(encoding="utf-8").splitlines()
