@@ -28,9 +28,7 @@ IDS = [f"{module}.{check.function}" for module, check in LOOKS]
 
 def solution(module: str, **others: Any) -> TrustedModule:
     effects = Effects(PROJECT / "solutions")
-    return TrustedModule(
-        {name: effects.function(module, name) for name in COURSE[module]} | others
-    )
+    return TrustedModule({name: effects.function(module, name) for name in COURSE[module]} | others)
 
 
 def judged(module: str, check: Check, caller: TrustedModule) -> Result:

@@ -10,6 +10,7 @@ import signal
 import subprocess
 import threading
 from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from time import monotonic
 from types import TracebackType
@@ -24,6 +25,10 @@ from course.grading.worker.sandbox import Sandbox, program, sandbox
 
 LARGEST_SOURCE = 1_000_000
 """Bytes; a file that is larger was not written by a student."""
+
+_STARTER = ThreadPoolExecutor(1, thread_name_prefix="starts-workers")
+"""All workers are started from one thread that lives as long as this process: a sandbox dies with the *thread* that
+started it, and threads that render come and go."""
 
 SHOWN = 4000
 """Characters of what a student prints that are kept."""
@@ -200,7 +205,8 @@ class Worker:
             },
         }
         try:
-            self._process = subprocess.Popen(
+            self._process = _STARTER.submit(
+                subprocess.Popen,
                 [*self.sandbox.command, program(self.sandbox), json.dumps(settings)],
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
@@ -209,11 +215,13 @@ class Worker:
                 start_new_session=True,
                 cwd="/" if os.name == "posix" else None,
                 env={"OPENBLAS_NUM_THREADS": "1", "PYTHONHASHSEED": "0"},
-            )
+            ).result()
         finally:
             os.close(theirs)
         assert self._process.stdin is not None
         os.set_blocking(self._process.stdin.fileno(), False)
+        for pipe in (self._process.stdin.fileno(), self._replies):
+            _widen(pipe)
         self._drain = threading.Thread(
             target=self._keep_printed, args=(self._process.stdout,), daemon=True
         )
@@ -269,18 +277,19 @@ class Worker:
         except BrokenMessage as error:
             raise self._lost(f"what it wrote is no reply ({error})") from None
 
-    def _reader(self, deadline: float) -> Callable[[int], bytes]:
-        def read(count: int) -> bytes:
-            parts = bytearray()
-            while len(parts) < count:
+    def _reader(self, deadline: float) -> Callable[[int], bytearray]:
+        def read(count: int) -> bytearray:
+            data = bytearray(count)
+            rest = memoryview(data)
+            while rest:
                 ready, _, _ = select.select([self._replies], [], [], max(deadline - monotonic(), 0))
                 if not ready:
                     raise self._timeout()
-                data = os.read(self._replies, min(count - len(parts), 1 << 20))
-                if not data:
+                got = os.readv(self._replies, [rest])
+                if not got:
                     raise self._lost("the process has ended")
-                parts += data
-            return bytes(parts)
+                rest = rest[got:]
+            return data
 
         return read
 
@@ -314,3 +323,11 @@ class Worker:
             -signal.SIGKILL: "; it was killed",
         }.get(code or 0, "")
         return StudentError("crashed", f"{why}{meaning}")
+
+
+def _widen(pipe: int) -> None:
+    """Room for a batch of rays, where the system allows it: fewer turns between the two processes."""
+    with contextlib.suppress(ImportError, AttributeError, OSError):
+        import fcntl
+
+        fcntl.fcntl(pipe, fcntl.F_SETPIPE_SZ, 1 << 20)

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import io
 import json
+import math
 from collections.abc import Callable
 from typing import Any
 
@@ -39,7 +40,7 @@ def pack(head: dict[str, Any], values: list[Any]) -> bytes:
     return b"".join(b"%08x" % len(part) + part for part in (text, *arrays))
 
 
-def unpack(read: Callable[[int], bytes]) -> tuple[dict[str, Any], list[Any]]:
+def unpack(read: Callable[[int], bytearray]) -> tuple[dict[str, Any], list[Any]]:
     """The next message: its head and values.
 
     Parameters
@@ -51,15 +52,15 @@ def unpack(read: Callable[[int], bytes]) -> tuple[dict[str, Any], list[Any]]:
     BrokenMessage
     """
     try:
-        head = json.loads(_part(read))
+        head = json.loads(bytes(_part(read)))
         arrays = [_array(_part(read)) for _ in range(int(head["arrays"]))]
         return head, [_restore(described, arrays) for described in head["values"]]
     except (ValueError, KeyError, TypeError, IndexError, AttributeError, RecursionError) as error:
         raise BrokenMessage(f"{type(error).__name__}: {error}") from error
 
 
-def _part(read: Callable[[int], bytes]) -> bytes:
-    length = int(read(8), 16)
+def _part(read: Callable[[int], bytearray]) -> bytearray:
+    length = int(bytes(read(8)), 16)
     if not 0 <= length <= LARGEST:
         raise BrokenMessage(f"a part of {length} bytes")
     return read(length)
@@ -72,9 +73,7 @@ def _describe(value: Any, arrays: list[bytes]) -> dict[str, Any]:
     if type(value) is np.ndarray or isinstance(value, np.generic):
         if np.asarray(value).dtype.kind not in "fiub":
             raise TypeError(f"an array of {np.asarray(value).dtype} instead of numbers")
-        file = io.BytesIO()
-        np.lib.format.write_array(file, np.asarray(value), allow_pickle=False)
-        arrays.append(file.getvalue())
+        arrays.append(_npy(np.asarray(value)))
         return {"array": len(arrays) - 1, "scalar": isinstance(value, np.generic)}
     if isinstance(value, np.random.Generator):
         return {"rng": _plain(value.bit_generator.state)}
@@ -107,10 +106,26 @@ def _restore(described: dict[str, Any], arrays: list[Any]) -> Any:
     return value
 
 
-def _array(data: bytes) -> Any:
+def _npy(array: Any) -> bytes:
+    """The bytes of a .npy file; ``write_array`` gives the same, in more copies."""
+    file = io.BytesIO()
+    np.lib.format.write_array_header_1_0(file, np.lib.format.header_data_from_array_1_0(array))
+    order: Any = "F" if array.flags.f_contiguous and not array.flags.c_contiguous else "C"
+    data: bytes = file.getvalue() + array.tobytes(order)
+    return data
+
+
+def _array(data: bytearray) -> Any:
     file = io.BytesIO(data)
-    # .npy says the dtype itself; object arrays are refused since pickling is off.
-    array = np.lib.format.read_array(file, allow_pickle=False)
-    if array.dtype.kind not in "fiub" or file.read(1):
+    if np.lib.format.read_magic(file) != (1, 0):
+        raise BrokenMessage("an array in another version of .npy")
+    shape, fortran, dtype = np.lib.format.read_array_header_1_0(file, max_header_size=10_000)
+    # Objects are refused here, and nothing is ever unpickled.
+    if dtype.kind not in "fiub" or any(size < 0 for size in shape):
         raise BrokenMessage("an array that isn't one of numbers")
-    return np.require(array, requirements=["W"]) if array.flags.writeable else array.copy()
+    start = file.tell()
+    if len(data) - start != math.prod(shape) * dtype.itemsize:
+        raise BrokenMessage("an array that is longer or shorter than its shape")
+    # Over the bytes that have been read: writable, and no copy.
+    flat = np.frombuffer(data, dtype, offset=start)
+    return flat.reshape(shape, order="F" if fortran else "C")

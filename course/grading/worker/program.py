@@ -32,9 +32,9 @@ def main() -> None:
     requests = os.fdopen(os.dup(0), "rb")
     os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
 
-    def read(count: int) -> bytes:
-        data = requests.read(count)
-        if len(data) < count:
+    def read(count: int) -> bytearray:
+        data = bytearray(count)
+        if requests.readinto(data) < count:
             os._exit(0)  # The grader has hung up.
         return data
 

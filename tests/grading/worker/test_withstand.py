@@ -6,6 +6,7 @@ the named checks, and nothing else.
 
 from __future__ import annotations
 
+import threading
 from functools import cache
 
 import numpy as np
@@ -19,7 +20,7 @@ from course.grading.checks.running import References, Status
 from course.grading.grading import grade
 from course.grading.references import references
 from course.grading.report import Report
-from course.grading.worker.client import Limits
+from course.grading.worker.client import Limits, Worker
 from course.grading.worker.sandbox import sandbox
 
 MODULE = "motion_blur"
@@ -333,3 +334,14 @@ def test_what_is_borrowed_can_only_be_what_was_lent() -> None:
     report = graded(with_body(forged), bubblewrap=False)
     ended = {result.status for result in report.results if result.function == FUNCTION}
     assert Status.CRASHED in ended or Status.FAILED in ended
+
+
+def test_a_worker_outlives_the_thread_that_called_it_first() -> None:
+    source = b"COUNT = []\ndef f():\n    COUNT.append(1)\n    return len(COUNT)\n"
+    with Worker("m", source) as worker:
+        for number in (1, 2, 3):
+            found: list[int] = []
+            thread = threading.Thread(target=lambda: found.append(worker.call("f")))  # noqa: B023 - joined at once
+            thread.start()
+            thread.join()
+            assert found == [number]
