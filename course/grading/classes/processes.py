@@ -18,7 +18,7 @@ from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wai
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import closing
 from multiprocessing.connection import wait as wait_for
-from time import monotonic
+from time import monotonic, sleep
 from typing import TypeVar
 
 from course.grading.classes.outcome import Outcome, told
@@ -120,13 +120,24 @@ def _end(pool: ProcessPoolExecutor, processes: set[multiprocessing.process.BaseP
     """End the processes of a pool, busy or not."""
     for process in processes:
         process.terminate()
-    deadline = monotonic() + GRACE
-    for process in processes:
-        process.join(max(deadline - monotonic(), 0))
-        if process.is_alive():
-            process.kill()
-            process.join(GRACE)
+    for process in _left(processes, GRACE):
+        process.kill()
+    _left(processes, GRACE)
     pool.shutdown(wait=False, cancel_futures=True)
+
+
+def _left(
+    processes: set[multiprocessing.process.BaseProcess], seconds: float
+) -> set[multiprocessing.process.BaseProcess]:
+    """Those that still run after that many seconds at most.
+
+    They are not joined: the pool's own thread joins them too, and one whose end that thread was told of looks alive
+    to any other until that thread has noted it.
+    """
+    deadline = monotonic() + seconds
+    while (left := processes & {*multiprocessing.active_children()}) and monotonic() < deadline:
+        sleep(0.01)
+    return left
 
 
 def _call(function: Callable[[Item, Shared], Value], item: Item, shared: Shared) -> Value:
