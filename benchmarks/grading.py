@@ -5,15 +5,16 @@ from __future__ import annotations
 import subprocess
 import sys
 import tempfile
+from collections.abc import Iterable
 from pathlib import Path
 from statistics import median
 from time import perf_counter
 
 from benchmarks.figures import Figure, summary
-from course.effects import MODULES, PROJECT
+from course.effects import COURSE, MODULES, PROJECT
 from course.grading.catalog import module_checks
 from course.grading.checks.check import Caller, Check, ModuleChecks
-from course.grading.checks.running import References, run_checks
+from course.grading.checks.running import References, Status, run_checks
 from course.grading.grading import grade
 from course.grading.known import known
 from course.grading.pictures.whole import NAME
@@ -24,20 +25,31 @@ ROUNDS = 5
 CLASS = 24
 """Submissions that are graded to tell how long 200 take."""
 
+RENDERS = ("picture", "bias")
+"""Kinds of checks that render."""
+
+Times = list[tuple[float, float]]
+"""Seconds with a worker and without, round by round."""
+
 
 def measure_grading() -> list[Figure]:
-    """Seconds of one submission, minutes of a class of 200, and a graded render with a worker / without."""
+    """Seconds of one submission, minutes of a class of 200, and graded renders with workers / without."""
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "references.npz"
-        make_references((*MODULES, NAME), 0, file)
+        make_references((*COURSE, NAME), 0, file)
         arrays = read_references(file, 0)
-        return [_submission(arrays), _class(Path(folder)), *_pipe(arrays)]
+        return [
+            _submission(f"{len(MODULES)} core modules of one submission [s]", MODULES, arrays),
+            _submission(f"all {len(COURSE)} modules of one submission [s]", COURSE, arrays),
+            _class(Path(folder)),
+            *_pipe(arrays),
+        ]
 
 
-def _submission(arrays: References) -> Figure:
-    sources = {m: (PROJECT / "solutions" / f"{m}.py").read_bytes() for m in MODULES}
-    seconds = [grade(sources, arrays).seconds for _ in range(ROUNDS)]
-    return summary("six modules of one submission [s]", seconds, 20)
+def _submission(name: str, modules: Iterable[str], arrays: References) -> Figure:
+    sources = {m: (PROJECT / "solutions" / f"{m}.py").read_bytes() for m in modules}
+    seconds = [grade(sources, arrays, modules=sources).seconds for _ in range(ROUNDS)]
+    return summary(name, seconds, 20)
 
 
 def _class(folder: Path) -> Figure:
@@ -45,7 +57,7 @@ def _class(folder: Path) -> Figure:
     for number in range(CLASS):
         student = folder / "class" / f"student {number}"
         student.mkdir(parents=True)
-        for module in MODULES:
+        for module in COURSE:
             found = known(module)
             (student / f"{module}.py").write_text(found[(7 * number) % len(found)].source)
     started = perf_counter()
@@ -64,34 +76,56 @@ def _class(folder: Path) -> Figure:
         stderr=subprocess.DEVNULL,
     )
     minutes = (perf_counter() - started) / 60 * 200 / CLASS
-    return summary(f"class of 200, from {CLASS} [min]", [minutes], 25)
+    return summary(f"a class of 200, from {CLASS} right and wrong submissions [min]", [minutes], 25)
 
 
 def _pipe(arrays: References) -> list[Figure]:
-    ratios: list[float] = []
-    worst = ("", 0.0)
-    for module in MODULES:
+    """What workers add to the checks that render: to all of them together, and to single pictures."""
+    found: dict[str, Times] = {}
+    singles: dict[str, float] = {}
+    for module in COURSE:
+        renders = [check for check in module_checks(module).checks if check.kind in RENDERS]
+        if not renders:
+            continue
         inside = reference(module)
         with Worker(module, (PROJECT / "solutions" / f"{module}.py").read_bytes()) as worker:
-            for check in module_checks(module).checks:
+            for check in renders:
+                times = _times(module, check, worker, inside, arrays)
+                found[f"{module}.{check.function}/{check.name}"] = times
                 if check.kind == "picture":
-                    found = _ratio(module, check, worker, inside, arrays)
-                    ratios.append(found)
-                    worst = max(
-                        worst, (f"{module}.{check.function}", found), key=lambda pair: pair[1]
-                    )
+                    singles[f"{module}.{check.function}"] = median(_ratios(times))
+    together: Times = [_sums(round_) for round_ in zip(*found.values(), strict=True)]
+    worst = max(singles, key=lambda name: singles[name])
     return [
-        summary("graded render: with a worker / without", ratios, 1.15),
-        summary(f"the same, worst ({worst[0]})", [worst[1]], 1.15),
+        summary(
+            f"graded renders through workers / without, all {len(found)} together",
+            _ratios(together),
+            1.15,
+        ),
+        summary("a single picture, median and range", [*singles.values()], 1.15),
+        summary(f"a single picture, the worst ({worst})", [singles[worst]], 1.15),
     ]
 
 
-def _ratio(module: str, check: Check, worker: Caller, inside: Caller, arrays: References) -> float:
+def _times(module: str, check: Check, worker: Caller, inside: Caller, arrays: References) -> Times:
+    """Of one check, in turn."""
     alone = ModuleChecks(module, (check,), ())
-    times: tuple[list[float], list[float]] = ([], [])
+    times: Times = []
     for _ in range(ROUNDS + 1):
-        for caller, kept in zip((worker, inside), times, strict=True):
+        pair = []
+        for caller in (worker, inside):
             (result,) = run_checks(alone, caller, arrays, 0)
-            kept.append(result.seconds)
+            assert result.status is Status.PASSED, result
+            pair.append(result.seconds)
+        times.append((pair[0], pair[1]))
     # The first round imports and compiles.
-    return median(a / b for a, b in zip(times[0][1:], times[1][1:], strict=True))
+    return times[1:]
+
+
+def _sums(times: Iterable[tuple[float, float]]) -> tuple[float, float]:
+    with_worker, without = zip(*times, strict=True)
+    return sum(with_worker), sum(without)
+
+
+def _ratios(times: Times) -> list[float]:
+    return [with_worker / without for with_worker, without in times]

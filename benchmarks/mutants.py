@@ -2,18 +2,21 @@
 
 Exit code 1 when a wrong submission gets past the check meant for it, or a right one loses a point. ``--false-fail``
 estimates instead how often a right submission fails by chance: the statistical checks alone, for thousands of seeds.
+Both end with a table of the modules.
 """
 
 from __future__ import annotations
 
 import json
 import sys
+from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 from pathlib import Path
 
 import click
 
+from course.benchmarking.tables import NONE, Table
 from course.effects import COURSE
 from course.grading.catalog import module_checks
 from course.grading.checks.running import Status, prepared, run_checks
@@ -24,6 +27,9 @@ from course.grading.worker.client import Limits, Worker
 
 CHANCE = ("distribution", "order")
 """Kinds of checks in which chance decides; bias is estimated from its own distribution, for it renders."""
+
+TOGETHER = "together"
+"""The tables' last row."""
 
 
 @click.command(help=__doc__)
@@ -55,10 +61,7 @@ def main(
             verdicts.append(verdict)
             print("\n".join(matrix([verdict])), flush=True)
     faults = sum(bool(verdict.fault) for verdict in verdicts)
-    right = sum(verdict.submission.right for verdict in verdicts)
-    print(
-        f"\n{right} right and {len(verdicts) - right} wrong submissions, {faults} faults of the grader"
-    )
+    print(f"\n{kills(chosen, verdicts).markdown()}\n\n{faults} faults of the grader")
     if json_file:
         json_file.write_text(json.dumps([_plain(verdict) for verdict in verdicts], indent=1))
     sys.exit(1 if faults else 0)
@@ -72,17 +75,45 @@ def _judged(submission: Known, seed: int, file: Path) -> Verdict:
         return judge(submission, worker, arrays, seed)
 
 
+def kills(modules: Sequence[str], verdicts: Sequence[Verdict]) -> Table:
+    """How many right and wrong submissions of each module there are, and who is told the mistake."""
+
+    def row(name: str, some: Sequence[Verdict]) -> tuple[str, ...]:
+        wrong = [verdict for verdict in some if not verdict.submission.right]
+        told = sum(bool(verdict.told) for verdict in wrong)
+        return name, *map(str, (len(some) - len(wrong), len(wrong), told))
+
+    rows = [
+        row(module, [verdict for verdict in verdicts if verdict.submission.module == module])
+        for module in modules
+    ]
+    columns = ("module", "right", "wrong", "of which told their mistake")
+    return Table("", columns, (*rows, row(TOGETHER, verdicts)))
+
+
 def _false_fail(
     pool: ProcessPoolExecutor, modules: tuple[str, ...], seeds: int, json_file: Path | None
 ) -> int:
-    stated = sum(check.false_fail for module in modules for check in module_checks(module).checks)
-    graded, failed = 0, []
+    failed: list[str] = []
+    stated, rows = 0.0, []
     for module in modules:
-        for wrong in pool.map(_chance, [module] * seeds, range(seeds), chunksize=25):
-            graded += 1
-            failed += wrong
-    print(f"{seeds} seeds of {len(modules)} modules: {len(failed)} false fails {failed[:5]}")
-    print(f"by design: {stated:.1e} for an assignment of all {len(modules)} modules")
+        checks = module_checks(module).checks
+        by_chance = sum(check.kind in CHANCE for check in checks)
+        if not by_chance:
+            continue
+        wrong = [
+            one
+            for some in pool.map(_chance, [module] * seeds, range(seeds), chunksize=25)
+            for one in some
+        ]
+        by_design = sum(check.false_fail for check in checks)
+        rows.append((module, str(by_chance), f"{seeds:,}", str(len(wrong)), f"{by_design:.1e}"))
+        print(*wrong, sep="\n", end="\n" if wrong else "", flush=True)
+        failed += wrong
+        stated += by_design
+    columns = ("module", "statistical checks", "seeds", "false fails", "stated by all its checks")
+    total = (TOGETHER, NONE, NONE, str(len(failed)), f"{stated:.1e}")
+    print(Table("", columns, (*rows, total)).markdown())
     if json_file:
         json_file.write_text(json.dumps({"seeds": seeds, "failed": failed, "by design": stated}))
     return 1 if failed else 0

@@ -405,8 +405,9 @@ def run_module(arguments: list[str]) -> None:
 
 def tables(results: list[Result]) -> list[Table]:
     """Everything, for people."""
+    measured = [form for form in FORMS if any(r.form == form for r in results)]
     return [
-        *(time_table(form, [r for r in results if r.form == form]) for form in FORMS),
+        *(time_table(form, [r for r in results if r.form == form]) for form in measured),
         process_table(results),
         agreement_table(results),
     ]
@@ -476,7 +477,7 @@ def write_document(results: list[Result], effort: Effort, about: dict[str, str])
         Table("", ("machine", ""), rows).markdown(),
     ]
     for table in tables(results):
-        parts += [f"### {table.title[0].upper()}{table.title[1:]}", table.markdown()]
+        parts += [f"### {table.title[0].upper()}{table.title[1:]}", _escaped(table).markdown()]
     without = [
         f"- {r.effect}, {r.form}: {', '.join(r.without) or 'as it is'}"
         + (f"; {ALIKE[r.effect]}" if r.alike else "")
@@ -484,6 +485,15 @@ def write_document(results: list[Result], effort: Effort, about: dict[str, str])
     ]
     parts += ["What the scenes do without:", "\n".join(without)]
     replace_marked(DOCUMENT, MARK, "\n\n".join(parts))
+
+
+def _escaped(table: Table) -> Table:
+    """With bars that end no cell in Markdown."""
+
+    def cells(row: tuple[str, ...]) -> tuple[str, ...]:
+        return tuple(cell.replace("|", r"\|") for cell in row)
+
+    return Table(table.title, cells(table.columns), tuple(map(cells, table.rows)))
 
 
 def versions(threads: int) -> dict[str, str]:

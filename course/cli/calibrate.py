@@ -6,11 +6,12 @@ from pathlib import Path
 
 import click
 
-from course.effects import COURSE, PROJECT
+from course.cli.grade import modules_from
+from course.effects import PROJECT
 
 
 @click.command()
-@click.argument("modules", nargs=-1, metavar="[MODULE]...", type=click.Choice([*COURSE]))
+@click.argument("modules", nargs=-1, metavar="[MODULE]...", callback=modules_from)
 @click.option(
     "--seeds",
     type=click.IntRange(1),
@@ -33,6 +34,6 @@ def calibrate(modules: tuple[str, ...], seeds: int, out: Path) -> None:
     from course.grading.calibration import write_tolerances
     from course.grading.pictures.judging import tolerances
 
-    found = dict(tolerances()) | measured(modules or tuple(COURSE), seeds, click.echo)
+    found = dict(tolerances()) | measured(modules, seeds, click.echo)
     write_tolerances(found, seeds, out)
     click.echo(f"{out} written")

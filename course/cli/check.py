@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING
 
 import click
 
+from course.cli.grade import modules_from
 from course.cli.options import FAILED
 from course.cli.tables import count
-from course.effects import COURSE, PROJECT
+from course.effects import PROJECT
 from course.errors import CourseError
 
 if TYPE_CHECKING:
@@ -24,7 +25,7 @@ POLL = 0.4
 
 
 @click.command()
-@click.argument("modules", nargs=-1, metavar="[MODULE]...")
+@click.argument("modules", nargs=-1, metavar="[MODULE]...", callback=modules_from)
 @click.option(
     "--folder",
     type=click.Path(path_type=Path, file_okay=False),
@@ -67,18 +68,12 @@ def check(
     """
     from course.grading.references import references
 
-    for module in modules:
-        if module not in COURSE:
-            raise click.BadParameter(
-                f"{module!r}; the modules are {', '.join(COURSE)}", param_hint="MODULE"
-            )
     if not folder.is_dir():
         raise CourseError(f"{folder}: no such folder; --folder says where your modules are")
-    chosen = modules or tuple(COURSE)
     arrays = references(seed)
     while True:
-        seen = _times(folder, chosen)
-        report = _check(folder, chosen, only, seed, arrays)
+        seen = _times(folder, modules)
+        report = _check(folder, modules, only, seed, arrays)
         if html is not None:
             from course.grading.reports.page import write_page
 
@@ -92,7 +87,7 @@ def check(
         if not watch:
             ctx.exit(0 if report.points == report.of else FAILED)
         click.echo("watching; Ctrl-C ends it", err=True)
-        while _times(folder, chosen) == seen:
+        while _times(folder, modules) == seen:
             time.sleep(POLL)
 
 
@@ -185,21 +180,15 @@ class _Printer:
             self._tell(result, told)
 
     def _tell(self, result: Result, told: set[str]) -> None:
-        from course.grading.report import docs_page, reproduce
+        from course.grading.report import docs_page, findings, reproduce
 
         what = "" if result.status == "failed" else f" [{result.status}]"
         click.echo(f"      {click.style(result.check, bold=True)}{what}: {result.title}")
         if result.says and result.mistake not in told:
             told.add(result.mistake)
             _line("looks like", click.style(result.says, fg="cyan"))
-        for label, text in (
-            ("expected", result.expected),
-            ("found", result.found),
-            ("where", result.where),
-            ("hint", result.hint),
-        ):
-            if text:
-                _line(label, text)
+        for label, text in findings(result):
+            _line(label, text)
         _line("again", reproduce(result, self._seed))
         _line("read", docs_page(result))
 

@@ -6,6 +6,7 @@ A student's copy has no solutions; ``course references`` writes there what the c
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from functools import cache
 from importlib.resources import as_file, files
 from pathlib import Path
 
@@ -98,8 +99,13 @@ def references(seed: int = USUAL_SEED) -> References:
         There are neither.
     """
     if SOLUTIONS.is_dir():
-        makers = {module: prepared(reference(module), seed) for module in (*COURSE, NAME)}
-        return lambda module, check: makers[module](module, check)
+
+        @cache
+        def maker(module: str) -> References:
+            return prepared(reference(module), seed)
+
+        # A solution is loaded when the first check asks for what it has to make.
+        return lambda module, check: maker(module)(module, check) if check.prepare else {}
     with as_file(files("course.grading") / "data" / "references.npz") as path:
         if not path.is_file():
             raise CourseError(

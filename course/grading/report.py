@@ -4,12 +4,45 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Protocol
 
 from course.grading.checks.running import Result, Status
 
 
+class Scored(Protocol):
+    """Something with points."""
+
+    @property
+    def points(self) -> float:
+        """Earned."""
+        ...
+
+    @property
+    def of(self) -> float:
+        """That could be earned."""
+        ...
+
+
+class Total:
+    """What has parts, and of points what they have together."""
+
+    def parts(self) -> Sequence[Scored]:
+        """What the points are of."""
+        raise NotImplementedError
+
+    @property
+    def points(self) -> float:
+        """Earned."""
+        return sum(part.points for part in self.parts())
+
+    @property
+    def of(self) -> float:
+        """That could be earned."""
+        return sum(part.of for part in self.parts())
+
+
 @dataclass(frozen=True)
-class Report:
+class Report(Total):
     """All results of one submission.
 
     Attributes
@@ -32,15 +65,9 @@ class Report:
     seconds: float = 0.0
     trouble: str = ""
 
-    @property
-    def points(self) -> float:
-        """Earned."""
-        return sum(result.points for result in self.results)
-
-    @property
-    def of(self) -> float:
-        """That could be earned."""
-        return sum(result.of for result in self.results)
+    def parts(self) -> tuple[Result, ...]:
+        """Its results."""
+        return self.results
 
     @property
     def score(self) -> float:
@@ -50,6 +77,17 @@ class Report:
     def count(self, status: Status) -> int:
         """Checks that ended so."""
         return sum(result.status is status for result in self.results)
+
+
+def findings(result: Result) -> list[tuple[str, str]]:
+    """What a check that didn't pass has found, as labels with their text; what is empty is left out."""
+    found = (
+        ("expected", result.expected),
+        ("found", result.found),
+        ("where", result.where),
+        ("hint", result.hint),
+    )
+    return [(label, text) for label, text in found if text]
 
 
 def reproduce(result: Result, seed: int) -> str:

@@ -30,7 +30,8 @@ def read_submission(path: Path) -> dict[str, bytes]:
     Raises
     ------
     SubmissionError
-        It holds links or paths that lead out, is too large, is damaged, or holds two files for one module.
+        It holds links or paths that lead out, is too large, is damaged, holds two files for one module, or can't be
+        read for whatever other reason.
     """
     return read_zip(path) if path.is_file() else read_folder(path)
 
@@ -41,8 +42,17 @@ def read_folder(folder: Path) -> dict[str, bytes]:
     Raises
     ------
     SubmissionError
-        One is a link or lies twice in it.
+        One is a link, is no file, lies twice in it, or can't be read.
     """
+    try:
+        return _read_folder(folder)
+    except OSError as error:
+        raise SubmissionError(
+            f"{error.filename or folder}: can't be read: {error.strerror}"
+        ) from error
+
+
+def _read_folder(folder: Path) -> dict[str, bytes]:
     found: dict[str, bytes] = {}
     for module in COURSE:
         paths = sorted(
@@ -58,12 +68,10 @@ def read_folder(folder: Path) -> dict[str, bytes]:
             if path.is_symlink() or not path.resolve().is_relative_to(folder.resolve()):
                 raise SubmissionError(f"{path}: is a link; submit the file itself")
             if not path.is_file():
+                # To open a pipe would wait for somebody to write to it.
                 raise SubmissionError(f"{path}: is no ordinary file")
-            try:
-                with path.open("rb") as file:
-                    found[module] = file.read(LARGEST_FILE)
-            except OSError as error:
-                raise SubmissionError(f"{path}: can't be read: {error.strerror}") from error
+            with path.open("rb") as file:
+                found[module] = file.read(LARGEST_FILE)
     return found
 
 
@@ -73,6 +81,7 @@ def read_zip(path: Path) -> dict[str, bytes]:
     Raises
     ------
     SubmissionError
+        As by ``read_submission``.
     """
     try:
         with zipfile.ZipFile(path) as archive:
@@ -80,6 +89,7 @@ def read_zip(path: Path) -> dict[str, bytes]:
     except SubmissionError:
         raise
     except Exception as error:
+        # The ways in which a zip file can be damaged have no common class.
         raise SubmissionError(f"{path}: is no zip file that can be read: {error}") from error
 
 

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import asyncio
 import threading
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from concurrent.futures import CancelledError, ThreadPoolExecutor
 from contextlib import suppress
 from importlib import import_module
@@ -26,7 +26,7 @@ from course.errors import CourseError
 from course.rendering.kept_scenes import KeptScenes, Order, edition
 from course.rendering.parcel import Parcel, pack
 from course.rendering.passes import Work
-from course.rendering.pool import TICK, Sink
+from course.rendering.pool import TICK, InOrder, Run, Runner, Sink, Tick
 from course.scene.scene import Scene
 from course.scene.world import Settings
 from course.transport.counters import Counters
@@ -60,7 +60,7 @@ Result = tuple[Floats32, Floats32 | float]
 _kept = KeptScenes()
 
 
-class Cluster:
+class Cluster(Runner):
     """Runs work as ``Pool`` does, on the workers of a cluster; close it in the end.
 
     Parameters
@@ -70,8 +70,6 @@ class Cluster:
 
     Attributes
     ----------
-    counters : of all work that was taken in, after each run
-    interrupted : Ctrl-C was pressed
     threads : the most that all workers had together
 
     Raises
@@ -83,6 +81,7 @@ class Cluster:
     def __init__(
         self, address: str, scene: Scene, settings: Settings, film: Sink, packets: bool
     ) -> None:
+        super().__init__()
         self._address = address
         self._film = film
         self._order = Order(settings, packets, edition())
@@ -91,8 +90,6 @@ class Cluster:
         except OSError as error:
             raise CourseError(f"{scene.path}: a file that it names has gone: {error}") from error
         self._distributed, self._client = connect(address)
-        self.counters = Counters()
-        self.interrupted = False
         self.threads = 0
         self._seconds_a_ray = 0.0
         self._workers = 0
@@ -126,14 +123,14 @@ class Cluster:
         self,
         work: Iterable[Work],
         deadline: float | None,
-        tick: Callable[[int, int], None] | None,
+        tick: Tick | None,
     ) -> bool:
         """Do the work; whether all of it was done.
 
         Parameters
         ----------
         deadline : ``time.monotonic()`` after which nothing is handed out, and soon after which nothing is awaited
-        tick : called now and then with the number of tiles done so far, and how many of them in the first pass
+        tick : called now and then from this thread
 
         Raises
         ------
@@ -142,30 +139,19 @@ class Cluster:
         Exception
             What a worker raised.
         """
-        run = _Run(work, self._film, deadline)
+        run = _ClusterRun(work, self._film, deadline)
         # A thread of its own, so that Ctrl-C can't come in the middle of adding to the film.
         thread = threading.Thread(target=self._serve, args=(run,), name="cluster", daemon=True)
-        thread.start()
-        try:
-            while not run.finished.wait(TICK):
-                if tick is not None:
-                    tick(run.film.done, run.film.done_first)
-        except KeyboardInterrupt:
-            self.interrupted = True
-        finally:
-            run.stop = True
-            thread.join(GRACE)
+        self._attend(run, [thread], tick, GRACE)
         if run.error is not None and not self.interrupted:
             raise run.error
-        if tick is not None and not self.interrupted:
-            tick(run.film.done, run.film.done_first)
         return run.whole and not self.interrupted
 
     def close(self) -> None:
         """Leave the cluster, and nothing on it."""
         self._client.close(timeout=2)
 
-    def _serve(self, run: _Run) -> None:
+    def _serve(self, run: _ClusterRun) -> None:
         """Hand out the work of a run and take in what comes back."""
         pending: dict[str, tuple[Any, list[Work]]] = {}
         ended: SimpleQueue[Any] = SimpleQueue()
@@ -226,7 +212,7 @@ class Cluster:
         return CourseError(f"{self._address}: the scheduler has gone before the picture was ready")
 
     def _take_in(
-        self, film: _InOrder, piece: list[Work], results: list[Result], counters: Counters
+        self, film: InOrder, piece: list[Work], results: list[Result], counters: Counters
     ) -> None:
         rays = sum(item.tile.size * item.samples for item in piece)
         seconds = sum(counters.seconds.values()) / rays
@@ -325,17 +311,14 @@ def _arrived(ended: SimpleQueue[Any]) -> Iterator[Any]:
         return
 
 
-class _Run:
-    """The state of one run, which the thread that serves it shares with the one that waits."""
+class _ClusterRun(Run):
+    """Work that is handed out until it is exhausted or the time is up."""
 
     def __init__(self, work: Iterable[Work], film: Sink, deadline: float | None) -> None:
+        super().__init__(film)
         self.rest = _Rest(work)
-        self.film = _InOrder(film)
         self.deadline = deadline
-        self.finished = threading.Event()
         self.whole = False
-        self.stop = False
-        self.error: BaseException | None = None
 
 
 class _Rest:
@@ -356,26 +339,3 @@ class _Rest:
                 break
         self.exhausted = not piece
         return piece
-
-
-class _InOrder:
-    """Hands pieces on to a film, the passes of a tile in their order even if a later one comes first."""
-
-    def __init__(self, film: Sink) -> None:
-        self._film = film
-        self._next: dict[int, int] = {}
-        self._early: dict[tuple[int, int], tuple[Work, Floats32, Floats32 | float]] = {}
-        self.done = 0
-        self.done_first = 0
-
-    def add(self, work: Work, pixels: Floats32, weight: Floats32 | float) -> None:
-        tile = work.tile.number
-        self._early[tile, work.order] = (work, pixels, weight)
-        order = self._next.get(tile, 0)
-        while (ready := self._early.pop((tile, order), None)) is not None:
-            item, pixels, weight = ready
-            self._film.add(item.tile, pixels, weight, item.first + item.samples, item.whole)
-            self.done += 1
-            self.done_first += item.order == 0
-            order += 1
-        self._next[tile] = order

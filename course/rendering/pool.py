@@ -1,10 +1,13 @@
-"""Threads over tiles. Embree and NumPy's loops run without the interpreter lock, so threads are enough."""
+"""Threads over tiles. Embree and NumPy's loops run without the interpreter lock, so threads are enough.
+
+``Runner``, ``Run`` and ``InOrder`` are what such a pool has in common with a cluster's workers.
+"""
 
 from __future__ import annotations
 
 import os
 import threading
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from time import monotonic
 from typing import Any, Protocol
 
@@ -15,6 +18,9 @@ from course.transport.tracing import CancelledError, Tracer
 
 TICK = 0.05
 """Seconds between two looks of the main thread at progress and Ctrl-C."""
+
+Tick = Callable[[int, int], None]
+"""Called with the number of tiles done so far, and how many of them in the first pass."""
 
 
 class Sink(Protocol):
@@ -34,22 +40,123 @@ def default_threads() -> int:
     return os.cpu_count() or 1
 
 
-class Pool:
+class InOrder:
+    """Hands work on to a film, the passes of a tile in their order even if a later one comes first.
+
+    Any number of threads may add at once; different tiles enter the film side by side.
+
+    Attributes
+    ----------
+    done, done_first : tiles that the film has taken in, and how many of them in the first pass
+    """
+
+    def __init__(self, film: Sink) -> None:
+        self._film = film
+        self._lock = threading.Lock()
+        self._next: dict[int, int] = {}
+        self._early: dict[tuple[int, int], tuple[Work, Floats32, Floats32 | float]] = {}
+        self._adding: set[int] = set()
+        self.done = 0
+        self.done_first = 0
+
+    def add(self, work: Work, pixels: Floats32, weight: Floats32 | float) -> None:
+        """Take in a piece of work, and whatever has waited for it."""
+        tile = work.tile.number
+        with self._lock:
+            self._early[tile, work.order] = (work, pixels, weight)
+            # Somebody who is adding to this tile now will see this pass when done with the one before.
+            if tile in self._adding:
+                return
+            self._adding.add(tile)
+            order = self._next.get(tile, 0)
+        while True:
+            with self._lock:
+                ready = self._early.pop((tile, order), None)
+                if ready is None:
+                    self._next[tile] = order
+                    self._adding.discard(tile)
+                    return
+            item, pixels, weight = ready
+            self._film.add(item.tile, pixels, weight, item.first + item.samples, item.whole)
+            order += 1
+            with self._lock:
+                self.done += 1
+                self.done_first += item.order == 0
+
+
+class Run:
+    """The state of one run, which the threads that do the work share with the one that waits.
+
+    Attributes
+    ----------
+    film : takes in what is done
+    finished : set when nothing more comes
+    stop : nothing more is wanted
+    error : that ended it
+    """
+
+    def __init__(self, film: Sink) -> None:
+        self.film = InOrder(film)
+        self.finished = threading.Event()
+        self.stop = False
+        self.error: BaseException | None = None
+
+
+class Runner:
+    """Has work done by threads, while the one that calls looks after progress and Ctrl-C.
+
+    Attributes
+    ----------
+    counters : of all work that was done, after each run
+    interrupted : Ctrl-C was pressed
+    """
+
+    def __init__(self) -> None:
+        self.counters = Counters()
+        self.interrupted = False
+
+    def _attend(
+        self,
+        run: Run,
+        threads: Sequence[threading.Thread],
+        tick: Tick | None,
+        grace: float | None = None,
+    ) -> None:
+        """Start the threads of a run and wait for its end.
+
+        Parameters
+        ----------
+        grace : seconds in which each thread must have ended then; None waits until it has
+        """
+        for thread in threads:
+            thread.start()
+        try:
+            while not run.finished.wait(TICK) and any(thread.is_alive() for thread in threads):
+                if tick is not None:
+                    tick(run.film.done, run.film.done_first)
+        except KeyboardInterrupt:
+            self.interrupted = True
+        finally:
+            run.stop = True
+            for thread in threads:
+                thread.join(grace)
+        if tick is not None and run.error is None and not self.interrupted:
+            tick(run.film.done, run.film.done_first)
+
+
+class Pool(Runner):
     """Runs work on threads until it is done, the time is up, or somebody presses Ctrl-C.
 
     Attributes
     ----------
-    counters : of all threads, after each run
-    interrupted : Ctrl-C was pressed
     threads : that render
     """
 
     def __init__(self, tracer: Tracer, film: Sink, threads: int) -> None:
+        super().__init__()
         self._tracer = tracer
         self._film = film
         self.threads = threads
-        self.counters = Counters()
-        self.interrupted = False
 
     def prepare(self, began: float) -> float:
         """When a time limit begins to count [``time.monotonic()``]: with the render, for threads have the scene."""
@@ -59,37 +166,23 @@ class Pool:
         self,
         work: Iterable[Work],
         deadline: float | None,
-        tick: Callable[[int, int], None] | None,
+        tick: Tick | None,
     ) -> bool:
         """Do the work in order; whether all of it was done.
 
         Parameters
         ----------
         deadline : ``time.monotonic()`` after which no tile is begun
-        tick : called now and then from this thread with the number of tiles done so far, and how many of
-            them in the first pass
+        tick : called now and then from this thread
         """
-        run = _Run(self._tracer, self._film, work, deadline)
+        run = _PoolRun(self._tracer, self._film, work, deadline)
         threads = [
             threading.Thread(target=run.worker, name=f"tiles-{number}", daemon=True)
             for number in range(self.threads)
         ]
-        for thread in threads:
-            thread.start()
-        try:
-            while not run.finished.wait(TICK) and any(thread.is_alive() for thread in threads):
-                if tick is not None:
-                    tick(run.done, run.done_first)
-        except KeyboardInterrupt:
-            self.interrupted = True
-        finally:
-            run.stop = True
-            for thread in threads:
-                thread.join()
+        self._attend(run, threads, tick)
         if run.error is not None:
             raise run.error
-        if tick is not None and not self.interrupted:
-            tick(run.done, run.done_first)
         self.counters.add(run.counters)
         return run.exhausted and not self.interrupted
 
@@ -97,28 +190,20 @@ class Pool:
         """Nothing: each run ends its threads."""
 
 
-class _Run:
-    """The state that the threads of one run share, under one lock."""
+class _PoolRun(Run):
+    """Work that threads take one by one, and what it has cost."""
 
     def __init__(
         self, tracer: Tracer, film: Sink, work: Iterable[Work], deadline: float | None
     ) -> None:
+        super().__init__(film)
         self._tracer = tracer
-        self._film = film
         self._work = iter(work)
         self._deadline = deadline
         self._lock = threading.Lock()
         self._working = 0
-        self._next_order: dict[int, int] = {}
-        self._early: dict[tuple[int, int], tuple[Work, Floats32, Floats32 | float]] = {}
-        self._adding: set[int] = set()
         self.counters = Counters()
-        self.finished = threading.Event()
         self.exhausted = False
-        self.stop = False
-        self.done = 0
-        self.done_first = 0
-        self.error: BaseException | None = None
 
     def worker(self) -> None:
         """Take work until there is none."""
@@ -131,7 +216,7 @@ class _Run:
                     work.tile, work.first, work.samples, counters, lambda: self.stop, work.parts
                 )
                 counters.start()
-                self._add(work, pixels, weight)
+                self.film.add(work, pixels, weight)
                 counters.lap("film")
         except CancelledError:
             pass
@@ -152,27 +237,3 @@ class _Run:
             if work is None:
                 self.exhausted = True
             return work
-
-    def _add(self, work: Work, pixels: Floats32, weight: Floats32 | float) -> None:
-        """Into the film, the passes of a tile in their order even if a later one is finished first."""
-        tile = work.tile.number
-        with self._lock:
-            self._early[tile, work.order] = (work, pixels, weight)
-            # Somebody who is adding to this tile now will see this pass when done with the one before.
-            if tile in self._adding:
-                return
-            self._adding.add(tile)
-            order = self._next_order.get(tile, 0)
-        while True:
-            with self._lock:
-                ready = self._early.pop((tile, order), None)
-                if ready is None:
-                    self._next_order[tile] = order
-                    self._adding.discard(tile)
-                    return
-            item, pixels, weight = ready
-            self._film.add(item.tile, pixels, weight, item.first + item.samples, item.whole)
-            order += 1
-            with self._lock:
-                self.done += 1
-                self.done_first += item.order == 0

@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from course import Scene
 from course.core.samplers import Block, make_sampler
 from course.core.samplers.sobol import SobolSampler
-from course.rendering import rendering
+from course.rendering.binding import bind
 from course.rendering.passes import passes
 from course.transport.counters import Counters
 
@@ -68,7 +68,7 @@ def drawn(make_scene: MakeScene) -> list[tuple[int, int]]:
         integrator={"max_depth": 3, "cutoff": 0},
     )
     settings = dataclasses.replace(scene.settings, samples=4)
-    tracer = dataclasses.replace(rendering._tracer(scene, settings), sampler=Noted(0))
+    tracer = dataclasses.replace(bind(scene, settings), sampler=Noted(0))
     for work in passes(settings, tracer.sampler):
         tracer.render_tile(work.tile, work.first, work.samples, Counters())
     # Two lobes of one depth may share its numbers: no path meets both at the same depth.

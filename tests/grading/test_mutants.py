@@ -27,16 +27,7 @@ def quick(check: Check) -> bool:
 
 @cache
 def arrays(module: str) -> References:
-    make = prepared(reference(module), 0)
-    made = {}
-
-    def find(name: str, check: Check):  # type: ignore[no-untyped-def]
-        key = (check.function, check.name)
-        if key not in made:
-            made[key] = make(name, check)
-        return made[key]
-
-    return find
+    return prepared(reference(module), 0)
 
 
 @pytest.mark.filterwarnings("ignore::RuntimeWarning")

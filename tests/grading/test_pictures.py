@@ -8,14 +8,18 @@ import numpy as np
 import pytest
 
 from course.effects import COURSE, PROJECT, Effects
-from course.grading.checks.check import Check, Failure, ModuleChecks
-from course.grading.checks.running import Result, Status, prepared, run_checks
+from course.grading.checks.check import Check, Failure, ModuleChecks, Trial
+from course.grading.checks.running import Result, Status, generator, prepared, run_checks
 from course.grading.checks.trusted import TrustedModule
+from course.grading.pictures import rendered as rendered_module
 from course.grading.pictures.catalog import PICTURES
 from course.grading.pictures.judging import BLOCKS, check_bias, ssim
+from course.grading.pictures.rendered import BIAS_REFERENCES, loaded, rendered
+from course.grading.pictures.scenes import moving
 from course.grading.pictures.shapes import SHAPES
 from course.grading.pictures.whole import WHOLE, Together
 from course.grading.references import reference
+from course.scene.scene import Scene, load_scene
 
 LOOKS = [
     (module, check)
@@ -81,10 +85,39 @@ def test_numbers_that_make_no_sense_fail_too(module: str, check: Check, number: 
     assert result.status is Status.FAILED, result
 
 
+def test_a_bias_is_told_from_one_scene_with_many_seeds(monkeypatch: pytest.MonkeyPatch) -> None:
+    scenes: list[Scene] = []
+
+    def noted(*arguments: Any) -> Scene:
+        scenes.append(load_scene(*arguments))
+        return scenes[-1]
+
+    monkeypatch.setattr(rendered_module, "load_scene", noted)
+    (check,) = (check for check in PICTURES["motion_blur"] if check.kind == "bias")
+    references = prepared(reference("motion_blur"), 0)("motion_blur", check)
+    assert len(scenes) == 1
+    blocks = references["blocks"].reshape(BIAS_REFERENCES, -1)
+    assert len(np.unique(blocks, axis=0)) == BIAS_REFERENCES, "every seed gives another picture"
+    trial = Trial(check.function, solution("motion_blur"), generator(0, "motion_blur", check))
+    trial.references = references
+    check.run(trial)
+    assert len(scenes) == 2
+
+
+def test_a_scene_that_was_rendered_before_gives_the_same_picture() -> None:
+    find = Effects(PROJECT / "solutions").function
+    description = moving(np.random.default_rng(0))
+    scene, afresh = (loaded(description, find, np.random.default_rng(0)) for _ in range(2))
+    before = rendered(scene, spp=16, seed=4)
+    again = rendered(scene, spp=16, seed=5)
+    assert not np.array_equal(before, again)
+    assert again.tobytes() == rendered(afresh, spp=16, seed=5).tobytes()
+
+
 def test_every_function_that_is_rendered_has_its_shape() -> None:
-    rendered = {f"{module}.{check.function}" for module, check in LOOKS}
+    drawn = {f"{module}.{check.function}" for module, check in LOOKS}
     # The lens's points are only in the picture of all effects.
-    assert rendered | {"thin_lens.point_on_disk"} == set(SHAPES)
+    assert drawn | {"thin_lens.point_on_disk"} == set(SHAPES)
 
 
 def test_a_mistake_before_or_after_a_function_costs_nothing_there() -> None:

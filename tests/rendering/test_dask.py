@@ -29,10 +29,11 @@ from course.imaging.film import Film
 from course.imaging.tiles import Tile
 from course.rendering import cluster as cluster_module
 from course.rendering import kept_scenes
-from course.rendering.cluster import PIECE, _InOrder, _Rest
+from course.rendering.cluster import PIECE, _Rest
 from course.rendering.kept_scenes import KeptScenes, Order, edition
 from course.rendering.parcel import pack, unpack
 from course.rendering.passes import Work
+from course.rendering.pool import InOrder
 
 EveryStage = Callable[..., Scene]
 ROOT = Path(__file__).parents[2]
@@ -417,7 +418,7 @@ def test_pieces_are_worth_handing_out(seconds_a_tile: float, tiles: int) -> None
 def test_passes_enter_the_film_in_order_whichever_comes_first() -> None:
     tile = Tile(0, 0, 0, 2, 2)
     film = Film(2, 2)
-    in_order = _InOrder(film)
+    in_order = InOrder(film)
     for order in (2, 1, 0):
         assert in_order.done == 0
         work = Work(tile, order, 16 * order, 16, True)

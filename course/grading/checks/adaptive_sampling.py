@@ -14,14 +14,14 @@ import numpy as np
 
 from course.grading.checks.check import Array, Check, Failure, Mistake, ModuleChecks, Trial
 from course.grading.checks.contract import (
+    DTYPES,
     at,
     check_array,
     check_close,
     check_refused,
     check_untouched,
+    contract_checks,
 )
-
-DTYPES = (np.float32, np.float64)
 
 STEP = 2.0**-10
 """Between two neighbouring colours."""
@@ -466,29 +466,10 @@ def _half_of_the_end(trial: Trial) -> bool:
 # ---------------------------------------------------------------- all of them
 
 
-def _plain_checks(
-    function: str,
-    contract: Callable[[Trial], None],
-    untouched: Callable[[Trial], None],
-    refuses: Callable[[Trial], None],
-) -> tuple[Check, ...]:
-    return (
-        Check(function, "contract", "Shapes and dtypes are as agreed", contract, "contract"),
-        Check(
-            function,
-            "untouched",
-            "Arguments and the global random state are left alone",
-            untouched,
-            "contract",
-        ),
-        Check(function, "refuses", "Wrong shapes and ranges raise ValueError", refuses, "contract"),
-    )
-
-
 CHECKS = ModuleChecks(
     "adaptive_sampling",
     checks=(
-        *_plain_checks("needs_subdivision", _needs_contract, _needs_untouched, _needs_refuses),
+        *contract_checks("needs_subdivision", _needs_contract, _needs_untouched, _needs_refuses),
         Check(
             "needs_subdivision",
             "any",
@@ -503,7 +484,9 @@ CHECKS = ModuleChecks(
         ),
         Check("needs_subdivision", "plain", "Cells of one colour are left alone", _needs_plain),
         Check("needs_subdivision", "bright", "Radiance may have any size and sign", _needs_bright),
-        *_plain_checks("subdivide", _subdivide_contract, _subdivide_untouched, _subdivide_refuses),
+        *contract_checks(
+            "subdivide", _subdivide_contract, _subdivide_untouched, _subdivide_refuses
+        ),
         Check(
             "subdivide",
             "outside",

@@ -11,51 +11,39 @@ from typing import Any
 
 import numpy as np
 
+from course.grading.checks import squares
 from course.grading.checks.check import Array, Check, Failure, Mistake, ModuleChecks, Trial
 from course.grading.checks.contract import (
+    DTYPES,
     at,
     check_array,
     check_close,
     check_refused,
     check_untouched,
+    contract_checks,
+    finite_numbers,
+    near,
+    pair,
     worst_units,
 )
-from course.grading.checks.statistics import FALSE_FAIL, check_uniform
-
-DTYPES = (np.float32, np.float64)
-
-UNIT = 1e-5
-"""What a unit vector's length may be off by, and what else follows from it."""
+from course.grading.checks.statistics import distribution_check
+from course.grading.checks.vectors import UNIT, check_unit, cross, dot, normalized, unit_vectors
 
 MARGIN = 1e-3
 """How near to 1 the sines of refracted rays come."""
 
 POINTS = 5000
-CELLS = (12, 12)
 
 
 # ---------------------------------------------------------------- directions and values
-
-
-def _units(rng: np.random.Generator, n: int, dtype: Any = np.float64) -> Array:
-    v = rng.standard_normal((3, n))
-    return np.ascontiguousarray(v / np.linalg.norm(v, axis=0), dtype)
-
-
-def _dot(a: Array, b: Array) -> Array:
-    return np.asarray((a.astype(np.float64) * b).sum(axis=0))
-
-
-def _cross(a: Array, b: Array) -> Array:
-    return np.cross(a.T.astype(np.float64), b.T).T
 
 
 def _incoming(
     rng: np.random.Generator, sine: Array, dtype: Any = np.float32
 ) -> tuple[Array, Array]:
     """Directions and normals with those sines between them, turned anyhow."""
-    n = _units(rng, sine.size)
-    along = _cross(n, _units(rng, sine.size))
+    n = unit_vectors(rng, sine.size)
+    along = cross(n, unit_vectors(rng, sine.size))
     along /= np.linalg.norm(along, axis=0)
     d = sine * along - np.sqrt(1 - sine**2) * n
     return np.ascontiguousarray(d, dtype), np.ascontiguousarray(n, dtype)
@@ -63,7 +51,7 @@ def _incoming(
 
 def _sines(d: Array, n: Array) -> Array:
     """The sines between them as they really are, after rounding."""
-    return np.asarray(np.linalg.norm(_cross(n, d), axis=0))
+    return np.asarray(np.linalg.norm(cross(n, d), axis=0))
 
 
 def _etas(rng: np.random.Generator) -> tuple[float, float]:
@@ -72,46 +60,27 @@ def _etas(rng: np.random.Generator) -> tuple[float, float]:
     return into, float(rng.uniform(1.25, 2.4))
 
 
-def _numbers(value: Any, shape: tuple[int, ...], what: str = "the result") -> Array:
-    """The value as finite float64 numbers, whatever its dtype: that is the contract's check."""
-    dtype = getattr(value, "dtype", np.dtype(float))
-    if dtype.kind not in "fiu":
-        raise Failure(f"{what} to be floating", f"dtype {dtype}")
-    return np.asarray(check_array(value, shape, dtype, what), np.float64)
-
-
-def _pair(value: Any) -> tuple[Any, Any]:
-    if not isinstance(value, tuple | list) or len(value) != 2:
-        raise Failure("a tuple (directions, total)", type(value).__name__)
-    return value[0], value[1]
-
-
 def _refracted(trial: Trial, d: Array, n: Array, eta: Any) -> tuple[Array, Array]:
     """The student's directions and mask."""
-    directions, total = _pair(trial.call(d.copy(), n.copy(), eta))
+    directions, total = pair(trial.call(d.copy(), n.copy(), eta), "directions", "total")
     columns = d.shape[1]
     if getattr(total, "dtype", None) != np.bool_ or total.shape != (columns,):
         raise Failure(
             f"a bool array of shape ({columns},) that says where reflection is total",
             f"{getattr(total, 'dtype', type(total).__name__)} of shape {np.shape(total)}",
         )
-    return _numbers(directions, d.shape, "the directions"), np.asarray(total)
+    return finite_numbers(directions, d.shape, "the directions"), np.asarray(total)
 
 
 def _bent(d: Array, n: Array, eta: Any) -> Array:
     """Snell's law in double precision, from sines; all columns have to be refracted."""
-    along = d + _dot(d, -n) * n
+    along = d + dot(d, -n) * n
     sine = eta * _sines(d, n)
     return np.asarray(eta * along - np.sqrt(1 - sine**2) * n)
 
 
 def _mirrored(d: Array, n: Array) -> Array:
-    return np.asarray(d - 2 * _dot(d, n) * n)
-
-
-def _check_unit(value: Array, arguments: Callable[[int], str], what: str) -> None:
-    length = np.linalg.norm(value, axis=0)
-    check_close(length, np.ones(value.shape[1]), UNIT, what, arguments)
+    return np.asarray(d - 2 * dot(d, n) * n)
 
 
 # ---------------------------------------------------------------- refract
@@ -130,7 +99,9 @@ def _refract_contract(trial: Trial) -> None:
         for eta in etas:
             for m in (sine.size, 1, 0):
                 part = eta[:m] if np.ndim(eta) else eta
-                directions, total = _pair(trial.call(d[:, :m].copy(), n[:, :m].copy(), part))
+                directions, total = pair(
+                    trial.call(d[:, :m].copy(), n[:, :m].copy(), part), "directions", "total"
+                )
                 check_array(directions, (3, m), dtype, "the directions")
                 check_array(total, (m,), np.bool_, "the mask of total reflection")
     for first, second, third in (
@@ -138,7 +109,9 @@ def _refract_contract(trial: Trial) -> None:
         (np.float64, np.float32, np.float32),
         (np.float32, np.float32, np.float64),
     ):
-        directions, _ = _pair(trial.call(d.astype(first), n.astype(second), own.astype(third)))
+        directions, _ = pair(
+            trial.call(d.astype(first), n.astype(second), own.astype(third)), "directions", "total"
+        )
         check_array(directions, d.shape, np.float64, "the directions of float32 and float64")
 
 
@@ -175,7 +148,7 @@ def _refract_unit(trial: Trial) -> None:
     for eta in (*_etas(trial.rng), 1.0):
         d, n = _incoming(trial.rng, trial.rng.random(1000))
         result, _ = _refracted(trial, d, n, eta)
-        _check_unit(result, at(direction=d, normal=n), f"with eta {eta:.4g}, length of the result:")
+        check_unit(result, at(direction=d, normal=n), f"with eta {eta:.4g}, length of the result:")
 
 
 def _refract_snell(trial: Trial) -> None:
@@ -183,8 +156,8 @@ def _refract_snell(trial: Trial) -> None:
         d, n = _refracting(trial, eta)
         result, _ = _refracted(trial, d, n, eta)
         check_close(
-            _cross(n, result),
-            eta * _cross(n, d),
+            cross(n, result),
+            eta * cross(n, d),
             UNIT,
             f"with eta {eta:.4g}, cross(normal, result) = eta cross(normal, direction):",
             at(direction=d, normal=n),
@@ -196,7 +169,7 @@ def _refract_far_side(trial: Trial) -> None:
     for eta in _etas(trial.rng):
         d, n = _refracting(trial, eta)
         result, _ = _refracted(trial, d, n, eta)
-        cos = _dot(result, n)
+        cos = dot(result, n)
         expected = -np.sqrt(1 - (eta * _sines(d, n)) ** 2)
         check_close(
             cos,
@@ -210,7 +183,7 @@ def _refract_far_side(trial: Trial) -> None:
 
 
 def _refract_straight(trial: Trial) -> None:
-    n = _units(trial.rng, 500, np.float32)
+    n = unit_vectors(trial.rng, 500, np.float32)
     for eta in _etas(trial.rng):
         result, total = _refracted(trial, -n, n, eta)
         check_close(
@@ -286,8 +259,8 @@ def _refract_reversible(trial: Trial) -> None:
         back, _ = _refracted(trial, (-result).astype(np.float32), -n, 1 / eta)
         check_close(
             # Only what lies in the surface: next to the critical angle the rest is all rounding.
-            _cross(n, back),
-            -_cross(n, d),
+            cross(n, back),
+            -cross(n, d),
             2 * UNIT,
             f"with eta {eta:.4g}, there and back again, cross(normal, direction):",
             at(direction=d, normal=n),
@@ -326,10 +299,6 @@ def _far(rng: np.random.Generator, cos: Array, dtype: Any = np.float32) -> tuple
     return _incoming(rng, np.sqrt(1 - cos**2), dtype)
 
 
-def _random(trial: Trial, n: int, dtype: Any = np.float32) -> Array:
-    return trial.rng.random((2, n), dtype)
-
-
 SIZES = (0.0, 0.5, 1e-6, 3.0, 1e4)
 
 
@@ -353,12 +322,12 @@ def _jitter_contract(trial: Trial) -> None:
 def _jitter_untouched(trial: Trial) -> None:
     for size in (0.0, 0.8):
         d, n = _far(trial.rng, trial.rng.uniform(0.1, 1, 50))
-        check_untouched(trial, d, n, size, _random(trial, 50))
+        check_untouched(trial, d, n, size, trial.uniform(2, 50))
 
 
 def _jitter_refuses(trial: Trial) -> None:
     d, n = _far(trial.rng, trial.rng.uniform(0.1, 1, 4))
-    u = _random(trial, 4)
+    u = trial.uniform(2, 4)
     for bad in (d[:2], d[0], d.T):
         check_refused(trial, bad, n, 0.5, u, named="direction")
     for bad in (n[:2], n[:, :3], n[:, 0]):
@@ -371,17 +340,17 @@ def _jitter_refuses(trial: Trial) -> None:
 
 def _jitter_unit(trial: Trial) -> None:
     d, n = _far(trial.rng, trial.rng.uniform(0.01, 1, 1000))
-    u = _random(trial, 1000)
+    u = trial.uniform(2, 1000)
     for size in SIZES:
-        result = _numbers(trial.call(d, n, size, u), d.shape)
+        result = finite_numbers(trial.call(d, n, size, u), d.shape)
         what = f"for roughness {size:g}, length of the result:"
-        _check_unit(result, at(direction=d, normal=n, u=u), what)
+        check_unit(result, at(direction=d, normal=n, u=u), what)
 
 
 def _jitter_none(trial: Trial) -> None:
     for dtype in DTYPES:
         d, n = _far(trial.rng, trial.rng.uniform(1e-3, 1, 1000), dtype)
-        result = _numbers(trial.call(d, n, 0.0, _random(trial, 1000, dtype)), d.shape)
+        result = finite_numbers(trial.call(d, n, 0.0, trial.uniform(2, 1000, dtype)), d.shape)
         check_close(
             result,
             d,
@@ -395,8 +364,8 @@ def _jitter_none(trial: Trial) -> None:
 def _jitter_far_side(trial: Trial) -> None:
     for roughness in (float(trial.rng.uniform(0.2, 1)), 4.0, 1e3):
         d, n = _far(trial.rng, trial.rng.uniform(0.002, 0.3, 2000))
-        u = _random(trial, 2000)
-        cos = _dot(_numbers(trial.call(d, n, roughness, u), d.shape), n)
+        u = trial.uniform(2, 2000)
+        cos = dot(finite_numbers(trial.call(d, n, roughness, u), d.shape), n)
         worst = int(cos.argmax())
         if not cos[worst] <= 2e-6:
             raise Failure(
@@ -408,82 +377,25 @@ def _jitter_far_side(trial: Trial) -> None:
             )
 
 
-def _offsets(w: Array, result: Array) -> Array:
-    """Where the directions meet the plane at distance 1 from the tail of w, measured from its tip."""
-    cos = w @ result
-    if not (cos > 0).all():
-        raise Failure(
-            "every direction to stay in front of the refracted one",
-            f"cosine {cos.min():.6g}",
-            f"direction = {tuple(w.round(6).tolist())}",
-        )
-    return np.asarray(result / cos - w[:, None])
-
-
-def _fitted(offset: Array, u: Array) -> tuple[Array, Array, Array]:
-    """The sides, the centre of the square, and what they leave: offset = a u0' + b u1' + centre."""
-    design = np.stack((u[0] - 0.5, u[1] - 0.5, np.ones(u.shape[1])), axis=1)
-    fit = np.linalg.lstsq(design, offset.T, rcond=None)[0].T
-    return fit[:, :2], fit[:, 2], offset - fit @ design.T
-
-
 def _one_ray(trial: Trial, cos: float, dtype: Any = np.float32) -> tuple[Array, Array]:
     return _far(trial.rng, np.array([cos]), dtype)
 
 
-def _exact(w: Array) -> Array:
-    w = w.astype(np.float64)
-    return np.asarray(w / np.linalg.norm(w, axis=0))
-
-
-def _square_seen(
-    trial: Trial, roughness: float, cos: float, n: int = 200
-) -> tuple[Array, Array, Array, Array, Array]:
-    """One ray jittered n times: its numbers, and its square's sides, centre, rest and lengths of results."""
+def _square_seen(trial: Trial, roughness: float, cos: float, n: int = 200) -> squares.Square:
+    """The square of one ray jittered n times."""
     d, normal = _one_ray(trial, cos)
-    u = _random(trial, n)
-    result = _numbers(
+    u = trial.uniform(2, n)
+    result = finite_numbers(
         trial.call(np.repeat(d, n, axis=1), np.repeat(normal, n, axis=1), roughness, u), (3, n)
     )
-    sides, centre, rest = _fitted(_offsets(_exact(d)[:, 0], result), u)
-    return u, sides, centre, rest, np.linalg.norm(result, axis=0)
-
-
-CENTRE = "The square lies around the refracted direction, so the mean of all offsets is nothing."
-SIDE = "Roughness is the side of the square, at distance 1."
+    return squares.seen(normalized(d)[:, 0], u, result)
 
 
 def _jitter_square(trial: Trial) -> None:
     for roughness in trial.rng.uniform((0.05, 0.4), (0.4, 0.9)).tolist():
         # Steep enough for nothing to come back.
-        u, sides, centre, rest, _ = _square_seen(trial, roughness, float(trial.rng.uniform(0.8, 1)))
-        tolerance = 2 * UNIT * (1 + roughness**2)
-        for what, found, expected, hint in (
-            ("centre's distance from the direction", np.linalg.norm(centre), 0.0, CENTRE),
-            ("length of the first side", np.linalg.norm(sides[:, 0]), roughness, SIDE),
-            ("length of the second side", np.linalg.norm(sides[:, 1]), roughness, SIDE),
-            (
-                "product of the sides",
-                sides[:, 0] @ sides[:, 1] / roughness,
-                0.0,
-                "The sides are at right angles to each other.",
-            ),
-        ):
-            if not abs(found - expected) <= tolerance:
-                raise Failure(
-                    f"the square's {what} {expected:.6g} within {tolerance:.1g}",
-                    f"{found:.6g}",
-                    f"roughness {roughness:.4g}",
-                    hint,
-                )
-        check_close(
-            rest,
-            np.zeros_like(rest),
-            tolerance,
-            "offset from the place of u in the square:",
-            at(u=u),
-            "The offset grows evenly with both numbers: no angles, no other shapes.",
-        )
+        square = _square_seen(trial, roughness, float(trial.rng.uniform(0.8, 1)))
+        squares.check_square(square, roughness)
 
 
 def _jitter_mirrored(trial: Trial) -> None:
@@ -492,14 +404,13 @@ def _jitter_mirrored(trial: Trial) -> None:
         n = 600
         cos = float(trial.rng.uniform(0.15, 0.25))
         d, normal = (np.repeat(v, n, axis=1) for v in _one_ray(trial, cos, dtype))
-        u = _random(trial, n, dtype)
+        u = trial.uniform(2, n, dtype)
         # Half a diagonal of this part of the square is shorter than the way up to the surface.
         u[:, :200] = 0.5 + (u[:, :200] - 0.5) * min(1, cos / roughness)
-        result = _numbers(trial.call(d, normal, roughness, u), d.shape)
-        w = _exact(d[:, :1])[:, 0]
-        sides, centre, _ = _fitted(_offsets(w, result[:, :200]), u[:, :200])
-        jittered = _exact(w[:, None] + sides @ (u - 0.5) + centre[:, None])
-        height = _dot(jittered, normal)
+        result = finite_numbers(trial.call(d, normal, roughness, u), d.shape)
+        w = normalized(d[:, :1])[:, 0]
+        jittered = normalized(squares.seen(w, u[:, :200], result[:, :200]).at(u))
+        height = dot(jittered, normal)
         sure = np.abs(height) > 1e-3
         expected = jittered - 2 * np.maximum(height, 0) * normal
         check_close(
@@ -515,28 +426,7 @@ def _jitter_mirrored(trial: Trial) -> None:
 def _jitter_uniform(trial: Trial) -> None:
     roughness = float(trial.rng.uniform(0.2, 0.9))
     for cos in (1.0, float(trial.rng.uniform(0.8, 0.95))):
-        u, sides, centre, rest, _ = _square_seen(trial, roughness, cos, POINTS)
-        length = np.linalg.norm(sides, axis=0)
-        if not length.min() > 0.1 * roughness:
-            raise Failure(
-                f"a square of side {roughness:.4g}",
-                f"sides of {length[0]:.4g} and {length[1]:.4g}",
-                hint="Both numbers of u are needed, each for a side of its own.",
-            )
-        offset = sides @ (u - 0.5) + centre[:, None] + rest
-        place = (sides / length).T @ offset / roughness + 0.5
-        shown = place[:, (np.abs(place - 0.5) <= 0.5).all(axis=0)]
-        trial.show("points", "where yours meet the square", yours=shown[:, :2000])
-        far = np.abs(place - 0.5).max(axis=0)
-        worst = int(far.argmax())
-        if not far[worst] <= 0.5 + 1e-3:
-            raise Failure(
-                f"all offsets within +-{roughness / 2:.4g} along both sides",
-                f"{far[worst] * roughness:.4g}",
-                at(u=u)(worst),
-                SIDE,
-            )
-        check_uniform(place, CELLS, "places in the square", "Every place is as probable.")
+        squares.check_filled(trial, _square_seen(trial, roughness, cos, POINTS), roughness)
 
 
 # ---------------------------------------------------------------- fresnel
@@ -556,7 +446,7 @@ def _cosines(rng: np.random.Generator, eta: float, n: int = 500) -> Array:
 
 
 def _reflected(trial: Trial, cos_i: Array, eta: Any) -> Array:
-    return _numbers(trial.call(cos_i, eta), cos_i.shape, "the reflectance")
+    return finite_numbers(trial.call(cos_i, eta), cos_i.shape, "the reflectance")
 
 
 def _fresnel_contract(trial: Trial) -> None:
@@ -706,13 +596,11 @@ def _fresnel_each(trial: Trial) -> None:
 # ---------------------------------------------------------------- mistakes
 
 
-def _near(a: Array, b: Array, tolerance: float = 1e-3) -> bool:
-    return bool(np.abs(a - b).max() < tolerance)
-
-
 def _directions_of(trial: Trial, d: Array, n: Array, eta: float) -> Array:
     """The student's directions, whatever the mask is."""
-    return _numbers(_pair(trial.call(d.copy(), n.copy(), eta))[0], d.shape)
+    return finite_numbers(
+        pair(trial.call(d.copy(), n.copy(), eta), "directions", "total")[0], d.shape
+    )
 
 
 INTO, OUT = 0.7, 1.4
@@ -723,7 +611,7 @@ def _refract_is(trial: Trial, model: Callable[[Array, Array, float], Array]) -> 
     """Rays well away from total reflection come back as a mistake (d, n, eta) bends them."""
     for eta in (INTO, OUT):
         d, n = _incoming(trial.rng, trial.rng.uniform(0.1, 0.6, 300), np.float64)
-        if not _near(_directions_of(trial, d, n, eta), model(d, n, eta)):
+        if not near(_directions_of(trial, d, n, eta), model(d, n, eta)):
             return False
     return True
 
@@ -754,16 +642,16 @@ def _not_normalised(trial: Trial) -> bool:
     for eta in (INTO, OUT):
         d, n = _incoming(trial.rng, trial.rng.uniform(0.1, 0.6, 300), np.float64)
         result = _directions_of(trial, d, n, eta)
-        if _near(np.linalg.norm(result, axis=0), np.ones(300)):
+        if near(np.linalg.norm(result, axis=0), np.ones(300)):
             return False
-        if not _near(_exact(result), _bent(d, n, eta)):
+        if not near(normalized(result), _bent(d, n, eta)):
             return False
     return True
 
 
 def _total_is(trial: Trial, model: Callable[[Array, Array], Array]) -> bool:
     d, n = (v.astype(np.float64) for v in _reflecting(trial, OUT, 300))
-    return _near(_directions_of(trial, d, n, OUT), model(d, n))
+    return near(_directions_of(trial, d, n, OUT), model(d, n))
 
 
 def _straight_on(trial: Trial) -> bool:
@@ -771,8 +659,8 @@ def _straight_on(trial: Trial) -> bool:
 
 
 def _along_surface(trial: Trial) -> bool:
-    return _total_is(trial, lambda d, n: OUT * (d - _dot(d, n) * n)) or _total_is(
-        trial, lambda d, n: _exact(d - _dot(d, n) * n)
+    return _total_is(trial, lambda d, n: OUT * (d - dot(d, n) * n)) or _total_is(
+        trial, lambda d, n: normalized(d - dot(d, n) * n)
     )
 
 
@@ -792,38 +680,9 @@ def _mask_inverted(trial: Trial) -> bool:
     return bool((total != expected)[sure].all())
 
 
-def _steep(trial: Trial) -> tuple[float, Array, Array, float, Array]:
-    """Roughness, sides, centre, largest rest and lengths, of a ray from which nothing comes back."""
-    _, sides, centre, rest, length = _square_seen(trial, 0.7, 0.9)
-    return 0.7, sides, centre, float(np.abs(rest).max()), length
-
-
-def _square_of(sides: Array, side: float) -> bool:
-    return bool(np.abs(sides.T @ sides - side**2 * np.eye(2)).max() < 1e-3)
-
-
-def _one_sided(trial: Trial) -> bool:
-    roughness, sides, centre, rest, _ = _steep(trial)
-    corner = abs(float(np.linalg.norm(centre)) - roughness / np.sqrt(2)) < 1e-3
-    return rest < 1e-3 and corner and _square_of(sides, roughness)
-
-
-def _twice_as_wide(trial: Trial) -> bool:
-    roughness, sides, centre, rest, _ = _steep(trial)
-    middle = float(np.linalg.norm(centre)) < 1e-3
-    return rest < 1e-3 and middle and _square_of(sides, 2 * roughness)
-
-
-def _one_number(trial: Trial) -> bool:
-    roughness, sides, _, rest, _ = _steep(trial)
-    lengths = np.sort(np.linalg.norm(sides, axis=0))
-    return rest < 1e-3 and bool(lengths[0] < 1e-3) and bool(lengths[1] > 0.5 * roughness)
-
-
-def _jitter_long(trial: Trial) -> bool:
-    roughness, sides, centre, rest, length = _steep(trial)
-    right = rest < 1e-3 and _square_of(sides, roughness) and np.linalg.norm(centre) < 1e-3
-    return bool(right and length.max() > 1.01 and length.min() > 0.99)
+def _jitter_is(mistake: Callable[[squares.Square, float], bool]) -> Callable[[Trial], bool]:
+    """Whether the square of a ray from which nothing comes back looks like that."""
+    return lambda trial: mistake(_square_seen(trial, 0.7, 0.9), 0.7)
 
 
 def _flat(trial: Trial) -> tuple[Array, Array, Array]:
@@ -832,19 +691,19 @@ def _flat(trial: Trial) -> tuple[Array, Array, Array]:
     d, normal = (np.repeat(v, n, axis=1) for v in _one_ray(trial, cos, np.float64))
     u = trial.rng.random((2, n))
     u[:, :200] = 0.5 + (u[:, :200] - 0.5) * cos / roughness
-    result = _numbers(trial.call(d, normal, roughness, u), d.shape)
+    result = finite_numbers(trial.call(d, normal, roughness, u), d.shape)
     w = d[:, 0]
-    sides, centre, rest = _fitted(_offsets(w, result[:, :200]), u[:, :200])
-    if not (np.abs(rest).max() < 1e-3 and _square_of(sides, roughness)):
+    square = squares.seen(w, u[:, :200], result[:, :200])
+    if not (square.is_flat() and square.is_of(roughness)):
         raise Failure("a square in the middle", "none")
-    return _exact(w[:, None] + sides @ (u - 0.5) + centre[:, None]), normal, result
+    return normalized(square.at(u)), normal, result
 
 
 def _flat_is(trial: Trial, model: Callable[[Array, Array], Array]) -> bool:
     """What came back through the surface is as a mistake (jittered, normal) makes it."""
     jittered, n, result = _flat(trial)
-    above = _dot(jittered, n) > 0.01
-    return _near(result[:, above], model(jittered, n)[:, above])
+    above = dot(jittered, n) > 0.01
+    return near(result[:, above], model(jittered, n)[:, above])
 
 
 def _not_kept(trial: Trial) -> bool:
@@ -856,28 +715,28 @@ def _flipped(trial: Trial) -> bool:
 
 
 def _clamped(trial: Trial) -> bool:
-    return _flat_is(trial, lambda j, n: j - _dot(j, n) * n) or _flat_is(
-        trial, lambda j, n: _exact(j - _dot(j, n) * n)
+    return _flat_is(trial, lambda j, n: j - dot(j, n) * n) or _flat_is(
+        trial, lambda j, n: normalized(j - dot(j, n) * n)
     )
 
 
 def _wrong_side(trial: Trial) -> bool:
     """What is on the far side is mirrored to the incoming one: keep_above with the same normal."""
     d, n = _far(trial.rng, np.full(300, 0.9))
-    cos = _dot(_numbers(trial.call(d, n, 0.1, _random(trial, 300)), d.shape), n)
+    cos = dot(finite_numbers(trial.call(d, n, 0.1, trial.uniform(2, 300)), d.shape), n)
     return bool((cos > 0.5).all())
 
 
 def _about_normal(trial: Trial) -> bool:
     d, n = _far(trial.rng, np.full(300, 0.6))
-    result = _numbers(trial.call(d, n, 0.01, _random(trial, 300)), d.shape)
-    return _near(np.abs(_dot(result, n)), np.ones(300))
+    result = finite_numbers(trial.call(d, n, 0.01, trial.uniform(2, 300)), d.shape)
+    return near(np.abs(dot(result, n)), np.ones(300))
 
 
 def _fresnel_is(trial: Trial, model: Callable[[Array, float], Array]) -> bool:
     for eta in (INTO, OUT):
         cos = np.sqrt(1 - trial.rng.uniform(0.1, 0.6, 300) ** 2)
-        if not _near(_reflected(trial, cos, eta), model(cos, eta), 1e-6):
+        if not near(_reflected(trial, cos, eta), model(cos, eta), 1e-6):
             return False
     return True
 
@@ -923,35 +782,10 @@ def _not_squared(trial: Trial) -> bool:
 # ---------------------------------------------------------------- all of them
 
 
-def _plain_checks(
-    function: str,
-    contract: Callable[[Trial], None],
-    untouched: Callable[[Trial], None],
-    refuses: Callable[[Trial], None],
-) -> tuple[Check, ...]:
-    return (
-        Check(
-            function,
-            "contract",
-            "Shapes and dtypes are as agreed, and all numbers finite",
-            contract,
-            "contract",
-        ),
-        Check(
-            function,
-            "untouched",
-            "Arguments and the global random state are left alone",
-            untouched,
-            "contract",
-        ),
-        Check(function, "refuses", "Wrong shapes and ranges raise ValueError", refuses, "contract"),
-    )
-
-
 CHECKS = ModuleChecks(
     "blurred_transparency",
     checks=(
-        *_plain_checks("refract", _refract_contract, _refract_untouched, _refract_refuses),
+        *contract_checks("refract", _refract_contract, _refract_untouched, _refract_refuses),
         Check("refract", "unit_length", "Directions are unit length", _refract_unit),
         Check("refract", "snell", "Rays are bent by Snell's law", _refract_snell),
         Check("refract", "far_side", "Refracted rays go to the far side", _refract_far_side),
@@ -972,7 +806,7 @@ CHECKS = ModuleChecks(
         ),
         Check("refract", "reversible", "Light takes the same way back", _refract_reversible),
         Check("refract", "each", "Each ray may have an eta of its own", _refract_each),
-        *_plain_checks("jitter_refraction", _jitter_contract, _jitter_untouched, _jitter_refuses),
+        *contract_checks("jitter_refraction", _jitter_contract, _jitter_untouched, _jitter_refuses),
         Check(
             "jitter_refraction",
             "unit_length",
@@ -1003,15 +837,14 @@ CHECKS = ModuleChecks(
             "What came back is mirrored in the surface, the rest left as it was",
             _jitter_mirrored,
         ),
-        Check(
+        distribution_check(
             "jitter_refraction",
             "uniform",
             "Directions are uniform over the square",
             _jitter_uniform,
-            "distribution",
-            false_fail=2 * FALSE_FAIL,
+            2,
         ),
-        *_plain_checks("fresnel", _fresnel_contract, _fresnel_untouched, _fresnel_refuses),
+        *contract_checks("fresnel", _fresnel_contract, _fresnel_untouched, _fresnel_refuses),
         Check(
             "fresnel",
             "straight",
@@ -1136,25 +969,25 @@ CHECKS = ModuleChecks(
             "jitter_refraction",
             "one-sided",
             "Your square starts at the direction instead of lying around it.",
-            _one_sided,
+            _jitter_is(squares.one_sided),
         ),
         Mistake(
             "jitter_refraction",
             "twice-as-wide",
             "Your square is twice as wide: roughness is its whole side, not half of it.",
-            _twice_as_wide,
+            _jitter_is(squares.twice_as_wide),
         ),
         Mistake(
             "jitter_refraction",
             "one-number",
             "Your jitter runs along one line: both sides of the square are driven by the same number.",
-            _one_number,
+            _jitter_is(squares.one_number),
         ),
         Mistake(
             "jitter_refraction",
             "not-normalised",
             "Your directions point the right way, but jitter makes them longer than 1.",
-            _jitter_long,
+            _jitter_is(squares.not_normalised),
         ),
         Mistake(
             "fresnel",

@@ -92,6 +92,14 @@ class Trial:
         """Call another function of the same module."""
         return self.caller.call(function, *arguments, **named)
 
+    def uniform(self, rows: int, n: int, dtype: Any = np.float32) -> Array:
+        """Numbers u of a batch: (rows, n), independent, in [0, 1)."""
+        return self.rng.random((rows, n), dtype)
+
+    def generator(self) -> np.random.Generator:
+        """Numbers for one call: the student may get a copy of them, so no two calls share a generator."""
+        return np.random.default_rng(int(self.rng.integers(2**62)))
+
     def show(
         self, kind: Literal["points", "histogram", "pictures"], title: str, **arrays: Array
     ) -> None:

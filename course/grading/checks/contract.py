@@ -1,6 +1,6 @@
 """What `modules.md`'s conventions ask of every function: shapes, dtypes, inputs untouched, N = 0, finite, ValueError.
 
-Each helper raises ``Failure`` with what was expected and what was found.
+A helper that checks raises ``Failure`` with what was expected and what was found.
 """
 
 from __future__ import annotations
@@ -10,8 +10,30 @@ from typing import Any
 
 import numpy as np
 
-from course.grading.checks.check import Array, Failure, Trial
+from course.grading.checks.check import Array, Check, Failure, Trial
 from course.grading.errors import StudentError
+
+DTYPES = (np.float32, np.float64)
+"""Of the batch arguments, each tried in turn."""
+
+OF_THE_BATCH = "The result has the dtype of the batch arguments."
+
+
+def contract_checks(
+    function: str,
+    contract: Callable[[Trial], None],
+    untouched: Callable[[Trial], None],
+    refuses: Callable[[Trial], None],
+) -> tuple[Check, ...]:
+    """The three checks of a function's conventions."""
+    return tuple(
+        Check(function, name, title, run, "contract")
+        for name, title, run in (
+            ("contract", "Shapes and dtypes are as agreed, and all numbers finite", contract),
+            ("untouched", "Arguments and the global random state are left alone", untouched),
+            ("refuses", "Wrong arguments raise ValueError", refuses),
+        )
+    )
 
 
 def check_array(value: Any, shape: tuple[int, ...], dtype: Any, what: str = "the result") -> Array:
@@ -30,13 +52,56 @@ def check_array(value: Any, shape: tuple[int, ...], dtype: Any, what: str = "the
         raise Failure(
             f"{what} of dtype {dtype}",
             f"{value.dtype}",
-            hint="The result has the dtype of the batch arguments.",
+            hint=OF_THE_BATCH,
         )
     finite = np.isfinite(value)
     if not finite.all():
         index = tuple(int(i) for i in np.argwhere(~finite)[0])
         raise Failure(f"{what} to be finite", f"{value[index]}", f"at index {index}")
     return value
+
+
+def finite_floats(
+    value: Any, shape: tuple[int, ...], what: str = "the result", kinds: str = "f"
+) -> Array:
+    """An ndarray of that shape and of any floating dtype, every number finite, in float64.
+
+    Which of the dtypes it is, is the business of the check of the contract and fails nothing else.
+
+    Parameters
+    ----------
+    kinds : of dtypes that pass, by NumPy's letters
+
+    Raises
+    ------
+    Failure
+    """
+    dtype = getattr(value, "dtype", np.dtype(float))
+    if dtype.kind not in kinds:
+        raise Failure(f"{what} to be floating", f"dtype {dtype}", hint=OF_THE_BATCH)
+    return np.asarray(check_array(value, shape, dtype, what), np.float64)
+
+
+def finite_numbers(value: Any, shape: tuple[int, ...], what: str = "the result") -> Array:
+    """The same for an ndarray of any real dtype, whole numbers included.
+
+    Raises
+    ------
+    Failure
+    """
+    return finite_floats(value, shape, what, kinds="fiu")
+
+
+def pair(value: Any, first: str, second: str) -> tuple[Any, Any]:
+    """Two results, of whatever kind, called so in the report.
+
+    Raises
+    ------
+    Failure
+    """
+    if not isinstance(value, tuple | list) or len(value) != 2:
+        raise Failure(f"two results: {first}, {second}", type(value).__name__)
+    return value[0], value[1]
 
 
 def check_close(
@@ -71,6 +136,11 @@ def check_close(
         )
 
 
+def near(found: Any, expected: Any, tolerance: float = 1e-3) -> bool:
+    """Two arrays agree to an absolute tolerance: for mistakes, of which it is asked whether they are made."""
+    return bool(np.abs(np.asarray(found, np.float64) - expected).max() < tolerance)
+
+
 def check_untouched(trial: Trial, *arguments: Any) -> None:
     """The function writes to none of its arguments and leaves NumPy's global random state alone.
 
@@ -92,6 +162,35 @@ def check_untouched(trial: Trial, *arguments: Any) -> None:
             "NumPy's global random state to be left alone",
             "the function seeds it or draws from it",
             hint="The random numbers are given: u, or rng.",
+        )
+
+
+def check_seeded(
+    trial: Trial, draw: Callable[[np.random.Generator], Array], what: str = "points"
+) -> None:
+    """What the function draws is told by the generator that is handed in.
+
+    Parameters
+    ----------
+    draw : calls the function with a generator
+
+    Raises
+    ------
+    Failure
+    """
+    seed = int(trial.rng.integers(2**62))
+    first, again, other = (draw(np.random.default_rng(s)) for s in (seed, seed, seed + 1))
+    if not np.array_equal(first, again):
+        raise Failure(
+            f"the same {what} from generators with the same seed",
+            f"other {what}",
+            hint="All random numbers come from the generator that is handed in.",
+        )
+    if np.array_equal(first, other):
+        raise Failure(
+            f"other {what} from a generator with another seed",
+            f"the same {what}",
+            hint="The generator that is handed in has to be used.",
         )
 
 

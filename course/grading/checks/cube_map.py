@@ -10,16 +10,19 @@ import numpy as np
 
 from course.grading.checks.check import Array, Caller, Check, Failure, Mistake, ModuleChecks, Trial
 from course.grading.checks.contract import (
+    DTYPES,
     at,
     check_array,
     check_close,
     check_refused,
     check_untouched,
+    finite_numbers,
+    near,
 )
 from course.grading.checks.statistics import FALSE_FAIL, check_mean
+from course.grading.checks.vectors import unit_vectors
 
 MODULE = "cube_map"
-DTYPES = (np.float32, np.float64)
 
 FACES = ("+x", "-x", "+y", "-y", "+z", "-z")
 
@@ -49,11 +52,6 @@ def _places(rng: np.random.Generator, n: int, margin: float = EPSILON) -> tuple[
     """Random faces, u and v, each face as often as the others."""
     u, v = rng.uniform(margin, 1 - margin, (2, n))
     return np.arange(n) % 6, u, v
-
-
-def _units(rng: np.random.Generator, n: int, dtype: Any = np.float64) -> Array:
-    directions = rng.standard_normal((3, n))
-    return np.asarray(directions / np.linalg.norm(directions, axis=0), dtype)
 
 
 def _lattice(dtype: Any) -> Array:
@@ -111,16 +109,9 @@ def _random_faces(rng: np.random.Generator, size: int, dtype: Any = np.float32) 
     return rng.random((6, size, size, 3)).astype(dtype)
 
 
-def _numbers(value: Any, shape: tuple[int, ...], what: str = "the result") -> Array:
-    """The value as float64 numbers; a wrong dtype is the contract's business and fails nothing else."""
-    dtype = getattr(value, "dtype", np.dtype(float))
-    real = np.issubdtype(dtype, np.floating) or np.issubdtype(dtype, np.integer)
-    return np.asarray(check_array(value, shape, dtype if real else float, what), np.float64)
-
-
 def _colors(trial: Trial, faces: Array, direction: Array) -> Array:
     """What the student's lookup finds, (3, N)."""
-    return _numbers(trial.call(faces, direction), (3, direction.shape[1]), "the colours")
+    return finite_numbers(trial.call(faces, direction), (3, direction.shape[1]), "the colours")
 
 
 def _three(value: Any) -> tuple[Any, Any, Any]:
@@ -134,7 +125,11 @@ def _face_uv(trial: Trial, direction: Array) -> tuple[Array, Array, Array]:
     """What the student makes of directions, as numbers (N,) each."""
     shape = (direction.shape[1],)
     face, u, v = _three(trial.call(direction))
-    return _numbers(face, shape, "face"), _numbers(u, shape, "u"), _numbers(v, shape, "v")
+    return (
+        finite_numbers(face, shape, "face"),
+        finite_numbers(u, shape, "u"),
+        finite_numbers(v, shape, "v"),
+    )
 
 
 def _check_faces_are(found: Array, expected: Array, direction: Array, hint: str) -> None:
@@ -156,7 +151,7 @@ def _check_faces_are(found: Array, expected: Array, direction: Array, hint: str)
 
 def _faces_contract(trial: Trial) -> None:
     for dtype in DTYPES:
-        d = np.concatenate((_lattice(dtype), _units(trial.rng, 50, dtype)), axis=1)
+        d = np.concatenate((_lattice(dtype), unit_vectors(trial.rng, 50, dtype)), axis=1)
         for directions in (d, d[:, :0]):
             shape = (directions.shape[1],)
             face, u, v = _three(trial.call(directions))
@@ -169,11 +164,11 @@ def _faces_contract(trial: Trial) -> None:
 
 
 def _faces_untouched(trial: Trial) -> None:
-    check_untouched(trial, _units(trial.rng, 20, np.float32))
+    check_untouched(trial, unit_vectors(trial.rng, 20, np.float32))
 
 
 def _faces_refuses(trial: Trial) -> None:
-    d = _units(trial.rng, 4, np.float32)
+    d = unit_vectors(trial.rng, 4, np.float32)
     check_refused(trial, d[:2], named="number of components")
     check_refused(trial, d[:, 0], named="shape of direction, one without columns")
     check_refused(trial, np.ascontiguousarray(d.T), named="order of axes")
@@ -298,7 +293,7 @@ def _lookup_contract(trial: Trial) -> None:
         (5, np.float64, np.float64),
     ):
         faces = _random_faces(trial.rng, size, f_dtype)
-        d = np.concatenate((_lattice(dtype), _units(trial.rng, 50, dtype)), axis=1)
+        d = np.concatenate((_lattice(dtype), unit_vectors(trial.rng, 50, dtype)), axis=1)
         what = f"the colours for {d.dtype} directions in {faces.dtype} faces of {size} x {size}"
         check_array(trial.call(faces, d), d.shape, dtype, what)
         check_array(trial.call(faces, d[:, :0]), (3, 0), dtype, "the colours for no directions")
@@ -306,12 +301,12 @@ def _lookup_contract(trial: Trial) -> None:
 
 def _lookup_untouched(trial: Trial) -> None:
     # With edges and corners: these are where faces are mended.
-    d = np.concatenate((_lattice(np.float32), _units(trial.rng, 20, np.float32)), axis=1)
+    d = np.concatenate((_lattice(np.float32), unit_vectors(trial.rng, 20, np.float32)), axis=1)
     check_untouched(trial, _random_faces(trial.rng, 4), d)
 
 
 def _lookup_refuses(trial: Trial) -> None:
-    d, faces = _units(trial.rng, 4, np.float32), _random_faces(trial.rng, 4)
+    d, faces = unit_vectors(trial.rng, 4, np.float32), _random_faces(trial.rng, 4)
     check_refused(trial, faces, d[:2], named="shape of direction")
     check_refused(trial, faces[:5], d, named="number of faces")
     check_refused(trial, faces[:, :3], d, named="shape of faces that are not square")
@@ -429,7 +424,7 @@ def _lookup_length(trial: Trial) -> None:
 def _mean(trial: Trial) -> None:
     """Faces of one colour each: every face takes a sixth of the sphere, with whatever its edges are mixed."""
     colors = trial.rng.random((6, 3))
-    found = _colors(trial, _plain(colors, 4), _units(trial.rng, 5000, np.float32))
+    found = _colors(trial, _plain(colors, 4), unit_vectors(trial.rng, 5000, np.float32))
     for channel, name in enumerate(("red", "green", "blue")):
         check_mean(
             found[channel],
@@ -604,8 +599,7 @@ def _asked(trial: Trial) -> tuple[Array, ...]:
     return (face, u, v, *_face_uv(trial, _toward(face, u, v)))
 
 
-def _same(a: Array, b: Array) -> bool:
-    return bool(np.abs(a - b).max() < 1e-9)
+_same = partial(near, tolerance=1e-9)
 
 
 def _turned(trial: Trial, turn_u: bool, turn_v: bool) -> set[int]:

@@ -6,33 +6,38 @@ all that is looked at is what stays the same whatever it chose.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from itertools import product
 from typing import Any
 
 import numpy as np
 
+from course.grading.checks import squares
 from course.grading.checks.check import Array, Check, Failure, Mistake, ModuleChecks, Trial
 from course.grading.checks.contract import (
+    DTYPES,
     at,
     check_array,
     check_close,
     check_refused,
     check_untouched,
+    contract_checks,
+    finite_numbers,
+    pair,
     worst_units,
 )
-from course.grading.checks.statistics import FALSE_FAIL, check_mean, check_uniform
-
-DTYPES = (np.float32, np.float64)
-
-UNIT = 1e-5
-"""What a unit vector's length may be off by, and what else follows from it."""
+from course.grading.checks.statistics import (
+    CLOSE,
+    apart,
+    check_mean,
+    check_uniform,
+    distribution_check,
+)
+from course.grading.checks.vectors import UNIT, check_unit, cross, dot, normalized, unit_vectors
 
 NEAR_POLE = (0.00038527316, 0.00038460016, -0.99999988079)
 """Where a basis in single precision that divides by 1 + z falls to pieces."""
 
-TINY = 1e-200
-"""A length that stands for none where something has to be divided by it."""
 
 POINTS = 5000
 """Of each axis, in a check of a distribution."""
@@ -41,12 +46,6 @@ CELLS = (12, 12)
 
 
 # ---------------------------------------------------------------- directions and values
-
-
-def _units(rng: np.random.Generator, n: int, dtype: Any = np.float32) -> Array:
-    """Uniform unit vectors."""
-    v = rng.standard_normal((3, n))
-    return np.ascontiguousarray(v / np.linalg.norm(v, axis=0), dtype)
 
 
 def _everywhere(rng: np.random.Generator, dtype: Any, n: int = 500) -> Array:
@@ -65,41 +64,7 @@ def _everywhere(rng: np.random.Generator, dtype: Any, n: int = 500) -> Array:
 def _axes(rng: np.random.Generator) -> Array:
     """Four axes of lobes: two drawn ones, -z and next to it."""
     few = np.array([(0.0, 0.0, -1.0), NEAR_POLE], np.float32).T
-    return np.concatenate((_units(rng, 2), few), axis=1)
-
-
-def _batch(value: Any, shape: tuple[int, ...], what: str = "the result") -> Array:
-    """The value as finite float64 numbers, whatever its dtype: that is the contract's check."""
-    dtype = getattr(value, "dtype", np.dtype(float))
-    if dtype.kind not in "fiu":
-        raise Failure(f"{what} to be floating", f"dtype {dtype}")
-    return np.asarray(check_array(value, shape, dtype, what), np.float64)
-
-
-def _pair(value: Any) -> tuple[Any, Any]:
-    if not isinstance(value, tuple | list) or len(value) != 2:
-        raise Failure("two arrays: u, v", type(value).__name__)
-    return value[0], value[1]
-
-
-def _exact(w: Array) -> Array:
-    """The same directions, unit length to double precision; zero stays zero."""
-    w = w.astype(np.float64)
-    return np.asarray(w / np.maximum(np.linalg.norm(w, axis=0), TINY))
-
-
-def _dot(a: Array, b: Array) -> Array:
-    return np.asarray((a * b).sum(axis=0))
-
-
-def _cross(a: Array, b: Array) -> Array:
-    return np.cross(a.T, b.T).T
-
-
-def _check_unit(
-    value: Array, arguments: Callable[[int], str], what: str, hint: str = "Normalise at the end."
-) -> None:
-    check_close(np.linalg.norm(value, axis=0), np.ones(value.shape[1]), UNIT, what, arguments, hint)
+    return np.concatenate((unit_vectors(rng, 2, np.float32), few), axis=1)
 
 
 def _about(axis: Array, result: Array) -> tuple[Array, Array]:
@@ -107,7 +72,7 @@ def _about(axis: Array, result: Array) -> tuple[Array, Array]:
     w = axis.astype(np.float64) / np.linalg.norm(axis.astype(np.float64))
     a = np.cross(w, np.eye(3)[np.abs(w).argmin()])
     a /= np.linalg.norm(a)
-    result = _exact(result)
+    result = normalized(result)
     turn = np.arctan2(np.cross(w, a) @ result, a @ result) / (2 * np.pi) % 1
     return ((result - w[:, None]) ** 2).sum(axis=0) / 2, turn
 
@@ -141,19 +106,19 @@ def _check_lobe_contract(trial: Trial, rows: int, sizes: tuple[float, ...]) -> N
 
 def _check_lobe_unit(trial: Trial, rows: int, name: str, sizes: tuple[float, ...]) -> None:
     d, u = _worst(trial, rows, np.float32)
-    few, numbers = _units(trial.rng, 500), _random(trial, rows, 500)
+    few, numbers = unit_vectors(trial.rng, 500, np.float32), trial.uniform(rows, 500)
     d, u = np.concatenate((d, few), axis=1), np.concatenate((u, numbers), axis=1)
     for size in sizes:
-        result = _batch(trial.call(d, size, u), d.shape)
-        _check_unit(result, at(direction=d, u=u), f"for {name} {size:g}, length of the result:")
+        result = finite_numbers(trial.call(d, size, u), d.shape)
+        check_unit(result, at(direction=d, u=u), f"for {name} {size:g}, length of the result:")
 
 
 def _check_lobe_untouched(trial: Trial, rows: int, size: float) -> None:
-    check_untouched(trial, _units(trial.rng, 50), size, _random(trial, rows, 50))
+    check_untouched(trial, unit_vectors(trial.rng, 50, np.float32), size, trial.uniform(rows, 50))
 
 
 def _check_lobe_refuses(trial: Trial, rows: int, name: str, wrong: tuple[float, ...]) -> None:
-    d, u = _units(trial.rng, 4), _random(trial, rows, 4)
+    d, u = unit_vectors(trial.rng, 4, np.float32), trial.uniform(rows, 4)
     for bad in (d[:2], d[0], d.T):
         check_refused(trial, bad, 0.5, u, named="direction")
     for bad in (u[:1], u[0], u[:, :3], np.concatenate((u, u))):
@@ -162,15 +127,11 @@ def _check_lobe_refuses(trial: Trial, rows: int, name: str, wrong: tuple[float, 
         check_refused(trial, d, size, u, named=f"{name} {size}")
 
 
-def _random(trial: Trial, rows: int, n: int, dtype: Any = np.float32) -> Array:
-    return trial.rng.random((rows, n), dtype)
-
-
 def _check_no_jitter(trial: Trial, rows: int, name: str) -> None:
     for dtype in DTYPES:
         d = _everywhere(trial.rng, dtype, 300)
-        result = trial.call(d, 0.0, _random(trial, rows, d.shape[1], dtype))
-        result = _batch(result, d.shape)
+        result = trial.call(d, 0.0, trial.uniform(rows, d.shape[1], dtype))
+        result = finite_numbers(result, d.shape)
         check_close(
             result,
             d,
@@ -185,40 +146,40 @@ def _check_no_jitter(trial: Trial, rows: int, name: str) -> None:
 
 
 def _basis(trial: Trial, w: Array) -> tuple[Array, Array]:
-    u, v = _pair(trial.call(w))
-    return _batch(u, w.shape, "u"), _batch(v, w.shape, "v")
+    u, v = pair(trial.call(w), "u", "v")
+    return finite_numbers(u, w.shape, "u"), finite_numbers(v, w.shape, "v")
 
 
 def _basis_contract(trial: Trial) -> None:
     for dtype in DTYPES:
         w = _everywhere(trial.rng, dtype)
         for batch in (w, w[:, :1].copy(), w[:, :0].copy()):
-            for name, value in zip("uv", _pair(trial.call(batch)), strict=True):
+            for name, value in zip("uv", pair(trial.call(batch), "u", "v"), strict=True):
                 check_array(value, batch.shape, dtype, name)
 
 
 def _basis_untouched(trial: Trial) -> None:
-    check_untouched(trial, _units(trial.rng, 50))
+    check_untouched(trial, unit_vectors(trial.rng, 50, np.float32))
 
 
 def _basis_refuses(trial: Trial) -> None:
-    w = _units(trial.rng, 4)
+    w = unit_vectors(trial.rng, 4, np.float32)
     for bad in (w[:2], w[0], w.T, w[None]):
         check_refused(trial, bad, named="w")
 
 
 def _check_orthonormal(trial: Trial, w: Array) -> None:
     u, v = _basis(trial, w)
-    say, exact = at(w=w), _exact(w)
-    _check_unit(u, say, "length of u:", "u has to be a unit vector for every w.")
-    _check_unit(v, say, "length of v:", "v has to be a unit vector for every w.")
+    say, exact = at(w=w), normalized(w)
+    check_unit(u, say, "length of u:", "u has to be a unit vector for every w.")
+    check_unit(v, say, "length of v:", "v has to be a unit vector for every w.")
     zero = np.zeros(w.shape[1])
     for name, a, b in (("dot(u, v)", u, v), ("dot(u, w)", u, exact), ("dot(v, w)", v, exact)):
-        check_close(_dot(a, b), zero, UNIT, f"{name}:", say, "All three are at right angles.")
+        check_close(dot(a, b), zero, UNIT, f"{name}:", say, "All three are at right angles.")
 
 
 def _basis_orthonormal(trial: Trial) -> None:
-    w = _units(trial.rng, 5000)
+    w = unit_vectors(trial.rng, 5000, np.float32)
     _check_orthonormal(trial, w[:, w[2] > -0.9])
 
 
@@ -232,8 +193,8 @@ def _basis_right_handed(trial: Trial) -> None:
         w = _everywhere(trial.rng, dtype)
         u, v = _basis(trial, w)
         check_close(
-            _cross(u, v),
-            _exact(w),
+            cross(u, v),
+            normalized(w),
             2 * UNIT,
             "cross(u, v) = w:",
             at(w=w),
@@ -244,100 +205,26 @@ def _basis_right_handed(trial: Trial) -> None:
 # ---------------------------------------------------------------- jitter_on_plane
 
 
-def _offsets(w: Array, result: Array) -> Array:
-    """Where the directions meet the plane at distance 1 from the tail of w, measured from its tip."""
-    cos = w @ result
-    if not (cos > 0).all():
-        worst = int(cos.argmin())
-        raise Failure(
-            "every direction to stay in front",
-            f"cosine {cos[worst]:.6g} to the direction it was jittered from",
-            f"direction = {tuple(w.round(6).tolist())}",
-        )
-    return np.asarray(result / cos - w[:, None])
-
-
-def _fitted(offset: Array, u: Array) -> tuple[Array, Array, Array]:
-    """The sides a, b, the centre of the square, and what they leave: offset = a u0' + b u1' + centre."""
-    design = np.stack((u[0] - 0.5, u[1] - 0.5, np.ones(u.shape[1])), axis=1)
-    fit = np.linalg.lstsq(design, offset.T, rcond=None)[0].T
-    return fit[:, :2], fit[:, 2], offset - fit @ design.T
+def _plane_squares(trial: Trial, roughness: float, axes: Array, n: int) -> Iterator[squares.Square]:
+    """The squares of n directions jittered about each of some axes."""
+    d = np.repeat(axes, n, axis=1)
+    u = trial.uniform(2, d.shape[1])
+    result = finite_numbers(trial.call(d, roughness, u), d.shape)
+    for k, w in enumerate(normalized(axes).T):
+        part = slice(n * k, n * (k + 1))
+        yield squares.seen(w, u[:, part], result[:, part])
 
 
 def _plane_square(trial: Trial) -> None:
     for roughness in trial.rng.uniform((0.05, 0.5), (0.5, 2.0)).tolist():
-        axes = _axes(trial.rng)
-        d = np.repeat(axes, 100, axis=1)
-        u = _random(trial, 2, d.shape[1])
-        result = _batch(trial.call(d, roughness, u), d.shape)
-        tolerance = 2 * UNIT * (1 + roughness**2)
-        for k, w in enumerate(_exact(axes).T):
-            part = slice(100 * k, 100 * k + 100)
-            offset = _offsets(w, result[:, part])
-            sides, centre, rest = _fitted(offset, u[:, part])
-            where = f"roughness {roughness:.4g}, direction ({w[0]:.4g}, {w[1]:.4g}, {w[2]:.4g})"
-            for what, found, expected, hint in (
-                ("centre's distance from the direction", np.linalg.norm(centre), 0.0, CENTRE),
-                ("length of the first side", np.linalg.norm(sides[:, 0]), roughness, SIDE),
-                ("length of the second side", np.linalg.norm(sides[:, 1]), roughness, SIDE),
-                (
-                    "product of the sides",
-                    sides[:, 0] @ sides[:, 1] / roughness,
-                    0.0,
-                    "The sides are at right angles to each other.",
-                ),
-            ):
-                if not abs(found - expected) <= tolerance:
-                    raise Failure(
-                        f"the square's {what} {expected:.6g} within {tolerance:.1g}",
-                        f"{found:.6g}",
-                        where,
-                        hint,
-                    )
-            check_close(
-                rest,
-                np.zeros_like(rest),
-                tolerance,
-                "offset from the place of u in the square:",
-                at(u=u[:, part]),
-                "The offset grows evenly with both numbers: no angles, no other shapes.",
-            )
-
-
-CENTRE = "The square lies around the direction, so the mean of all offsets is nothing."
-SIDE = "Roughness is the side of the square, at distance 1."
+        for square in _plane_squares(trial, roughness, _axes(trial.rng), 100):
+            squares.check_square(square, roughness)
 
 
 def _plane_uniform(trial: Trial) -> None:
     roughness = float(trial.rng.uniform(0.2, 1.5))
-    axes = _axes(trial.rng)[:, 1:]
-    d = np.repeat(axes, POINTS, axis=1)
-    u = _random(trial, 2, d.shape[1])
-    result = _batch(trial.call(d, roughness, u), d.shape)
-    for k, w in enumerate(_exact(axes).T):
-        part = slice(POINTS * k, POINTS * (k + 1))
-        offset = _offsets(w, result[:, part])
-        sides, _, _ = _fitted(offset, u[:, part])
-        length = np.linalg.norm(sides, axis=0)
-        if not length.min() > 0.1 * roughness:
-            raise Failure(
-                f"a square of side {roughness:.4g}",
-                f"sides of {length[0]:.4g} and {length[1]:.4g}",
-                hint="Both numbers of u are needed, each for a side of its own.",
-            )
-        place = (sides / length).T @ offset / roughness + 0.5
-        shown = place[:, (np.abs(place - 0.5) <= 0.5).all(axis=0)]
-        trial.show("points", "where yours meet the square", yours=shown[:, :2000])
-        far = np.abs(place - 0.5).max(axis=0)
-        worst = int(far.argmax())
-        if not far[worst] <= 0.5 + 1e-3:
-            raise Failure(
-                f"all offsets within +-{roughness / 2:.4g} along both sides",
-                f"{far[worst] * roughness:.4g}",
-                at(u=u[:, part])(worst),
-                SIDE,
-            )
-        check_uniform(place, CELLS, "places in the square", "Every place is as probable.")
+    for square in _plane_squares(trial, roughness, _axes(trial.rng)[:, 1:], POINTS):
+        squares.check_filled(trial, square, roughness)
 
 
 # ---------------------------------------------------------------- jitter_in_ball
@@ -355,9 +242,9 @@ def _ball_share(h: Array, glossiness: float) -> Array:
 
 def _ball_cone(trial: Trial) -> None:
     for glossiness in (*trial.rng.uniform((0.05, 0.5), (0.5, 0.95)).tolist(), 0.999):
-        d, u = _units(trial.rng, 2000), _random(trial, 3, 2000)
-        result = _exact(_batch(trial.call(d, glossiness, u), d.shape))
-        cos = _dot(result, _exact(d))
+        d, u = unit_vectors(trial.rng, 2000, np.float32), trial.uniform(3, 2000)
+        result = normalized(finite_numbers(trial.call(d, glossiness, u), d.shape))
+        cos = dot(result, normalized(d))
         reach = float(np.sqrt(1 - glossiness**2))
         worst = int(cos.argmin())
         # The cosine changes with the sine of the angle there: the radius may be off by UNIT.
@@ -374,7 +261,7 @@ def _ball_uniform(trial: Trial) -> None:
     for glossiness in trial.rng.uniform((0.15, 0.6), (0.5, 0.95)).tolist():
         axes = _axes(trial.rng)[:, 1:]
         d = np.repeat(axes, POINTS, axis=1)
-        result = _batch(trial.call(d, glossiness, _random(trial, 3, d.shape[1])), d.shape)
+        result = finite_numbers(trial.call(d, glossiness, trial.uniform(3, d.shape[1])), d.shape)
         for k, axis in enumerate(axes.T):
             h, turn = _about(axis, result[:, POINTS * k : POINTS * (k + 1)])
             share = _ball_share(h, glossiness)
@@ -393,8 +280,8 @@ def _ball_uniform(trial: Trial) -> None:
 def _phong_in_front(trial: Trial) -> None:
     for exponent in (0.0, float(trial.rng.uniform(0.5, 50)), 1e4):
         d = _everywhere(trial.rng, np.float32, 2000)
-        u = _random(trial, 2, d.shape[1])
-        cos = _dot(_batch(trial.call(d, exponent, u), d.shape), _exact(d))
+        u = trial.uniform(2, d.shape[1])
+        cos = dot(finite_numbers(trial.call(d, exponent, u), d.shape), normalized(d))
         worst = int(cos.argmin())
         if not cos[worst] >= -UNIT:
             raise Failure(
@@ -408,11 +295,11 @@ def _phong_in_front(trial: Trial) -> None:
 def _phong_narrow(trial: Trial) -> None:
     exponent = 10.0 ** float(trial.rng.uniform(5, 6))
     d = _everywhere(trial.rng, np.float32, 2000)
-    u = np.clip(_random(trial, 2, d.shape[1]), np.float32(1e-6), np.float32(1 - 1e-6))
-    result = _batch(trial.call(d, exponent, u), d.shape)
+    u = np.clip(trial.uniform(2, d.shape[1]), np.float32(1e-6), np.float32(1 - 1e-6))
+    result = finite_numbers(trial.call(d, exponent, u), d.shape)
     # cos^(exponent + 1) is 1e-6 at the least, alpha^2 some -2 log(cos).
     check_close(
-        np.linalg.norm(result - _exact(d), axis=0),
+        np.linalg.norm(result - normalized(d), axis=0),
         np.zeros(d.shape[1]),
         1.1 * float(np.sqrt(2 * np.log(1e6) / exponent)) + 1e-3,
         f"with exponent {exponent:.3g}, distance from the axis:",
@@ -429,7 +316,7 @@ def _phong_density(trial: Trial) -> None:
     for exponent in _exponents(trial):
         axes = _axes(trial.rng)[:, 1:]
         d = np.repeat(axes, POINTS, axis=1)
-        result = _batch(trial.call(d, exponent, _random(trial, 2, d.shape[1])), d.shape)
+        result = finite_numbers(trial.call(d, exponent, trial.uniform(2, d.shape[1])), d.shape)
         for k, axis in enumerate(axes.T):
             h, turn = _about(axis, result[:, POINTS * k : POINTS * (k + 1)])
             # The share of the lobe within alpha is 1 - cos^(exponent + 1).
@@ -445,11 +332,11 @@ def _phong_density(trial: Trial) -> None:
 
 def _phong_mean(trial: Trial) -> None:
     for n in _exponents(trial):
-        d = _units(trial.rng, 15000)
-        result = _batch(trial.call(d, n, _random(trial, 2, 15000)), d.shape)
+        d = unit_vectors(trial.rng, 15000, np.float32)
+        result = finite_numbers(trial.call(d, n, trial.uniform(2, 15000)), d.shape)
         mean = (n + 1) / (n + 2)
         check_mean(
-            _dot(result, _exact(d)),
+            dot(result, normalized(d)),
             mean,
             (n + 1) / (n + 3) - mean**2,
             f"mean of cos(alpha) for exponent {n:.4g}",
@@ -463,7 +350,7 @@ def _phong_mean(trial: Trial) -> None:
 def _above_contract(trial: Trial) -> None:
     for dtype in DTYPES:
         d = _everywhere(trial.rng, dtype)
-        for n in (_units(trial.rng, d.shape[1], dtype), d, -d, np.roll(d, 3, axis=1)):
+        for n in (unit_vectors(trial.rng, d.shape[1], dtype), d, -d, np.roll(d, 3, axis=1)):
             check_array(trial.call(d, n), d.shape, dtype)
         check_array(trial.call(d[:, :0], n[:, :0]), (3, 0), dtype)
     mixed = trial.call(d.astype(np.float32), n)
@@ -471,11 +358,13 @@ def _above_contract(trial: Trial) -> None:
 
 
 def _above_untouched(trial: Trial) -> None:
-    check_untouched(trial, _units(trial.rng, 50), _units(trial.rng, 50))
+    check_untouched(
+        trial, unit_vectors(trial.rng, 50, np.float32), unit_vectors(trial.rng, 50, np.float32)
+    )
 
 
 def _above_refuses(trial: Trial) -> None:
-    d, n = _units(trial.rng, 4), _units(trial.rng, 4)
+    d, n = unit_vectors(trial.rng, 4, np.float32), unit_vectors(trial.rng, 4, np.float32)
     for bad in (d[:2], d[0], d.T):
         check_refused(trial, bad, n, named="direction")
     for bad in (n[:2], n[:, :3], n[:, 0]):
@@ -484,17 +373,17 @@ def _above_refuses(trial: Trial) -> None:
 
 def _above_case(trial: Trial, dtype: Any, below: bool) -> tuple[Array, Array, Array, Array]:
     """Directions and normals on one side, their exact dot products, and what came of them."""
-    d, n = _everywhere(trial.rng, dtype, 3000), _units(trial.rng, 3000 + 152, dtype)
+    d, n = _everywhere(trial.rng, dtype, 3000), unit_vectors(trial.rng, 3000 + 152, dtype)
     n = n[:, : d.shape[1]]
     # All around one normal, close to the surface too.
     d = np.concatenate((d, _everywhere(trial.rng, dtype, 0)), axis=1)
     plus_z = np.zeros((3, d.shape[1] - n.shape[1]), dtype)
     plus_z[2] = 1
     n = np.concatenate((n, plus_z), axis=1)
-    dot = _dot(d.astype(np.float64), n.astype(np.float64))
-    side = np.flatnonzero(dot < -2e-6 if below else dot > 2e-6)
+    cosine = dot(d.astype(np.float64), n.astype(np.float64))
+    side = np.flatnonzero(cosine < -2e-6 if below else cosine > 2e-6)
     d, n = d[:, side].copy(), n[:, side].copy()
-    return d, n, dot[side], _batch(trial.call(d.copy(), n.copy()), d.shape)
+    return d, n, cosine[side], finite_numbers(trial.call(d.copy(), n.copy()), d.shape)
 
 
 def _above_unchanged(trial: Trial) -> None:
@@ -512,10 +401,10 @@ def _above_unchanged(trial: Trial) -> None:
 
 def _above_mirrored(trial: Trial) -> None:
     for dtype in DTYPES:
-        d, n, dot, result = _above_case(trial, dtype, below=True)
+        d, n, cosine, result = _above_case(trial, dtype, below=True)
         check_close(
             result,
-            d.astype(np.float64) - 2 * dot * n,
+            d.astype(np.float64) - 2 * cosine * n,
             UNIT,
             "the mirrored direction,",
             at(direction=d, normal=n),
@@ -524,11 +413,11 @@ def _above_mirrored(trial: Trial) -> None:
 
 
 def _above_batch(trial: Trial) -> None:
-    d, n = _units(trial.rng, 2000), _units(trial.rng, 2000)
-    result = _batch(trial.call(d, n), d.shape)
-    _check_unit(result, at(direction=d, normal=n), "length of the result:", "A mirror keeps it.")
-    cos = _dot(result, n.astype(np.float64))
-    expected = np.abs(_dot(d.astype(np.float64), n.astype(np.float64)))
+    d, n = unit_vectors(trial.rng, 2000, np.float32), unit_vectors(trial.rng, 2000, np.float32)
+    result = finite_numbers(trial.call(d, n), d.shape)
+    check_unit(result, at(direction=d, normal=n), "length of the result:", "A mirror keeps it.")
+    cos = dot(result, n.astype(np.float64))
+    expected = np.abs(dot(d.astype(np.float64), n.astype(np.float64)))
     check_close(
         cos,
         expected,
@@ -544,7 +433,7 @@ def _above_batch(trial: Trial) -> None:
 
 def _steady(trial: Trial) -> Array:
     """Directions well away from every axis, where any basis is fine."""
-    w = _units(trial.rng, 2000)
+    w = unit_vectors(trial.rng, 2000, np.float32)
     return w[:, (np.abs(w).max(axis=0) < 0.9) & (np.abs(w).min(axis=0) > 0.05)]
 
 
@@ -554,13 +443,13 @@ def _basis_errors(trial: Trial, w: Array) -> tuple[float, float, float]:
         u, v = _basis(trial, w)
     except Failure:  # something isn't finite
         return np.inf, np.inf, np.inf
-    exact = _exact(w)
+    exact = normalized(w)
     lengths = np.linalg.norm(u, axis=0), np.linalg.norm(v, axis=0)
-    dots = _dot(u, v), _dot(u, exact), _dot(v, exact)
+    dots = dot(u, v), dot(u, exact), dot(v, exact)
     return (
         max(float(np.abs(x - 1).max()) for x in lengths),
         max(float(np.abs(x).max()) for x in dots),
-        float(np.abs(_cross(u, v) - exact).max()),
+        float(np.abs(cross(u, v) - exact).max()),
     )
 
 
@@ -571,8 +460,8 @@ def _sound(trial: Trial, w: Array) -> bool:
 def _left_handed(trial: Trial) -> bool:
     w = _steady(trial)
     u, v = _basis(trial, w)
-    length, dot, _ = _basis_errors(trial, w)
-    return max(length, dot) < 1e-4 and bool(np.abs(_cross(u, v) + _exact(w)).max() < 1e-4)
+    length, skew, _ = _basis_errors(trial, w)
+    return max(length, skew) < 1e-4 and bool(np.abs(cross(u, v) + normalized(w)).max() < 1e-4)
 
 
 def _ring(axis: tuple[float, float, float]) -> Array:
@@ -611,69 +500,36 @@ def _fixed_helper(trial: Trial) -> bool:
 def _basis_not_normalised(trial: Trial) -> bool:
     w = _steady(trial)
     u, v = _basis(trial, w)
-    length, dot, _ = _basis_errors(trial, w)
-    return length > 0.05 and dot < 1e-4 and bool((_dot(_cross(u, v), _exact(w)) > 1e-3).all())
+    length, skew, _ = _basis_errors(trial, w)
+    return length > 0.05 and skew < 1e-4 and bool((dot(cross(u, v), normalized(w)) > 1e-3).all())
 
 
-def _plane_fit(trial: Trial) -> tuple[float, Array, Array, float, Array]:
-    """Roughness, sides, centre and rest of the square of one direction, and the lengths of the result."""
-    roughness, w = 0.8, _steady(trial)[:, :1]
-    u = _random(trial, 2, 200)
-    result = _batch(trial.call(np.repeat(w, 200, axis=1), roughness, u), (3, 200))
-    sides, centre, rest = _fitted(_offsets(_exact(w)[:, 0], result), u)
-    return roughness, sides, centre, float(np.abs(rest).max()), np.linalg.norm(result, axis=0)
+ROUGHNESS = 0.8
+"""Of the square that is looked at for mistakes."""
 
 
-def _square_of(sides: Array, side: float) -> bool:
-    return bool(np.abs(sides.T @ sides - side**2 * np.eye(2)).max() < 1e-3)
+def _plane_is(mistake: Callable[[squares.Square, float], bool]) -> Callable[[Trial], bool]:
+    """Whether the square of one direction looks like that."""
 
+    def matches(trial: Trial) -> bool:
+        (square,) = _plane_squares(trial, ROUGHNESS, _steady(trial)[:, :1], 200)
+        return mistake(square, ROUGHNESS)
 
-def _plane_one_sided(trial: Trial) -> bool:
-    roughness, sides, centre, rest, _ = _plane_fit(trial)
-    corner = abs(float(np.linalg.norm(centre)) - roughness / np.sqrt(2)) < 1e-3
-    return rest < 1e-3 and _square_of(sides, roughness) and corner
-
-
-def _plane_twice_as_wide(trial: Trial) -> bool:
-    roughness, sides, centre, rest, _ = _plane_fit(trial)
-    middle = float(np.linalg.norm(centre)) < 1e-3
-    return rest < 1e-3 and middle and _square_of(sides, 2 * roughness)
-
-
-def _plane_one_number(trial: Trial) -> bool:
-    roughness, sides, _, rest, _ = _plane_fit(trial)
-    lengths = np.sort(np.linalg.norm(sides, axis=0))
-    return rest < 1e-3 and bool(lengths[0] < 1e-3) and bool(lengths[1] > 0.5 * roughness)
-
-
-def _plane_not_normalised(trial: Trial) -> bool:
-    roughness, sides, centre, rest, length = _plane_fit(trial)
-    right = rest < 1e-3 and _square_of(sides, roughness) and np.linalg.norm(centre) < 1e-3
-    return bool(right and length.max() > 1.01 and length.min() > 0.99 and length.max() < 1.5)
+    return matches
 
 
 def _plane_world_axes(trial: Trial) -> bool:
-    roughness, w = 0.8, _steady(trial)[:, :500]
-    u = _random(trial, 2, w.shape[1])
-    result = _exact(_batch(trial.call(w, roughness, u), w.shape))
+    w = _steady(trial)[:, :500]
+    u = trial.uniform(2, w.shape[1])
+    result = normalized(finite_numbers(trial.call(w, ROUGHNESS, u), w.shape))
     for i, j in ((0, 1), (0, 2), (1, 2), (1, 0), (2, 0), (2, 1)):
-        jittered = _exact(w)
-        jittered[i] += roughness * (u[0] - 0.5)
-        jittered[j] += roughness * (u[1] - 0.5)
-        if np.abs(_exact(jittered) - result).max() < 1e-4:
+        jittered = normalized(w)
+        jittered[i] += ROUGHNESS * (u[0] - 0.5)
+        jittered[j] += ROUGHNESS * (u[1] - 0.5)
+        if np.abs(normalized(jittered) - result).max() < 1e-4:
             return True
     return False
 
-
-def _apart(values: Array, others: Array) -> float:
-    """The largest distance between two empirical distributions (Kolmogorov and Smirnov)."""
-    both = np.concatenate((values, others))
-    below = [np.searchsorted(np.sort(x), both, "right") / x.size for x in (values, others)]
-    return float(np.abs(below[0] - below[1]).max())
-
-
-CLOSE = 0.06
-"""Two batches of 4000 of the same distribution are closer than that, but for one time in a hundred thousand."""
 
 Warp = Callable[[Array], Array]
 """(3, N) numbers to (3, N) points."""
@@ -691,9 +547,9 @@ def _looks_like_ball(trial: Trial, warp: Warp) -> bool:
     for k in (2, 0):
         d = np.zeros((3, n), np.float32)
         d[k] = 1
-        found = _exact(_batch(trial.call(d, glossiness, _random(trial, 3, n)), d.shape))
-        model = _exact(d + glossiness * warp(trial.rng.random((3, n))))
-        if _apart(found[k], model[k]) > CLOSE:
+        found = normalized(finite_numbers(trial.call(d, glossiness, trial.uniform(3, n)), d.shape))
+        model = normalized(d + glossiness * warp(trial.rng.random((3, n))))
+        if apart(found[k], model[k]) > CLOSE:
             return False
     return True
 
@@ -716,17 +572,20 @@ def _ball_cube(trial: Trial) -> bool:
 
 def _ball_not_normalised(trial: Trial) -> bool:
     d = np.repeat(_steady(trial)[:, :1], 4000, axis=1)
-    result = _batch(trial.call(d, 0.8, _random(trial, 3, 4000)), d.shape)
+    result = finite_numbers(trial.call(d, 0.8, trial.uniform(3, 4000)), d.shape)
     points = (result - d) / 0.8
     radius = np.linalg.norm(points, axis=0)
     off = np.abs(np.linalg.norm(result, axis=0) - 1).max() > 0.1
-    even = _apart(radius**3, trial.rng.random(4000)) < CLOSE
+    even = apart(radius**3, trial.rng.random(4000)) < CLOSE
     return bool(off and radius.max() < 1 + 1e-4 and even)
 
 
 def _phong_cosines(trial: Trial, exponent: float) -> Array:
     d = np.repeat(_steady(trial)[:, :1], 4000, axis=1)
-    cos = _dot(_exact(_batch(trial.call(d, exponent, _random(trial, 2, 4000)), d.shape)), _exact(d))
+    cos = dot(
+        normalized(finite_numbers(trial.call(d, exponent, trial.uniform(2, 4000)), d.shape)),
+        normalized(d),
+    )
     if not cos.min() >= -1e-3:
         raise Failure("a lobe in front", "none")
     return np.asarray(np.clip(cos, 0, 1))
@@ -735,8 +594,7 @@ def _phong_cosines(trial: Trial, exponent: float) -> Array:
 def _phong_with(trial: Trial, warp: Callable[[Array, float], Array]) -> bool:
     """The angles are spread as a mistaken warp (u, exponent) -> cos(alpha) spreads them."""
     return all(
-        _apart(_phong_cosines(trial, n), warp(trial.rng.random(4000), n)) < CLOSE
-        for n in (1.0, 2.5)
+        apart(_phong_cosines(trial, n), warp(trial.rng.random(4000), n)) < CLOSE for n in (1.0, 2.5)
     )
 
 
@@ -754,12 +612,12 @@ def _phong_sine(trial: Trial) -> bool:
 
 def _phong_no_exponent(trial: Trial) -> bool:
     narrow, wide = _phong_cosines(trial, 20.0), _phong_cosines(trial, 2.0)
-    return _apart(narrow, wide) < CLOSE and float(wide.std()) > 0.01
+    return apart(narrow, wide) < CLOSE and float(wide.std()) > 0.01
 
 
 def _phong_half_turn(trial: Trial) -> bool:
     d = np.repeat(_steady(trial)[:, :1], 2000, axis=1)
-    result = _batch(trial.call(d, 2.0, _random(trial, 2, 2000)), d.shape)
+    result = finite_numbers(trial.call(d, 2.0, trial.uniform(2, 2000)), d.shape)
     turns = np.sort(_about(d[:, 0], result)[1])
     gap = float(np.diff(np.concatenate((turns, turns[:1] + 1))).max())
     return 0.48 < gap < 0.52
@@ -767,22 +625,22 @@ def _phong_half_turn(trial: Trial) -> bool:
 
 def _phong_world_axis(trial: Trial) -> bool:
     d = _steady(trial)
-    result = _batch(trial.call(d, 300.0, _random(trial, 2, d.shape[1])), d.shape)
+    result = finite_numbers(trial.call(d, 300.0, trial.uniform(2, d.shape[1])), d.shape)
     middle = result.mean(axis=1)
     # Whatever the directions are, the results are those of a narrow lobe about one of the axes.
     return 0.98 < float(np.abs(middle).max()) < 1 - 1e-4
 
 
 def _above_is(trial: Trial, model: Callable[[Array, Array, Array], Array]) -> bool:
-    """What fell below comes back as a mistake (d, dot, n) makes it; what was above doesn't matter."""
-    d, n, dot, result = _above_case(trial, np.float32, below=True)
-    return bool(np.abs(result - model(d.astype(np.float64), dot, n)).max() < 1e-3)
+    """What fell below comes back as a mistake (d, cosine, n) makes it; what was above doesn't matter."""
+    d, n, cosine, result = _above_case(trial, np.float32, below=True)
+    return bool(np.abs(result - model(d.astype(np.float64), cosine, n)).max() < 1e-3)
 
 
 def _above_clamped(trial: Trial) -> bool:
-    d, n, dot, result = _above_case(trial, np.float32, below=True)
-    steep = dot > -0.99
-    flat = (d.astype(np.float64) - dot * n)[:, steep]
+    d, n, cosine, result = _above_case(trial, np.float32, below=True)
+    steep = cosine > -0.99
+    flat = (d.astype(np.float64) - cosine * n)[:, steep]
     found = result[:, steep]
     return bool(
         min(np.abs(found - flat).max(), np.abs(found - flat / np.linalg.norm(flat, axis=0)).max())
@@ -803,14 +661,14 @@ def _above_left(trial: Trial) -> bool:
 
 
 def _above_all_mirrored(trial: Trial) -> bool:
-    d, n, dot, result = _above_case(trial, np.float32, below=False)
-    mirrored = np.abs(result - (d.astype(np.float64) - 2 * dot * n)).max() < 1e-3
-    return bool(mirrored) and _above_is(trial, lambda d, dot, n: d - 2 * dot * n)
+    d, n, cosine, result = _above_case(trial, np.float32, below=False)
+    mirrored = np.abs(result - (d.astype(np.float64) - 2 * cosine * n)).max() < 1e-3
+    return bool(mirrored) and _above_is(trial, lambda d, cosine, n: d - 2 * cosine * n)
 
 
 def _above_wrong_way_round(trial: Trial) -> bool:
-    d, n, dot, result = _above_case(trial, np.float32, below=False)
-    mirrored = np.abs(result - (d.astype(np.float64) - 2 * dot * n)).max() < 1e-3
+    d, n, cosine, result = _above_case(trial, np.float32, below=False)
+    mirrored = np.abs(result - (d.astype(np.float64) - 2 * cosine * n)).max() < 1e-3
     return bool(mirrored) and _above_left(trial)
 
 
@@ -821,26 +679,11 @@ def _lobe_checks(
     function: str, rows: int, name: str, sizes: tuple[float, ...], wrong: tuple[float, ...]
 ) -> tuple[Check, ...]:
     return (
-        Check(
+        *contract_checks(
             function,
-            "contract",
-            "Shapes and dtypes are as agreed, and all numbers finite",
             lambda trial: _check_lobe_contract(trial, rows, sizes),
-            "contract",
-        ),
-        Check(
-            function,
-            "untouched",
-            "Arguments and the global random state are left alone",
             lambda trial: _check_lobe_untouched(trial, rows, 0.5),
-            "contract",
-        ),
-        Check(
-            function,
-            "refuses",
-            "Wrong shapes and ranges raise ValueError",
             lambda trial: _check_lobe_refuses(trial, rows, name, wrong),
-            "contract",
         ),
         Check(
             function,
@@ -851,31 +694,12 @@ def _lobe_checks(
     )
 
 
-def _plain_checks(
-    function: str,
-    contract: Callable[[Trial], None],
-    untouched: Callable[[Trial], None],
-    refuses: Callable[[Trial], None],
-) -> tuple[Check, ...]:
-    return (
-        Check(function, "contract", "Shapes and dtypes are as agreed", contract, "contract"),
-        Check(
-            function,
-            "untouched",
-            "Arguments and the global random state are left alone",
-            untouched,
-            "contract",
-        ),
-        Check(function, "refuses", "Wrong shapes raise ValueError", refuses, "contract"),
-    )
-
-
 BAD_SIZES = (-1.0, -1e-6, float("nan"))
 
 CHECKS = ModuleChecks(
     "glossy",
     checks=(
-        *_plain_checks("orthonormal_basis", _basis_contract, _basis_untouched, _basis_refuses),
+        *contract_checks("orthonormal_basis", _basis_contract, _basis_untouched, _basis_refuses),
         Check(
             "orthonormal_basis",
             "orthonormal",
@@ -907,13 +731,12 @@ CHECKS = ModuleChecks(
             "The jitter is a square of side roughness around the direction, at right angles to it",
             _plane_square,
         ),
-        Check(
+        distribution_check(
             "jitter_on_plane",
             "uniform",
             "Directions are uniform over the square",
             _plane_uniform,
-            "distribution",
-            false_fail=3 * FALSE_FAIL,
+            3,
         ),
         *_lobe_checks(
             "jitter_in_ball",
@@ -934,13 +757,12 @@ CHECKS = ModuleChecks(
             "No direction leaves the cone around the ball",
             _ball_cone,
         ),
-        Check(
+        distribution_check(
             "jitter_in_ball",
             "uniform",
             "Points are uniform over the ball's volume",
             _ball_uniform,
-            "distribution",
-            false_fail=6 * FALSE_FAIL,
+            6,
         ),
         *_lobe_checks("sample_phong_lobe", 2, "exponent", (0.0, 10.0, 1e-3, 1e3, 1e6), BAD_SIZES),
         Check(
@@ -955,23 +777,21 @@ CHECKS = ModuleChecks(
             "Large exponents are all but a mirror",
             _phong_narrow,
         ),
-        Check(
+        distribution_check(
             "sample_phong_lobe",
             "mean_cosine",
             "The mean of cos(alpha) is that of the lobe",
             _phong_mean,
-            "distribution",
-            false_fail=3 * FALSE_FAIL,
+            3,
         ),
-        Check(
+        distribution_check(
             "sample_phong_lobe",
             "density",
             "Directions have the density of the lobe, all around its axis",
             _phong_density,
-            "distribution",
-            false_fail=9 * FALSE_FAIL,
+            9,
         ),
-        *_plain_checks("keep_above", _above_contract, _above_untouched, _above_refuses),
+        *contract_checks("keep_above", _above_contract, _above_untouched, _above_refuses),
         Check(
             "keep_above",
             "unchanged",
@@ -1020,25 +840,25 @@ CHECKS = ModuleChecks(
             "jitter_on_plane",
             "one-sided",
             "Your square starts at the direction instead of lying around it, so all reflections are shifted.",
-            _plane_one_sided,
+            _plane_is(squares.one_sided),
         ),
         Mistake(
             "jitter_on_plane",
             "twice-as-wide",
             "Your square is twice as wide: roughness is its whole side, not half of it.",
-            _plane_twice_as_wide,
+            _plane_is(squares.twice_as_wide),
         ),
         Mistake(
             "jitter_on_plane",
             "one-number",
             "Your jitter runs along one line: both sides of the square are driven by the same number.",
-            _plane_one_number,
+            _plane_is(squares.one_number),
         ),
         Mistake(
             "jitter_on_plane",
             "not-normalised",
             "Your directions point the right way, but jitter makes them longer than 1.",
-            _plane_not_normalised,
+            _plane_is(squares.not_normalised),
         ),
         Mistake(
             "jitter_on_plane",

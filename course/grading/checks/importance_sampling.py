@@ -16,16 +16,25 @@ from scipy.special import ndtri
 
 from course.grading.checks.check import Array, Check, Failure, Mistake, ModuleChecks, Trial
 from course.grading.checks.contract import (
+    DTYPES,
     at,
     check_array,
     check_close,
     check_refused,
     check_untouched,
+    contract_checks,
+    finite_floats,
+    pair,
     worst_units,
 )
-from course.grading.checks.statistics import FALSE_FAIL, check_mean, check_uniform
-
-DTYPES = (np.float32, np.float64)
+from course.grading.checks.statistics import (
+    CLOSE,
+    FALSE_FAIL,
+    apart,
+    check_mean,
+    check_uniform,
+    distribution_check,
+)
 
 EPSILON = float(np.finfo(np.float32).eps)
 
@@ -34,14 +43,6 @@ POINTS = 20_000
 
 
 # ---------------------------------------------------------------- values
-
-
-def _batch(value: Any, shape: tuple[int, ...], what: str = "the result") -> Array:
-    """The value as finite float64 numbers, whatever its dtype: that is the contract's check."""
-    dtype = getattr(value, "dtype", np.dtype(float))
-    if dtype.kind != "f":
-        raise Failure(f"{what} to be floating", f"dtype {dtype}")
-    return np.asarray(check_array(value, shape, dtype, what), np.float64)
 
 
 def _cosines(trial: Trial, n: int, dtype: Any = np.float32) -> Array:
@@ -82,7 +83,9 @@ LOBES = {"uniform_hemisphere": 0, "cosine_hemisphere": 1}
 
 
 def _directions(trial: Trial, n: int, dtype: Any = np.float32) -> Array:
-    directions = _batch(trial.call(trial.rng.random((2, n), dtype)), (3, n), "the directions")
+    directions = finite_floats(
+        trial.call(trial.rng.random((2, n), dtype)), (3, n), "the directions"
+    )
     trial.show("points", "your directions, seen along z", yours=directions[:2, :2000])
     return directions
 
@@ -107,7 +110,7 @@ def _direction_refuses(trial: Trial) -> None:
 def _direction_hemisphere(trial: Trial) -> None:
     for dtype in DTYPES:
         u = np.concatenate((worst_units(2, dtype), trial.rng.random((2, 5000), dtype)), axis=1)
-        directions = _batch(trial.call(u), (3, u.shape[1]), "the directions")
+        directions = finite_floats(trial.call(u), (3, u.shape[1]), "the directions")
         check_close(
             np.sqrt((directions * directions).sum(axis=0)),
             np.ones(u.shape[1]),
@@ -182,7 +185,9 @@ def _exponents(trial: Trial) -> tuple[float, ...]:
 
 
 def _pdf(trial: Trial, cos: Array, exponent: float) -> Array:
-    return _batch(trial.call(*_pdf_arguments(trial, cos, exponent)), cos.shape, "the density")
+    return finite_floats(
+        trial.call(*_pdf_arguments(trial, cos, exponent)), cos.shape, "the density"
+    )
 
 
 def _lobe(cos: Array, exponent: float) -> Array:
@@ -270,19 +275,14 @@ def _samples(trial: Trial, n: int, channels: int = 0, dtype: Any = np.float64) -
     )
 
 
-def _pair(value: Any) -> tuple[Any, Any]:
-    if not isinstance(value, tuple | list) or len(value) != 2:
-        raise Failure("two results: mean, variance", type(value).__name__)
-    return value[0], value[1]
-
-
 def _estimate(trial: Trial, f: Array, pdf: Array) -> tuple[Array, Array]:
     """Mean and variance as float64, () or (C,)."""
     mean, variance = (
-        np.array(x) if isinstance(x, float | np.floating) else x for x in _pair(trial.call(f, pdf))
+        np.array(x) if isinstance(x, float | np.floating) else x
+        for x in pair(trial.call(f, pdf), "mean", "variance")
     )
     shape = f.shape[:-1]
-    return _batch(mean, shape, "the mean"), _batch(variance, shape, "the variance")
+    return finite_floats(mean, shape, "the mean"), finite_floats(variance, shape, "the variance")
 
 
 def _estimate_contract(trial: Trial) -> None:
@@ -291,7 +291,9 @@ def _estimate_contract(trial: Trial) -> None:
             dtype = np.result_type(f_dtype, pdf_dtype)
             for channels, n in ((0, 20), (3, 20), (1, 20), (0, 1), (3, 1), (0, 0), (3, 0)):
                 f, pdf = _samples(trial, n, channels)
-                value = _pair(trial.call(f.astype(f_dtype), pdf.astype(pdf_dtype)))
+                value = pair(
+                    trial.call(f.astype(f_dtype), pdf.astype(pdf_dtype)), "mean", "variance"
+                )
                 for name, found in zip(("the mean", "the variance"), value, strict=True):
                     if not channels and isinstance(found, float):
                         found = np.array(found, dtype)
@@ -428,7 +430,7 @@ def _densities(trial: Trial, n: int, dtype: Any = np.float64) -> tuple[Array, Ar
 
 
 def _weights(trial: Trial, a: Array, b: Array) -> Array:
-    return _batch(trial.call(a, b), a.shape, "the weights")
+    return finite_floats(trial.call(a, b), a.shape, "the weights")
 
 
 def _power_contract(trial: Trial) -> None:
@@ -516,21 +518,11 @@ def _power_extremes(trial: Trial) -> None:
 
 # ---------------------------------------------------------------- mistakes
 
-CLOSE = 0.06
-"""Two batches of 4000 of the same distribution are closer than that, but for one time in a hundred thousand."""
-
-
-def _apart(values: Array, others: Array) -> float:
-    """The largest distance between two empirical distributions (Kolmogorov and Smirnov)."""
-    both = np.concatenate((values, others))
-    below = [np.searchsorted(np.sort(x), both, "right") / x.size for x in (values, others)]
-    return float(np.abs(below[0] - below[1]).max())
-
 
 def _heights_are(trial: Trial, model: Callable[[Array], Array]) -> bool:
     """Heights are spread as a mistaken warp of uniform numbers spreads them."""
     z = _directions(trial, 4000)[2]
-    return _apart(z, model(trial.rng.random(4000))) < CLOSE
+    return apart(z, model(trial.rng.random(4000))) < CLOSE
 
 
 def _pdf_is(trial: Trial, mistaken: Callable[[Array, float], Array]) -> bool:
@@ -585,57 +577,32 @@ def _weights_overflow(trial: Trial) -> bool:
 # ---------------------------------------------------------------- all of it
 
 
-def _contract(
-    function: str,
-    contract: Callable[[Trial], None],
-    untouched: Callable[[Trial], None],
-    refuses: Callable[[Trial], None],
-) -> tuple[Check, ...]:
-    return (
-        Check(function, "contract", "Shape, dtype, finite numbers, N = 0", contract, "contract"),
-        Check(
-            function,
-            "untouched",
-            "Arguments and the global random state are left alone",
-            untouched,
-            "contract",
-        ),
-        Check(function, "refuses", "Wrong shapes and ranges raise ValueError", refuses, "contract"),
-    )
-
-
 def _direction_checks(function: str) -> tuple[Check, ...]:
     density = "cos / pi" if LOBES[function] else "1 / (2 pi)"
     return (
-        *_contract(function, _direction_contract, _direction_untouched, _direction_refuses),
+        *contract_checks(function, _direction_contract, _direction_untouched, _direction_refuses),
         Check(
             function,
             "hemisphere",
             "Directions are unit length and above the horizon",
             _direction_hemisphere,
         ),
-        Check(
-            function,
-            "density",
-            f"Directions have density {density}",
-            _direction_distribution,
-            "distribution",
-            false_fail=3 * FALSE_FAIL,
+        distribution_check(
+            function, "density", f"Directions have density {density}", _direction_distribution, 3
         ),
-        Check(
+        distribution_check(
             function,
             "integral",
             "They integrate a power of the cosine, with the variance that theory tells",
             _direction_integral,
-            "distribution",
-            false_fail=2 * FALSE_FAIL,
+            2,
         ),
     )
 
 
 def _pdf_checks(function: str) -> tuple[Check, ...]:
     return (
-        *_contract(function, _pdf_contract, _pdf_untouched, _pdf_refuses),
+        *contract_checks(function, _pdf_contract, _pdf_untouched, _pdf_refuses),
         Check(function, "values", "The density is its formula", _pdf_values),
         Check(function, "below", "Below the horizon the density is 0", _pdf_below),
         Check(function, "normalised", "The density's integral is 1", _pdf_integral),
@@ -649,7 +616,7 @@ CHECKS = ModuleChecks(
         *_direction_checks("cosine_hemisphere"),
         *_pdf_checks("cosine_hemisphere_pdf"),
         *_pdf_checks("phong_lobe_pdf"),
-        *_contract("estimate", _estimate_contract, _estimate_untouched, _estimate_refuses),
+        *contract_checks("estimate", _estimate_contract, _estimate_untouched, _estimate_refuses),
         Check("estimate", "mean", "The estimate is the mean of f / pdf", _estimate_mean),
         Check("estimate", "variance", "The variance is that of the mean", _estimate_variance),
         Check("estimate", "zero_density", "Samples of density 0 count 0", _estimate_zero),
@@ -665,15 +632,14 @@ CHECKS = ModuleChecks(
             "A density proportional to f leaves no variance",
             _estimate_perfect,
         ),
-        Check(
+        distribution_check(
             "estimate",
             "predicted",
             "Uniform, cosine and Phong sampling leave the variances that theory tells",
             _estimate_predicted,
-            "distribution",
-            false_fail=6 * FALSE_FAIL,
+            6,
         ),
-        *_contract("power_heuristic", _power_contract, _power_untouched, _power_refuses),
+        *contract_checks("power_heuristic", _power_contract, _power_untouched, _power_refuses),
         Check("power_heuristic", "values", "Weights are a^2 / (a^2 + b^2)", _power_values),
         Check("power_heuristic", "sum", "The weights of both densities make 1", _power_sum),
         Check("power_heuristic", "limits", "Where one density or both are 0", _power_limits),

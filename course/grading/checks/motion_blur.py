@@ -2,23 +2,26 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from course.grading.checks.check import Array, Check, Failure, Mistake, ModuleChecks, Trial
 from course.grading.checks.contract import (
+    DTYPES,
     at,
     check_array,
     check_close,
     check_refused,
     check_untouched,
+    finite_numbers,
+    near,
     worst_units,
 )
 from course.grading.checks.statistics import FALSE_FAIL, check_uniform
 
 MODULE = "motion_blur"
-DTYPES = (np.float32, np.float64)
 
 OWN_TIME = "Each ray has a time of its own; no time counts for the whole batch."
 
@@ -42,13 +45,6 @@ def _velocity(rng: np.random.Generator) -> Array:
 
 def _times(rng: np.random.Generator, n: int, dtype: Any = np.float64) -> Array:
     return rng.uniform(-2.0, 3.0, n).astype(dtype)
-
-
-def _shaped(value: Any, shape: tuple[int, ...]) -> Array:
-    """The value as float64 numbers; a wrong dtype is the contract's business and fails nothing else."""
-    dtype = getattr(value, "dtype", np.dtype(float))
-    real = np.issubdtype(dtype, np.floating) or np.issubdtype(dtype, np.integer)
-    return np.asarray(check_array(value, shape, dtype if real else float), np.float64)
 
 
 # ---------------------------------------------------------------- shutter_times
@@ -83,7 +79,7 @@ def _inside(trial: Trial) -> None:
     for dtype in DTYPES:
         first, last = _shutter(trial.rng)
         u = np.concatenate((worst_units(1, dtype)[0], trial.rng.random(2000, dtype)))
-        times = _shaped(trial.call(first, last, u), u.shape)
+        times = finite_numbers(trial.call(first, last, u), u.shape)
         slack = _slack(dtype, abs(first) + abs(last))
         outside = np.maximum(first - times, times - last)
         worst = int(np.argmax(outside))
@@ -99,7 +95,7 @@ def _inside(trial: Trial) -> None:
 def _rising(trial: Trial) -> None:
     first, last = _shutter(trial.rng)
     u = np.sort(trial.rng.random(2000, np.float32))
-    times = _shaped(trial.call(first, last, u), u.shape)
+    times = finite_numbers(trial.call(first, last, u), u.shape)
     steps = np.diff(times)
     worst = int(np.argmin(steps))
     if steps[worst] < -_slack(np.float32, abs(first) + abs(last)):
@@ -123,7 +119,7 @@ def _instant(trial: Trial) -> None:
         u = np.concatenate((worst_units(1, dtype)[0], trial.rng.random(50, dtype)))
         for moment in (0.0, float(trial.rng.uniform(-9, 9)), 0.1):
             check_close(
-                _shaped(trial.call(moment, moment, u), u.shape),
+                finite_numbers(trial.call(moment, moment, u), u.shape),
                 np.full(u.shape, moment, dtype),
                 0.0 if moment == 0 else _slack(dtype, abs(moment)),
                 "the time of a shutter that closes as it opens",
@@ -136,7 +132,7 @@ def _even(trial: Trial) -> None:
     for dtype in DTYPES:
         first, last = _shutter(trial.rng)
         u = (np.arange(256) / 256).astype(dtype)
-        times = _shaped(trial.call(first, last, u), u.shape)
+        times = finite_numbers(trial.call(first, last, u), u.shape)
         slack = _slack(dtype, abs(first) + abs(last))
         check_close(
             times[:1],
@@ -158,7 +154,7 @@ def _even(trial: Trial) -> None:
 def _uniform(trial: Trial) -> None:
     first, last = _shutter(trial.rng)
     u = trial.rng.random(5000, np.float32)
-    times = _shaped(trial.call(first, last, u), u.shape)
+    times = finite_numbers(trial.call(first, last, u), u.shape)
     share = (times - first) / (last - first)
     trial.show("histogram", "Times, as a share of the exposure", yours=share)
     off = np.maximum(-share, share - 1)
@@ -204,7 +200,7 @@ def _one_second(trial: Trial) -> None:
     velocity = _velocity(trial.rng)
     for dtype in DTYPES:
         time = np.array([1, 0, -1], dtype)
-        gone = _shaped(trial.call(velocity, time), (3, 3))
+        gone = finite_numbers(trial.call(velocity, time), (3, 3))
         check_close(
             gone,
             np.stack((velocity, 0 * velocity, -velocity), axis=1),
@@ -220,7 +216,7 @@ def _linear(trial: Trial) -> None:
     for dtype in DTYPES:
         # Multiples of 1/64, so that their sums are exact.
         a, b = (np.rint(64 * _times(trial.rng, 500)).astype(dtype) / dtype(64) for _ in range(2))
-        gone = _shaped(trial.call(velocity, np.concatenate((a, b, a + b))), (3, 1500))
+        gone = finite_numbers(trial.call(velocity, np.concatenate((a, b, a + b))), (3, 1500))
         check_close(
             gone[:, 1000:],
             gone[:, :500] + gone[:, 500:1000],
@@ -234,8 +230,8 @@ def _linear(trial: Trial) -> None:
 def _displacement_each(trial: Trial) -> None:
     velocity, time = _velocity(trial.rng), _times(trial.rng, 300)
     order = trial.rng.permutation(300)
-    gone = _shaped(trial.call(velocity, time), (3, 300))
-    again = _shaped(trial.call(velocity, time[order]), (3, 300))
+    gone = finite_numbers(trial.call(velocity, time), (3, 300))
+    again = finite_numbers(trial.call(velocity, time[order]), (3, 300))
     check_close(
         again,
         gone[:, order],
@@ -295,7 +291,7 @@ def _at_rest(trial: Trial) -> None:
     for dtype in DTYPES:
         origins, time = _origins(trial.rng, 200, dtype), 1000 * _times(trial.rng, 200, dtype)
         origins[:, :3] = np.array([[0, 1e-30, 1], [1e30, -1e30, 2], [-0.0, 3, -3]], dtype)
-        seen = _shaped(trial.call(origins, np.zeros(3), time), (3, 200))
+        seen = finite_numbers(trial.call(origins, np.zeros(3), time), (3, 200))
         check_close(
             seen,
             origins,
@@ -310,7 +306,7 @@ def _at_start(trial: Trial) -> None:
     velocity = _velocity(trial.rng)
     for dtype in DTYPES:
         origins = _origins(trial.rng, 200, dtype)
-        seen = _shaped(trial.call(origins, velocity, np.zeros(200, dtype)), (3, 200))
+        seen = finite_numbers(trial.call(origins, velocity, np.zeros(200, dtype)), (3, 200))
         check_close(
             seen,
             origins,
@@ -328,7 +324,7 @@ def _travels_along(trial: Trial) -> None:
         place, time = _origins(trial.rng, 1), _times(trial.rng, 500, dtype)
         way = velocity.reshape(3, 1) * time.astype(float)
         origins = (place + way).astype(dtype)
-        seen = _shaped(trial.call(origins, velocity, time), (3, 500))
+        seen = finite_numbers(trial.call(origins, velocity, time), (3, 500))
         check_close(
             seen,
             np.broadcast_to(place, (3, 500)),
@@ -344,8 +340,8 @@ def _space_each(trial: Trial) -> None:
     rng = trial.rng
     origins, velocity, time = _origins(rng, 300), _velocity(rng), _times(rng, 300)
     order = rng.permutation(300)
-    seen = _shaped(trial.call(origins, velocity, time), (3, 300))
-    again = _shaped(trial.call(origins[:, order], velocity, time[order]), (3, 300))
+    seen = finite_numbers(trial.call(origins, velocity, time), (3, 300))
+    again = finite_numbers(trial.call(origins[:, order], velocity, time[order]), (3, 300))
     check_close(
         again,
         seen[:, order],
@@ -367,15 +363,14 @@ def _space_each(trial: Trial) -> None:
 # ---------------------------------------------------------------- mistakes
 
 
-def _near(a: Array, b: Array, tolerance: float = 1e-9) -> bool:
-    return bool(np.shape(a) == np.shape(b) and np.abs(a - b).max() <= tolerance)
+_near = partial(near, tolerance=1e-9)
 
 
 def _some_times(trial: Trial) -> tuple[Array, Array, float, float]:
     """The student's times, and what they should have been made of."""
     first, last = _shutter(trial.rng)
     u = trial.rng.random(100)
-    times = _shaped(trial.call(first, last, u.copy()), u.shape)
+    times = finite_numbers(trial.call(first, last, u.copy()), u.shape)
     return times, u, first, last
 
 
@@ -406,14 +401,14 @@ def _backwards(trial: Trial) -> bool:
 
 def _u_unused(trial: Trial) -> bool:
     times, _, first, last = _some_times(trial)
-    again = _shaped(trial.call(first, last, trial.rng.random(100)), (100,))
+    again = finite_numbers(trial.call(first, last, trial.rng.random(100)), (100,))
     return bool(np.ptp(times) > 0 and _near(again, times))
 
 
 def _uneven(trial: Trial) -> bool:
     first, last = _shutter(trial.rng)
     u = np.linspace(0, 1, 101)[:-1]
-    share = (_shaped(trial.call(first, last, u.copy()), u.shape) - first) / (last - first)
+    share = (finite_numbers(trial.call(first, last, u.copy()), u.shape) - first) / (last - first)
     # From open almost to close and never back, yet not at an even pace.
     return bool(
         abs(share[0]) < 1e-9
@@ -427,7 +422,7 @@ def _uneven(trial: Trial) -> bool:
 
 def _gone(trial: Trial) -> tuple[Array, Array, Array]:
     velocity, time = _velocity(trial.rng), _times(trial.rng, 50)
-    return _shaped(trial.call(velocity.copy(), time.copy()), (3, 50)), velocity, time
+    return finite_numbers(trial.call(velocity.copy(), time.copy()), (3, 50)), velocity, time
 
 
 def _gone_backwards(trial: Trial) -> bool:
@@ -470,7 +465,7 @@ def _gone_faster(trial: Trial) -> bool:
 def _way_wrong(trial: Trial) -> bool:
     """Whether the student's displacement is to blame for where the origins go."""
     velocity, time = _velocity(trial.rng), _times(trial.rng, 50)
-    gone = _shaped(trial.call_other("displacement", velocity.copy(), time.copy()), (3, 50))
+    gone = finite_numbers(trial.call_other("displacement", velocity.copy(), time.copy()), (3, 50))
     return not _near(gone, np.outer(velocity, time))
 
 
@@ -478,7 +473,7 @@ def _shift(trial: Trial) -> tuple[Array, Array, Array, Array]:
     """How far the student's function has moved each ray's origin."""
     rng = trial.rng
     origins, velocity, time = _origins(rng, 50), _velocity(rng), _times(rng, 50)
-    seen = _shaped(trial.call(origins.copy(), velocity.copy(), time.copy()), (3, 50))
+    seen = finite_numbers(trial.call(origins.copy(), velocity.copy(), time.copy()), (3, 50))
     return seen - origins, origins, velocity, time
 
 

@@ -15,8 +15,16 @@ from typing import Any
 import numpy as np
 
 from course.grading.checks.check import Array, Check, Failure, Mistake, ModuleChecks, Trial
-from course.grading.checks.contract import check_array, check_refused, check_untouched
-from course.grading.checks.statistics import FALSE_FAIL, chi_squared
+from course.grading.checks.contract import (
+    check_array,
+    check_refused,
+    check_seeded,
+    check_untouched,
+    contract_checks,
+    finite_floats,
+    near,
+)
+from course.grading.checks.statistics import chi_squared, distribution_check
 
 CLOSE = 5e-7
 """What single precision may make of a coordinate, however it is added up."""
@@ -25,19 +33,6 @@ PRIMES = (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47)
 
 
 # ---------------------------------------------------------------- values
-
-
-def _generator(trial: Trial) -> np.random.Generator:
-    """Numbers for one call: the student may get a copy, so no two calls share one."""
-    return np.random.default_rng(int(trial.rng.integers(2**62)))
-
-
-def _batch(value: Any, shape: tuple[int, ...], what: str = "the points") -> Array:
-    """The value as finite float64 numbers, whatever its dtype: that is the contract's check."""
-    dtype = getattr(value, "dtype", np.dtype(float))
-    if dtype.kind != "f":
-        raise Failure(f"{what} to be floating", f"dtype {dtype}")
-    return np.asarray(check_array(value, shape, dtype, what), np.float64)
 
 
 def _exact(base: int, i: int) -> Fraction:
@@ -88,7 +83,7 @@ def _indices(trial: Trial, n: int, most: int = 100_000) -> Array:
 
 
 def _inverse(trial: Trial, base: int, i: Array) -> Array:
-    return _batch(trial.call(base, i.copy()), i.shape, "the radical inverses")
+    return finite_floats(trial.call(base, i.copy()), i.shape, "the radical inverses")
 
 
 def _bases(trial: Trial) -> tuple[int, ...]:
@@ -163,7 +158,7 @@ def _inverse_strata(trial: Trial) -> None:
 
 
 def _halton(trial: Trial, i: Array, dims: int) -> Array:
-    points = _batch(trial.call(i, dims), (dims, i.size))
+    points = finite_floats(trial.call(i, dims), (dims, i.size), "the points")
     if dims > 1:
         trial.show("points", "your points, coordinates 0 and 1", yours=points[:2, :2000])
     return points
@@ -224,7 +219,7 @@ def _halton_cells(trial: Trial) -> None:
 
 
 def _hammersley(trial: Trial, n: int, dims: int) -> Array:
-    points = _batch(trial.call(n, dims), (dims, n))
+    points = finite_floats(trial.call(n, dims), (dims, n), "the points")
     if dims > 1:
         trial.show("points", "your points, coordinates 0 and 1", yours=points[:2, :2000])
     return points
@@ -307,7 +302,7 @@ def _chained(
     trial: Trial, patterns: tuple[Array, ...], ids: Array, rng: np.random.Generator | None = None
 ) -> list[Array]:
     # Copies, so that writing to them costs the check for that alone.
-    value = trial.call(tuple(p.copy() for p in patterns), ids.copy(), rng or _generator(trial))
+    value = trial.call(tuple(p.copy() for p in patterns), ids.copy(), rng or trial.generator())
     return _taken(value, patterns, ids.size)
 
 
@@ -316,7 +311,7 @@ def _taken(value: Any, patterns: tuple[Array, ...], n: int) -> list[Array]:
         length = f" of {len(value)}" if isinstance(value, tuple | list) else ""
         raise Failure(f"a tuple of {len(patterns)} arrays", f"{type(value).__name__}{length}")
     return [
-        _batch(array, (len(pattern), n), f"samples of pattern {k}")
+        finite_floats(array, (len(pattern), n), f"samples of pattern {k}")
         for k, (array, pattern) in enumerate(zip(value, patterns, strict=True))
     ]
 
@@ -326,7 +321,7 @@ def _chain_contract(trial: Trial) -> None:
         patterns = _patterns(trial, 9, dtypes)
         for n in (30, 1, 0):
             ids = trial.rng.integers(0, 9, n)
-            value = trial.call(patterns, ids, _generator(trial))
+            value = trial.call(patterns, ids, trial.generator())
             _taken(value, patterns, n)
             for k, (array, pattern) in enumerate(zip(value, patterns, strict=True)):
                 check_array(array, (len(pattern), n), pattern.dtype, f"samples of pattern {k}")
@@ -336,9 +331,9 @@ def _chain_contract(trial: Trial) -> None:
 
 def _chain_untouched(trial: Trial) -> None:
     patterns, ids = _patterns(trial, 9), np.arange(9)
-    check_untouched(trial, patterns, ids, _generator(trial))
+    check_untouched(trial, patterns, ids, trial.generator())
     before = [pattern.copy() for pattern in patterns]
-    _, after, _ = trial.caller.call_and_look(trial.function, patterns, ids, _generator(trial))
+    _, after, _ = trial.caller.call_and_look(trial.function, patterns, ids, trial.generator())
     for k, (old, new) in enumerate(zip(before, after[0], strict=True)):
         if not np.array_equal(old, new):
             raise Failure(
@@ -352,14 +347,14 @@ def _chain_refuses(trial: Trial) -> None:
     patterns = _patterns(trial, 5)
     ids = np.arange(5)
     for wrong in ((patterns[0][0],), (*patterns[:2], patterns[2][:, :4]), (patterns[0][None],)):
-        check_refused(trial, wrong, ids, _generator(trial), named="patterns (a shape)")
+        check_refused(trial, wrong, ids, trial.generator(), named="patterns (a shape)")
     for bad, why in (
         (ids[None], "its shape"),
         (ids.astype(np.float64), "floating"),
         (ids - 1, "-1"),
         (ids + 1, "s itself"),
     ):
-        check_refused(trial, patterns, bad, _generator(trial), named=f"ids ({why})")
+        check_refused(trial, patterns, bad, trial.generator(), named=f"ids ({why})")
 
 
 def _index(array: Array, pattern: Array) -> Array:
@@ -416,15 +411,7 @@ def _chain_by_id(trial: Trial) -> None:
 
 def _chain_from_rng(trial: Trial) -> None:
     patterns, ids = _patterns(trial, 16), np.arange(16)
-    seed = int(trial.rng.integers(2**62))
-    first, again, other = (
-        np.concatenate(_chained(trial, patterns, ids, np.random.default_rng(x)))
-        for x in (seed, seed, seed + 1)
-    )
-    if not np.array_equal(first, again):
-        raise Failure("the same samples from the same generator", "others", hint="Draw from rng.")
-    if np.array_equal(first, other):
-        raise Failure("other samples from another generator", "the same", hint="Draw from rng.")
+    check_seeded(trial, lambda rng: np.concatenate(_chained(trial, patterns, ids, rng)), "samples")
 
 
 MANY = 1440
@@ -467,8 +454,7 @@ def _chain_independent(trial: Trial) -> None:
 # ---------------------------------------------------------------- mistakes
 
 
-def _near(found: Array, expected: Sequence[float] | Array) -> bool:
-    return bool(np.abs(found - np.asarray(expected, np.float64)).max() < 1e-6)
+_near = partial(near, tolerance=1e-6)
 
 
 def _row(base: int, i: Array) -> list[float]:
@@ -550,29 +536,12 @@ def _chain_ids_ignored(trial: Trial) -> bool:
 # ---------------------------------------------------------------- all of it
 
 
-def _contract(
-    function: str,
-    contract: Callable[[Trial], None],
-    untouched: Callable[[Trial], None],
-    refuses: Callable[[Trial], None],
-) -> tuple[Check, ...]:
-    return (
-        Check(function, "contract", "Shape, dtype, finite numbers, N = 0", contract, "contract"),
-        Check(
-            function,
-            "untouched",
-            "Arguments and the global random state are left alone",
-            untouched,
-            "contract",
-        ),
-        Check(function, "refuses", "Wrong shapes and ranges raise ValueError", refuses, "contract"),
-    )
-
-
 CHECKS = ModuleChecks(
     "quasi_monte_carlo",
     checks=(
-        *_contract("radical_inverse", _inverse_contract, _inverse_untouched, _inverse_refuses),
+        *contract_checks(
+            "radical_inverse", _inverse_contract, _inverse_untouched, _inverse_refuses
+        ),
         Check("radical_inverse", "exact", "Digits are mirrored at the point", _inverse_exact),
         Check("radical_inverse", "large", "Large i have all their digits", _inverse_large),
         Check(
@@ -581,10 +550,12 @@ CHECKS = ModuleChecks(
             "base^m numbers in a row fall one into each part",
             _inverse_strata,
         ),
-        *_contract("halton", _halton_contract, _halton_untouched, _halton_refuses),
+        *contract_checks("halton", _halton_contract, _halton_untouched, _halton_refuses),
         Check("halton", "exact", "Coordinates are radical inverses in the primes", _halton_exact),
         Check("halton", "cells", "Points fall one into each cell of 2^a by 3^b", _halton_cells),
-        *_contract("hammersley", _hammersley_contract, _hammersley_untouched, _hammersley_refuses),
+        *contract_checks(
+            "hammersley", _hammersley_contract, _hammersley_untouched, _hammersley_refuses
+        ),
         Check(
             "hammersley",
             "exact",
@@ -603,26 +574,24 @@ CHECKS = ModuleChecks(
             "A mean over the points is far better than one over random ones",
             _hammersley_better,
         ),
-        *_contract("chain", _chain_contract, _chain_untouched, _chain_refuses),
+        *contract_checks("chain", _chain_contract, _chain_untouched, _chain_refuses),
         Check("chain", "samples", "Rays take whole samples of each pattern", _chain_samples),
         Check("chain", "once", "The rays of a pixel take each sample once", _chain_once),
         Check("chain", "by_id", "Equal ids take equal samples", _chain_by_id),
         Check("chain", "from_rng", "The generator alone decides", _chain_from_rng),
-        Check(
+        distribution_check(
             "chain",
             "uniform",
             "All permutations of a pattern are equally probable",
             _chain_uniform,
-            "distribution",
-            false_fail=FALSE_FAIL,
+            1,
         ),
-        Check(
+        distribution_check(
             "chain",
             "decorrelated",
             "The permutations of two patterns are independent",
             _chain_independent,
-            "distribution",
-            false_fail=FALSE_FAIL,
+            1,
         ),
     ),
     mistakes=(

@@ -10,6 +10,7 @@ import traceback
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from functools import lru_cache
 from time import perf_counter
 from zlib import crc32
 
@@ -87,17 +88,22 @@ def generator(seed: int, module: str, check: Check) -> np.random.Generator:
     return np.random.default_rng((seed, crc32(name.encode())))
 
 
+KEPT = 32
+"""Checks of which a maker of references keeps the arrays; a module has fewer that need any."""
+
+
 def prepared(reference: Caller, seed: int) -> References:
-    """References made on the spot with the reference solution's module."""
+    """References made on the spot with the reference solution's module, once for each check; they are read-only."""
 
+    @lru_cache(maxsize=KEPT)
     def make(module: str, check: Check) -> Mapping[str, Array]:
-        return (
-            {}
-            if check.prepare is None
-            else check.prepare(reference, generator(seed, module, check))
-        )
+        assert check.prepare is not None
+        arrays = check.prepare(reference, generator(seed, module, check))
+        for array in arrays.values():
+            array.setflags(write=False)
+        return arrays
 
-    return make
+    return lambda module, check: {} if check.prepare is None else make(module, check)
 
 
 Lenders = Callable[[str], Caller | None]
@@ -210,8 +216,8 @@ def _matching(checks: ModuleChecks, function: str, caller: Caller, seed: int) ->
             try:
                 if mistake.matches(trial):
                     return mistake
-            except (Failure, StudentError, ArithmeticError, ValueError, IndexError, TypeError):
-                continue  # What comes back is too wrong to be this mistake.
+            except Exception:  # noqa: BLE001 - what comes back is too wrong to be this mistake
+                continue
     return None
 
 

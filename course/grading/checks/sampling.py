@@ -16,15 +16,25 @@ from scipy.special import ndtri
 
 from course.grading.checks.check import Array, Check, Failure, Mistake, ModuleChecks, Trial
 from course.grading.checks.contract import (
+    DTYPES,
     at,
     check_array,
     check_refused,
+    check_seeded,
     check_untouched,
+    contract_checks,
+    finite_floats,
+    pair,
     worst_units,
 )
-from course.grading.checks.statistics import FALSE_FAIL, check_mean, check_uniform
-
-DTYPES = (np.float32, np.float64)
+from course.grading.checks.statistics import (
+    CLOSE,
+    FALSE_FAIL,
+    apart,
+    check_mean,
+    check_uniform,
+    distribution_check,
+)
 
 POINTS = 20_000
 """In a check of a distribution."""
@@ -48,27 +58,16 @@ ACCEPTED = {2: pi / 4, 3: pi / 6}
 # ---------------------------------------------------------------- points
 
 
-def _generator(trial: Trial) -> np.random.Generator:
-    """Numbers for one call: the student may get a copy, so no two calls share one."""
-    return np.random.default_rng(int(trial.rng.integers(2**62)))
-
-
 def _arguments(trial: Trial, n: int, dtype: Any = np.float32) -> tuple[Any, ...]:
     if trial.function in NUMBERS:
         return (trial.rng.random((NUMBERS[trial.function], n), dtype),)
-    return n, _generator(trial)
-
-
-def _batch(value: Any, shape: tuple[int, ...], what: str = "the points") -> Array:
-    """The value as finite float64 numbers, whatever its dtype: that is the contract's check."""
-    dtype = getattr(value, "dtype", np.dtype(float))
-    if dtype.kind != "f":
-        raise Failure(f"{what} to be floating", f"dtype {dtype}")
-    return np.asarray(check_array(value, shape, dtype, what), np.float64)
+    return n, trial.generator()
 
 
 def _points(trial: Trial, n: int, dtype: Any = np.float32) -> Array:
-    points = _batch(trial.call(*_arguments(trial, n, dtype)), (ROWS[trial.function], n))
+    points = finite_floats(
+        trial.call(*_arguments(trial, n, dtype)), (ROWS[trial.function], n), "the points"
+    )
     trial.show("points", "your points, seen along z", yours=points[:2, :2000])
     return points
 
@@ -104,7 +103,7 @@ def _points_contract(trial: Trial) -> None:
     rows = ROWS[trial.function]
     if trial.function not in NUMBERS:
         for n in (int(trial.rng.integers(2, 200)), 1, 0):
-            check_array(trial.call(n, _generator(trial)), (rows, n), np.float32, f"n = {n}: points")
+            check_array(trial.call(n, trial.generator()), (rows, n), np.float32, f"n = {n}: points")
         return
     for dtype in DTYPES:
         u = worst_units(NUMBERS[trial.function], dtype)
@@ -119,7 +118,7 @@ def _points_untouched(trial: Trial) -> None:
 def _points_refuses(trial: Trial) -> None:
     if trial.function not in NUMBERS:
         for n in (-1, -100):
-            check_refused(trial, n, _generator(trial), named=f"n ({n})")
+            check_refused(trial, n, trial.generator(), named=f"n ({n})")
         return
     rows = NUMBERS[trial.function]
     u = trial.rng.random((4, 5), np.float32)
@@ -145,7 +144,7 @@ def _sphere_unit(trial: Trial) -> None:
     for dtype in DTYPES:
         worst = worst_units(2, dtype)
         u = np.concatenate((worst, trial.rng.random((2, 5000), dtype)), axis=1)
-        points = _batch(trial.call(u), (3, u.shape[1]))
+        points = finite_floats(trial.call(u), (3, u.shape[1]), "the points")
         off = np.abs(np.sqrt((points * points).sum(axis=0)) - 1)
         column = int(off.argmax())
         if not off[column] <= 1e-5:
@@ -214,10 +213,10 @@ def _drawn(before: Any, after: Any) -> int:
 
 def _candidates(trial: Trial, n: int) -> tuple[float, Array]:
     """How many points of the square or cube a call has drawn, and the points that came of it."""
-    rng = _generator(trial)
+    rng = trial.generator()
     before = rng.bit_generator.state
     value, arguments, _ = trial.caller.call_and_look(trial.function, n, rng)
-    points = _batch(value, (ROWS[trial.function], n))
+    points = finite_floats(value, (ROWS[trial.function], n), "the points")
     words = _drawn(before, arguments[1].bit_generator.state)
     # One 64-bit number makes two coordinates of single precision, and those are whole multiples of 2^-23.
     single = bool((points * 2**23 % 1 == 0).all())
@@ -245,23 +244,8 @@ def _rejection_rate(trial: Trial) -> None:
 
 
 def _rejection_repeats(trial: Trial) -> None:
-    seed = int(trial.rng.integers(2**62))
-    first, again, other = (
-        _batch(trial.call(200, np.random.default_rng(s)), (ROWS[trial.function], 200))
-        for s in (seed, seed, seed + 1)
-    )
-    if not np.array_equal(first, again):
-        raise Failure(
-            "the same points from the same generator",
-            "others",
-            hint="All random numbers come from rng.",
-        )
-    if np.array_equal(first, other):
-        raise Failure(
-            "other points from another generator",
-            "the same",
-            hint="All random numbers come from rng.",
-        )
+    shape = (ROWS[trial.function], 200)
+    check_seeded(trial, lambda rng: finite_floats(trial.call(200, rng), shape, "the points"))
 
 
 # ---------------------------------------------------------------- xorshift32
@@ -284,20 +268,14 @@ def _states(trial: Trial, n: int) -> Array:
     return trial.rng.integers(1, 1 << 32, n, dtype=np.uint32)
 
 
-def _pair(value: Any) -> tuple[Any, Any]:
-    if not isinstance(value, tuple | list) or len(value) != 2:
-        raise Failure("two arrays: state, random", type(value).__name__)
-    return value[0], value[1]
-
-
 def _step(trial: Trial, state: Array) -> tuple[Array, Array]:
     """The student's next states as whole numbers, and the random numbers."""
-    new, random = _pair(trial.call(state.copy()))
+    new, random = pair(trial.call(state.copy()), "state", "random")
     kind = getattr(getattr(new, "dtype", None), "kind", "")
     if kind not in ("u", "i"):
         raise Failure("states that are whole numbers", f"dtype {getattr(new, 'dtype', type(new))}")
     check_array(new, state.shape, new.dtype, "the new state")
-    return new.astype(np.int64), _batch(random, state.shape, "the random numbers")
+    return new.astype(np.int64), finite_floats(random, state.shape, "the random numbers")
 
 
 def _xorshift_contract(trial: Trial) -> None:
@@ -307,7 +285,7 @@ def _xorshift_contract(trial: Trial) -> None:
         np.array([MARSAGLIA], np.uint32),
         np.empty(0, np.uint32),
     ):
-        new, random = _pair(trial.call(state))
+        new, random = pair(trial.call(state), "state", "random")
         check_array(new, state.shape, np.uint32, "the new state")
         check_array(random, state.shape, np.float32, "the random numbers")
 
@@ -379,16 +357,6 @@ def _xorshift_uniform(trial: Trial) -> None:
 # ---------------------------------------------------------------- mistakes
 
 
-def _apart(values: Array, others: Array) -> float:
-    """The largest distance between two empirical distributions (Kolmogorov and Smirnov)."""
-    both = np.concatenate((values, others))
-    below = [np.searchsorted(np.sort(x), both, "right") / x.size for x in (values, others)]
-    return float(np.abs(below[0] - below[1]).max())
-
-
-CLOSE = 0.06
-"""Two batches of 4000 of the same distribution are closer than that, but for one time in a hundred thousand."""
-
 Model = Callable[[Array], Array]
 
 
@@ -397,7 +365,7 @@ def _spread_as(trial: Trial, name: str, model: Model) -> bool:
     even = _even(trial.function, _points(trial, 4000))
     u = trial.rng.random(4000)
     return all(
-        _apart(values, model(u) if key == name else u) < CLOSE for key, values in even.items()
+        apart(values, model(u) if key == name else u) < CLOSE for key, values in even.items()
     )
 
 
@@ -408,7 +376,7 @@ def _radii(points: Array) -> Array:
 def _in_corners(trial: Trial) -> bool:
     points = _points(trial, 4000)
     uniform = trial.rng.random(4000)
-    even = max(_apart((x + 1) / 2, uniform) for x in points) < CLOSE
+    even = max(apart((x + 1) / 2, uniform) for x in points) < CLOSE
     return even and bool(_radii(points).max() > 1.2)
 
 
@@ -425,7 +393,7 @@ def _one_quadrant(trial: Trial) -> bool:
 
 
 def _too_few(trial: Trial) -> bool:
-    value = trial.call(1000, _generator(trial))
+    value = trial.call(1000, trial.generator())
     if not isinstance(value, np.ndarray) or value.ndim != 2 or len(value) != ROWS[trial.function]:
         return False
     return bool(abs(value.shape[1] / 1000 - ACCEPTED[len(value)]) < 0.1)
@@ -435,7 +403,7 @@ def _nothing_rejected(trial: Trial) -> bool:
     found, points = _candidates(trial, 4000)
     even = _even(trial.function, points)
     u = trial.rng.random(4000)
-    return found < _least(len(points), 4000) and all(_apart(x, u) < CLOSE for x in even.values())
+    return found < _least(len(points), 4000) and all(apart(x, u) < CLOSE for x in even.values())
 
 
 def _nothing_drawn(trial: Trial) -> bool:
@@ -463,11 +431,11 @@ def _one_number(trial: Trial) -> bool:
     """A row of u makes no difference at all."""
     (u,) = _arguments(trial, 500)
     rows = ROWS[trial.function]
-    found = _batch(trial.call(u), (rows, 500))
+    found = finite_floats(trial.call(u), (rows, 500), "the points")
     for row in range(len(u)):
         other = u.copy()
         other[row] = trial.rng.random(500, np.float32)
-        if np.array_equal(found, _batch(trial.call(other), (rows, 500))):
+        if np.array_equal(found, finite_floats(trial.call(other), (rows, 500), "the points")):
             return True
     return False
 
@@ -490,7 +458,7 @@ def _from_one_state(state: int) -> int:
 
 def _too_wide(trial: Trial) -> bool:
     state = np.array([MARSAGLIA], np.uint32)
-    new, _ = _pair(trial.call(state))
+    new, _ = pair(trial.call(state), "state", "random")
     return bool(new.dtype.itemsize > 4)
 
 
@@ -503,25 +471,6 @@ def _random_is(trial: Trial, mistaken: Callable[[Array, Array], Array]) -> bool:
 # ---------------------------------------------------------------- all of it
 
 
-def _contract(
-    function: str,
-    contract: Callable[[Trial], None],
-    untouched: Callable[[Trial], None],
-    refuses: Callable[[Trial], None],
-) -> tuple[Check, ...]:
-    return (
-        Check(function, "contract", "Shape, dtype, finite numbers, N = 0", contract, "contract"),
-        Check(
-            function,
-            "untouched",
-            "Arguments and the global random state are left alone",
-            untouched,
-            "contract",
-        ),
-        Check(function, "refuses", "Wrong shapes and ranges raise ValueError", refuses, "contract"),
-    )
-
-
 def _point_checks(function: str) -> tuple[Check, ...]:
     """What is asked of all five shapes."""
     shape = function.partition("_")[0]
@@ -532,23 +481,21 @@ def _point_checks(function: str) -> tuple[Check, ...]:
         else Check(function, "within", f"Points lie in the unit {shape}", _points_within)
     )
     return (
-        *_contract(function, _points_contract, _points_untouched, _points_refuses),
+        *contract_checks(function, _points_contract, _points_untouched, _points_refuses),
         within,
-        Check(
+        distribution_check(
             function,
             "uniform",
             f"Points are uniform {part.get(shape, 'over the sphere')}",
             _points_uniform,
-            "distribution",
-            false_fail=(4 if shape == "ball" else 3) * FALSE_FAIL,
+            4 if shape == "ball" else 3,
         ),
-        Check(
+        distribution_check(
             function,
             "moments",
             "Means, spread and correlation of the coordinates are those of the shape",
             _points_moments,
-            "distribution",
-            false_fail=3 * ROWS[function] * FALSE_FAIL,
+            3 * ROWS[function],
         ),
     )
 
@@ -556,13 +503,12 @@ def _point_checks(function: str) -> tuple[Check, ...]:
 def _rejection_checks(function: str) -> tuple[Check, ...]:
     return (
         *_point_checks(function),
-        Check(
+        distribution_check(
             function,
             "acceptance",
             f"As many candidates are drawn as pi / {4 if ROWS[function] == 2 else 6} of them accepted takes",
             _rejection_rate,
-            "distribution",
-            false_fail=FALSE_FAIL,
+            1,
         ),
         Check(
             function,
@@ -629,7 +575,7 @@ CHECKS = ModuleChecks(
         *_rejection_checks("ball_by_rejection"),
         *_point_checks("ball_by_polar"),
         *_point_checks("sphere_by_polar"),
-        *_contract("xorshift32", _xorshift_contract, _xorshift_untouched, _xorshift_refuses),
+        *contract_checks("xorshift32", _xorshift_contract, _xorshift_untouched, _xorshift_refuses),
         Check(
             "xorshift32",
             "known",
@@ -643,13 +589,12 @@ CHECKS = ModuleChecks(
             "The random number is the new state as a share of 2^32",
             _xorshift_random,
         ),
-        Check(
+        distribution_check(
             "xorshift32",
             "uniform",
             "Random numbers of a stream are uniform, and so are pairs of them",
             _xorshift_uniform,
-            "distribution",
-            false_fail=2 * FALSE_FAIL,
+            2,
         ),
     ),
     mistakes=(

@@ -14,16 +14,19 @@ import numpy as np
 
 from course.grading.checks.check import Array, Check, Failure, Mistake, ModuleChecks, Trial
 from course.grading.checks.contract import (
+    DTYPES,
     at,
     check_array,
     check_close,
     check_refused,
     check_untouched,
+    contract_checks,
+    finite_floats,
+    near,
     worst_units,
 )
-from course.grading.checks.statistics import FALSE_FAIL, check_uniform
+from course.grading.checks.statistics import check_uniform, distribution_check
 
-DTYPES = (np.float32, np.float64)
 EPS = 2.0**-23
 """Of float32: the tolerances hold for both dtypes."""
 ROWS = {
@@ -38,20 +41,9 @@ MANY = 20_000
 # ---------------------------------------------------------------- what the checks share
 
 
-def _floats(value: Any, shape: tuple[int, ...], what: str = "the points") -> Array:
-    """A finite array of that shape and of any floating dtype, in float64."""
-    floating = isinstance(value, np.ndarray) and value.dtype.kind == "f"
-    dtype = value.dtype if floating else np.float32
-    return check_array(value, shape, dtype, what).astype(float)
-
-
 def _single(trial: Trial) -> Array:
     """A point in float64 that float32 holds too."""
     return trial.rng.uniform(-3, 3, 3).astype(np.float32).astype(float)
-
-
-def _unit(trial: Trial, rows: int, n: int, dtype: Any = np.float32) -> Array:
-    return trial.rng.random((rows, n), dtype)
 
 
 @dataclass(frozen=True)
@@ -139,15 +131,15 @@ def _light(
     center, radius = _single(trial), float(np.float32(trial.rng.uniform(0.6, 0.9)))
     if trial.rng.random() < 0.5:
         radius *= 3
-    u = _unit(trial, ROWS[trial.function], n, dtype) if u is None else u
+    u = trial.uniform(ROWS[trial.function], n, dtype) if u is None else u
     point = np.zeros((3, 0))
     arguments = (center, radius, u)
     if trial.function == "point_on_facing_disk":
         point = _points_around(trial, center, 1 if one_point else n, dtype)
         point = np.repeat(point, n, axis=1) if one_point else point
-        found = _floats(trial.call(center, radius, point, u), (3, n))
+        found = finite_floats(trial.call(center, radius, point, u), (3, n), "the points")
     else:
-        found = _floats(trial.call(*arguments), (3, n))
+        found = finite_floats(trial.call(*arguments), (3, n), "the points")
     return Round(center, radius, point.astype(float), u, (found - center[:, None]) / radius)
 
 
@@ -190,7 +182,7 @@ def _arguments(trial: Trial, n: int, dtype: Any = np.float32) -> list[Any]:
         return [*arguments, n]
     if trial.function == "point_on_facing_disk":
         arguments.append(_points_around(trial, arguments[0], n, dtype))
-    return [*arguments, _unit(trial, ROWS[trial.function], n, dtype)]
+    return [*arguments, trial.uniform(ROWS[trial.function], n, dtype)]
 
 
 def _retyped(arguments: list[Any], kind: Callable[[Any], Any]) -> list[Any]:
@@ -225,7 +217,7 @@ def _disk_contract(trial: Trial) -> None:
     _warp_contract(trial)
     center = _single(trial)
     for one, other in (DTYPES, DTYPES[::-1]):
-        point, u = _points_around(trial, center, 5, one), _unit(trial, 2, 5, other)
+        point, u = _points_around(trial, center, 5, one), trial.uniform(2, 5, other)
         what = f"the result for {point.dtype} points and {u.dtype} u"
         check_array(trial.call(center, 0.5, point, u), (3, 5), np.float64, what)
 
@@ -270,7 +262,7 @@ def _rectangle_extremes(trial: Trial) -> None:
         for size in (0.0, 1e-30, 1e15):
             corner = np.array([size, -size, 0])
             value = trial.call(corner, corner[::-1].copy(), corner * 0.5, u)
-            _floats(value, (3, u.shape[1]), f"points on a light {size} m large")
+            finite_floats(value, (3, u.shape[1]), f"points on a light {size} m large")
 
 
 def _round_extremes(trial: Trial) -> None:
@@ -286,7 +278,7 @@ def _round_extremes(trial: Trial) -> None:
             point[0], point[1], point[2] = size, distance, -size
             arguments = (point, u) if trial.function == "point_on_facing_disk" else (u,)
             value = trial.call(center, radius, *arguments)
-            _floats(value, point.shape, f"points for radius {radius}, centre {size} m off,")
+            finite_floats(value, point.shape, f"points for radius {radius}, centre {size} m off,")
 
 
 # ---------------------------------------------------------------- light_grid
@@ -309,7 +301,7 @@ def _check_plane(light: Parallelogram, points: Array) -> Array:
 def _grid_centres(trial: Trial) -> None:
     for k in (int(trial.rng.integers(2, 5)), int(trial.rng.integers(5, 9)), 1):
         light = _parallelogram(trial)
-        points = _floats(trial.call(*light.arguments, k), (3, k * k))
+        points = finite_floats(trial.call(*light.arguments, k), (3, k * k), "the points")
         found = _check_plane(light, points)
         trial.show("points", f"Your grid along the light's edges, k = {k}", yours=found)
         column, row = np.clip(np.floor(found * k), 0, k - 1)
@@ -331,9 +323,9 @@ def _grid_centres(trial: Trial) -> None:
 def _columns(trial: Trial) -> None:
     *single, u = _arguments(trial, 60)
     order = trial.rng.permutation(60)[:40]
-    every = _floats(trial.call(*single, u.copy()), (3, 60))
+    every = finite_floats(trial.call(*single, u.copy()), (3, 60), "the points")
     turned = [a[:, order] if np.ndim(a) == 2 else a for a in single]
-    some = _floats(trial.call(*turned, u[:, order].copy()), (3, 40))
+    some = finite_floats(trial.call(*turned, u[:, order].copy()), (3, 40), "the points")
     check_close(
         some,
         every[:, order],
@@ -350,8 +342,8 @@ def _columns(trial: Trial) -> None:
 def _on_rectangle(
     trial: Trial, n: int, dtype: Any = np.float32
 ) -> tuple[Parallelogram, Array, Array]:
-    light, u = _parallelogram(trial), _unit(trial, 2, n, dtype)
-    return light, u, _floats(trial.call(*light.arguments, u), (3, n))
+    light, u = _parallelogram(trial), trial.uniform(2, n, dtype)
+    return light, u, finite_floats(trial.call(*light.arguments, u), (3, n), "the points")
 
 
 def _rectangle_plane(trial: Trial) -> None:
@@ -412,7 +404,7 @@ def _radius_zero(trial: Trial) -> None:
     for dtype in DTYPES:
         center, _, *batches = _arguments(trial, 50, dtype)
         check_close(
-            _floats(trial.call(center, 0.0, *batches), (3, 50)),
+            finite_floats(trial.call(center, 0.0, *batches), (3, 50), "the points"),
             np.repeat(center[:, None], 50, axis=1),
             4 * EPS * float(np.abs(center).max()),
             "for radius 0, the centre's coordinate",
@@ -483,9 +475,9 @@ def _disk_faces(trial: Trial) -> None:
 def _disk_axes(trial: Trial) -> None:
     for dtype in DTYPES:
         w = np.repeat(AXES, 400, axis=1)
-        u, radius = _unit(trial, 2, w.shape[1], dtype), 0.75
+        u, radius = trial.uniform(2, w.shape[1], dtype), 0.75
         point = (w * float(trial.rng.uniform(1, 3))).astype(dtype)
-        found = _floats(trial.call(np.zeros(3), radius, point, u), w.shape)
+        found = finite_floats(trial.call(np.zeros(3), radius, point, u), w.shape, "the points")
         light = Round(np.zeros(3), radius, point.astype(float), u, found / radius)
         _check_faces(light, light.axis, 1e-4)
         hint = "No point is more than the radius away from the centre."
@@ -514,9 +506,9 @@ def _disk_uniform(trial: Trial) -> None:
 def _disk_at_centre(trial: Trial) -> None:
     for dtype in DTYPES:
         center, radius = _single(trial), 0.75
-        u = _unit(trial, 2, 2000, dtype)
+        u = trial.uniform(2, 2000, dtype)
         point = np.repeat(center[:, None], 2000, axis=1).astype(dtype)
-        found = _floats(trial.call(center, radius, point, u), (3, 2000))
+        found = finite_floats(trial.call(center, radius, point, u), (3, 2000), "the points")
         offsets = (found - center[:, None]) / radius
         light = Round(center, radius, point.astype(float), u, offsets)
         _check_length(light, np.minimum(light.length, 1), "A disk of any orientation will do.")
@@ -527,10 +519,6 @@ def _disk_at_centre(trial: Trial) -> None:
 
 
 # ---------------------------------------------------------------- known mistakes
-
-
-def _near(found: Any, expected: Any, tolerance: float = 1e-3) -> bool:
-    return bool(np.abs(np.asarray(found) - expected).max() < tolerance)
 
 
 def _fill(values: Array, cells: tuple[int, ...]) -> bool:
@@ -554,7 +542,7 @@ def _grid_lies(axis: Callable[[int], Array]) -> Callable[[Trial], bool]:
         found = np.round(found, 3) + 0.0
         grid = np.stack([x.ravel() for x in np.meshgrid(axis(k), axis(k))])
         grid = np.concatenate((grid, np.zeros((1, k * k))))
-        return _near(found[:, np.lexsort(found)], grid[:, np.lexsort(np.round(grid, 3))], 2e-3)
+        return near(found[:, np.lexsort(found)], grid[:, np.lexsort(np.round(grid, 3))], 2e-3)
 
     return matches
 
@@ -562,7 +550,7 @@ def _grid_lies(axis: Callable[[int], Array]) -> Callable[[Trial], bool]:
 def _grid_diagonal(trial: Trial) -> bool:
     light = _parallelogram(trial)
     a, b, off = light.coordinates(np.asarray(trial.call(*light.arguments, 4), float))
-    return _near(a, b) and _near(off, 0) and bool(np.std(a) > 0.1)
+    return near(a, b) and near(off, 0) and bool(np.std(a) > 0.1)
 
 
 def _edges_as_points(trial: Trial) -> bool:
@@ -572,10 +560,10 @@ def _edges_as_points(trial: Trial) -> bool:
     if trial.function == "light_grid":
         found = trial.call(*light.arguments, 20)
     else:
-        found = trial.call(*light.arguments, _unit(trial, 2, 2000))
+        found = trial.call(*light.arguments, trial.uniform(2, 2000))
     other = Parallelogram(corner, edge_u - corner, edge_v - corner)
     a, b, off = other.coordinates(np.asarray(found, float))
-    return _near(off, 0) and _fill(np.stack((a, b)), (4, 4))
+    return near(off, 0) and _fill(np.stack((a, b)), (4, 4))
 
 
 def _rectangle_fills(
@@ -586,7 +574,7 @@ def _rectangle_fills(
     def matches(trial: Trial) -> bool:
         light, _, points = _on_rectangle(trial, 5000)
         a, b, off = place(light, points)
-        return _near(off, 0) and _fill(np.stack((a, b)), (8, 8))
+        return near(off, 0) and _fill(np.stack((a, b)), (8, 8))
 
     return matches
 
@@ -602,7 +590,7 @@ def _from_origin(light: Parallelogram, points: Array) -> Array:
 def _rectangle_diagonal(trial: Trial) -> bool:
     light, _, points = _on_rectangle(trial, 500)
     a, b, _ = light.coordinates(points)
-    return (_near(a, b) or _near(a, 1 - b)) and bool(np.std(a) > 0.1)
+    return (near(a, b) or near(a, 1 - b)) and bool(np.std(a) > 0.1)
 
 
 def _rectangle_triangle(trial: Trial) -> bool:
@@ -622,7 +610,7 @@ def _lengths(test: Callable[[Round], bool]) -> Callable[[Trial], bool]:
 
 
 def _returns_centre(light: Round) -> bool:
-    return _near(light.length, 0)
+    return near(light.length, 0)
 
 
 def _centre_forgotten(light: Round) -> bool:
@@ -644,7 +632,7 @@ def _radius_ignored(light: Round) -> bool:
 
 
 def _on_surface(light: Round) -> bool:
-    return _near(light.length, 1)
+    return near(light.length, 1)
 
 
 def _power(power: int) -> Callable[[Round], bool]:
@@ -944,28 +932,7 @@ MISTAKES = (
 
 # ---------------------------------------------------------------- the module's checks
 
-_property = partial(Check, kind="property")
-_contract = partial(Check, kind="contract")
-
-
-def _distribution(
-    function: str,
-    title: str,
-    run: Callable[[Trial], None],
-    comparisons: int,
-    name: str = "uniform",
-) -> Check:
-    return Check(
-        function, name, title, run, kind="distribution", false_fail=comparisons * FALSE_FAIL
-    )
-
-
-def _contracts(function: str, contract: Callable[[Trial], None]) -> tuple[Check, ...]:
-    return (
-        _contract(function, "contract", "Shapes and dtypes are right", contract),
-        _contract(function, "untouched", "Inputs and global state are left alone", _untouched),
-        _contract(function, "refuses", "ValueError for what is not legal", _refuses),
-    )
+_contracts = partial(contract_checks, untouched=_untouched, refuses=_refuses)
 
 
 def _warps(
@@ -973,15 +940,17 @@ def _warps(
 ) -> tuple[Check, ...]:
     return (
         *_contracts(function, contract),
-        _contract(function, "extremes", "Finite for the ends of [0, 1) and any size", extremes),
-        _property(function, "columns", "Each point depends on its column of u alone", _columns),
+        Check(
+            function, "extremes", "Finite for the ends of [0, 1) and any size", extremes, "contract"
+        ),
+        Check(function, "columns", "Each point depends on its column of u alone", _columns),
     )
 
 
 def _rounds(function: str, contract: Callable[[Trial], None] = _warp_contract) -> tuple[Check, ...]:
     return (
         *_warps(function, _round_extremes, contract),
-        _property(function, "radius-zero", "Radius 0 gives the centre", _radius_zero),
+        Check(function, "radius-zero", "Radius 0 gives the centre", _radius_zero),
     )
 
 
@@ -989,40 +958,48 @@ CHECKS = ModuleChecks(
     "soft_shadows",
     checks=(
         *_contracts("light_grid", _grid_contract),
-        _property("light_grid", "centres", "Point lights are at the cells' centres", _grid_centres),
+        Check("light_grid", "centres", "Point lights are at the cells' centres", _grid_centres),
         *_warps("point_on_rectangle", _rectangle_extremes, _warp_contract),
-        _property(
-            "point_on_rectangle", "plane", "Points are on the parallelogram", _rectangle_plane
-        ),
-        _distribution(
-            "point_on_rectangle", "Points are uniform on the light", _rectangle_uniform, 2
+        Check("point_on_rectangle", "plane", "Points are on the parallelogram", _rectangle_plane),
+        distribution_check(
+            "point_on_rectangle",
+            "uniform",
+            "Points are uniform on the light",
+            _rectangle_uniform,
+            2,
         ),
         *_rounds("point_on_sphere"),
-        _property("point_on_sphere", "radius", "Points are on the surface", _sphere_radius),
-        _distribution("point_on_sphere", "Points are uniform on the sphere", _sphere_uniform, 4),
+        Check("point_on_sphere", "radius", "Points are on the surface", _sphere_radius),
+        distribution_check(
+            "point_on_sphere", "uniform", "Points are uniform on the sphere", _sphere_uniform, 4
+        ),
         *_rounds("point_in_ball"),
-        _property("point_in_ball", "inside", "Points are in the ball", _inside),
-        _distribution("point_in_ball", "Points are uniform in the volume", _ball_uniform, 2),
-        _distribution(
-            "point_in_ball", "Directions are uniform", _ball_directions, 2, name="directions"
+        Check("point_in_ball", "inside", "Points are in the ball", _inside),
+        distribution_check(
+            "point_in_ball", "uniform", "Points are uniform in the volume", _ball_uniform, 2
+        ),
+        distribution_check(
+            "point_in_ball", "directions", "Directions are uniform", _ball_directions, 2
         ),
         *_rounds("point_on_facing_disk", _disk_contract),
-        _property("point_on_facing_disk", "inside", "Points are within the radius", _inside),
-        _property("point_on_facing_disk", "faces", "The disk faces its shading point", _disk_faces),
-        _distribution(
+        Check("point_on_facing_disk", "inside", "Points are within the radius", _inside),
+        Check("point_on_facing_disk", "faces", "The disk faces its shading point", _disk_faces),
+        distribution_check(
             "point_on_facing_disk",
+            "axes",
             "The disk is right along the axes, and next to them",
             _disk_axes,
             2 * AXES.shape[1],
-            name="axes",
         ),
-        _distribution("point_on_facing_disk", "Points are uniform on the disk", _disk_uniform, 2),
-        _distribution(
+        distribution_check(
+            "point_on_facing_disk", "uniform", "Points are uniform on the disk", _disk_uniform, 2
+        ),
+        distribution_check(
             "point_on_facing_disk",
+            "at-centre",
             "A point at the centre gets a disk of some orientation",
             _disk_at_centre,
             2,
-            name="at-centre",
         ),
     ),
     mistakes=MISTAKES,

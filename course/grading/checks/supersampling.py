@@ -13,36 +13,28 @@ import numpy as np
 
 from course.grading.checks.check import Array, Check, Failure, Mistake, ModuleChecks, Trial
 from course.grading.checks.contract import (
+    DTYPES,
     at,
     check_array,
     check_close,
     check_refused,
+    check_seeded,
     check_untouched,
+    contract_checks,
+    finite_floats,
     worst_units,
 )
-from course.grading.checks.statistics import FALSE_FAIL, check_uniform
+from course.grading.checks.statistics import check_uniform, distribution_check
 
-DTYPES = (np.float32, np.float64)
 EPS = 2.0**-23
 """Of float32: the tolerances hold for both dtypes."""
 
 # ---------------------------------------------------------------- what the checks share
 
 
-def _generator(trial: Trial) -> np.random.Generator:
-    """Numbers for one call: the student may get a copy, so no two calls share one."""
-    return np.random.default_rng(int(trial.rng.integers(2**62)))
-
-
-def _floats(value: Any, shape: tuple[int, ...], what: str = "the result") -> Array:
-    """A finite array of that shape and of any floating dtype, in float64."""
-    floating = isinstance(value, np.ndarray) and value.dtype.kind == "f"
-    return check_array(value, shape, value.dtype if floating else np.float32, what).astype(float)
-
-
 def _draw(trial: Trial, k: int, n: int) -> Array:
     """A random pattern's points, in float64."""
-    points = _floats(trial.call(k, n, _generator(trial)), (2, n, k * k), "the points")
+    points = finite_floats(trial.call(k, n, trial.generator()), (2, n, k * k), "the points")
     trial.show("points", "Your points, all pixels in one", yours=points.reshape(2, -1)[:, :2000])
     return points
 
@@ -76,7 +68,7 @@ def _check_in_pixel(points: Array) -> None:
 
 
 def _pattern_arguments(trial: Trial, k: int, n: int) -> tuple[Any, ...]:
-    return (k, n) if trial.function == "regular" else (k, n, _generator(trial))
+    return (k, n) if trial.function == "regular" else (k, n, trial.generator())
 
 
 def _pattern_contract(trial: Trial) -> None:
@@ -100,7 +92,7 @@ def _pattern_refuses(trial: Trial) -> None:
 
 def _regular_centres(trial: Trial) -> None:
     for k in (1, int(trial.rng.integers(2, 9)), 16):
-        points = _floats(trial.call(k, 3), (2, 3, k * k), "the points")
+        points = finite_floats(trial.call(k, 3), (2, 3, k * k), "the points")
         trial.show("points", f"Your points, k = {k}", yours=points[:, 0, :2000])
         check_close(
             _by_cell(points, k),
@@ -128,30 +120,14 @@ def _check_order(points: Array, k: int) -> None:
 
 def _regular_order(trial: Trial) -> None:
     k = int(trial.rng.integers(3, 9))
-    _check_order(_floats(trial.call(k, 3), (2, 3, k * k), "the points"), k)
+    _check_order(finite_floats(trial.call(k, 3), (2, 3, k * k), "the points"), k)
 
 
 # ---------------------------------------------------------------- random and jittered
 
 
 def _seeded(trial: Trial) -> None:
-    seed = int(trial.rng.integers(2**62))
-    first, same, other = (
-        _floats(trial.call(3, 20, np.random.default_rng(s)), (2, 20, 9), "the points")
-        for s in (seed, seed, seed + 1)
-    )
-    if not np.array_equal(first, same):
-        raise Failure(
-            "the same points from generators with the same seed",
-            "other points",
-            hint="All randomness comes from the generator that is handed in.",
-        )
-    if np.array_equal(first, other):
-        raise Failure(
-            "other points from a generator with another seed",
-            "the same points",
-            hint="The generator that is handed in has to be used.",
-        )
+    check_seeded(trial, lambda rng: finite_floats(trial.call(3, 20, rng), (2, 20, 9), "the points"))
 
 
 def _within(points: Array, k: int) -> Array:
@@ -269,7 +245,7 @@ def _gaussian_refuses(trial: Trial) -> None:
 
 
 def _check_gaussian(weights: Any, offsets: Array, sigma: float) -> None:
-    found = _floats(weights, offsets.shape[1:], "the weights")
+    found = finite_floats(weights, offsets.shape[1:], "the weights")
     expected = _gaussian(offsets, sigma)
     columns = offsets.reshape(2, -1)
     check_close(
@@ -298,7 +274,9 @@ def _gaussian_extremes(trial: Trial) -> None:
     for dtype in DTYPES:
         offsets = np.array([[[0.5, 0.1, 0.9, 0.5]], [[0.5, 0.5, 0.2, 0.75]]], dtype)
         for sigma in (1e-300, 1e-30, 1e-12, 1e12, 1e30, 1e300):
-            weights = _floats(trial.call(offsets, sigma), (1, 4), f"sigma = {sigma}: the weights")
+            weights = finite_floats(
+                trial.call(offsets, sigma), (1, 4), f"sigma = {sigma}: the weights"
+            )
             check_close(
                 weights,
                 np.array([[1.0, *[float(sigma > 1)] * 3]]),
@@ -352,30 +330,28 @@ def _resolve_refuses(trial: Trial) -> None:
         check_refused(trial, radiance, wrong, named=f"shape of weights {shape}")
 
 
+def _check_mean(trial: Trial, radiance: Array, weights: Array, hint: str) -> None:
+    check_close(
+        finite_floats(trial.call(radiance, weights), (3, 30)),
+        _mean(radiance, weights),
+        32 * EPS,
+        "a weighted mean of",
+        at(weights=weights.T),
+        hint,
+    )
+
+
 def _resolve_mean(trial: Trial) -> None:
     for dtype in DTYPES:
-        radiance, weights = _samples_of(trial, dtype)
-        check_close(
-            _floats(trial.call(radiance, weights), (3, 30)),
-            _mean(radiance, weights),
-            32 * EPS,
-            "a weighted mean of",
-            at(weights=weights.T),
-            "Samples count by their weights, and equal samples give their own colour.",
-        )
+        hint = "Samples count by their weights, and equal samples give their own colour."
+        _check_mean(trial, *_samples_of(trial, dtype), hint)
 
 
 def _resolve_scale(trial: Trial) -> None:
     radiance, weights = _samples_of(trial)
     weights *= np.float32(10) ** trial.rng.integers(-20, 6, (30, 1)).astype(np.float32)
-    check_close(
-        _floats(trial.call(radiance, weights), (3, 30)),
-        _mean(radiance, weights),
-        32 * EPS,
-        "a weighted mean of",
-        at(weights=weights.T),
-        "Weights that are all a hundred times larger or smaller mean the same.",
-    )
+    hint = "Weights that are all a hundred times larger or smaller mean the same."
+    _check_mean(trial, radiance, weights, hint)
 
 
 def _resolve_zero(trial: Trial) -> None:
@@ -387,7 +363,7 @@ def _resolve_zero(trial: Trial) -> None:
         weights[none[0]] = (1, -1, 2, -2, 0.5, -0.5, 0, 0)
         expected[:, none] = radiance[:, none].mean(axis=2, dtype=float)
         check_close(
-            _floats(trial.call(radiance, weights), (3, 30)),
+            finite_floats(trial.call(radiance, weights), (3, 30)),
             expected,
             32 * EPS,
             "a mean of",
@@ -441,7 +417,7 @@ def _own_generator(trial: Trial) -> bool:
 def _fractions(trial: Trial) -> Array:
     """Random points in their cells' coordinates, in the order they came; plain ones as they are."""
     k = 3
-    points = np.asarray(trial.call(k, 200, _generator(trial)), float)
+    points = np.asarray(trial.call(k, 200, trial.generator()), float)
     return points * k - _cells(k) if trial.function == "jittered" else points
 
 
@@ -467,7 +443,7 @@ def _not_random(trial: Trial) -> bool:
 
 def _not_stratified(trial: Trial) -> bool:
     k = 4
-    points = np.asarray(trial.call(k, 1000, _generator(trial)), float)
+    points = np.asarray(trial.call(k, 1000, trial.generator()), float)
     check_uniform(points.reshape(2, -1), (16, 16), "")
     check_uniform(points[:, :, 5], (4, 4), "")
     return True
@@ -478,7 +454,7 @@ def _fractions_fill(low: float, high: Callable[[int], float]) -> Callable[[Trial
 
     def matches(trial: Trial) -> bool:
         k = 4
-        points = np.asarray(trial.call(k, 500, _generator(trial)), float) * k - _cells(k)
+        points = np.asarray(trial.call(k, 500, trial.generator()), float) * k - _cells(k)
         scaled = (points - low) / (high(k) - low)
         inside = bool(scaled.min() > -1e-4 and scaled.max() < 1 + 1e-4)
         check_uniform(scaled.reshape(2, -1), (16, 1), "")
@@ -736,33 +712,9 @@ MISTAKES = (
 
 # ---------------------------------------------------------------- the module's checks
 
-_property = partial(Check, kind="property")
-_contract = partial(Check, kind="contract")
-
-
-def _distribution(
-    function: str, name: str, title: str, run: Callable[[Trial], None], comparisons: int
-) -> Check:
-    return Check(
-        function, name, title, run, kind="distribution", false_fail=comparisons * FALSE_FAIL
-    )
-
-
-def _contracts(
-    function: str,
-    contract: Callable[[Trial], None],
-    untouched: Callable[[Trial], None],
-    refuses: Callable[[Trial], None],
-) -> tuple[Check, ...]:
-    return (
-        _contract(function, "contract", "Shapes, dtype and range are right", contract),
-        _contract(function, "untouched", "Inputs and global state are left alone", untouched),
-        _contract(function, "refuses", "ValueError for what is not legal", refuses),
-    )
-
 
 _pattern_contracts = partial(
-    _contracts,
+    contract_checks,
     contract=_pattern_contract,
     untouched=_pattern_untouched,
     refuses=_pattern_refuses,
@@ -772,35 +724,42 @@ CHECKS = ModuleChecks(
     "supersampling",
     checks=(
         *_pattern_contracts("regular"),
-        _property("regular", "centres", "Points are the centres of the cells", _regular_centres),
-        _property("regular", "order", "Cells come row by row, x fastest", _regular_order),
+        Check("regular", "centres", "Points are the centres of the cells", _regular_centres),
+        Check("regular", "order", "Cells come row by row, x fastest", _regular_order),
         *_pattern_contracts("random"),
-        _property("random", "seeded", "Points come from the generator given", _seeded),
-        _distribution("random", "uniform", "Points are uniform in the pixel", _uniform, 1),
-        _distribution("random", "samples", "A pixel's samples are independent", _samples, 4),
-        _distribution("random", "pixels", "Pixels are independent of each other", _pixels, 2),
+        Check("random", "seeded", "Points come from the generator given", _seeded),
+        distribution_check("random", "uniform", "Points are uniform in the pixel", _uniform, 1),
+        distribution_check("random", "samples", "A pixel's samples are independent", _samples, 4),
+        distribution_check("random", "pixels", "Pixels are independent of each other", _pixels, 2),
         *_pattern_contracts("jittered"),
-        _property("jittered", "seeded", "Points come from the generator given", _seeded),
-        _property("jittered", "cells", "Each cell holds one point", _jittered_cells),
-        _property("jittered", "order", "Cells come row by row, x fastest", _jittered_order),
-        _distribution("jittered", "uniform", "Points are uniform in their cells", _uniform, 1),
-        _distribution("jittered", "samples", "The jitter of cells is independent", _samples, 4),
-        _distribution("jittered", "pixels", "Pixels are independent of each other", _pixels, 2),
-        *_contracts("gaussian_weights", _gaussian_contract, _gaussian_untouched, _gaussian_refuses),
-        _property("gaussian_weights", "formula", "Weights are the Gaussian", _gaussian_formula),
-        _property("gaussian_weights", "default", "Sigma is 1/6 by default", _gaussian_default),
-        _contract(
+        Check("jittered", "seeded", "Points come from the generator given", _seeded),
+        Check("jittered", "cells", "Each cell holds one point", _jittered_cells),
+        Check("jittered", "order", "Cells come row by row, x fastest", _jittered_order),
+        distribution_check("jittered", "uniform", "Points are uniform in their cells", _uniform, 1),
+        distribution_check(
+            "jittered", "samples", "The jitter of cells is independent", _samples, 4
+        ),
+        distribution_check(
+            "jittered", "pixels", "Pixels are independent of each other", _pixels, 2
+        ),
+        *contract_checks(
+            "gaussian_weights", _gaussian_contract, _gaussian_untouched, _gaussian_refuses
+        ),
+        Check("gaussian_weights", "formula", "Weights are the Gaussian", _gaussian_formula),
+        Check("gaussian_weights", "default", "Sigma is 1/6 by default", _gaussian_default),
+        Check(
             "gaussian_weights",
             "extremes",
             "Weights are right for the smallest and the largest sigma",
             _gaussian_extremes,
+            "contract",
             points=0.5,
         ),
-        *_contracts("resolve", _resolve_contract, _resolve_untouched, _resolve_refuses),
-        _property("resolve", "mean", "Samples count by their weights", _resolve_mean),
-        _property("resolve", "scale", "The weights' scale does not matter", _resolve_scale),
-        _property("resolve", "zero-weights", "Weights of zero give the plain mean", _resolve_zero),
-        _property("resolve", "no-samples", "No samples give black", _resolve_no_samples),
+        *contract_checks("resolve", _resolve_contract, _resolve_untouched, _resolve_refuses),
+        Check("resolve", "mean", "Samples count by their weights", _resolve_mean),
+        Check("resolve", "scale", "The weights' scale does not matter", _resolve_scale),
+        Check("resolve", "zero-weights", "Weights of zero give the plain mean", _resolve_zero),
+        Check("resolve", "no-samples", "No samples give black", _resolve_no_samples),
     ),
     mistakes=MISTAKES,
 )

@@ -6,20 +6,24 @@ A picture that is a linear ramp tells where a lookup has looked: between texels'
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from course.grading.checks.check import Array, Check, Failure, Mistake, ModuleChecks, Trial
 from course.grading.checks.contract import (
+    DTYPES,
     at,
     check_array,
     check_close,
     check_refused,
     check_untouched,
+    contract_checks,
+    finite_numbers,
+    near,
 )
-
-DTYPES = (np.float32, np.float64)
+from course.grading.checks.vectors import unit_vectors
 
 TOLERANCE = {np.float32: 2e-5, np.float64: 1e-9}
 """Of coordinates, and of colours no larger than 1 in pictures of a few texels."""
@@ -31,27 +35,14 @@ HEIGHT, WIDTH = 40, 60
 # ---------------------------------------------------------------- places and values
 
 
-def _units(rng: np.random.Generator, n: int) -> Array:
-    v = rng.standard_normal((3, n))
-    return np.asarray(v / np.linalg.norm(v, axis=0))
-
-
-def _numbers(value: Any, shape: tuple[int, ...], what: str = "the result") -> Array:
-    """The value as finite float64 numbers, whatever its dtype: that is the contract's check."""
-    dtype = getattr(value, "dtype", np.dtype(float))
-    if dtype.kind not in "fiu":
-        raise Failure(f"{what} to be floating", f"dtype {dtype}")
-    return np.asarray(check_array(value, shape, dtype, what), np.float64)
-
-
 def _uv(trial: Trial, *arguments: Any) -> Array:
     """The student's u and v of a batch whose points come first."""
-    return _numbers(trial.call(*arguments), (2, arguments[0].shape[1]), "u and v")
+    return finite_numbers(trial.call(*arguments), (2, arguments[0].shape[1]), "u and v")
 
 
 def _rectangle(rng: np.random.Generator) -> tuple[Array, Array, Array]:
     """A corner and its two neighbours, anyhow in space, sides of different length."""
-    a, b = _units(rng, 2).T
+    a, b = unit_vectors(rng, 2).T
     b -= (a @ b) * a
     b /= np.linalg.norm(b)
     p1 = rng.uniform(-2, 2, 3)
@@ -170,7 +161,7 @@ def _everywhere(rng: np.random.Generator, dtype: Any) -> Array:
         for turn in rng.uniform(0, 2 * np.pi, 4)
     ]
     axes = np.concatenate((np.eye(3), -np.eye(3)), axis=1)
-    return np.concatenate((axes, np.array(rings).T, _units(rng, 100)), axis=1).astype(dtype)
+    return np.concatenate((axes, np.array(rings).T, unit_vectors(rng, 100)), axis=1).astype(dtype)
 
 
 def _sphere_contract(trial: Trial) -> None:
@@ -189,11 +180,11 @@ def _sphere_contract(trial: Trial) -> None:
 
 
 def _sphere_untouched(trial: Trial) -> None:
-    check_untouched(trial, _units(trial.rng, 40), np.array((0.1, 0.2, 0.3)))
+    check_untouched(trial, unit_vectors(trial.rng, 40), np.array((0.1, 0.2, 0.3)))
 
 
 def _sphere_refuses(trial: Trial) -> None:
-    p, center = _units(trial.rng, 4), np.zeros(3)
+    p, center = unit_vectors(trial.rng, 4), np.zeros(3)
     for bad in (p[:2], p[0], p.T):
         check_refused(trial, bad, center, named="p")
     for bad in (center[:2], center[:, None]):
@@ -365,7 +356,7 @@ def _size(rng: np.random.Generator) -> tuple[int, int]:
 
 
 def _looked(trial: Trial, image: Array, uv: Array) -> Array:
-    return _numbers(trial.call(image, uv), (3, uv.shape[1]), "the colours")
+    return finite_numbers(trial.call(image, uv), (3, uv.shape[1]), "the colours")
 
 
 def _lookup_contract(trial: Trial) -> None:
@@ -552,8 +543,7 @@ def _tents(image: Array, uv: Array) -> Array:
 # ---------------------------------------------------------------- mistakes
 
 
-def _near(a: Array, b: Array, tolerance: float = 1e-6) -> bool:
-    return bool(np.abs(a - b).max() < tolerance)
+_near = partial(near, tolerance=1e-6)
 
 
 def _rectangle_is(
@@ -640,7 +630,7 @@ def _poles_on_z(trial: Trial) -> bool:
         return np.stack((uv[0], 0.5 + along))
 
     center = np.zeros(3)
-    p = _units(trial.rng, 300)
+    p = unit_vectors(trial.rng, 300)
     found = _uv(trial, p, center)[1]
     expected = height(p, p)[1]
     return _near(found, expected) or _near(found, 1 - expected)
@@ -665,8 +655,8 @@ def _negative(trial: Trial) -> bool:
 
 def _center_ignored(trial: Trial) -> bool:
     center = np.array((2.0, 1.0, -1.5))
-    p = center[:, None] + _units(trial.rng, 300)
-    return _near(_uv(trial, p, center), _uv(trial, p, np.zeros(3)), 1e-9)
+    p = center[:, None] + unit_vectors(trial.rng, 300)
+    return _near(_uv(trial, p, center), _uv(trial, p, np.zeros(3)), tolerance=1e-9)
 
 
 def _triangle_order(trial: Trial) -> bool:
@@ -768,35 +758,10 @@ def _mirror_repeat(trial: Trial) -> bool:
 # ---------------------------------------------------------------- all of them
 
 
-def _plain_checks(
-    function: str,
-    contract: Callable[[Trial], None],
-    untouched: Callable[[Trial], None],
-    refuses: Callable[[Trial], None],
-) -> tuple[Check, ...]:
-    return (
-        Check(
-            function,
-            "contract",
-            "Shapes and dtypes are as agreed, and all numbers finite",
-            contract,
-            "contract",
-        ),
-        Check(
-            function,
-            "untouched",
-            "Arguments and the global random state are left alone",
-            untouched,
-            "contract",
-        ),
-        Check(function, "refuses", "Wrong shapes raise ValueError", refuses, "contract"),
-    )
-
-
 CHECKS = ModuleChecks(
     "textures",
     checks=(
-        *_plain_checks(
+        *contract_checks(
             "rectangle_uv", _rectangle_contract, _rectangle_untouched, _rectangle_refuses
         ),
         Check("rectangle_uv", "corners", "The corners have their places", _rectangle_corners),
@@ -809,7 +774,7 @@ CHECKS = ModuleChecks(
         Check(
             "rectangle_uv", "off_plane", "Points beside the plane count as on it", _rectangle_off
         ),
-        *_plain_checks("sphere_uv", _sphere_contract, _sphere_untouched, _sphere_refuses),
+        *contract_checks("sphere_uv", _sphere_contract, _sphere_untouched, _sphere_refuses),
         Check("sphere_uv", "known", "The axes have their places", _sphere_known),
         Check(
             "sphere_uv",
@@ -818,11 +783,11 @@ CHECKS = ModuleChecks(
             _sphere_all,
         ),
         Check("sphere_uv", "poles", "Places next to the poles are right", _sphere_poles),
-        *_plain_checks("triangle_uv", _triangle_contract, _triangle_untouched, _triangle_refuses),
+        *contract_checks("triangle_uv", _triangle_contract, _triangle_untouched, _triangle_refuses),
         Check("triangle_uv", "corners", "The corners have their places exactly", _triangle_corners),
         Check("triangle_uv", "inside", "Points weigh the corners' places", _triangle_inside),
         Check("triangle_uv", "each", "Each point may have a triangle of its own", _triangle_each),
-        *_plain_checks("texture_lookup", _lookup_contract, _lookup_untouched, _lookup_refuses),
+        *contract_checks("texture_lookup", _lookup_contract, _lookup_untouched, _lookup_refuses),
         Check(
             "texture_lookup", "centers", "A texel's centre has the texel's colour", _lookup_centers
         ),

@@ -10,20 +10,27 @@ import numpy as np
 
 from course.grading.checks.check import Array, Check, Failure, Mistake, ModuleChecks, Trial
 from course.grading.checks.contract import (
+    DTYPES,
     at,
     check_array,
     check_close,
     check_refused,
     check_untouched,
+    contract_checks,
+    finite_numbers,
+    near,
+    pair,
     worst_units,
 )
-from course.grading.checks.statistics import FALSE_FAIL, check_mean, check_uniform
+from course.grading.checks.statistics import (
+    CLOSE,
+    apart,
+    check_mean,
+    check_uniform,
+    distribution_check,
+)
+from course.grading.checks.vectors import UNIT, normalized
 from course.grading.errors import StudentError
-
-DTYPES = (np.float32, np.float64)
-
-UNIT = 1e-5
-"""What a unit vector's length may be off by."""
 
 EPSILON = float(np.finfo(np.float32).eps)
 
@@ -32,18 +39,6 @@ POINTS = 20_000
 
 
 # ---------------------------------------------------------------- values
-
-
-def _random(trial: Trial, rows: int, n: int, dtype: Any = np.float32) -> Array:
-    return trial.rng.random((rows, n), dtype)
-
-
-def _batch(value: Any, shape: tuple[int, ...], what: str = "the result") -> Array:
-    """The value as finite float64 numbers, whatever its dtype: that is the contract's check."""
-    dtype = getattr(value, "dtype", np.dtype(float))
-    if dtype.kind not in "fiu":
-        raise Failure(f"{what} to be floating", f"dtype {dtype}")
-    return np.asarray(check_array(value, shape, dtype, what), np.float64)
 
 
 def _number(value: Any) -> float:
@@ -61,7 +56,7 @@ def _number(value: Any) -> float:
 
 
 def _disk(trial: Trial, n: int, dtype: Any = np.float32) -> Array:
-    return _batch(trial.call(_random(trial, 2, n, dtype)), (2, n))
+    return finite_numbers(trial.call(trial.uniform(2, n, dtype)), (2, n))
 
 
 def _by_area(points: Array) -> Array:
@@ -72,25 +67,25 @@ def _by_area(points: Array) -> Array:
 
 def _disk_contract(trial: Trial) -> None:
     for dtype in DTYPES:
-        worst = np.concatenate((worst_units(2, dtype), _random(trial, 2, 100, dtype)), axis=1)
+        worst = np.concatenate((worst_units(2, dtype), trial.uniform(2, 100, dtype)), axis=1)
         for u in (worst, worst[:, :1].copy(), worst[:, :0].copy()):
             check_array(trial.call(u), u.shape, dtype)
 
 
 def _disk_untouched(trial: Trial) -> None:
-    check_untouched(trial, _random(trial, 2, 50))
+    check_untouched(trial, trial.uniform(2, 50))
 
 
 def _disk_refuses(trial: Trial) -> None:
-    u = _random(trial, 3, 4)
+    u = trial.uniform(3, 4)
     for bad in (u, u[:1], u[0], u[:2].T, u[None, :2]):
         check_refused(trial, bad, named="u")
 
 
 def _disk_inside(trial: Trial) -> None:
     for dtype in DTYPES:
-        u = np.concatenate((worst_units(2, dtype), _random(trial, 2, 5000, dtype)), axis=1)
-        points = _batch(trial.call(u), u.shape)
+        u = np.concatenate((worst_units(2, dtype), trial.uniform(2, 5000, dtype)), axis=1)
+        points = finite_numbers(trial.call(u), u.shape)
         trial.show("points", "your points", yours=points[:, -2000:])
         r = np.hypot(*points)
         worst = int(r.argmax())
@@ -191,14 +186,10 @@ def _rays(trial: Trial, camera: Camera, **other: Any) -> tuple[Array, Array]:
     arguments = camera.arguments(**other)
     n = arguments[4].shape[1]
     value = trial.call(*arguments)
-    origins, directions = _pair(value)
-    return _batch(origins, (3, n), "origins"), _batch(directions, (3, n), "directions")
-
-
-def _pair(value: Any) -> tuple[Any, Any]:
-    if not isinstance(value, tuple | list) or len(value) != 2:
-        raise Failure("two arrays: origins, directions", type(value).__name__)
-    return value[0], value[1]
+    origins, directions = pair(value, "origins", "directions")
+    return finite_numbers(origins, (3, n), "origins"), finite_numbers(
+        directions, (3, n), "directions"
+    )
 
 
 def _met(camera: Camera, origins: Array, directions: Array) -> Array:
@@ -225,12 +216,12 @@ def _lens_contract(trial: Trial) -> None:
                 batches = camera.directions[:, :n].copy(), camera.lens[:, :n].copy()
                 for name, value in zip(
                     ("origins", "directions"),
-                    _pair(trial.call(*camera.arguments(*batches, focus))),
+                    pair(trial.call(*camera.arguments(*batches, focus)), "origins", "directions"),
                     strict=True,
                 ):
                     check_array(value, (3, n), dtype, name)
     mixed = camera.arguments(camera.directions.astype(np.float32))
-    for value in _pair(trial.call(*mixed)):
+    for value in pair(trial.call(*mixed), "origins", "directions"):
         check_array(value, (3, 200), np.float64, "the result of float32 and float64")
 
 
@@ -459,7 +450,7 @@ def _circle(depth: Array, radius: float, focus: float) -> Array:
 
 
 def _check_circle(trial: Trial, depth: Array, radius: float, focus: float, hint: str) -> None:
-    found = _batch(trial.call(depth, radius, focus), depth.shape)
+    found = finite_numbers(trial.call(depth, radius, focus), depth.shape)
     expected = _circle(depth, radius, focus)
     # Near the focus all that is left is the rounding of focus_distance and depth.
     scale = expected + 2 * radius * (1 + focus / depth.astype(np.float64))
@@ -517,23 +508,12 @@ def _circle_overflow(trial: Trial) -> None:
 # ---------------------------------------------------------------- mistakes
 
 
-def _apart(values: Array, others: Array) -> float:
-    """The largest distance between two empirical distributions (Kolmogorov and Smirnov)."""
-    both = np.concatenate((values, others))
-    below = [np.searchsorted(np.sort(x), both, "right") / x.size for x in (values, others)]
-    return float(np.abs(below[0] - below[1]).max())
-
-
-CLOSE = 0.06
-"""Two batches of 4000 of the same distribution are closer than that, but for one time in a hundred thousand."""
-
-
 def _radius_is(trial: Trial, model: Callable[[Array], Array], rim: float = 1.0) -> bool:
     """Radii are spread as a mistaken warp of uniform numbers spreads them, evenly all around."""
     points = _disk(trial, 4000)
     r, turn = np.hypot(*points), _by_area(points)[1]
-    fits = _apart(r, rim * model(trial.rng.random(4000))) < CLOSE
-    return fits and _apart(turn, trial.rng.random(4000)) < CLOSE
+    fits = apart(r, rim * model(trial.rng.random(4000))) < CLOSE
+    return fits and apart(turn, trial.rng.random(4000)) < CLOSE
 
 
 def _disk_crowded(trial: Trial) -> bool:
@@ -555,7 +535,7 @@ def _disk_rim(trial: Trial) -> bool:
 def _disk_square(trial: Trial) -> bool:
     points = _disk(trial, 4000)
     uniform = trial.rng.random(4000)
-    even = max(_apart((x + 1) / 2, uniform) for x in points) < CLOSE
+    even = max(apart((x + 1) / 2, uniform) for x in points) < CLOSE
     return even and bool(np.hypot(*points).max() > 1.2)
 
 
@@ -574,24 +554,16 @@ def _disk_degrees(trial: Trial) -> bool:
 
 
 def _disk_one_number(trial: Trial) -> bool:
-    u = _random(trial, 2, 500)
-    found = _batch(trial.call(u), u.shape)
+    u = trial.uniform(2, 500)
+    found = finite_numbers(trial.call(u), u.shape)
     if found.std(axis=1).min() < 0.01:
         return False
     for row in range(2):
         other = u.copy()
-        other[row] = _random(trial, 1, 500)[0]
-        if np.array_equal(found, _batch(trial.call(other), u.shape)):
+        other[row] = trial.uniform(1, 500)[0]
+        if np.array_equal(found, finite_numbers(trial.call(other), u.shape)):
             return True
     return False
-
-
-def _near(value: Array, expected: Array, tolerance: float = 1e-3) -> bool:
-    return bool(np.abs(value - expected).max() < tolerance)
-
-
-def _normalised(v: Array) -> Array:
-    return np.asarray(v / np.maximum(np.linalg.norm(v, axis=0), 1e-200))
 
 
 def _right_origins(camera: Camera) -> Array:
@@ -613,8 +585,8 @@ def _aims_at(trial: Trial, target: Target) -> bool:
     """Origins are right, and the directions those to other points."""
     camera = _mistaken_camera(trial)
     origins, directions = _rays(trial, camera)
-    aimed = _normalised(target(camera) - _right_origins(camera))
-    return _near(origins, _right_origins(camera)) and _near(_normalised(directions), aimed)
+    aimed = normalized(target(camera) - _right_origins(camera))
+    return near(origins, _right_origins(camera)) and near(normalized(directions), aimed)
 
 
 def _lens_sphere(trial: Trial) -> bool:
@@ -635,20 +607,20 @@ def _lens_wrong_cosine(trial: Trial) -> bool:
 def _lens_unchanged_directions(trial: Trial) -> bool:
     camera = _mistaken_camera(trial)
     origins, directions = _rays(trial, camera)
-    return _near(origins, _right_origins(camera)) and _near(directions, camera.directions)
+    return near(origins, _right_origins(camera)) and near(directions, camera.directions)
 
 
 def _lens_unchanged_origins(trial: Trial) -> bool:
     camera = _mistaken_camera(trial)
     origins, directions = _rays(trial, camera)
     start = np.repeat(camera.origin[:, None], 500, axis=1)
-    return _near(origins, start) and not _near(directions, camera.directions)
+    return near(origins, start) and not near(directions, camera.directions)
 
 
 def _lens_only_relative(trial: Trial) -> bool:
     camera = _mistaken_camera(trial)
     origins, _ = _rays(trial, camera)
-    return _near(origins, _right_origins(camera) - camera.origin[:, None])
+    return near(origins, _right_origins(camera) - camera.origin[:, None])
 
 
 def _lens_world_axes(trial: Trial) -> bool:
@@ -657,21 +629,21 @@ def _lens_world_axes(trial: Trial) -> bool:
     offset = origins - camera.origin[:, None]
     x, y = camera.lens
     return any(
-        _near(offset, np.insert(np.stack((x, y)), k, np.zeros(500), axis=0)) for k in range(3)
+        near(offset, np.insert(np.stack((x, y)), k, np.zeros(500), axis=0)) for k in range(3)
     )
 
 
 def _lens_swapped(trial: Trial) -> bool:
     camera = _mistaken_camera(trial)
     origins, _ = _rays(trial, camera)
-    return _near(origins - camera.origin[:, None], camera.axes[1::-1].T @ camera.lens)
+    return near(origins - camera.origin[:, None], camera.axes[1::-1].T @ camera.lens)
 
 
 def _lens_not_normalised(trial: Trial) -> bool:
     camera = _mistaken_camera(trial)
     origins, directions = _rays(trial, camera)
     long = np.abs(np.linalg.norm(directions, axis=0) - 1).max() > 1e-3
-    return bool(long) and _near(_met(camera, origins, directions), camera.sharp())
+    return bool(long) and near(_met(camera, origins, directions), camera.sharp())
 
 
 def _lens_rounded(trial: Trial) -> bool:
@@ -732,7 +704,7 @@ def _image_at_focus(trial: Trial) -> bool:
 def _circle_is(trial: Trial, mistaken: Callable[[Array, float, float], Array]) -> bool:
     for _ in range(2):
         depth, radius, focus = _circle_case(trial, 200, np.float64)
-        found = _batch(trial.call(depth, radius, focus), depth.shape)
+        found = finite_numbers(trial.call(depth, radius, focus), depth.shape)
         expected = mistaken(depth, radius, focus)
         if not (np.abs(found - expected) <= 1e-5 * (radius + np.abs(expected))).all():
             return False
@@ -764,59 +736,22 @@ def _circle_not_divided(trial: Trial) -> bool:
 # ---------------------------------------------------------------- all of them
 
 
-def _contract(
-    function: str,
-    contract: Callable[[Trial], None],
-    untouched: Callable[[Trial], None],
-    refuses: Callable[[Trial], None],
-) -> tuple[Check, ...]:
-    return (
-        Check(
-            function,
-            "contract",
-            "Shapes and dtypes are as agreed, and all numbers finite",
-            contract,
-            "contract",
-        ),
-        Check(
-            function,
-            "untouched",
-            "Arguments and the global random state are left alone",
-            untouched,
-            "contract",
-        ),
-        Check(
-            function,
-            "refuses",
-            "Wrong shapes and ranges raise ValueError",
-            refuses,
-            "contract",
-        ),
-    )
-
-
 CHECKS = ModuleChecks(
     "thin_lens",
     checks=(
-        *_contract("point_on_disk", _disk_contract, _disk_untouched, _disk_refuses),
+        *contract_checks("point_on_disk", _disk_contract, _disk_untouched, _disk_refuses),
         Check("point_on_disk", "inside", "Points lie on the unit disk", _disk_inside),
-        Check(
-            "point_on_disk",
-            "uniform",
-            "Points are uniform over the disk's area",
-            _disk_uniform,
-            "distribution",
-            false_fail=6 * FALSE_FAIL,
+        distribution_check(
+            "point_on_disk", "uniform", "Points are uniform over the disk's area", _disk_uniform, 6
         ),
-        Check(
+        distribution_check(
             "point_on_disk",
             "moments",
             "Means, spread and correlation of the points are those of the disk",
             _disk_moments,
-            "distribution",
-            false_fail=5 * FALSE_FAIL,
+            5,
         ),
-        *_contract("lens_rays", _lens_contract, _lens_untouched, _lens_refuses),
+        *contract_checks("lens_rays", _lens_contract, _lens_untouched, _lens_refuses),
         Check(
             "lens_rays",
             "pinhole",
@@ -842,7 +777,7 @@ CHECKS = ModuleChecks(
             "All rays of one pixel meet in one point, in the picture's corners too",
             _lens_one_point,
         ),
-        *_contract("image_distance", _image_contract, _image_untouched, _image_refuses),
+        *contract_checks("image_distance", _image_contract, _image_untouched, _image_refuses),
         Check(
             "image_distance",
             "real",
@@ -861,7 +796,9 @@ CHECKS = ModuleChecks(
             "Objects at the focal length, and at infinity",
             _image_limits,
         ),
-        *_contract("circle_of_confusion", _circle_contract, _circle_untouched, _circle_refuses),
+        *contract_checks(
+            "circle_of_confusion", _circle_contract, _circle_untouched, _circle_refuses
+        ),
         Check(
             "circle_of_confusion",
             "behind",

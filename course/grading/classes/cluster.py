@@ -7,18 +7,14 @@ with the same item as its setting ``distributed.scheduler.allowed-failures`` say
 from __future__ import annotations
 
 from collections.abc import Callable, Generator, Sequence
-from importlib import import_module
 from typing import Any, TypeVar
 
-from course.errors import CourseError
 from course.grading.classes.outcome import Outcome, told
+from course.rendering.cluster import connect
 
 Item = TypeVar("Item")
 Shared = TypeVar("Shared")
 Value = TypeVar("Value")
-
-PATIENCE = 10
-"""Seconds in which a scheduler must answer, and a worker be there."""
 
 
 def on_cluster(
@@ -42,7 +38,7 @@ def on_cluster(
     CourseError
         ``distributed`` isn't installed, no scheduler answers, or it has no workers.
     """
-    distributed, client = _connect(address)
+    distributed, client = connect(address)
     futures: dict[str, Any] = {}
     try:
         # A task, not scattered data: that would be lost with the workers that hold it.
@@ -68,27 +64,6 @@ def on_cluster(
         if futures:
             client.cancel([*futures.values()], force=True)
         client.close(timeout=2)
-
-
-def _connect(address: str) -> tuple[Any, Any]:
-    try:
-        distributed = import_module("distributed")
-    except ImportError as error:
-        raise CourseError(
-            'the engine dask needs more: pip install "penumbra-course[dask]"'
-        ) from error
-    try:
-        client = distributed.Client(address, timeout=PATIENCE, set_as_default=False)
-    except (OSError, ValueError) as error:
-        raise CourseError(
-            f"{address}: no dask scheduler answered within {PATIENCE} s: {error}"
-        ) from error
-    try:
-        client.wait_for_workers(1, timeout=PATIENCE)
-    except (OSError, TimeoutError) as error:
-        client.close(timeout=2)
-        raise CourseError(f"{address}: the scheduler has no workers; start some") from error
-    return distributed, client
 
 
 def _same(value: Value) -> Value:

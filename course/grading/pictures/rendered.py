@@ -18,7 +18,7 @@ from course.grading.pictures import scenes
 from course.grading.pictures.judging import BIAS_FALSE_FAIL, block_means, check_bias, check_ssim
 from course.grading.pictures.stage import Stage
 from course.rendering.rendering import render
-from course.scene.scene import load_scene
+from course.scene.scene import Scene, load_scene
 
 BIAS_SAMPLES = 16
 BIAS_REFERENCES = 32
@@ -26,19 +26,35 @@ BIAS_PICTURES = 4
 
 MakeScene = Callable[[np.random.Generator], scenes.Scene]
 
+Find = Callable[[str, str], Callable[..., Any]]
+"""(module, name) -> the function that a picture is made with."""
 
-def rendered(
-    description: scenes.Scene, effects: Effects, rng: np.random.Generator, **options: Any
-) -> Array:
-    """A small picture (3, H, W), linear."""
+
+class _Found(Effects):
+    """Effects that are found, whatever lies in the scene's folder."""
+
+    def __init__(self, find: Find, folder: Path) -> None:
+        super().__init__(folder)
+        self._find = find
+
+    def function(self, module: str, name: str) -> Callable[..., Any]:
+        return self._find(module, name)
+
+
+def loaded(description: scenes.Scene, find: Find, rng: np.random.Generator) -> Scene:
+    """A small scene, to be rendered as often as one likes with the functions that are found."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "scene.yaml"
         path.write_text(yaml.safe_dump(description), encoding="utf-8")
         if "cross" in description.get("environment", {}):
             Image.fromarray(scenes.cross(rng)).save(path.with_name("cross.png"))
-        # One thread: a tape is replayed in the order in which it was recorded.
-        scene = load_scene(path, effects)
-        picture = render(scene, threads=1, compiled=False, **options).linear
+        return load_scene(path, _Found(find, path.parent))
+
+
+def rendered(scene: Scene, **options: Any) -> Array:
+    """The picture (3, H, W) of a small scene, linear."""
+    # One thread: a tape is replayed in the order in which it was recorded.
+    picture = render(scene, threads=1, compiled=False, **options).linear
     return np.ascontiguousarray(np.moveaxis(picture, -1, 0))
 
 
@@ -57,13 +73,12 @@ def picture_checks(
     def prepare(caller: Caller, rng: np.random.Generator) -> dict[str, Array]:
         tape: dict[str, Array] = {}
         stage = Stage(module, caller, function, recording=tape)
-        return {"picture": rendered(make(rng), stage, rng)} | {
-            f"tape/{k}": v for k, v in tape.items()
-        }
+        picture = rendered(loaded(make(rng), stage.function, rng))
+        return {"picture": picture} | {f"tape/{k}": v for k, v in tape.items()}
 
     def run(trial: Trial) -> None:
         stage = Stage(module, trial.caller, function, tape=_tape(trial.references))
-        yours = rendered(make(trial.rng), stage, trial.rng)
+        yours = rendered(loaded(make(trial.rng), stage.function, trial.rng))
         expected = trial.references["picture"]
         trial.show("pictures", "The scene", yours=yours, expected=expected)
         check_ssim(yours, expected, name)
@@ -80,21 +95,24 @@ def picture_checks(
     if not noisy:
         return (looks,)
 
+    def drawing(
+        description: scenes.Scene, caller: Caller, rng: np.random.Generator
+    ) -> Callable[..., Array]:
+        """Draws the same scene with any seed."""
+        scene = loaded(description, Stage(module, caller, function).function, rng)
+        return partial(rendered, scene, spp=BIAS_SAMPLES)
+
     def prepare_bias(caller: Caller, rng: np.random.Generator) -> dict[str, Array]:
         description = make(rng)
         first = int(rng.integers(1 << 20))
-        stage = Stage(module, caller, function)
+        draw = drawing(description, caller, rng)
         seeds = range(first + BIAS_PICTURES, first + BIAS_PICTURES + BIAS_REFERENCES)
-        pictures = [
-            rendered(description, stage, rng, spp=BIAS_SAMPLES, seed=seed) for seed in seeds
-        ]
-        return {"blocks": np.stack([block_means(picture) for picture in pictures])}
+        return {"blocks": np.stack([block_means(draw(seed=seed)) for seed in seeds])}
 
     def run_bias(trial: Trial) -> None:
         description = make(trial.rng)
         first = int(trial.rng.integers(1 << 20))
-        stage = Stage(module, trial.caller, function)
-        draw = partial(rendered, description, stage, trial.rng, spp=BIAS_SAMPLES)
+        draw = drawing(description, trial.caller, trial.rng)
         check_bias(
             [draw(seed=first + number) for number in range(BIAS_PICTURES)],
             trial.references["blocks"],

@@ -8,12 +8,10 @@ solution: the same for the reference picture, so that only the function in quest
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from course.effects import Effects
 from course.grading.checks.check import Array, Caller
 from course.grading.pictures.shapes import usable
 
@@ -48,14 +46,14 @@ STAND_INS: dict[str, Callable[..., Array]] = {
 """Functions that come last on a ray's way, in a form that does for the grader's scenes."""
 
 
-class Stage(Effects):
-    """Effects of which one module's are somebody's and the others stand-ins.
+class Stage:
+    """Whose the functions are that a small scene is rendered with: one is somebody's, the others stand-ins.
 
     Parameters
     ----------
     module : whose functions ``caller`` has
     caller : the student's, or the reference's
-    only : the one function that is taken from the caller; None takes all of the module
+    only : the one function that the picture is about
     tape : recorded results of functions that come before it, ``NAME/NUMBER`` -> array
     recording : where to put results of the others instead, when the caller is the reference
     """
@@ -64,19 +62,17 @@ class Stage(Effects):
         self,
         module: str,
         caller: Caller,
-        only: str | None = None,
+        only: str,
         tape: Mapping[str, Array] | None = None,
         recording: dict[str, Array] | None = None,
     ) -> None:
-        self.folder = Path(module)
-        self._modules = {}
         self._own, self._caller, self._only = module, caller, only
         self._tape, self._recording = tape or {}, recording
         self._played: dict[str, int] = {}
 
     def function(self, module: str, name: str) -> Callable[..., Any]:
         """The function that the picture is to be made with."""
-        if module == self._own and self._only in (None, name):
+        if (module, name) == (self._own, self._only):
             return lambda *arguments: usable(
                 f"{module}.{name}", self._caller.call(name, *arguments), arguments
             )

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from course.effects import MODULES, Effects
+from course.effects import MODULES
 from course.grading.checks.check import Array, Caller, Check, ModuleChecks, Trial
 from course.grading.pictures import scenes
 from course.grading.pictures.judging import check_ssim
-from course.grading.pictures.rendered import rendered
+from course.grading.pictures.rendered import Find, loaded, rendered
 from course.grading.pictures.shapes import usable
 
 NAME = "whole"
@@ -35,25 +34,22 @@ class Together:
         return self._callers[module].call_and_look(name, *arguments)
 
 
-class _All(Effects):
-    """Effects that are all one caller's."""
+def _all_of(caller: Caller) -> Find:
+    """Every function is one caller's."""
 
-    def __init__(self, caller: Caller) -> None:
-        self.folder = Path("together")
-        self._modules = {}
-        self._caller = caller
-
-    def function(self, module: str, name: str) -> Callable[..., Any]:
+    def find(module: str, name: str) -> Callable[..., Any]:
         path = f"{module}.{name}"
-        return lambda *arguments: usable(path, self._caller.call(path, *arguments), arguments)
+        return lambda *arguments: usable(path, caller.call(path, *arguments), arguments)
+
+    return find
 
 
 def _prepare(caller: Caller, rng: np.random.Generator) -> dict[str, Array]:
-    return {"picture": rendered(scenes.everything(rng), _All(caller), rng)}
+    return {"picture": rendered(loaded(scenes.everything(rng), _all_of(caller), rng))}
 
 
 def _run(trial: Trial) -> None:
-    yours = rendered(scenes.everything(trial.rng), _All(trial.caller), trial.rng)
+    yours = rendered(loaded(scenes.everything(trial.rng), _all_of(trial.caller), trial.rng))
     expected = trial.references["picture"]
     trial.show("pictures", "All effects at once", yours=yours, expected=expected)
     check_ssim(yours, expected, f"{NAME}.scene/picture")

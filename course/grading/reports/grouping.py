@@ -9,13 +9,13 @@ from dataclasses import dataclass
 from typing import Literal
 
 from course.grading.checks.running import Result, Status
-from course.grading.report import Report
+from course.grading.report import Report, Total, findings
 
 State = Literal["right", "wrong", "to do", "undecided"]
 
 
 @dataclass(frozen=True)
-class FunctionResults:
+class FunctionResults(Total):
     """All results of one function.
 
     Attributes
@@ -48,19 +48,13 @@ class FunctionResults:
         """Results of the checks that didn't."""
         return tuple(result for result in self.results if result.status is not Status.PASSED)
 
-    @property
-    def points(self) -> float:
-        """Earned."""
-        return sum(result.points for result in self.results)
-
-    @property
-    def of(self) -> float:
-        """That could be earned."""
-        return sum(result.of for result in self.results)
+    def parts(self) -> tuple[Result, ...]:
+        """Its results."""
+        return self.results
 
 
 @dataclass(frozen=True)
-class ModuleResults:
+class ModuleResults(Total):
     """All functions of one module.
 
     Attributes
@@ -72,15 +66,9 @@ class ModuleResults:
     name: str
     functions: tuple[FunctionResults, ...]
 
-    @property
-    def points(self) -> float:
-        """Earned."""
-        return sum(function.points for function in self.functions)
-
-    @property
-    def of(self) -> float:
-        """That could be earned."""
-        return sum(function.of for function in self.functions)
+    def parts(self) -> tuple[FunctionResults, ...]:
+        """Its functions."""
+        return self.functions
 
     def count(self, state: State) -> int:
         """Functions that are so."""
@@ -106,11 +94,5 @@ def grouped(report: Report) -> tuple[ModuleResults, ...]:
 
 def explained(result: Result) -> str:
     """What a check that didn't pass has to say, as lines of plain text."""
-    lines = [
-        ("looks like", result.says),
-        ("expected", result.expected),
-        ("found", result.found),
-        ("where", result.where),
-        ("hint", result.hint),
-    ]
-    return "\n".join(f"{label}: {text.rstrip()}" for label, text in lines if text)
+    looks = [("looks like", result.says)] if result.says else []
+    return "\n".join(f"{label}: {text.rstrip()}" for label, text in (*looks, *findings(result)))

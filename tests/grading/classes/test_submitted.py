@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import struct
 import zipfile
@@ -88,6 +89,27 @@ def test_a_pipe_keeps_nobody_waiting(tmp_path: Path) -> None:
     (tmp_path / "pipe").mkdir()
     os.mkfifo(tmp_path / "pipe" / "motion_blur.py")
     assert "no ordinary file" in trouble(tmp_path)
+
+
+def test_a_folder_that_can_t_be_read_stops_nobody(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for student in ("ada", "bob"):
+        (tmp_path / student).mkdir()
+        (tmp_path / student / "motion_blur.py").write_bytes(STUB)
+    locked = tmp_path / "ada" / "motion_blur.py"
+    usual = Path.is_file
+
+    def is_file(path: Path) -> bool:
+        if path == locked:
+            # As where a folder's files may be listed and not looked at; whoever is root sees them all.
+            raise PermissionError(errno.EACCES, "Permission denied", str(path))
+        return usual(path)
+
+    monkeypatch.setattr(Path, "is_file", is_file)
+    ada, bob = find_submissions(tmp_path)
+    assert (ada.sources, ada.trouble) == ({}, "motion_blur.py: can't be read: Permission denied")
+    assert (bob.sources, bob.trouble) == ({"motion_blur": STUB}, "")
 
 
 @pytest.mark.parametrize("where", [0, 60, -20])

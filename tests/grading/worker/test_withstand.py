@@ -7,7 +7,9 @@ the named checks, and nothing else.
 from __future__ import annotations
 
 import threading
+from dataclasses import dataclass
 from functools import cache
+from textwrap import indent
 
 import numpy as np
 import psutil
@@ -26,7 +28,9 @@ from course.grading.worker.sandbox import sandbox
 MODULE = "motion_blur"
 FUNCTION = "to_object_space"
 SOLUTION = (PROJECT / "solutions" / f"{MODULE}.py").read_text(encoding="utf-8")
-RIGHT = "    return origins - np.multiply.outer(np.asarray(velocity, time.dtype), time)\n"
+RIGHT = "return origins - np.multiply.outer(np.asarray(velocity, time.dtype), time)\n"
+SLEEPER = "import threading, time as t\nthreading.Thread(target=t.sleep, args=(1e6,)).start()\n"
+FORGED = "b'00000010{\"score\": 100000}'"
 ALL = "all"
 
 SANDBOXES = [pytest.param(False, id="without bubblewrap")]
@@ -38,9 +42,8 @@ def quick(check: Check) -> bool:
     return check.kind not in ("picture", "bias", "order", "speed")
 
 
-def points(function: str | None = None) -> float:
-    checks = [check for check in module_checks(MODULE).checks if quick(check)]
-    return sum(check.points for check in checks if function in (None, check.function))
+def points() -> float:
+    return sum(check.points for check in module_checks(MODULE).checks if quick(check))
 
 
 @cache
@@ -48,7 +51,7 @@ def arrays() -> References:
     return references()
 
 
-def graded(source: str | bytes, bubblewrap: bool) -> Report:
+def graded(source: str | bytes, bubblewrap: bool = True) -> Report:
     content = source if isinstance(source, bytes) else source.encode()
     report = grade(
         {MODULE: content},
@@ -64,161 +67,128 @@ def graded(source: str | bytes, bubblewrap: bool) -> Report:
 
 
 def with_body(body: str, before: str = "") -> str:
-    checks = '    _check_batch("origins", origins, 3)\n    _check_single(velocity=velocity)\n'
-    checks += '    _check_scalars("time", time, np.shape(origins)[1])\n'
-    return f"{SOLUTION}\n{before}\ndef {FUNCTION}(origins, velocity, time):\n{checks}{body}"
+    """The solution with another body of the function, behind the checks of its arguments."""
+    checks = '_check_batch("origins", origins, 3)\n_check_single(velocity=velocity)\n'
+    checks += '_check_scalars("time", time, np.shape(origins)[1])\n'
+    return f"{SOLUTION}\n{before}\ndef {FUNCTION}(origins, velocity, time):\n{indent(checks + body, '    ')}"
 
 
-# Each: the function's body, what stands before it, how the function's checks end, and which of them are lost.
-ATTACKS: dict[str, tuple[str, str, Status, str | set[str]]] = {
-    "sys.exit": ("    import sys\n    sys.exit(0)", "", Status.FAILED, ALL),
-    "os._exit": ("    import os\n    os._exit(0)", "", Status.CRASHED, ALL),
-    "endless loop": ("    while True: pass", "", Status.TIMEOUT, ALL),
-    "endless recursion": (
-        f"    return {FUNCTION}(origins, velocity, time)",
-        "",
-        Status.FAILED,
-        ALL,
+def with_displacement(body: str) -> str:
+    """The solution with another function of the same module."""
+    return f"{SOLUTION}\ndef displacement(velocity, time):\n    {body}\n"
+
+
+def write_everywhere(content: str) -> str:
+    """Lines that write an expression's bytes to every descriptor there may be."""
+    return f"for fd in range(64):\n    try: os.write(fd, {content})\n    except OSError: pass\n"
+
+
+def lost_functions(report: Report) -> set[str]:
+    return {result.function for result in report.results if result.status is not Status.PASSED}
+
+
+@dataclass(frozen=True)
+class Attack:
+    """A submission whose one function attacks.
+
+    Attributes
+    ----------
+    body : of the function, behind the checks of its arguments
+    before : what stands before the function
+    ended : how its checks end
+    lost : which of them are lost
+    """
+
+    body: str
+    before: str = ""
+    ended: Status = Status.FAILED
+    lost: str | set[str] = ALL
+
+
+ATTACKS = {
+    "sys.exit": Attack("import sys\nsys.exit(0)"),
+    "os._exit": Attack("import os\nos._exit(0)", ended=Status.CRASHED),
+    "endless loop": Attack("while True: pass", ended=Status.TIMEOUT),
+    "endless recursion": Attack(f"return {FUNCTION}(origins, velocity, time)"),
+    "memory bomb": Attack("return np.ones((3, 1 << 32))"),
+    "slow memory bomb": Attack("kept = []\nwhile True: kept.append(np.zeros(1 << 24))"),
+    "fork bomb": Attack("import os\nwhile True: os.fork()"),
+    "processes": Attack(f"import subprocess\nsubprocess.run(['true'])\n{RIGHT}"),
+    "threads that never end": Attack(
+        "import threading, time as t\n"
+        "if threading.active_count() < 3: threading.Thread(target=t.sleep, args=(1e6,)).start()\n"
+        f"{RIGHT}",
+        ended=Status.PASSED,
+        lost=set(),
     ),
-    "memory bomb": ("    return np.ones((3, 1 << 32))", "", Status.FAILED, ALL),
-    "slow memory bomb": (
-        "    kept = []\n    while True: kept.append(np.zeros(1 << 24))",
-        "",
-        Status.FAILED,
-        ALL,
+    "flood of output": Attack("while True: print('x' * 10000)", ended=Status.TIMEOUT),
+    "forged result on stdout": Attack(
+        'print(\'{"score": 100, "tests": []}\', flush=True)\nreturn np.zeros(3)'
     ),
-    "fork bomb": ("    import os\n    while True: os.fork()", "", Status.FAILED, ALL),
-    "processes": (
-        "    import subprocess\n    subprocess.run(['true'])\n" + RIGHT,
-        "",
-        Status.FAILED,
-        ALL,
+    "chatty but right": Attack(
+        f"print('debugging', time.shape)\n{RIGHT}", ended=Status.PASSED, lost=set()
     ),
-    "threads that never end": (
-        "    import threading, time as t\n"
-        "    if threading.active_count() < 3: threading.Thread(target=t.sleep, args=(1e6,)).start()\n"
-        + RIGHT,
-        "",
-        Status.PASSED,
-        set(),
+    "forged result on every descriptor": Attack(
+        f"import os\n{write_everywhere(FORGED)}{RIGHT}", ended=Status.CRASHED
     ),
-    "flood of output": ("    while True: print('x' * 10000)", "", Status.TIMEOUT, ALL),
-    "forged result on stdout": (
-        '    print(\'{"score": 100, "tests": []}\', flush=True)\n    return np.zeros(3)',
-        "",
-        Status.FAILED,
-        ALL,
+    "closed descriptors": Attack(f"import os\nos.closerange(0, 64)\n{RIGHT}", ended=Status.CRASHED),
+    "an array that forges comparisons": Attack(
+        "return np.zeros((3, len(time)), time.dtype).view(Forged)",
+        "class Forged(np.ndarray):\n"
+        "    def __eq__(self, other): return np.ones(self.shape, bool)\n"
+        "    def __array_ufunc__(self, *a, **k): return np.zeros(())\n",
     ),
-    "chatty but right": ("    print('debugging', time.shape)\n" + RIGHT, "", Status.PASSED, set()),
-    "forged result on every descriptor": (
-        "    import os\n"
-        "    for fd in range(64):\n"
-        "        try: os.write(fd, b'00000010{\"score\": 100000}')\n"
-        "        except OSError: pass\n" + RIGHT,
-        "",
-        Status.CRASHED,
-        ALL,
+    "object arrays": Attack("return np.array([[object()]] * 3)"),
+    "pickles": Attack(
+        "return Pickled()", "class Pickled:\n    def __reduce__(self): return (exit, ())\n"
     ),
-    "closed descriptors": (
-        "    import os\n    os.closerange(0, 64)\n" + RIGHT,
-        "",
-        Status.CRASHED,
-        ALL,
+    "a name of its own for None": Attack("return None"),
+    "NaN": Attack("return np.full((3, len(time)), np.nan, time.dtype)"),
+    "wrong shape": Attack("return np.zeros((len(time), 3), time.dtype)"),
+    "wrong dtype": Attack(
+        "return origins - np.asarray(velocity, float)[:, None] * time.astype(float)",
+        lost={"contract"},
     ),
-    "an array that forges comparisons": (
-        "    return np.zeros((3, len(time)), time.dtype).view(Forged)",
-        (
-            "class Forged(np.ndarray):\n"
-            "    def __eq__(self, other): return np.ones(self.shape, bool)\n"
-            "    def __array_ufunc__(self, *a, **k): return np.zeros(())\n"
-        ),
-        Status.FAILED,
-        ALL,
+    "reads the solutions": Attack(
+        f"exec(open({str(PROJECT / 'solutions' / (MODULE + '.py'))!r}).read(), globals())\n{RIGHT}"
     ),
-    "object arrays": ("    return np.array([[object()]] * 3)", "", Status.FAILED, ALL),
-    "pickles": (
-        "    return Pickled()",
-        "class Pickled:\n    def __reduce__(self): return (exit, ())\n",
-        Status.FAILED,
-        ALL,
-    ),
-    "a name of its own for None": ("    return None", "", Status.FAILED, ALL),
-    "NaN": ("    return np.full((3, len(time)), np.nan, time.dtype)", "", Status.FAILED, ALL),
-    "wrong shape": ("    return np.zeros((len(time), 3), time.dtype)", "", Status.FAILED, ALL),
-    "wrong dtype": (
-        "    return origins - np.asarray(velocity, float)[:, None] * time.astype(float)",
-        "",
-        Status.FAILED,
-        {"contract"},
-    ),
-    "reads the solutions": (
-        f"    exec(open({str(PROJECT / 'solutions' / (MODULE + '.py'))!r}).read(), globals())\n"
-        + RIGHT,
-        "",
-        Status.FAILED,
-        ALL,
-    ),
-    "imports the solutions": ("    import solutions.motion_blur\n" + RIGHT, "", Status.FAILED, ALL),
-    "imports the course": ("    import course\n" + RIGHT, "", Status.FAILED, ALL),
-    "lists the folder": (
-        f"    import os\n    os.listdir({str(PROJECT)!r})\n" + RIGHT,
-        "",
-        Status.FAILED,
-        ALL,
-    ),
-    "patches NumPy": (
-        "    return np.zeros((3, len(time)), time.dtype)",
+    "imports the solutions": Attack(f"import solutions.motion_blur\n{RIGHT}"),
+    "imports the course": Attack(f"import course\n{RIGHT}"),
+    "lists the folder": Attack(f"import os\nos.listdir({str(PROJECT)!r})\n{RIGHT}"),
+    "patches NumPy": Attack(
+        "return np.zeros((3, len(time)), time.dtype)",
         "np.allclose = np.array_equal = lambda *a, **k: True\n",
-        Status.FAILED,
-        {"contract", "at-rest", "at-start", "travels-along", "own-time"},
+        lost={"contract", "at-rest", "at-start", "travels-along", "own-time"},
     ),
-    "signals its parent": (
-        "    import os\n    os.kill(os.getppid(), 9)\n" + RIGHT,
-        "",
-        Status.FAILED,
-        ALL,
+    "signals its parent": Attack(f"import os\nos.kill(os.getppid(), 9)\n{RIGHT}"),
+    "C through ctypes": Attack(f"import ctypes\nctypes.CDLL(None).fork()\n{RIGHT}"),
+    "opens a socket": Attack(f"import socket\nsocket.socket()\n{RIGHT}"),
+    "writes a file": Attack(f"open('/tmp/forged', 'w')\n{RIGHT}"),
+    "changes the random state": Attack(f"np.random.seed(1)\n{RIGHT}", lost={"untouched"}),
+    "an exception without words": Attack(
+        "raise Odd()", "class Odd(Exception):\n    def __str__(self): raise ValueError\n"
     ),
-    "C through ctypes": (
-        "    import ctypes\n    ctypes.CDLL(None).fork()\n" + RIGHT,
-        "",
-        Status.FAILED,
-        ALL,
-    ),
-    "opens a socket": ("    import socket\n    socket.socket()\n" + RIGHT, "", Status.FAILED, ALL),
-    "writes a file": ("    open('/tmp/forged', 'w')\n" + RIGHT, "", Status.FAILED, ALL),
-    "changes the random state": (
-        "    np.random.seed(1)\n" + RIGHT,
-        "",
-        Status.FAILED,
-        {"untouched"},
-    ),
-    "an exception without words": (
-        "    raise Odd()",
-        "class Odd(Exception):\n    def __str__(self): raise ValueError\n",
-        Status.FAILED,
-        ALL,
-    ),
-    "an exception that is no exception": ("    raise KeyboardInterrupt", "", Status.FAILED, ALL),
+    "an exception that is no exception": Attack("raise KeyboardInterrupt"),
 }
 
 
 @pytest.mark.parametrize("bubblewrap", SANDBOXES)
 @pytest.mark.parametrize("name", ATTACKS)
 def test_an_attack_costs_its_own_function(name: str, bubblewrap: bool) -> None:
-    body, before, status, lost = ATTACKS[name]
-    report = graded(with_body(body, before), bubblewrap)
+    attack = ATTACKS[name]
+    report = graded(with_body(attack.body, attack.before), bubblewrap)
     found = {
         result.check: result.status for result in report.results if result.function == FUNCTION
     }
     wrong = {check for check, ended in found.items() if ended is not Status.PASSED}
     # What is refused for its arguments may be refused by the attack too, with another error.
-    if lost == ALL:
+    if attack.lost == ALL:
         # The attack stands behind the checks of arguments, which are right, and may leave its inputs alone.
         assert wrong >= set(found) - {"refuses", "untouched"}
     else:
-        assert wrong == lost
-    if lost:
-        assert status in {found[check] for check in wrong}
+        assert wrong == attack.lost
+    if attack.lost:
+        assert attack.ended in {found[check] for check in wrong}
     # Whatever it cost, it cost this function.
     others = [result for result in report.results if result.function != FUNCTION]
     assert {result.status for result in others} == {Status.PASSED}
@@ -230,14 +200,8 @@ def test_an_attack_costs_its_own_function(name: str, bubblewrap: bool) -> None:
 
 def test_nothing_is_left_running() -> None:
     before = {child.pid for child in psutil.Process().children(recursive=True)}
-    graded(
-        with_body(
-            "    import threading, time as t\n    threading.Thread(target=t.sleep, args=(1e6,)).start()\n"
-            + RIGHT
-        ),
-        False,
-    )
-    graded(with_body("    while True: pass"), False)
+    graded(with_body(SLEEPER + RIGHT), bubblewrap=False)
+    graded(with_body("while True: pass"), bubblewrap=False)
     assert {child.pid for child in psutil.Process().children(recursive=True)} <= before
 
 
@@ -254,8 +218,7 @@ FILES: dict[str, tuple[bytes, Status, float]] = {
     "tabs": (SOLUTION.replace("    ", "\t").encode(), Status.PASSED, 1.0),
     "a byte order mark": (b"\xef\xbb\xbf" + SOLUTION.encode(), Status.PASSED, 1.0),
     "Latin-1": (
-        b"# -*- coding: latin-1 -*-\n# \xe9\n"
-        + SOLUTION.replace("-", "-").encode("latin-1", "replace"),
+        b"# -*- coding: latin-1 -*-\n# \xe9\n" + SOLUTION.encode("latin-1", "replace"),
         Status.PASSED,
         1.0,
     ),
@@ -265,13 +228,13 @@ FILES: dict[str, tuple[bytes, Status, float]] = {
 @pytest.mark.parametrize("name", FILES)
 def test_a_file_gets_its_score(name: str) -> None:
     content, status, score = FILES[name]
-    report = graded(content, bubblewrap=True)
+    report = graded(content)
     assert {result.status for result in report.results} == {status}
     assert report.score == score
 
 
 def test_what_is_printed_is_kept_and_cut() -> None:
-    report = graded(with_body("    print('here', '!' * 100000)\n" + RIGHT), bubblewrap=True)
+    report = graded(with_body(f"print('here', '!' * 100000)\n{RIGHT}"))
     assert report.printed[MODULE].startswith("here !!!")
     assert len(report.printed[MODULE]) < 5000
     assert report.score == 1
@@ -298,40 +261,36 @@ def test_checks_draw_the_same_numbers_whoever_is_graded() -> None:
     )
 
 
-def test_a_function_pays_for_no_other_functions_mistake() -> None:
-    body = "    return -np.multiply.outer(np.asarray(velocity, time.dtype), time)\n"
-    wrong = f"{SOLUTION}\ndef displacement(velocity, time):\n{body}"
-    report = graded(wrong, bubblewrap=True)
-    lost = {result.function for result in report.results if result.status is not Status.PASSED}
-    assert lost == {"displacement"}
-    # Unwritten is as wrong.
-    unwritten = f"{SOLUTION}\ndef displacement(velocity, time):\n    raise NotImplementedError\n"
-    report = graded(unwritten, bubblewrap=True)
-    assert {result.function for result in report.results if result.status is not Status.PASSED} == {
-        "displacement"
-    }
+@pytest.mark.parametrize(
+    "body",
+    [
+        "return -np.multiply.outer(np.asarray(velocity, time.dtype), time)",
+        "raise NotImplementedError",
+    ],
+    ids=["wrong", "unwritten"],
+)
+def test_a_function_pays_for_no_other_functions_mistake(body: str) -> None:
+    assert lost_functions(graded(with_displacement(body))) == {"displacement"}
 
 
 def test_nobody_passes_by_two_functions_that_call_each_other() -> None:
-    circle = (
-        "def displacement(velocity, time):\n"
-        "    return -to_object_space(np.zeros((3, len(time)), time.dtype), velocity, time)\n"
-        "def to_object_space(origins, velocity, time):\n    return origins - displacement(velocity, time)\n"
+    circle = with_displacement(
+        "return -to_object_space(np.zeros((3, len(time)), time.dtype), velocity, time)"
     )
-    report = graded(f"{SOLUTION}\n{circle}", bubblewrap=True)
-    lost = {result.function for result in report.results if result.status is not Status.PASSED}
-    assert "displacement" in lost
+    circle += (
+        "def to_object_space(origins, velocity, time):\n"
+        "    return origins - displacement(velocity, time)\n"
+    )
+    assert "displacement" in lost_functions(graded(circle))
 
 
 def test_what_is_borrowed_can_only_be_what_was_lent() -> None:
     forged = (
-        "    import os, json\n"
-        "    head = json.dumps({'borrowed': 'displacement', 'names': [], 'values': [], 'arrays': 0}).encode()\n"
-        "    for fd in range(3, 64):\n"
-        "        try: os.write(fd, b'%08x' % len(head) + head)\n"
-        "        except OSError: pass\n" + RIGHT
+        "import os, json\n"
+        "head = json.dumps({'borrowed': 'displacement', 'names': [], 'values': [], 'arrays': 0}).encode()\n"
     )
-    report = graded(with_body(forged), bubblewrap=False)
+    forged += write_everywhere("b'%08x' % len(head) + head")
+    report = graded(with_body(forged + RIGHT), bubblewrap=False)
     ended = {result.status for result in report.results if result.function == FUNCTION}
     assert Status.CRASHED in ended or Status.FAILED in ended
 

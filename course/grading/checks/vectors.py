@@ -1,0 +1,51 @@
+"""Vector arrays (3, N) as checks need them: unit ones to call with, and what is asked of those that come back."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from course.grading.checks.check import Array
+from course.grading.checks.contract import check_close
+
+UNIT = 1e-5
+"""What a unit vector's length may be off by, and what else follows from it."""
+
+TINY = 1e-200
+"""A length that stands for none where something has to be divided by it."""
+
+
+def unit_vectors(rng: np.random.Generator, n: int, dtype: Any = np.float64) -> Array:
+    """(3, n) directions, uniform over the sphere."""
+    v = rng.standard_normal((3, n))
+    return np.ascontiguousarray(v / np.linalg.norm(v, axis=0), dtype)
+
+
+def normalized(v: Array) -> Array:
+    """The same directions, unit length to double precision; zero stays zero."""
+    v = v.astype(np.float64)
+    return np.asarray(v / np.maximum(np.linalg.norm(v, axis=0), TINY))
+
+
+def dot(a: Array, b: Array) -> Array:
+    """Of each column, in double precision."""
+    return np.asarray((a.astype(np.float64) * b).sum(axis=0))
+
+
+def cross(a: Array, b: Array) -> Array:
+    """Of each column, in double precision."""
+    return np.cross(a.T.astype(np.float64), b.T).T
+
+
+def check_unit(
+    value: Array, arguments: Callable[[int], str], what: str, hint: str = "Normalise at the end."
+) -> None:
+    """All columns are of length 1, to ``UNIT``.
+
+    Raises
+    ------
+    Failure
+    """
+    check_close(np.linalg.norm(value, axis=0), np.ones(value.shape[1]), UNIT, what, arguments, hint)
