@@ -64,7 +64,7 @@ class Effort:
     processes: int = 5
 
 
-QUICK = Effort(pictures=2, rounds=3, batches=8, batch_samples=64, processes=3)
+QUICK = Effort(pictures=2, rounds=5, batches=8, batch_samples=64, processes=3)
 
 
 @dataclass(frozen=True)
@@ -477,7 +477,7 @@ def write_document(results: list[Result], effort: Effort, about: dict[str, str])
         Table("", ("machine", ""), rows).markdown(),
     ]
     for table in tables(results):
-        parts += [f"### {table.title[0].upper()}{table.title[1:]}", _escaped(table).markdown()]
+        parts += [f"### {table.title[0].upper()}{table.title[1:]}", table.markdown()]
     without = [
         f"- {r.effect}, {r.form}: {', '.join(r.without) or 'as it is'}"
         + (f"; {ALIKE[r.effect]}" if r.alike else "")
@@ -485,15 +485,6 @@ def write_document(results: list[Result], effort: Effort, about: dict[str, str])
     ]
     parts += ["What the scenes do without:", "\n".join(without)]
     replace_marked(DOCUMENT, MARK, "\n\n".join(parts))
-
-
-def _escaped(table: Table) -> Table:
-    """With bars that end no cell in Markdown."""
-
-    def cells(row: tuple[str, ...]) -> tuple[str, ...]:
-        return tuple(cell.replace("|", r"\|") for cell in row)
-
-    return Table(table.title, cells(table.columns), tuple(map(cells, table.rows)))
 
 
 def versions(threads: int) -> dict[str, str]:

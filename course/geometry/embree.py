@@ -20,11 +20,14 @@ import numpy as np
 from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
 
-from course.core.types import Floats32, Mask, Numbers
+from course.core.types import Floats32, Indices, Mask, Numbers
 from course.geometry.packets import PacketScene
 
 NO_HIT = 1e37
 """The distance of a ray that hits nothing, as embreex has it."""
+
+WORTH_CHOOSING = 0.75
+"""Share of a batch up to which copying the rays in question costs less than asking all."""
 
 
 @dataclass
@@ -123,6 +126,22 @@ class Accelerator:
         )
         clock.seconds += perf_counter() - start
         return Intersections(found["primID"], found["u"], found["v"], found["tfar"])
+
+    def entering(
+        self, origin: Floats32, direction: Floats32, limit: Floats32, clock: QueryTime
+    ) -> Indices | None:
+        """Which rays (3, N) come so near, within their limits (N,) or (1,), that they are worth a query.
+
+        Returns
+        -------
+        (n,) int, or None for all: where finding out would take as long as the query
+        """
+        if self._packets is None:
+            return None
+        start = perf_counter()
+        which = self._packets.entering(origin, direction, limit)
+        clock.seconds += perf_counter() - start
+        return which if len(which) < WORTH_CHOOSING * direction.shape[1] else None
 
     def unoccluded(
         self,

@@ -62,18 +62,22 @@ class MovingAccelerator:
         origin = _each_its_own(origin, direction.shape[1])
         for mover in self.movers:
             shifted = self.to_object_space(origin, mover.velocity, time)
+            which = mover.accelerator.entering(shifted, direction, found.t, clock)
+            if which is None:
+                there, limit = direction, found.t
+            else:
+                shifted, there = shifted.take(which, axis=1), direction.take(which, axis=1)
+                limit = found.t.take(which)
             other = mover.accelerator.intersect(
-                shifted, direction, clock, limit=found.t, coherent=coherent
+                shifted, there, clock, limit=limit, coherent=coherent
             )
             nearer = np.flatnonzero(other.triangle >= 0)
-            if len(nearer):
-                found.triangle[nearer] = other.triangle.take(nearer) + np.int32(mover.first)
-                for mine, theirs in (
-                    (found.u, other.u),
-                    (found.v, other.v),
-                    (found.t, other.t),
-                ):
-                    mine[nearer] = theirs.take(nearer)
+            if len(nearer) == 0:
+                continue
+            into = nearer if which is None else which.take(nearer)
+            found.triangle[into] = other.triangle.take(nearer) + np.int32(mover.first)
+            for mine, theirs in ((found.u, other.u), (found.v, other.v), (found.t, other.t)):
+                mine[into] = theirs.take(nearer)
         return found
 
     def unoccluded(
@@ -95,9 +99,12 @@ class MovingAccelerator:
             shifted = self.to_object_space(
                 origin.take(left, axis=1), mover.velocity, time.take(left)
             )
-            free[left] = mover.accelerator.unoccluded(
-                shifted, direction.take(left, axis=1), limit, clock
-            )
+            toward = direction.take(left, axis=1)
+            which = mover.accelerator.entering(shifted, toward, np.full(1, limit, np.float32), clock)
+            if which is not None:
+                left = left.take(which)
+                shifted, toward = shifted.take(which, axis=1), toward.take(which, axis=1)
+            free[left] = mover.accelerator.unoccluded(shifted, toward, limit, clock)
         return free
 
     def follow(self, points: Floats32, triangle: Numbers, time: Floats32) -> None:

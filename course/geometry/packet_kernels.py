@@ -115,3 +115,42 @@ def unoccluded(scene, origin, direction, limit, free):
         # Embree sets tfar to minus infinity where something is in the way.
         for i in range(count):
             free[first + i] = packet[_TFAR, i] >= 0
+
+
+_CHUNK = 256
+_LESS, _MORE = np.float32(1 - 1e-6), np.float32(1 + 1e-6)
+
+
+@njit(
+    types.int64(_columns, _columns, types.float32[::1], types.float32[:, ::1], types.int64[::1]),
+    error_model="numpy",
+    **_compiled,
+)
+def entering(origin, direction, limit, box, which):
+    """Which rays may meet a box, into the first places of ``which`` (N,), and how many; see ``PacketScene.entering``.
+
+    By slabs: a ray is inside the box between the last of the three planes that it enters through and the first of
+    those that it leaves through. Comparisons with the NaN of 0 / 0, of a ray within a plane, are false and say "maybe".
+    """
+    n = direction.shape[1]
+    met = np.empty(_CHUNK, np.bool_)
+    found = 0
+    for first in range(0, n, _CHUNK):
+        count = min(_CHUNK, n - first)
+        for i in range(count):
+            j = first + i
+            near = np.float32(0)
+            far = limit[0] if len(limit) == 1 else limit[j]
+            for axis in range(3):
+                inverse = np.float32(1) / direction[axis, j]
+                a = (box[0, axis] - origin[axis, j]) * inverse
+                b = (box[1, axis] - origin[axis, j]) * inverse
+                low = a if a < b else b
+                high = b if a < b else a
+                near = low if low > near else near
+                far = high if high < far else far
+            met[i] = not near * _LESS > far * _MORE
+        for i in range(count):
+            which[found] = first + i
+            found += met[i]
+    return found

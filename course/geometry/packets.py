@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from course.core.types import Floats32, Mask, Numbers
+from course.core.types import Floats32, Indices, Mask, Numbers
 
 _TRIANGLES, _INDICES, _VERTICES = 0, 0, 1
 _THREE_UINTS, _THREE_FLOATS = 0x5003, 0x9003
@@ -121,7 +121,8 @@ class PacketScene:
         error = library.rtcGetDeviceError(_device())
         if error:
             raise RuntimeError(f"Embree's error {error}")
-        self._intersect, self._unoccluded = _kernels()
+        self._intersect, self._unoccluded, self._entering = _kernels()
+        self._box = _roomy_box(vertices)
 
     def __del__(self) -> None:
         """Give the hierarchy's memory back."""
@@ -155,9 +156,30 @@ class PacketScene:
         self._unoccluded(self._scene, *arrays, np.float32(limit), free)
         return free
 
+    def entering(self, origin: Floats32, direction: Floats32, limit: Floats32) -> Indices:
+        """Which rays meet the box around all triangles within their limits; no others can hit anything.
+
+        Worth its time where most rays pass by: it takes a fifth of what a packet takes to find that out.
+
+        Parameters
+        ----------
+        origin, direction : (3, N) float32
+        limit : (N,) or (1,) float32
+        """
+        which = np.empty(direction.shape[1], np.int64)
+        arrays = map(np.ascontiguousarray, (origin, direction, limit))
+        return which[: self._entering(*arrays, self._box, which)]
+
+
+def _roomy_box(vertices: Floats32) -> Floats32:
+    """Lowest and highest corner (2, 3) of a box around all vertices, with room for the rounding of Embree's hits."""
+    low, high = vertices.min(axis=0), vertices.max(axis=0)
+    room = np.float32(1e-5) * (high - low).max() + np.float32(1e-6) * np.abs(vertices).max()
+    return np.array((low - room, high + room), np.float32)
+
 
 @cache
-def _kernels() -> tuple[Any, Any]:
+def _kernels() -> tuple[Any, Any, Any]:
     """The compiled loops, which find Embree's queries by their names."""
     import llvmlite.binding
 
@@ -167,4 +189,4 @@ def _kernels() -> tuple[Any, Any]:
         llvmlite.binding.add_symbol(name, address)
     from course.geometry import packet_kernels
 
-    return packet_kernels.intersect, packet_kernels.unoccluded
+    return packet_kernels.intersect, packet_kernels.unoccluded, packet_kernels.entering

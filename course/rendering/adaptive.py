@@ -22,6 +22,7 @@ from course.rendering.allocation import (
     best_samples,
     next_rung,
     one_rung_more,
+    rung,
     smoothed,
 )
 from course.rendering.passes import Work
@@ -99,8 +100,7 @@ class _Groups:
         """Work from the samples that the pixels have to those that they shall have, (P,) each."""
         pixels = order[(wanted > have).take(order)]
         # Pixels with the same stretch to go can be rendered together.
-        kind = np.searchsorted(LADDER, have).take(pixels) * len(LADDER)
-        kind += np.searchsorted(LADDER, wanted).take(pixels)
+        kind = rung(have.take(pixels)) * len(LADDER) + rung(wanted.take(pixels))
         work: list[Work] = []
         for number in np.flatnonzero(np.bincount(kind)):
             chosen = pixels[kind == number]

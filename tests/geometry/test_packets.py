@@ -122,3 +122,44 @@ def test_hierarchies_that_nobody_uses_give_their_memory_back(
     del scene
     gc.collect()
     assert released == [number]
+
+
+@pytest.mark.parametrize("n", [0, 1, 255, 256, 257, 20_000])
+def test_rays_that_do_not_enter_the_box_hit_nothing(accelerator: Accelerator, n: int) -> None:
+    origin, direction = rays(n, n + 2)
+    origin *= 4
+    # Along the axes, where slabs are divided by 0, some of them in the box's own planes.
+    direction[:, ::7] = np.eye(3, dtype=np.float32)[:, np.arange(n)[::7] % 3]
+    origin[:, ::14] = np.float32(1.2)
+    limit = np.random.default_rng(6).uniform(0, 6, n).astype(np.float32)
+    accelerator = both(accelerator, True)
+    found = accelerator.intersect(origin, direction, QueryTime(), limit=limit)
+    packets = accelerator._packets
+    assert packets is not None
+    which = packets.entering(origin, direction, limit)
+    assert (np.diff(which) > 0).all()
+    hit = np.flatnonzero(found.triangle >= 0)
+    assert np.isin(hit, which).all()
+    if n > 1000:
+        # By slabs of its own: the box has room to spare, and nothing else is let through.
+        corners = soup(2000, 1)[0]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            a, b = ((c[:, None] - origin) / direction for c in (corners.min(0), corners.max(0)))
+        near = np.fmax.reduce(np.fmin(a, b), axis=0).clip(0)
+        far = np.fmin(np.fmin.reduce(np.fmax(a, b), axis=0), limit)
+        inside = near < far - 1e-3
+        apart = near > far + 1e-3
+        assert np.isin(np.flatnonzero(inside), which).all()
+        assert not np.isin(np.flatnonzero(apart), which).any()
+        assert 0.1 < inside.mean() < 0.9
+
+
+def test_where_most_rays_enter_all_are_asked(accelerator: Accelerator) -> None:
+    origin, direction = rays(1000, 8)
+    far = np.full(1, NO_HIT, np.float32)
+    clock = QueryTime()
+    assert both(accelerator, True).entering(origin, direction, far, clock) is None
+    chosen = both(accelerator, True).entering(9 * origin, direction, far, clock)
+    assert chosen is not None
+    assert 0 < len(chosen) < 500
+    assert both(accelerator, False).entering(9 * origin, direction, far, clock) is None

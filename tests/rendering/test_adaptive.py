@@ -198,17 +198,19 @@ def spots(width: int, height: int, seed: int = 1) -> Array:
 @pytest.mark.parametrize(("width", "height"), [(40, 30), (300, 1), (1, 200), (1, 1)])
 @pytest.mark.parametrize("error", [0.1, 0.03, 0.01])
 def test_rounds_go_on_until_the_target_is_reached(width: int, height: int, error: float) -> None:
-    deviation = spots(width, height)
-    noise = Noise(deviation)
-    assert noise.render(error)
-    assert noise.film.error <= error
-    samples = noise.film.samples.ravel()
-    assert samples.min() >= FIRST
-    assert np.isin(samples, LADDER).all()
+    over = []
+    for seed in range(12):
+        deviation = spots(width, height, seed)
+        noise = Noise(deviation, seed)
+        assert noise.render(error)
+        assert noise.film.error <= error
+        samples = noise.film.samples.ravel()
+        assert samples.min() >= FIRST
+        assert np.isin(samples, LADDER).all()
+        over.append(math.sqrt((deviation.ravel() ** 2 / samples).mean()) / error)
     # As the estimates have seen it, the error is what it was to be; what the numbers are known to have, is near.
-    variance = (deviation.ravel() ** 2 / samples).mean()
     if width * height > 1:
-        assert math.sqrt(variance) < 1.15 * error
+        assert 0.7 < np.median(over) < 1.15
 
 
 @pytest.mark.parametrize("size", [(1, 1), (2, 1), (5, 4), (30, 20)])
@@ -300,15 +302,19 @@ def test_threads_and_the_order_of_the_work_do_not_change_a_bit(
         assert same(one, picture(threads))
     stretches = adaptive._Groups.stretches
     for arrange in (list.reverse, random.Random(6).shuffle):
+        moved: list[bool] = []
 
-        def arranged(*arguments: Any, arrange: Any = arrange) -> list[Work]:
+        def arranged(
+            *arguments: Any, arrange: Any = arrange, moved: list[bool] = moved
+        ) -> list[Work]:
             work = stretches(*arguments)
-            assert len(work) > 1
+            moved.append(len(work) > 1)
             arrange(work)
             return work
 
         monkeypatch.setattr(adaptive._Groups, "stretches", arranged)
         assert same(one, picture(2))
+        assert sum(moved) > 2
     monkeypatch.undo()
     assert not same(one, render(scene, error=error, spp=64, sampler=sampler, seed=6))
 
@@ -688,6 +694,35 @@ def test_ctrl_c_during_a_round_keeps_a_picture_that_is_right_for_its_samples(
         assert np.allclose(picture.linear[these], alike, rtol=1e-5, atol=1e-6)
 
 
+def test_ctrl_c_during_the_preview_begins_no_round(
+    every_stage: EveryStage, monkeypatch: pytest.MonkeyPatch, ctrl_c: Callable[[], None]
+) -> None:
+    scene = every_stage()
+    render_tile = Tracer.render_tile
+    pressed = threading.Event()
+    rounds: list[int] = []
+
+    def waiting(tracer: Tracer, *work: Any) -> Any:
+        *_, parts = work
+        if parts > 1:
+            rounds.append(parts)
+        # No timing decides: the thread that waits for this one looks for Ctrl-C now and then.
+        assert pressed.wait(60)
+        return render_tile(tracer, *work)
+
+    def progress(_done: float, _covered: bool) -> None:
+        if not pressed.is_set():
+            pressed.set()
+            ctrl_c()
+
+    monkeypatch.setattr(Tracer, "render_tile", waiting)
+    picture = render(scene, error=0.03, spp=64, time_limit=1e9, threads=2, progress=progress)
+    assert picture.interrupted
+    assert not picture.complete
+    assert not rounds
+    assert not picture.film.samples.any()
+
+
 @pytest.mark.parametrize("error", [-1.0, -1e-300, math.nan, math.inf, -math.inf])
 def test_an_error_that_cannot_be_is_refused(make_scene: MakeScene, error: float) -> None:
     with pytest.raises(CourseError, match="expected a finite radiance > 0"):
@@ -703,9 +738,9 @@ def test_points_that_are_placed_all_at_once_cannot_go_on(
 
 
 def test_there_must_be_samples_for_a_first_round(make_scene: MakeScene) -> None:
-    with pytest.raises(CourseError, match=r"15 samples .* with 16 or more"):
-        render(make_scene(), error=0.1, spp=15)
-    assert render(make_scene(), error=0.1, spp=16).receipt.samples == 16
+    with pytest.raises(CourseError, match=r"7 samples .* with 8 or more"):
+        render(make_scene(), error=0.1, spp=7)
+    assert render(make_scene(), error=0.1, spp=8).receipt.samples == 8
 
 
 def test_an_adaptive_picture_cannot_be_continued(make_scene: MakeScene) -> None:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from course.imaging.adaptive_film import PARTS
 from course.rendering.allocation import (
+    BLIND,
     FIRST,
     GROWTH,
     LADDER,
@@ -141,8 +142,8 @@ def test_the_ladder_has_few_rungs_that_suit_the_points() -> None:
     assert steps.min() > 0
     assert steps.max() == LONGEST
     assert (steps <= np.maximum(LADDER[:-1] / 2, FIRST / 2)).all()
-    assert set(2 ** np.arange(4, 17)) <= set(LADDER.tolist()), "where the points are most even"
-    assert not (LADDER % (2 * PARTS)).any(), "each stretch can be halved and quartered"
+    assert set(2 ** np.arange(3, 17)) <= set(LADDER.tolist()), "where the points are most even"
+    assert not (LADDER % PARTS).any(), "each stretch can be quartered"
 
 
 def test_only_rungs_of_the_ladder_are_reached_from_a_rung() -> None:
@@ -161,8 +162,8 @@ def test_only_rungs_of_the_ladder_are_reached_from_a_rung() -> None:
 
 def test_what_is_in_reach_is_rounded_to_the_nearest_rung_by_ratio() -> None:
     rng = np.random.default_rng(7)
-    best = rng.uniform(16, 1000, 2000).astype(np.float32)
-    samples = LADDER.take(rng.integers(0, 10, 2000))
+    best = rng.integers(16, 1000, 6000).astype(np.float32)
+    samples = LADDER.take(rng.integers(0, 10, 6000))
     free = (best > samples) & (best < GROWTH * samples) & (best < samples + LONGEST / 2)
     ratio = np.abs(np.log(best[:, None] / LADDER[None]))
     nearest = LADDER.take(ratio.argmin(axis=1))
@@ -194,12 +195,17 @@ def test_nothing_goes_up_that_gains_nothing() -> None:
     assert np.array_equal(one_rung_more(samples, np.zeros(3, np.float32), 0.5, 1.0), samples)
 
 
-def test_smoothing_spreads_a_variance_over_its_neighbours() -> None:
+@pytest.mark.parametrize(
+    ("samples", "share"), [(8, 1), (BLIND, 1), (2 * BLIND, 0.5), (1024, 1 / 32)]
+)
+def test_smoothing_spreads_a_variance_over_its_neighbours(samples: int, share: float) -> None:
+    """All of it where samples are few, and less and less where there are enough to believe."""
     variance = np.zeros((5, 6), np.float32)
     variance[2, 3] = 16
-    found = smoothed(variance, np.full((5, 6), 64, np.int32), 0.6)
+    found = smoothed(variance, np.full((5, 6), samples, np.int32), 0.6)
     expected = np.zeros((5, 6))
-    expected[1:4, 2:5] = np.outer((1, 2, 1), (1, 2, 1))
+    expected[1:4, 2:5] = share * np.outer((1, 2, 1), (1, 2, 1))
+    expected[2, 3] += 16 * (1 - share)
     assert np.allclose(found, expected, rtol=1e-6)
 
 
@@ -218,6 +224,7 @@ def test_smoothing_keeps_what_is_even_and_the_sum(shape: tuple[int, int], order:
 def test_neighbours_count_as_if_they_had_as_many_samples() -> None:
     variance = np.array([[0, 1, 0]], np.float32)
     samples = np.array([[16, 64, 256]], np.int32)
-    # One sample has a variance of 64; a quarter of it for each neighbour, by its own number of samples.
-    assert smoothed(variance, samples, 0.5) == pytest.approx(np.array([[1, 0.5, 1 / 16]]))
+    # One sample has a variance of 64; a quarter of it for each neighbour, by its own number of samples, and of that
+    # a half and an eighth with 64 and 256 samples.
+    assert smoothed(variance, samples, 0.5) == pytest.approx(np.array([[1, 0.75, 1 / 128]]))
     assert math.isclose(float(smoothed(variance, samples, 0.75)[0, 0]), 0.25 * 64**1.5 / 16**1.5)

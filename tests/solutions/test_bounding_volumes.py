@@ -1,0 +1,446 @@
+"""Bounding volumes: boxes in closed form, hierarchies that hold together, and hits as Embree finds them."""
+
+from __future__ import annotations
+
+import math
+import re
+from functools import cache
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import pytest
+
+from course.geometry.embree import Accelerator, QueryTime
+from course.geometry.shapes import torus_knot
+from tests.solutions.batches import CHECKS, DTYPES, Call, directions, numbers
+from tests.solutions.contract import (
+    SOLUTIONS,
+    Array,
+    frozen,
+    global_random_state_untouched,
+    scattered,
+)
+
+slab_test = SOLUTIONS.function("bounding_volumes", "slab_test")
+build = SOLUTIONS.function("bounding_volumes", "build")
+traverse = SOLUTIONS.function("bounding_volumes", "traverse")
+
+LO, HI = np.array((-1.0, -2, -3)), np.array((1.0, 2, 3))
+
+
+def boxes_around(p: tuple[Array, ...]) -> tuple[Array, Array]:
+    return np.min(p, axis=0), np.max(p, axis=0)
+
+
+def room() -> tuple[Array, Array, Array]:
+    """Eight triangles around the origin: an octahedron with corners at 2."""
+    faces = [(x, y, z) for x in (-2, 2) for y in (-2, 2) for z in (-2, 2)]
+    return tuple(np.stack([np.eye(3)[k] * face for face in faces], axis=1) for k in range(3))  # type: ignore[return-value]
+
+
+ROOM = room()
+
+
+def look_around(origins: Array, directions: Array) -> Any:
+    return traverse(build(*boxes_around(ROOM), 2), *ROOM, origins, directions)
+
+
+CALLS = {
+    "slab_test": Call(
+        slab_test,
+        {"origins": numbers(3, -0.9, 0.9), "directions": directions},
+        {"lo": LO, "hi": HI},
+        result=((), ()),
+        tolerance=2e-4,
+    ),
+    "slab_test, each its own": Call(
+        slab_test,
+        {
+            "origins": numbers(3, -0.5, 0.5),
+            "directions": directions,
+            "lo": numbers(3, -2, -1),
+            "hi": numbers(3, 1, 2),
+        },
+        result=((), ()),
+        tolerance=2e-3,
+    ),
+    "traverse": Call(
+        look_around,
+        {"origins": numbers(3, -0.1, 0.1), "directions": directions},
+        result=((), (), (), ()),
+        tolerance=1e-5,
+    ),
+}
+
+# Corners may be (3,) or (3, N), so the message about their shape is another.
+PAIRS = [
+    (name, check)
+    for name in CALLS
+    for check in CHECKS
+    if check != "shapes_are_refused" or name == "traverse"
+]
+
+dtypes = pytest.mark.parametrize("dtype", DTYPES)
+
+
+@pytest.mark.parametrize(("name", "check"), PAIRS)
+def test_contract_of_batches(name: str, check: str) -> None:
+    CHECKS[check](CALLS[name])
+
+
+@pytest.mark.parametrize("shape", [(), (2,), (4,), (3, 4), (3, 1), (5, 3), (3, 5, 1)])
+@pytest.mark.parametrize("name", ["lo", "hi"])
+def test_corners_of_another_shape_are_refused(name: str, shape: tuple[int, ...]) -> None:
+    message = f"{name} must have shape (3,) or (3, 5), got {shape}"
+    with pytest.raises(ValueError, match=f"^{re.escape(message)}$"):
+        slab_test(np.ones((3, 5)), np.ones((3, 5)), **{"lo": LO, "hi": HI, name: np.ones(shape)})
+
+
+# ---------------------------------------------------------------- one box
+
+
+@dtypes
+@pytest.mark.parametrize(
+    ("origin", "direction", "near", "far"),
+    [
+        ((-5, 0, 0), (1, 0, 0), 4, 6),
+        ((5, 0, 0), (-1, -0.0, 0), 4, 6),
+        ((0, 0, 0), (0, 1, 0), -2, 2),
+        ((0, 0, 9), (-0.0, 0, 1), -12, -6),
+        ((0, 0, 9), (0, 0, -3), 2, 4),
+        ((-3, -3, -3), (1, 1, 1), 2, 4),
+        ((3, -3, 3), (-1, 1, -1), 2, 4),
+        ((1, 2, -7), (0, 0, 1), 4, 10),
+        ((-1, -7, 3), (-0.0, 1, 0), 5, 9),
+    ],
+)
+def test_lines_along_axes_and_diagonals_enter_and_leave_where_they_should(
+    dtype: type,
+    origin: tuple[float, ...],
+    direction: tuple[float, ...],
+    near: float,
+    far: float,
+) -> None:
+    o, d = (np.array(v, dtype)[:, None] for v in (origin, direction))
+    t_near, t_far = slab_test(o, d, LO, HI)
+    assert (t_near[0], t_far[0]) == (near, far)
+
+
+@dtypes
+@pytest.mark.parametrize("zero", [0.0, -0.0])
+@pytest.mark.parametrize("axis", [0, 1, 2])
+def test_a_line_along_a_face_is_in_the_box_up_to_the_face(
+    dtype: type, zero: float, axis: int
+) -> None:
+    end = HI.astype(dtype)[axis]
+    beyond = np.nextafter(end, dtype(math.inf))
+    places = np.array((end, -end, 0, beyond, -beyond), dtype)
+    o, d = np.full((3, 5), dtype(-5)), np.ones((3, 5), dtype)
+    o[axis], d[axis] = places, zero
+    t_near, t_far = slab_test(o, d, -5 + LO, 5 + HI)
+    assert (t_near <= t_far).all()
+    lo, hi = LO.copy(), HI.copy()
+    others = np.arange(3) != axis
+    lo[others], hi[others] = -1, 1
+    t_near, t_far = slab_test(o, d, lo, hi)
+    assert (t_near <= t_far).tolist() == [True, True, True, False, False]
+
+
+@dtypes
+def test_tiny_components_are_no_nan(dtype: type) -> None:
+    tiny = float(np.finfo(dtype).smallest_subnormal)
+    slopes = np.array((0.0, -0.0, tiny, -tiny, float(np.finfo(dtype).tiny), 1.0, -1.0), dtype)
+    d = np.stack([v.ravel() for v in np.meshgrid(slopes, slopes, slopes)])
+    d = d[:, d.any(axis=0)]
+    for place in (LO, HI, np.zeros(3), np.array((1.0, -2, 0.5)), np.array((5.0, 2, 3))):
+        o = np.repeat(place.astype(dtype)[:, None], d.shape[1], axis=1)
+        t_near, t_far = slab_test(o, d, LO, HI)
+        assert not np.isnan(t_near).any()
+        assert not np.isnan(t_far).any()
+        if (np.abs(place) <= HI).all():
+            # From the box itself, its surface included, every line is in it at t = 0.
+            assert (t_near <= 0).all()
+            assert (t_far >= 0).all()
+
+
+@dtypes
+def test_lines_are_in_the_box_between_and_nowhere_else(dtype: type) -> None:
+    rng = np.random.default_rng(1)
+    lo = rng.uniform(-1, 0, (3, 3000))
+    hi = lo + rng.uniform(0, 2, (3, 3000))
+    o, d = rng.uniform(-1, 1, (3, 3000)), directions(3000, np.float64, 2)
+    o, d, lo, hi = (v.astype(dtype) for v in (o, d, lo, hi))
+    t_near, t_far = slab_test(o, d, lo, hi)
+    assert 300 < (t_near <= t_far).sum() < 2700
+    steps = rng.uniform(-5, 5, (40, 3000))
+    p = o.astype(float) + steps[:, None] * d
+    off = np.maximum(lo - p, p - hi).max(axis=1)
+    between = (t_near <= steps) & (steps <= t_far)
+    # Right within rounding of the surface.
+    assert not (between & (off > 20 * np.finfo(dtype).eps)).any()
+    assert not (~between & (off < -20 * np.finfo(dtype).eps)).any()
+
+
+# ---------------------------------------------------------------- hierarchies
+
+
+def some_boxes(n: int, dtype: type = np.float64, seed: int = 3) -> tuple[Array, Array]:
+    rng = np.random.default_rng(seed)
+    lo = rng.uniform(-1, 1, (3, n)).astype(dtype)
+    return lo, lo + rng.uniform(0, 0.1, (3, n)).astype(dtype)
+
+
+def assert_holds_together(
+    hierarchy: tuple[Array, ...], lo: Array, hi: Array, leaf_size: int
+) -> None:
+    """By recursion: every box in one leaf, every node once, and each box bit for bit the union."""
+    node_lo, node_hi, first, count, order = hierarchy
+    seen: list[int] = []
+
+    def below(node: int) -> Array:
+        seen.append(node)
+        if count[node]:
+            assert count[node] <= leaf_size
+            inside = order[first[node] : first[node] + count[node]]
+        else:
+            inside = np.concatenate([below(first[node] + side) for side in (0, 1)])
+            assert inside.size > leaf_size
+        assert (node_lo[:, node] == lo[:, inside].min(axis=1)).all()
+        assert (node_hi[:, node] == hi[:, inside].max(axis=1)).all()
+        return inside
+
+    assert sorted(below(0).tolist()) == list(range(lo.shape[1]))
+    assert sorted(seen) == list(range(first.size))
+
+
+@dtypes
+@pytest.mark.parametrize("leaf_size", [1, 2, 4, 7, 1000])
+@pytest.mark.parametrize("n", [1, 2, 3, 5, 8, 100, 257])
+def test_a_hierarchy_holds_together(dtype: type, n: int, leaf_size: int) -> None:
+    lo, hi = (frozen(side) for side in some_boxes(n, dtype))
+    with global_random_state_untouched():
+        hierarchy = build(lo, hi, leaf_size)
+    assert [array.dtype.kind for array in hierarchy] == ["f", "f", "i", "i", "i"]
+    assert hierarchy[0].dtype == hierarchy[1].dtype == dtype
+    assert_holds_together(hierarchy, lo, hi, leaf_size)
+    for turned in (scattered, np.asfortranarray):
+        again = build(turned(lo), turned(hi), leaf_size)
+        assert all((a == b).all() for a, b in zip(again, hierarchy, strict=True))
+
+
+def test_boxes_all_alike_are_divided_too() -> None:
+    lo, hi = np.zeros((3, 100)), np.ones((3, 100))
+    assert_holds_together(build(lo, hi, 3), lo, hi, 3)
+
+
+def test_float32_and_float64_give_float64() -> None:
+    lo, hi = some_boxes(50)
+    assert build(lo.astype(np.float32), hi, 2)[0].dtype == np.float64
+    assert build(lo, hi.astype(np.float32), 2)[1].dtype == np.float64
+
+
+@pytest.mark.parametrize("largest", [3.4e38, 1e-40])
+def test_boxes_of_any_size_are_divided(largest: float) -> None:
+    lo = np.linspace(-largest, largest, 33, dtype=np.float32) * np.ones((3, 1), np.float32)
+    assert_holds_together(build(lo, lo, 1), lo, lo, 1)
+
+
+def test_halves_lie_apart_along_the_longest_axis() -> None:
+    for axis in range(3):
+        lo = np.random.default_rng(4).uniform(-1, 1, (3, 64))
+        lo[axis] *= 10
+        node_lo, node_hi, first, _, _ = build(lo, lo, 4)
+        left, right = first[0], first[0] + 1
+        assert node_hi[axis, left] <= node_lo[axis, right]
+
+
+@pytest.mark.parametrize("wrong", [0, -1, 2.5, math.nan])
+def test_a_leaf_size_out_of_range_is_refused(wrong: float) -> None:
+    with pytest.raises(ValueError, match=f"^leaf_size must be an integer >= 1, got {wrong}$"):
+        build(LO[:, None], HI[:, None], wrong)
+
+
+def test_boxes_of_another_shape_are_refused() -> None:
+    lo, hi = some_boxes(5)
+    with pytest.raises(ValueError, match=r"^lo must have shape \(3, N\), got \(5, 3\)$"):
+        build(lo.T, hi, 1)
+    with pytest.raises(ValueError, match=r"^hi must have shape \(3, 5\), got \(3, 4\)$"):
+        build(lo, hi[:, :4], 1)
+    with pytest.raises(ValueError, match=r"^lo must have at least one column, got none$"):
+        build(lo[:, :0], hi[:, :0], 1)
+
+
+# ---------------------------------------------------------------- the way through
+
+
+def test_from_the_middle_of_an_octahedron_t_is_that_of_its_planes() -> None:
+    d = directions(1000, np.float64, 5)
+    triangle, t, boxes, tests = look_around(np.zeros((3, 1000)), d)
+    assert t == pytest.approx(2 / np.abs(d).sum(axis=0), rel=1e-12)
+    octant = 4 * (d[0] > 0) + 2 * (d[1] > 0) + (d[2] > 0)
+    assert (triangle == octant).all()
+    assert (boxes >= 3).all()
+    assert (tests >= 1).all()
+
+
+def layers(n: int) -> tuple[Array, ...]:
+    """Large triangles at z = 0, 1, 2, ..., n - 1, in any order."""
+    z = np.random.default_rng(6).permutation(n).astype(float)
+    corners = ((-50, -50), (50, -50), (0, 80))
+    return tuple(np.stack((np.full(n, x), np.full(n, y), z)) for x, y in corners)
+
+
+@dtypes
+@pytest.mark.parametrize("leaf_size", [1, 4])
+def test_of_layers_only_the_first_leaf_is_tested(dtype: type, leaf_size: int) -> None:
+    p = tuple(corner.astype(dtype) for corner in layers(64))
+    hierarchy = build(*boxes_around(p), leaf_size)
+    for start, way in ((-1, 1), (64, -1)):
+        o, d = np.zeros((3, 50), dtype), np.zeros((3, 50), dtype)
+        o[:2], o[2], d[2] = numbers(2, -5, 5)(50, dtype, 7), start, way
+        triangle, t, boxes, tests = traverse(hierarchy, *p, o, d)
+        assert (p[0][2, triangle] == (0 if way > 0 else 63)).all()
+        assert (t == 1).all()
+        assert (tests == leaf_size).all()
+        # The root, and two children on each level.
+        assert (boxes == 1 + 2 * math.log2(64 / leaf_size)).all()
+
+
+def test_a_ray_that_misses_everything_tests_the_root_only() -> None:
+    o, d = np.full((3, 4), 9.0), directions(4, np.float64, 8)
+    d = np.abs(d)
+    triangle, t, boxes, tests = look_around(o, d)
+    assert triangle.tolist() == [-1] * 4
+    assert np.isposinf(t).all()
+    assert boxes.tolist() == [1] * 4
+    assert tests.tolist() == [0] * 4
+
+
+def test_triangles_have_two_sides_and_no_back_and_need_an_area() -> None:
+    # The second one is a line.
+    corners = (((0, 0, 0), (0, 0, 2)), ((4, 0, 0), (4, 0, 2)), ((0, 4, 0), (8, 0, 2)))
+    p = tuple(np.array(pair, float).T for pair in corners)
+    hierarchy = build(*boxes_around(p), 2)
+    o = np.array(((1, 1, 5), (1, 1, -5), (1, 1, -5), (1, 1, 1), (2, 0, 5), (3, 3, 5))).T.astype(
+        float
+    )
+    d = np.array(((0, 0, -1), (0, 0, 1), (0, 0, -1), (0, 0, 2), (0, 0, -1), (0, 0, -1))).T.astype(
+        float
+    )
+    triangle, t, _, _ = traverse(hierarchy, *p, o, d)
+    assert triangle.tolist() == [0, 0, -1, -1, 0, -1]
+    assert t[[0, 1, 4]].tolist() == [5, 5, 5]
+
+
+def test_hits_do_not_depend_on_the_hierarchy() -> None:
+    rng = np.random.default_rng(9)
+    p = tuple(rng.uniform(-1, 1, (3, 200)) for _ in range(3))
+    o = 3 * directions(2000, np.float64, 10)
+    d = rng.uniform(-1, 1, o.shape) - o
+    lo, hi = boxes_around(p)
+    all_in_one = build(lo, hi, 200)
+    triangle, t, _, tests = traverse(all_in_one, *p, o, d)
+    assert 1000 < (triangle >= 0).sum() < 2000
+    assert (tests[triangle >= 0] == 200).all()
+    for leaf_size in (1, 3, 20):
+        found = traverse(build(lo, hi, leaf_size), *p, o, d)
+        assert (found[0] == triangle).all()
+        assert (found[1] == t).all()
+
+
+def test_what_a_box_does_not_show_is_not_found() -> None:
+    p = layers(2)
+    lo, hi, first, count, order = build(*boxes_around(p), 1)
+    # The upper triangle's box goes elsewhere, its parent's reaches there.
+    upper = int(np.flatnonzero((count == 1) & (lo[2] == 1))[0])
+    lo[0, upper] += 200
+    hi[0, [0, upper]] += 200
+    o, d = np.array(((0.0,), (0,), (9,))), np.array(((0.0,), (0,), (-1,)))
+    _, t, _, _ = traverse((lo, hi, first, count, order), *p, o, d)
+    assert t.tolist() == [9]
+
+
+@pytest.mark.parametrize("part", [0, 1, 2, 3, 4])
+def test_a_hierarchy_of_other_shapes_is_refused(part: int) -> None:
+    hierarchy = list(build(*boxes_around(ROOM), 2))
+    hierarchy[part] = hierarchy[part][..., None]
+    with pytest.raises(ValueError, match=r"^hierarchy must have shapes \(3, M\), \(3, M\), "):
+        traverse(hierarchy, *ROOM, np.zeros((3, 2)), np.ones((3, 2)))
+
+
+def test_triangles_of_another_number_than_the_hierarchys_are_refused() -> None:
+    hierarchy = build(*boxes_around(ROOM), 2)
+    for k in range(3):
+        wrong = [corner[:, :7] if i == k else corner for i, corner in enumerate(ROOM)]
+        with pytest.raises(ValueError, match=rf"^p{k} must have shape \(3, 8\), got \(3, 7\)$"):
+            traverse(hierarchy, *wrong, np.zeros((3, 2)), np.ones((3, 2)))
+
+
+# ---------------------------------------------------------------- beside Embree
+
+
+@cache
+def knot() -> tuple[Accelerator, tuple[Array, ...]]:
+    """65,536 triangles, in Embree and as corners."""
+    mesh = torus_knot(segments=512, sides=64)
+    vertices, faces = mesh.vertices.astype(np.float32), mesh.triangles.astype(np.int32)
+    p = tuple(np.ascontiguousarray(vertices[faces[:, k]].T) for k in range(3))
+    return Accelerator(vertices, faces), p
+
+
+@cache
+def hits(leaf_size: int) -> tuple[Any, tuple[Array, ...], Array, Array]:
+    """Embree's and the hierarchy's hits of 100,000 rays from all around."""
+    embree, p = knot()
+    rng = np.random.default_rng(12)
+    o = 3 * directions(100_000, np.float64, 13)
+    d = rng.uniform(-1, 1, o.shape) - o
+    o, d = (np.ascontiguousarray(v, np.float32) for v in (o, d / np.linalg.norm(d, axis=0)))
+    found = traverse(build(*boxes_around(p), leaf_size), *p, o, d)
+    return embree.intersect(o, d, QueryTime()), found, o, d
+
+
+def barycentric(triangle: Array, o: Array, d: Array) -> Array:
+    """(3, N) weights of the corners where lines meet the planes of triangles, in double precision."""
+    p0, p1, p2 = (corner[:, triangle].astype(float).T for corner in knot()[1])
+    o, d = o.T.astype(float), d.T.astype(float)
+    sides = [np.cross(b - o, c - o) for b, c in ((p1, p2), (p2, p0), (p0, p1))]
+    volumes = np.stack([(d * side).sum(axis=1) for side in sides])
+    return volumes / volumes.sum(axis=0)
+
+
+def test_every_hit_is_embrees() -> None:
+    embree, (triangle, t, _, _), o, d = hits(4)
+    assert knot()[1][0].shape[1] >= 50_000
+    assert 40_000 < (triangle >= 0).sum() < 90_000
+    differ = np.flatnonzero(triangle != embree.triangle)
+    # A tie: through an edge as nearly as float32 can tell. There may be a few in 100,000.
+    assert differ.size < 10
+    for k in differ:
+        named = np.array([found for found in (triangle[k], embree.triangle[k]) if found >= 0])
+        weights = barycentric(named, *(np.repeat(v[:, [k]], named.size, axis=1) for v in (o, d)))
+        assert np.abs(weights.min(axis=0)).max() < 1e-4
+    same = (triangle == embree.triangle) & (triangle >= 0)
+    # The knot is at most 5 away; at grazing angles rounding is magnified.
+    assert np.abs(t - embree.t)[same].max() < 1e-4
+
+
+def test_tests_are_few_beside_those_of_brute_force() -> None:
+    _, (_, _, boxes, tests), _, _ = hits(4)
+    triangles = knot()[1][0].shape[1]
+    assert boxes.mean() + tests.mean() < triangles / 500
+
+
+def test_tests_grow_with_the_logarithm_of_the_triangles() -> None:
+    means = []
+    for segments, sides in ((64, 16), (128, 32), (256, 64)):
+        mesh = torus_knot(segments=segments, sides=sides)
+        p = tuple(np.ascontiguousarray(mesh.vertices[mesh.triangles[:, k]].T) for k in range(3))
+        o = 3 * directions(3000, np.float64, 14)
+        d = np.random.default_rng(15).uniform(-1, 1, o.shape) - o
+        _, _, boxes, tests = traverse(build(*boxes_around(p), 4), *p, o, d)
+        means.append(boxes.mean() + tests.mean())
+    # Four times the triangles, and twice the tests at the very most.
+    assert all(b < 2 * a for a, b in pairwise(means))
+    assert means[-1] < 3 * means[0]
