@@ -13,6 +13,7 @@ from pathlib import Path
 import click
 
 from benchmarks.adaptive import measure_adaptive
+from benchmarks.bounding_volumes import measure_bounding_volumes
 from benchmarks.convergence import measure_convergence
 from benchmarks.degenerate import measure_degenerate
 from benchmarks.dragons import measure_dragons
@@ -20,7 +21,9 @@ from benchmarks.effects import measure_effects
 from benchmarks.engine import measure_engine
 from benchmarks.figures import Figure, markdown, print_figures
 from benchmarks.grading import measure_grading
+from benchmarks.path_tracing import measure_path_tracing
 from benchmarks.process import measure_processes
+from benchmarks.radiosity import measure_radiosity
 from course.benchmarking.documents import replace_marked
 from course.benchmarking.machine import machine
 from course.cli.bench import DOCUMENTS, bench
@@ -35,7 +38,10 @@ MEASURES = {
     "convergence": measure_convergence,
     "dragons": measure_dragons,
     "adaptive": measure_adaptive,
+    "radiosity": measure_radiosity,
+    "bounding_volumes": measure_bounding_volumes,
     "grading": measure_grading,
+    "path_tracing": measure_path_tracing,
 }
 
 
@@ -46,7 +52,8 @@ MEASURES = {
 def main(names: tuple[str, ...], quick: bool, write_docs: bool) -> None:
     """Measure everything, or what NAME says; print and write it.
 
-    NAME: engine, effects, degenerate, process, convergence, dragons, adaptive, grading, or errors (`course bench`).
+    NAME: engine, effects, degenerate, process, convergence, dragons, adaptive, bounding_volumes, grading,
+    path_tracing, radiosity, or errors (`course bench`).
     """
     OUT.mkdir(parents=True, exist_ok=True)
     figures = [

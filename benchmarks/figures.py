@@ -5,6 +5,10 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from course.benchmarking.tables import Table
+
+COLUMNS = ("figure", "median", "range", "goal", "")
+
 
 @dataclass(frozen=True)
 class Figure:
@@ -38,22 +42,23 @@ class Figure:
 def print_figures(figures: list[Figure]) -> None:
     """A table on the terminal."""
     from rich.console import Console
-    from rich.table import Table
+    from rich.table import Table as RichTable
+    from rich.text import Text
 
-    table = Table(title="engine benchmark, ratios within this run")
-    for column in ("figure", "median", "range", "goal", ""):
+    table = RichTable(title="engine benchmark, ratios within this run")
+    for column in COLUMNS:
         table.add_column(column, justify="left" if column == "figure" else "right")
     for f in figures:
         told = "[green]reached[/]" if f.reached else "[red]missed[/]"
-        table.add_row(*_cells(f), told)
+        # As it is: rich takes units such as [s] for markup.
+        table.add_row(*(Text(cell) for cell in _cells(f)), told)
     Console(width=110).print(table)
 
 
 def markdown(figures: list[Figure]) -> str:
     """The same table as Markdown."""
-    rows = [(*_cells(f), "reached" if f.reached else "missed") for f in figures]
-    head = [("figure", "median", "range", "goal", ""), ("---", "---:", "---:", "---:", "---")]
-    return "\n".join(f"| {' | '.join(row)} |" for row in (*head, *rows))
+    rows = tuple((*_cells(f), "reached" if f.reached else "missed") for f in figures)
+    return Table("", COLUMNS, rows).markdown()
 
 
 def _cells(f: Figure) -> tuple[str, str, str, str]:

@@ -90,6 +90,7 @@ class Exported:
     cube : (6, S + 2, S + 2, 3) float32, faces with a border of their neighbours' texels; empty where it is no picture
     lat_long : (H, W, 3) float32, the same as Mitsuba's `envmap` reads it, see ``lat_long_directions``
     sky : whether the environment lights diffuse surfaces
+    paths : whether light is followed from one diffuse surface to the next
     """
 
     width: int
@@ -106,6 +107,7 @@ class Exported:
     max_depth: int
     cutoff: float
     names: tuple[str, ...] = field(default=())
+    paths: bool = False
 
     @property
     def triangles(self) -> int:
@@ -138,6 +140,7 @@ def export(scene: Scene, width: int, height: int) -> Exported:
         description.integrator.max_depth,
         description.integrator.cutoff,
         tuple(names),
+        description.integrator.type == "path",
     )
 
 
@@ -239,6 +242,13 @@ def _light(light: d.Light) -> dict[str, Any]:
                 "radius": light.radius,
                 quantity: _list(getattr(light, quantity)),
             }
+        case d.RectangleLight() if light.radiance is not None and light.samples == "point":
+            edges = {"edge_u": light.edge_u, "edge_v": light.edge_v}
+            return {
+                "type": "rectangle",
+                "corner": light.corner,
+                "radiance": _list(light.radiance),
+            } | edges
     raise NotExportableError(f"a light {light.__struct_config__.tag} like this is not exported")
 
 

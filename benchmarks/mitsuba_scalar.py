@@ -184,7 +184,7 @@ def _scene_map(e: Exported) -> dict[str, Any]:
 
 def _integrator(e: Exported) -> dict[str, Any]:
     m = e.materials
-    if m.mirror.any() or e.sky:
+    if m.mirror.any() or e.sky or e.paths:
         return {"type": "path", "max_depth": e.max_depth + 2, "rr_depth": e.max_depth + 2}
     # One light for each sample: with more, `direct` counts lights without extent as often (Mitsuba 3.9).
     return {"type": "direct", "emitter_samples": 1, "bsdf_samples": 0}
@@ -246,7 +246,13 @@ def _width(lobe: str, parameter: float) -> float:
     return math.sqrt(variance / 2)
 
 
+_BLACK = {"type": "diffuse", "reflectance": {"type": "rgb", "value": 0.0}}
+"""Lamps give off light and reflect none; Mitsuba's would be grey."""
+
+
 def _light(light: dict[str, Any]) -> dict[str, Any]:
+    import mitsuba as mi
+
     match light:
         case {"type": "point"}:
             return {
@@ -265,6 +271,17 @@ def _light(light: dict[str, Any]) -> dict[str, Any]:
                 "type": "sphere",
                 "center": list(light["center"]),
                 "radius": light["radius"],
+                "bsdf": _BLACK,
+                "emitter": {"type": "area", "radiance": _color(radiance)},
+            }
+        case {"type": "rectangle", "radiance": radiance}:
+            u, v = (np.array(light[edge], float) / 2 for edge in ("edge_u", "edge_v"))
+            middle = np.array(light["corner"]) + u + v
+            columns = np.stack((u, v, np.cross(u, v), middle), axis=1)
+            return {
+                "type": "rectangle",
+                "to_world": mi.ScalarTransform4f(np.vstack((columns, [0, 0, 0, 1]))),
+                "bsdf": _BLACK,
                 "emitter": {"type": "area", "radiance": _color(radiance)},
             }
     raise NotExportableError("Mitsuba has no lights by intensity that have a size")

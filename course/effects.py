@@ -57,9 +57,12 @@ FURTHER: dict[str, tuple[str, ...]] = {
     "blurred_transparency": ("refract", "jitter_refraction", "fresnel"),
     "adaptive_sampling": ("needs_subdivision", "subdivide"),
     "textures": ("rectangle_uv", "sphere_uv", "triangle_uv", "texture_lookup"),
+    "bounding_volumes": ("slab_test", "build", "traverse"),
     "quasi_monte_carlo": ("radical_inverse", "halton", "hammersley", "chain"),
+    "path_tracing": ("diffuse_bounce", "throughput", "russian_roulette"),
+    "radiosity": ("hemicube_form_factors", "gather", "shoot", "needs_split"),
 }
-"""Modules that are written and checked like those, and that stand by themselves."""
+"""Modules that are written and checked like those; few scenes call them, or none."""
 
 COURSE = MODULES | FURTHER
 """All modules of the course."""

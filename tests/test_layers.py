@@ -20,6 +20,7 @@ FLOORS = {
     "appearance": 2,
     "imaging": 2,
     "scene": 3,
+    "radiosity": 4,
     "rendering": 4,
     "transport": 4,
     "cli": 5,

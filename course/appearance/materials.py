@@ -5,7 +5,7 @@ returns, with the irradiance E = I cos / d^2:
 
     L = color (ambient La + diffuse E / pi) + specular (n . h)^exponent E / pi
 
-A dielectric has no ambient and diffuse terms: what it doesn't reflect goes through it.
+A dielectric has no ambient and diffuse terms, unless the scene asks for them: what it doesn't reflect goes through it.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from course.appearance.conductors import Conductors
 from course.core.types import Floats32, Mask, Materials
 
 
@@ -29,6 +30,8 @@ class MaterialTable:
     refraction_index : (M,) float32, 0 where the material is opaque
     absorption : (3, M) float32 [1 / unit of the compiled scene]
     emission : (3, M) float32 [W/(m^2 sr)], of the surfaces of lights
+    conductors : the metals, None where there are none
+    plain : (M,) which materials have highlights without the cosine in E, None where none has
     """
 
     ambient: Floats32
@@ -39,6 +42,8 @@ class MaterialTable:
     refraction_index: Floats32
     absorption: Floats32
     emission: Floats32
+    conductors: Conductors | None = None
+    plain: Mask | None = None
 
     @property
     def shaded(self) -> Mask:

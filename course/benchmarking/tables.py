@@ -19,6 +19,9 @@ COMMON = 64
 
 NONE = "-"
 
+BAR = r"\|"
+"""A bar in a cell of a Markdown table."""
+
 
 @dataclass(frozen=True)
 class Table:
@@ -29,9 +32,12 @@ class Table:
     rows: tuple[tuple[str, ...], ...]
 
     def markdown(self) -> str:
-        """The table as GitHub's Markdown, without its title."""
+        """The table as GitHub's Markdown, without its title; bars in cells are escaped, lest they end them."""
         rule = ("---", *("---:" for _ in self.columns[1:]))
-        return "\n".join(f"| {' | '.join(row)} |" for row in (self.columns, rule, *self.rows))
+        return "\n".join(
+            f"| {' | '.join(cell.replace('|', BAR) for cell in row)} |"
+            for row in (self.columns, rule, *self.rows)
+        )
 
     def plain(self) -> str:
         """The table as text in columns."""

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from course.cli.grade import modules_from
+from course.cli.options import modules_from
 from course.effects import PROJECT
 
 

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from course.cli.grade import modules_from
-from course.cli.options import FAILED
+from course.cli.options import FAILED, modules_from
 from course.cli.tables import count
 from course.effects import PROJECT
 from course.errors import CourseError

@@ -9,24 +9,13 @@ from typing import TYPE_CHECKING
 
 import click
 
+from course.cli.options import modules_from
 from course.cli.progress import progress_bar
 from course.cli.tables import count
-from course.effects import COURSE
 from course.errors import CourseError
 
 if TYPE_CHECKING:
     from course.grading.classes.grading import ClassEngine, ClassResult
-
-
-def modules_from(
-    _ctx: click.Context, _option: click.Parameter, names: tuple[str, ...]
-) -> tuple[str, ...]:
-    """Return modules in the order of the course from names, several in one separated by commas."""
-    given = [name for text in names for name in text.split(",")]
-    for name in given:
-        if name not in COURSE:
-            raise click.BadParameter(f"{name!r}; the modules are {', '.join(COURSE)}")
-    return tuple(name for name in COURSE if not given or name in given)
 
 
 @click.command()

@@ -19,7 +19,9 @@ from course.errors import CourseError
 COMMANDS = (
     "render",
     "check",
+    "radiosity",
     "info",
+    "convert",
     "schema",
     "demo",
     "bench",

@@ -1,7 +1,7 @@
 """Kinds of values that the command line takes besides click's own, and its exit code.
 
 Each function is the `callback` of an option: it gets the text and returns the value, or fails with
-what was expected. An option that was not given stays None.
+what was expected. An option that was not given stays None; where no modules are given, all are meant.
 """
 
 from __future__ import annotations
@@ -11,6 +11,8 @@ import re
 from pathlib import Path
 
 import click
+
+from course.effects import COURSE
 
 INTERRUPTED = 130
 """Exit code after Ctrl-C: 128 + SIGINT, as shells have it."""
@@ -66,3 +68,14 @@ def json_path(_ctx: click.Context, _option: click.Parameter, text: str | None) -
     if path.suffix.lower() != ".json":
         raise click.BadParameter(f"{text!r} doesn't end in .json")
     return path
+
+
+def modules_from(
+    _ctx: click.Context, _option: click.Parameter, names: tuple[str, ...]
+) -> tuple[str, ...]:
+    """Return modules in the order of the course from names, several in one separated by commas."""
+    given = [name for text in names for name in text.split(",")]
+    for name in given:
+        if name not in COURSE:
+            raise click.BadParameter(f"{name!r}; the modules are {', '.join(COURSE)}")
+    return tuple(name for name in COURSE if not given or name in given)

@@ -4,14 +4,20 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from course.cli import options
 from course.cli.progress import progress_bar
 from course.cli.tables import print_sections, receipt_sections
-from course.errors import CourseError
+from course.errors import CourseError, SceneError
 from course.imaging.atomic import check_writable, write_text
+
+if TYPE_CHECKING:
+    from course.rendering.picture import Picture
+    from course.scene.metu.converting import Converted
 
 SAMPLERS = ("sobol", "random", "jittered", "regular")
 
@@ -23,6 +29,9 @@ SAMPLERS = ("sobol", "random", "jittered", "regular")
     "--out",
     type=click.Path(path_type=Path),
     help="Picture to write, .png (sRGB) or .exr (linear float).  [default: SCENE's name with .png]",
+)
+@click.option(
+    "--camera", metavar="ID", help="Of a METU scene with several cameras, only this one's picture."
 )
 @click.option("--spp", type=click.IntRange(1, 65536), help="Samples a pixel.")
 @click.option(
@@ -72,6 +81,7 @@ SAMPLERS = ("sobol", "random", "jittered", "regular")
 def render(
     scene: Path,
     out: Path | None,
+    camera: str | None,
     spp: int | None,
     size: tuple[int, int] | None,
     sampler: str | None,
@@ -88,49 +98,113 @@ def render(
     """Render a scene file to a picture.
 
     What the options leave open is as the scene file says. Ctrl-C ends early and keeps what there
-    is as NAME.partial.png.
+    is as NAME.partial.png. A METU scene (.xml or .json) gives a picture for each camera, under
+    the names that it has for them.
     """
+    _check_engine(engine, address, threads)
+    choices: dict[str, Any] = {
+        "spp": spp,
+        "size": size,
+        "sampler": sampler,
+        "seed": seed,
+        "threads": threads,
+        "time_limit": time_limit,
+        "error": error,
+        "address": address,
+    }
+    if scene.suffix.lower() not in (".xml", ".json"):
+        if camera is not None:
+            raise CourseError("--camera is for METU scenes, .xml or .json; others have one camera")
+        out = Path(f"{scene.stem}.png") if out is None else out
+        _render_one(scene, scene, out, effects, choices, heat_map, receipt_path)
+        return
+    with TemporaryDirectory(prefix="course-") as folder:
+        chosen = _converted(scene, camera, Path(folder))
+        for option, path in (("-o", out), ("--heat-map", heat_map), ("--receipt", receipt_path)):
+            if len(chosen) > 1 and path is not None:
+                names = ", ".join(one.camera for one in chosen)
+                raise CourseError(
+                    f"{option} names one file, but {scene} has {len(chosen)} cameras: choose one of"
+                    f" them with --camera ({names})"
+                )
+        for one in chosen:
+            picture = Path(one.image) if out is None else out
+            _render_one(scene, one.path, picture, effects, choices, heat_map, receipt_path)
+
+
+def _converted(scene: Path, camera: str | None, folder: Path) -> list[Converted]:
+    """The scene files of a METU scene, one for each camera or for the one that is asked for."""
+    from course.scene.metu.converting import convert
+
+    converted, warnings = convert(scene, folder / "scene.yaml")
+    for warning in warnings:
+        click.echo(f"warning: {warning}", err=True)
+    if camera is None:
+        return converted
+    chosen = [one for one in converted if one.camera == camera]
+    if not chosen:
+        names = ", ".join(one.camera for one in converted)
+        raise CourseError(f"--camera {camera}: {scene} has the cameras {names}")
+    return chosen[:1]
+
+
+def _render_one(
+    scene: Path,
+    file: Path,
+    out: Path,
+    effects: str | None,
+    choices: dict[str, Any],
+    heat_map: Path | None,
+    receipt_path: Path | None,
+) -> None:
+    """Render one scene file to one picture; `scene` is what messages call it."""
     from course import load_scene
     from course import render as render_picture
     from course.imaging.files import check_picture_path
     from course.scene.needs import why_black
 
-    _check_engine(engine, address, threads)
-    out = Path(f"{scene.stem}.png") if out is None else out
     for path in (out, heat_map):
         if path is not None:
             check_picture_path(path)
     if receipt_path is not None:
         check_writable(receipt_path)
-    world = load_scene(scene, effects=effects)
+    try:
+        world = load_scene(file, effects=effects)
+    except SceneError as error:
+        if file == scene:
+            raise
+        from course.scene.metu.converting import retold
+
+        raise retold(error, scene, file) from error
     black = why_black(world)
     if black:
         click.echo(f"hint: {scene}: {black}", err=True)
     with progress_bar(out.name) as progress:
-        picture = render_picture(
-            world,
-            spp=spp,
-            size=size,
-            sampler=sampler,
-            seed=seed,
-            threads=threads,
-            time_limit=time_limit,
-            error=error,
-            progress=progress,
-            address=address,
-        )
+        picture = render_picture(world, progress=progress, **choices)
     if picture.interrupted:
         partial = out.with_name(f"{out.stem}.partial{out.suffix}")
-        picture.save(partial)
+        _save(picture, partial)
         click.echo(f"interrupted: what there is was written to {partial}", err=True)
         raise click.exceptions.Exit(options.INTERRUPTED)
-    picture.save(out)
+    _save(picture, out)
     if heat_map is not None:
         picture.save_heat_map(heat_map)
     receipt = picture.receipt.to_dict()
     if receipt_path is not None:
         write_text(receipt_path, json.dumps(receipt, indent=2, allow_nan=False) + "\n")
     print_sections(str(out), receipt_sections(receipt))
+
+
+def _save(picture: Picture, path: Path) -> None:
+    """Write a picture, shown as its film asks for."""
+    from course.imaging.files import save
+    from course.imaging.srgb import SRGB
+
+    settings = getattr(picture, "settings", None)
+    if settings is None or settings.display == SRGB:
+        picture.save(path)
+    else:
+        save(path, picture.film.linear, settings.display)
 
 
 def _check_engine(engine: str, address: str | None, threads: int | None) -> None:

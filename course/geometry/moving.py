@@ -100,7 +100,9 @@ class MovingAccelerator:
                 origin.take(left, axis=1), mover.velocity, time.take(left)
             )
             toward = direction.take(left, axis=1)
-            which = mover.accelerator.entering(shifted, toward, np.full(1, limit, np.float32), clock)
+            which = mover.accelerator.entering(
+                shifted, toward, np.full(1, limit, np.float32), clock
+            )
             if which is not None:
                 left = left.take(which)
                 shifted, toward = shifted.take(which, axis=1), toward.take(which, axis=1)

@@ -5,10 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
+from course.effects import COURSE
 from course.grading.catalog import module_checks
 from course.grading.checks.check import Caller, Check
 from course.grading.checks.running import References, Result, Status, run_checks
 from course.grading.known import Known
+
+WIDTH = max(map(len, COURSE)) + 2
+"""Characters of the matrix's column of modules."""
 
 
 @dataclass(frozen=True)
@@ -65,15 +69,16 @@ def _fault(submission: Known, wrong: list[Result], meant: list[Result]) -> str:
 def matrix(verdicts: Iterable[Verdict]) -> list[str]:
     """Lines of the matrix: a submission each, the checks that it fails, the mistake that it is told."""
     lines = []
+    indent = " " * (6 + WIDTH + 6)
     for verdict in verdicts:
         known = verdict.submission
         kind = "right" if known.right else "wrong"
         mark = "FAULT" if verdict.fault else "ok"
         lines.append(
-            f"{mark:<6}{known.module:<14}{kind:<6}{known.name:<30}{', '.join(verdict.failed) or '-'}"
+            f"{mark:<6}{known.module:<{WIDTH}}{kind:<6}{known.name:<30}{', '.join(verdict.failed) or '-'}"
         )
         if verdict.told:
-            lines.append(f"{'':<26}told: {verdict.told}")
+            lines.append(f"{indent}told: {verdict.told}")
         if verdict.fault:
-            lines.append(f"{'':<26}{verdict.fault}")
+            lines.append(f"{indent}{verdict.fault}")
     return lines

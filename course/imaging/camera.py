@@ -1,7 +1,7 @@
 """The pinhole camera: rays through points of the picture.
 
-Picture coordinates are in pixels, x to the right and y down from the upper left corner; the middle of the picture is
-on the axis, and pixels are square.
+Picture coordinates are in pixels, x to the right and y down from the upper left corner. Seen through a field of view,
+the middle of the picture is on the axis, and pixels are square; a window may lie anywhere, and stretch them.
 """
 
 from __future__ import annotations
@@ -24,6 +24,7 @@ class Camera:
     right, up, forward : (3,) float32, an orthonormal basis
     corner : (3,) float32, direction to the picture's upper left corner, forward component 1
     step_x, step_y : (3,) float32, how far the direction moves from pixel to pixel
+    near : depth along forward at which rays begin
     """
 
     origin: Floats32
@@ -33,6 +34,7 @@ class Camera:
     corner: Floats32
     step_x: Floats32
     step_y: Floats32
+    near: float = 0.0
 
     def directions(self, x: Floats32, y: Floats32) -> Floats32:
         """Unit directions through picture points.
@@ -52,9 +54,26 @@ class Camera:
         direction *= np.divide(np.float32(1), length, out=length)
         return direction
 
+    def from_near_plane(self, origin: Floats32, direction: Floats32) -> Floats32:
+        """Where rays pass the near plane, (3, N) float32.
+
+        Parameters
+        ----------
+        origin : (3, N) or (3, 1) float32, at depth 0
+        direction : (3, N) float32, forwards
+        """
+        way = np.float32(self.near) / dot(self.forward[:, None], direction)
+        return origin + direction * way
+
 
 def make_camera(
-    eye: Floats64, view: Floats64, up: Floats64, vertical_fov: float, width: int, height: int
+    eye: Floats64,
+    view: Floats64,
+    up: Floats64,
+    vertical_fov: float,
+    width: int,
+    height: int,
+    near: float = 0.0,
 ) -> Camera:
     """A camera from where it is and which way it looks.
 
@@ -63,10 +82,9 @@ def make_camera(
     eye, view, up : (3,) float64; the view of any length, up any vector not parallel to it
     vertical_fov : radians
     width, height : pixels
+    near : depth at which rays begin
     """
-    forward = _unit(view)
-    right = _unit(np.cross(forward, _unit(up)))
-    true_up = np.cross(right, forward)
+    forward, right, true_up = _axes(view, up)
     half_height = np.tan(vertical_fov / 2)
     pixel = 2 * half_height / height
     corner = forward - right * (pixel * width / 2) + true_up * half_height
@@ -78,7 +96,44 @@ def make_camera(
         corner=corner.astype(np.float32),
         step_x=(right * pixel).astype(np.float32),
         step_y=(-true_up * pixel).astype(np.float32),
+        near=near,
     )
+
+
+def make_window_camera(
+    eye: Floats64,
+    view: Floats64,
+    up: Floats64,
+    edges: Floats64,
+    width: int,
+    height: int,
+    near: float = 0.0,
+) -> Camera:
+    """A camera whose picture is a window at right angles to the view; see ``make_camera``.
+
+    Parameters
+    ----------
+    edges : (4,) float64, where the window's left, right, lower and upper edges are, at distance 1 and from the axis
+    """
+    forward, right, true_up = _axes(view, up)
+    left, right_edge, bottom, top = edges
+    return Camera(
+        origin=eye.astype(np.float32),
+        right=right.astype(np.float32),
+        up=true_up.astype(np.float32),
+        forward=forward.astype(np.float32),
+        corner=(forward + right * left + true_up * top).astype(np.float32),
+        step_x=(right * ((right_edge - left) / width)).astype(np.float32),
+        step_y=(true_up * ((bottom - top) / height)).astype(np.float32),
+        near=near,
+    )
+
+
+def _axes(view: Floats64, up: Floats64) -> tuple[Floats64, Floats64, Floats64]:
+    """Unit vectors forward, to the right and up."""
+    forward = _unit(view)
+    right = _unit(np.cross(forward, _unit(up)))
+    return forward, right, np.cross(right, forward)
 
 
 def _unit(vector: Floats64) -> Floats64:

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from course.errors import OutputError
 from course.imaging.atomic import check_writable, replacing
-from course.imaging.srgb import linear_to_srgb8
+from course.imaging.srgb import SRGB, Display
 
 if TYPE_CHECKING:
     from PIL import Image, PngImagePlugin
@@ -25,7 +25,7 @@ COMPRESS_LEVEL = 4
 """zlib level of a PNG: half the time of level 6 on a noisy picture, at the same size."""
 
 
-def save(path: Path, linear: NDArray[np.float32]) -> None:
+def save(path: Path, linear: NDArray[np.float32], display: Display = SRGB) -> None:
     """Write a picture in the format that the file's suffix names.
 
     Parameters
@@ -34,13 +34,18 @@ def save(path: Path, linear: NDArray[np.float32]) -> None:
         Ends in .png or .exr, in upper or lower case.
     linear : (3, H, W) float32
         Linear RGB.
+    display : Display
+        How a PNG shows it; other formats hold the values themselves.
 
     Raises
     ------
     OutputError
         The suffix is not known, or the file can't be written. Then nothing is.
     """
-    _writer(path)(path, linear)
+    if path.suffix.lower() == ".png":
+        write_png(path, linear, display)
+    else:
+        _writer(path)(path, linear)
 
 
 def check_picture_path(path: Path) -> None:
@@ -55,8 +60,8 @@ def check_picture_path(path: Path) -> None:
     check_writable(path)
 
 
-def write_png(path: Path, linear: NDArray[np.float32]) -> None:
-    """Write linear RGB (3, H, W) as an sRGB PNG of 8 bits; values above 1 show as 1.
+def write_png(path: Path, linear: NDArray[np.float32], display: Display = SRGB) -> None:
+    """Write linear RGB (3, H, W) as a PNG of 8 bits; values above the display's white show as white.
 
     Raises
     ------
@@ -64,15 +69,16 @@ def write_png(path: Path, linear: NDArray[np.float32]) -> None:
         The file can't be written.
     """
     with replacing(path) as temporary:
-        image, options = _image(linear), _options()
+        image, options = _image(linear, display), _options(display)
         with temporary.open("wb") as file:
             image.save(file, compress_level=COMPRESS_LEVEL, pnginfo=options)
 
 
-def encode_png(linear: NDArray[np.float32]) -> bytes:
+def encode_png(linear: NDArray[np.float32], display: Display = SRGB) -> bytes:
     """Return the bytes of the file that `write_png` writes."""
     file = io.BytesIO()
-    _image(linear).save(file, "PNG", compress_level=COMPRESS_LEVEL, pnginfo=_options())
+    options = _options(display)
+    _image(linear, display).save(file, "PNG", compress_level=COMPRESS_LEVEL, pnginfo=options)
     return file.getvalue()
 
 
@@ -102,18 +108,19 @@ def write_exr(path: Path, linear: NDArray[np.float32]) -> None:
             raise OSError(trouble or file.geterror())
 
 
-def _image(linear: NDArray[np.float32]) -> Image.Image:
+def _image(linear: NDArray[np.float32], display: Display) -> Image.Image:
     from PIL import Image
 
-    return Image.fromarray(linear_to_srgb8(linear))
+    return Image.fromarray(display.codes(linear))
 
 
-def _options() -> PngImagePlugin.PngInfo:
-    """Say in the file that its values are sRGB (PNG specification, 11.3.2.5; perceptual)."""
+def _options(display: Display) -> PngImagePlugin.PngInfo:
+    """Say in the file that its values are sRGB, if they are (PNG specification, 11.3.2.5; perceptual)."""
     from PIL import PngImagePlugin
 
     info = PngImagePlugin.PngInfo()
-    info.add(b"sRGB", b"\0")
+    if display.encoding == "srgb":
+        info.add(b"sRGB", b"\0")
     return info
 
 

@@ -6,7 +6,6 @@ many (``allocation``). The film alone decides, between the rounds, so the pictur
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Protocol
 
 import numpy as np
@@ -29,6 +28,14 @@ from course.rendering.passes import Work
 
 SAFETY = 0.95
 """Part of the target that a round aims at, so that the last one doesn't miss it by a hair and another must follow."""
+
+SMALLEST, LARGEST = RAYS // 4, 2 * RAYS
+"""Camera rays in a group of pixels, as far as pixels have so many samples to go: more than in a tile, for the hard
+pixels of a picture lose many of their rays on the way."""
+
+SHARE = 8
+"""Of what is left of a round a group is one part in so many: large ones first, and small ones at the end, so that no
+thread waits long for another."""
 
 
 class Run(Protocol):
@@ -101,19 +108,20 @@ class _Groups:
         pixels = order[(wanted > have).take(order)]
         # Pixels with the same stretch to go can be rendered together.
         kind = rung(have.take(pixels)) * len(LADDER) + rung(wanted.take(pixels))
+        kinds = [pixels[kind == number] for number in np.flatnonzero(np.bincount(kind))]
+        steps = [int(wanted[chosen[0]] - have[chosen[0]]) for chosen in kinds]
+        left = sum(len(chosen) * step for chosen, step in zip(kinds, steps, strict=True))
         work: list[Work] = []
-        for number in np.flatnonzero(np.bincount(kind)):
-            chosen = pixels[kind == number]
-            first, last = int(have[chosen[0]]), int(wanted[chosen[0]])
-            groups = self._divided(chosen, last - first)
-            work += [Work(group, 0, first, last - first, True, PARTS) for group in groups]
-        # The large ones first: threads that run out of work wait for less.
-        work.sort(key=lambda item: -item.tile.size * item.samples)
+        for place in sorted(range(len(kinds)), key=lambda place: -len(kinds[place]) * steps[place]):
+            chosen, step = kinds[place], steps[place]
+            first = int(have[chosen[0]])
+            while len(chosen):
+                most = max(min(max(left // SHARE, SMALLEST), LARGEST) // step, 1)
+                # Equal groups rather than full ones and a rest.
+                part = -(-len(chosen) // -(-len(chosen) // most))
+                group = PixelGroup(self._count, chosen[:part], self._width)
+                work.append(Work(group, 0, first, step, True, PARTS))
+                self._count += 1
+                left -= part * step
+                chosen = chosen[part:]
         return work
-
-    def _divided(self, pixels: Indices, samples: int) -> Iterator[PixelGroup]:
-        most = max(RAYS // samples, 1)
-        # Equal groups rather than full ones and a rest.
-        for part in np.array_split(pixels, -(-len(pixels) // most)):
-            yield PixelGroup(self._count, part, self._width)
-            self._count += 1

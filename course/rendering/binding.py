@@ -25,10 +25,16 @@ def bind(scene: Scene, settings: Settings) -> Tracer:
         film.sigma,
     )
     compiled = scene.compiled
+    kind = Tracer
+    if compiled.world.paths is not None:
+        from course.transport.path_tracing import PathTracer
+
+        kind = PathTracer
     return make_tracer(
         compiled.world,
         settings,
         compile_camera(scene.loaded, compiled.frame, settings.width, settings.height),
         make_sampler(settings.sampler, settings.seed, place),
         reconstruction,
+        kind,
     )

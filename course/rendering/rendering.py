@@ -17,7 +17,7 @@ from course.imaging.adaptive_film import AdaptiveFilm
 from course.imaging.film import Film
 from course.rendering.adaptive import render_adaptively
 from course.rendering.allocation import FIRST
-from course.rendering.binding import bind as _tracer
+from course.rendering.binding import bind
 from course.rendering.memory import keep_freed_memory
 from course.rendering.passes import (
     Work,
@@ -113,7 +113,7 @@ def render(
     packets = _use_compiled(settings, compiled)
     scene.compiled.world.surface.accelerator.use_packets(packets)
     try:
-        tracer = _tracer(scene, settings)
+        tracer = bind(scene, settings)
         film: Film | AdaptiveFilm
         done = 0
         if settings.error is None:
@@ -312,6 +312,8 @@ def _render_adaptively(
 
     if deadline is not None:
         covered = run(preview(settings, 1), 0.0, 0.0)
+        if pool.interrupted:
+            return False
     assert settings.error is not None
     budget = settings.samples * settings.width * settings.height
     return render_adaptively(film, settings.error, budget, run)

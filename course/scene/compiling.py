@@ -10,7 +10,7 @@ from course.core.types import Floats64
 from course.effects import Effects
 from course.geometry.mesh import Mesh
 from course.geometry.surface import Part, build_surface
-from course.imaging.camera import Camera, make_camera
+from course.imaging.camera import Camera, make_camera, make_window_camera
 from course.scene import description as d
 from course.scene.brightness import in_range
 from course.scene.description.values import rgb
@@ -24,6 +24,7 @@ from course.scene.loading import Loaded
 from course.scene.lobe_compiling import compile_lobes
 from course.scene.material_table import compile_materials
 from course.scene.motion_compiling import check_sweeps, compile_motion
+from course.scene.path_compiling import compile_paths
 from course.scene.reach import in_reach
 from course.scene.shutter import shutter_of
 from course.scene.world import World
@@ -58,10 +59,11 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
     scene, document = loaded.description, loaded.document
     shutter = shutter_of(loaded)
     meshes: list[Mesh] = []
+    files: dict[str, Mesh] = {}
     bounds: list[Floats64] = []
     boxes: list[Floats64] = []
     for number, thing in enumerate(scene.objects):
-        mesh = object_mesh(thing, number, document, loaded.path.parent)
+        mesh = object_mesh(thing, number, document, loaded.path.parent, files)
         bounds.append(bounds_of(mesh))
         start = shutter.start(thing.motion)
         meshes.append(_moved(mesh, start))
@@ -96,6 +98,8 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
         lobes=compile_lobes(used, effects, scene.integrator),
         lens=compile_lens(loaded, frame, effects),
         motion=motion,
+        paths=compile_paths(scene.integrator, effects, materials, first_lamp=len(names)),
+        backdrop=scene.environment.seen_by == "camera",
     )
     return Compiled(world, frame, tuple(len(mesh.triangles) for mesh in meshes), tuple(bounds))
 
@@ -112,12 +116,14 @@ def compile_camera(loaded: Loaded, frame: Frame, width: int, height: int) -> Cam
     start = shutter_of(loaded).start(camera.motion)
     eye = frame.position(np.array(camera.eye) + start)
     in_reach(eye, loaded, ("camera", "eye"), "the camera's distance")
-    return make_camera(
-        eye,
-        # In the file's units: in a huge scene the two positions may round to one.
-        np.array(camera.look_at) - np.array(camera.eye),
-        np.array(camera.up),
-        np.radians(camera.vertical_fov),
-        width,
-        height,
-    )
+    near = camera.near / frame.scale
+    in_reach(np.array(near), loaded, ("camera", "near"), "the distance from which the camera sees")
+    # In the file's units: in a huge scene the two positions may round to one.
+    view, up = np.array(camera.look_at) - np.array(camera.eye), np.array(camera.up)
+    if camera.image_plane is None:
+        fov = np.radians(camera.vertical_fov)
+        return make_camera(eye, view, up, fov, width, height, near)
+    plane = camera.image_plane
+    edges = np.array((plane.left, plane.right, plane.bottom, plane.top)) / plane.distance
+    in_reach(edges, loaded, ("camera", "image_plane"), "the widest slope of a ray")
+    return make_window_camera(eye, view, up, edges, width, height, near)

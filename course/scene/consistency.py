@@ -11,7 +11,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from course.scene.description.camera import CameraDescription
+from course.scene.description.camera import CameraDescription, ImagePlaneDescription
 from course.scene.description.lights import DirectionalLight, Light, RectangleLight, SphereLight
 from course.scene.description.objects import DisplacedSphere, Object, Torus, TorusKnot
 from course.scene.description.sampler import SamplerDescription
@@ -38,6 +38,11 @@ def check_consistency(description: SceneDescription, document: Document) -> None
     """
     _check_camera(description.camera, document)
     _check_sampler(description.sampler, document)
+    for name, material in description.materials.items():
+        if material.dielectric is not None and material.conductor is not None:
+            raise document.error(
+                ("materials", name), "both dielectric and conductor are given: expected one of them"
+            )
     for index, light in enumerate(description.lights):
         _check_light(light, ("lights", index), document)
     for index, thing in enumerate(description.objects):
@@ -59,9 +64,20 @@ def _check_camera(camera: CameraDescription, document: Document) -> None:
             ("camera", "look_at"), "another point than camera.eye, to look towards"
         )
     _check_not_zero(camera.up, ("camera", "up"), document)
-    if _sine(view, np.array(camera.up)) < _PARALLEL_UP:
+    if sine(view, np.array(camera.up)) < _PARALLEL_UP:
         raise document.unexpected(
             ("camera", "up"), "a direction that is not parallel to the view from eye to look_at"
+        )
+    if camera.image_plane is not None:
+        _check_image_plane(camera.image_plane, ("camera", "image_plane"), document)
+
+
+def _check_image_plane(plane: ImagePlaneDescription, path: KeyPath, document: Document) -> None:
+    if not plane.left < plane.right:
+        raise document.unexpected((*path, "right"), f"a number > left, {plane.left:g} [world unit]")
+    if not plane.bottom < plane.top:
+        raise document.unexpected(
+            (*path, "top"), f"a number > bottom, {plane.bottom:g} [world unit]"
         )
 
 
@@ -83,8 +99,13 @@ def _check_light(light: Light, path: KeyPath, document: Document) -> None:
     if isinstance(light, RectangleLight):
         _check_not_zero(light.edge_u, (*path, "edge_u"), document)
         _check_not_zero(light.edge_v, (*path, "edge_v"), document)
-        if _sine(np.array(light.edge_u), np.array(light.edge_v)) < _PARALLEL_EDGES:
+        if sine(np.array(light.edge_u), np.array(light.edge_v)) < _PARALLEL_EDGES:
             raise document.unexpected((*path, "edge_v"), "an edge that is not parallel to edge_u")
+        if light.two_sided and light.visible and light.radiance is not None:
+            raise document.unexpected(
+                (*path, "visible"),
+                "false for a two-sided light by radiance; for one that is seen, give two lights, one a side",
+            )
 
 
 def _check_emission(light: RectangleLight | SphereLight, path: KeyPath, document: Document) -> None:
@@ -166,7 +187,7 @@ def _check_not_zero(vector: Vector, path: KeyPath, document: Document) -> None:
         raise document.unexpected(path, "a vector that is not zero")
 
 
-def _sine(a: NDArray[np.float64], b: NDArray[np.float64]) -> float:
+def sine(a: NDArray[np.float64], b: NDArray[np.float64]) -> float:
     """Sine of the angle between two vectors, neither of them zero."""
     # Divided by the largest component first, so that no square underflows or overflows.
     a, b = a / np.abs(a).max(), b / np.abs(b).max()

@@ -31,6 +31,8 @@ def emitter_parts(
     for number, light in enumerate(loaded.description.lights):
         if not isinstance(light, RectangleLight | SphereLight) or light.radiance is None:
             continue
+        if isinstance(light, RectangleLight) and not light.visible:
+            continue
         mesh = _rectangle(light) if isinstance(light, RectangleLight) else _sphere(light)
         mesh = Mesh(mesh.vertices + shutter.start(light.motion), mesh.triangles)
         velocity = shutter.velocity(light.motion, frame)

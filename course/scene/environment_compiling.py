@@ -19,7 +19,7 @@ from course.scene import description as d
 from course.scene.brightness import in_range
 from course.scene.description.values import rgb
 from course.scene.loading import Loaded
-from course.scene.material_table import base_color
+from course.scene.material_table import base_color, has_body
 
 LOOKUPS = {"seamless": "lookup_seamless", "clamped": "lookup"}
 """The cube_map function for each value of ``lookup``."""
@@ -68,7 +68,7 @@ def _anything_diffuse(loaded: Loaded) -> bool:
     """Whether any object shows the light that falls on it."""
     scene = loaded.description
     used = (scene.materials[thing.material] for thing in scene.objects)
-    return any(m.dielectric is None and (base_color(m) * m.diffuse).any() for m in used)
+    return any(has_body(m) and (base_color(m) * m.diffuse).any() for m in used)
 
 
 def _faces(environment: d.CubeEnvironment, loaded: Loaded) -> Floats32:

@@ -14,8 +14,18 @@ from course.scene import description as d
 from course.scene.document import Document
 
 
-def object_mesh(thing: d.Object, number: int, document: Document, folder: Path) -> Mesh:
+def object_mesh(
+    thing: d.Object,
+    number: int,
+    document: Document,
+    folder: Path,
+    files: dict[str, Mesh] | None = None,
+) -> Mesh:
     """The mesh of one object, transformed.
+
+    Parameters
+    ----------
+    files : mesh files that have been read already, by their names in the scene; this one is added
 
     Raises
     ------
@@ -24,7 +34,7 @@ def object_mesh(thing: d.Object, number: int, document: Document, folder: Path) 
     """
     path = ("objects", number)
     try:
-        mesh = _local_mesh(thing, folder)
+        mesh = _local_mesh(thing, folder, {} if files is None else files)
         if thing.transform:
             mesh = transforms.apply(
                 mesh, transforms.compose([_matrix(step) for step in thing.transform])
@@ -37,12 +47,14 @@ def object_mesh(thing: d.Object, number: int, document: Document, folder: Path) 
     return mesh
 
 
-def _local_mesh(thing: d.Object, folder: Path) -> Mesh:
+def _local_mesh(thing: d.Object, folder: Path, files: dict[str, Mesh]) -> Mesh:
     if isinstance(thing, d.MeshFile):
         # trimesh behind it is heavy; a scene of named shapes never imports it.
         from course.geometry.mesh_files import read_mesh
 
-        return read_mesh(folder / thing.file)
+        if thing.file not in files:
+            files[thing.file] = read_mesh(folder / thing.file)
+        return files[thing.file]
     match thing:
         case d.Quad():
             return shapes.quad(thing.width, thing.depth)

@@ -96,7 +96,17 @@ class _Compiler:
             edges = _single(edge_u), _single(edge_v)
             color = self._color(power)
             return [
-                RectangleLight(self.name, corner, *edges, facing, color, place, velocity=velocity)
+                RectangleLight(
+                    self.name,
+                    corner,
+                    *edges,
+                    facing,
+                    color,
+                    place,
+                    velocity=velocity,
+                    two_sided=light.two_sided,
+                    visible=light.visible,
+                )
             ]
         k = grid_size(light.samples)
         grid = self.effects.function("soft_shadows", "light_grid")
@@ -107,7 +117,15 @@ class _Compiler:
             )
         color = self._color(power / (k * k))
         return [
-            PointLight(self.name, _single(point), color, facing, velocity=velocity)
+            PointLight(
+                self.name,
+                _single(point),
+                color,
+                facing,
+                velocity=velocity,
+                two_sided=light.two_sided,
+                visible=light.visible,
+            )
             for point in points.T
         ]
 

@@ -6,14 +6,18 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from course.appearance.conductors import Conductors
 from course.appearance.materials import MaterialTable
-from course.core.types import Floats64
+from course.core.types import Floats64, Mask
 from course.scene.description import MaterialDescription
 from course.scene.description.values import rgb
 from course.scene.frame import Frame
 
 DEFAULT_COLOR = 0.8
 """Of the light that the mirror leaves, where the file names no colour."""
+
+LARGEST_INDEX = 1e8
+"""An index of refraction beyond it is as good as infinite."""
 
 LARGEST = 1e30
 """An exponent or absorption beyond it is as good as infinite, and float32 carries it."""
@@ -32,9 +36,45 @@ def returned_share(material: MaterialDescription) -> Floats64:
     Above 1 the material makes light. Highlights are left out: how much they return depends on the
     directions.
     """
+    rest = base_color(material) * material.diffuse if has_body(material) else np.zeros(3)
     # A dielectric reflects a part and lets the rest through, all in all 1.
-    rest = 1.0 if material.dielectric else base_color(material) * material.diffuse
-    return rest + rgb(material.mirror)
+    return rest + rgb(material.mirror) + (1.0 if material.dielectric else 0.0)
+
+
+def has_body(material: MaterialDescription) -> bool:
+    """Whether a material has ambient and diffuse terms."""
+    return material.dielectric is None or material.dielectric.shaded
+
+
+def ambient_color(material: MaterialDescription) -> Floats64:
+    """(3,) float64 colour of the ambient term."""
+    if material.ambient_color is None:
+        return base_color(material)
+    return rgb(material.ambient_color)
+
+
+def _conductors(materials: Mapping[str, MaterialDescription], count: int) -> Conductors | None:
+    metals = {
+        column: material.conductor
+        for column, material in enumerate(materials.values())
+        if material.conductor is not None
+    }
+    if not metals:
+        return None
+    metal, (n, k) = np.zeros(count, np.bool_), np.ones((2, 3, count), np.float32)
+    for column, conductor in metals.items():
+        metal[column] = True
+        # Beyond it the metal is a perfect mirror to float32, and the square of a square overflows.
+        n[:, column] = np.minimum(rgb(conductor.refraction_index), LARGEST_INDEX)
+        k[:, column] = np.minimum(rgb(conductor.absorption_index), LARGEST_INDEX)
+    return Conductors(metal, n, k)
+
+
+def _plain(materials: Mapping[str, MaterialDescription], count: int) -> Mask | None:
+    plain = np.zeros(count, np.bool_)
+    for column, material in enumerate(materials.values()):
+        plain[column] = material.highlight == "plain" and rgb(material.specular).any()
+    return plain if plain.any() else None
 
 
 def compile_materials(
@@ -49,10 +89,10 @@ def compile_materials(
         specular[:, column] = rgb(material.specular)
         mirror[:, column] = rgb(material.mirror)
         exponent[column] = material.exponent
-        if material.dielectric is None:
-            ambient[:, column] = color * material.ambient
+        if has_body(material):
+            ambient[:, column] = ambient_color(material) * material.ambient
             diffuse[:, column] = color * material.diffuse
-        else:
+        if material.dielectric is not None:
             index[column] = material.dielectric.refraction_index
             per_unit = np.minimum(rgb(material.dielectric.absorption), LARGEST / frame.scale)
             absorption[:, column] = per_unit * frame.scale
@@ -68,4 +108,6 @@ def compile_materials(
         index.astype(f),
         absorption.astype(f),
         emitted.astype(f),
+        _conductors(materials, max(count, 1)),
+        _plain(materials, max(count, 1)),
     )

@@ -32,6 +32,7 @@ def movers(
         if isinstance(light, d.AmbientLight | d.DirectionalLight):
             continue
         surface = not isinstance(light, d.PointLight) and light.radiance is not None
+        surface = surface and not (isinstance(light, d.RectangleLight) and not light.visible)
         if shutter.moves(light.motion) and (surface or not why_dark(light, materials)):
             found.append(("lights", number, "motion"))
     if shutter.moves(scene.camera.motion):

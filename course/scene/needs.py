@@ -14,6 +14,7 @@ from course.scene.light_power import power, why_dark
 from course.scene.loading import Loaded
 from course.scene.lobe_compiling import lobe_function
 from course.scene.motion_compiling import movers
+from course.scene.path_compiling import path_functions
 from course.scene.scene import Scene
 from course.scene.shutter import shutter_of
 from course.scene.world import Settings, World
@@ -56,6 +57,10 @@ def needs_of(loaded: Loaded, settings: Settings, world: World) -> list[Need]:
             if lobe:
                 asked_by = ("materials", name, "gloss")
                 needs += [Need(f"glossy.{lobe}", asked_by), Need("glossy.keep_above", asked_by)]
+    needs += [
+        Need(f"path_tracing.{name}", ("integrator", "type"))
+        for name in path_functions(scene.integrator, settings.max_depth, world.materials)
+    ]
     lens = scene.camera.lens
     if lens is not None and lens.aperture_radius > 0:
         asked_by = ("camera", "lens", "aperture_radius")

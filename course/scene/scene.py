@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from course.effects import Effects
+from course.imaging.srgb import Display
 from course.scene.compiling import Compiled, compile_scene
 from course.scene.loading import Loaded, load_description
 from course.scene.world import Settings
@@ -49,6 +50,7 @@ class Scene:
             max_depth=scene.integrator.max_depth,
             cutoff=scene.integrator.cutoff,
             error=scene.film.error,
+            display=Display(scene.film.white, scene.film.encoding),
         )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from course.appearance.cube_environment import CubeEnvironment
@@ -9,10 +10,11 @@ from course.appearance.environment import ConstantEnvironment
 from course.appearance.lights import Light
 from course.appearance.lobes import Lobe
 from course.appearance.materials import MaterialTable
-from course.core.types import Floats32
+from course.core.types import Floats32, Mask
 from course.geometry.motion_functions import MotionFunctions
 from course.geometry.surface import Surface
 from course.imaging.lens import Lens
+from course.imaging.srgb import SRGB, Display
 
 
 @dataclass(frozen=True)
@@ -30,6 +32,24 @@ class Motion:
 
 
 @dataclass(frozen=True)
+class Paths:
+    """What path tracing needs.
+
+    Attributes
+    ----------
+    roulette : bounces that a path makes before Russian roulette may end it, None for never
+    lamps : (M,) which materials are surfaces of lights, which direct light samples at every diffuse hit
+    diffuse_bounce, throughput, russian_roulette : of the path_tracing module, None where they are not called
+    """
+
+    roulette: int | None
+    lamps: Mask
+    diffuse_bounce: Callable[[Floats32, Floats32], Floats32] | None
+    throughput: Callable[[Floats32, Floats32], Floats32] | None
+    russian_roulette: Callable[[Floats32, Floats32], tuple[Mask, Floats32]] | None
+
+
+@dataclass(frozen=True)
 class World:
     """What one batch of rays meets.
 
@@ -44,6 +64,8 @@ class World:
     lobes : of the glossy materials
     lens : None for a pinhole
     motion : None where nothing moves while the shutter is open
+    paths : None for the distribution ray tracer
+    backdrop : whether only camera rays see the environment
     """
 
     surface: Surface
@@ -55,6 +77,8 @@ class World:
     lobes: tuple[Lobe, ...] = ()
     lens: Lens | None = None
     motion: Motion | None = None
+    paths: Paths | None = None
+    backdrop: bool = False
 
 
 @dataclass(frozen=True)
@@ -69,6 +93,7 @@ class Settings:
     max_depth : bounces after the camera ray
     cutoff : bounced rays whose largest throughput channel is below this are dropped
     error : the root-mean-square error [radiance] at which sampling ends; None samples all pixels alike
+    display : how a PNG shows the picture
     """
 
     width: int
@@ -79,3 +104,4 @@ class Settings:
     max_depth: int
     cutoff: float
     error: float | None = None
+    display: Display = SRGB

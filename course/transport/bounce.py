@@ -35,6 +35,9 @@ def bounced(
     if plan.absorbs and medium is None:
         medium = np.full(hits.size, OPEN)
     reflectance = lookups.mirror(hits.material)
+    if lookups.conductors is not None:
+        cosine = -dot(hits.direction, hits.ns)
+        reflectance = lookups.conductors.weakened(reflectance, hits.material, cosine)
     transmitted = None
     if plan.refracts:
         index = lookups.refraction_index(hits.material)

@@ -51,6 +51,9 @@ def direct_light(
         if plan.specular:
             highlight = _highlight(hits, lookups, which, to_light, inverse_length)
             highlight *= irradiance
+            if world.materials.plain is not None:
+                plain = world.materials.plain.take(hits.material.take(which))
+                highlight /= _cosine(hits, which, to_light, inverse_length, plain)
             specular = _accumulated(specular, hits.size, which, highlight, light.color)
     if plan.sky_dimension is not None:
         dimension = plan.sky_dimension + depth * plan.bounce_stride
@@ -172,6 +175,14 @@ def _highlight(
     np.log(cosine, out=cosine)
     cosine *= lookups.exponent(material)
     return np.exp(cosine, out=cosine)
+
+
+def _cosine(
+    hits: Hits, which: Indices, to_light: Floats32, inverse_length: Floats32, wanted: Mask
+) -> Floats32:
+    """Cosine between the normal and the way to the light where it is wanted, 1 elsewhere."""
+    cosine = dot(hits.ns.take(which, axis=1), to_light) * inverse_length
+    return np.where(wanted, np.maximum(cosine, np.float32(1e-20)), np.float32(1))
 
 
 def _accumulated(

@@ -6,8 +6,9 @@ receipt: which effects are called, and why the others are not.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
+from course.appearance.conductors import Conductors
 from course.appearance.materials import Lookup
 from course.scene.world import Settings, World
 
@@ -31,6 +32,8 @@ class Plan:
     sky_dimension : the same for light from the environment, None where it lights nothing
     gloss_dimension : the first dimension of glossy reflection at depth 0
     bounce_stride : how many dimensions one depth takes
+    bounce_dimension : where paths go after a diffuse hit at depth 0, None where none does
+    choice_dimension : by which of its ways light leaves a surface, and whether the path survives
     """
 
     shades: bool
@@ -49,6 +52,8 @@ class Plan:
     gloss_dimension: int
     sky_dimension: int | None
     bounce_stride: int
+    bounce_dimension: int | None = None
+    choice_dimension: int | None = None
 
 
 @dataclass(frozen=True)
@@ -63,6 +68,7 @@ class Lookups:
     refraction_index: Lookup
     absorption: Lookup
     emission: Lookup
+    conductors: Conductors | None = field(default=None, kw_only=True)
 
 
 PIXEL_WIDTH = 2
@@ -71,7 +77,8 @@ PIXEL_WIDTH = 2
 def make_plan(world: World, settings: Settings) -> Plan:
     """Look at the compiled scene and leave out what can't contribute."""
     m = world.materials
-    mirrors = bool((m.mirror.max(0) > settings.cutoff).any()) and settings.max_depth > 0
+    cutoff = settings.cutoff if world.paths is None else 0.0
+    mirrors = bool((m.mirror.max(0) > cutoff).any()) and settings.max_depth > 0
     refracts = bool(m.refracts.any()) and settings.max_depth > 0
     dimensions = _Dimensions()
     dimensions.take(PIXEL_WIDTH)
@@ -86,6 +93,9 @@ def make_plan(world: World, settings: Settings) -> Plan:
     )
     sky = world.environment.lights and not world.environment.black and bool(m.diffuses.any())
     sky_dimension = dimensions.take(2) if sky else None
+    scatters = world.paths is not None and bool(m.diffuses.any()) and settings.max_depth > 0
+    bounce_dimension = dimensions.take(2) if scatters else None
+    choice_dimension = None if world.paths is None else dimensions.take(2)
     return Plan(
         shades=sky or (bool(m.shaded.any()) and bool(world.lights)),
         all_shade=bool(m.shaded.all()),
@@ -96,13 +106,15 @@ def make_plan(world: World, settings: Settings) -> Plan:
         refracts=refracts,
         absorbs=refracts and bool(m.absorption.any()),
         sees_environment=not world.environment.black,
-        max_depth=settings.max_depth if mirrors or refracts else 0,
+        max_depth=settings.max_depth if mirrors or refracts or scatters else 0,
         lens_dimension=lens_dimension,
         time_dimension=time_dimension,
         light_dimensions=light_dimensions,
         gloss_dimension=gloss_dimension,
         sky_dimension=sky_dimension,
         bounce_stride=dimensions.next - first,
+        bounce_dimension=bounce_dimension,
+        choice_dimension=choice_dimension,
     )
 
 
@@ -135,5 +147,6 @@ def make_lookups(world: World) -> Lookups:
                 m.absorption,
                 m.emission,
             )
-        )
+        ),
+        conductors=m.conductors,
     )

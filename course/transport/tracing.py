@@ -92,6 +92,8 @@ class Tracer:
             if world.motion.camera_velocity is not None:
                 moved = world.motion.functions.displacement(world.motion.camera_velocity, time)
                 origin = origin + moved
+        if camera.near:
+            origin = camera.from_near_plane(origin, direction)
         return Rays(origin, direction, None, None, time=time)
 
     def _trace(self, camera_rays: Rays, paths: int, draws: Draws, counters: Counters) -> Floats32:
@@ -127,10 +129,10 @@ class Tracer:
         if depth == 0:
             self._leave_eye_surface(rays, found, counters)
         counters.lap("trace")
-        if self.plan.sees_environment:
+        if self.plan.sees_environment and (depth == 0 or not self.world.backdrop):
             self._add_environment(film, rays, found.triangle < 0)
         hits = find_hits(self.world.surface, found, rays.direction, rays.time)
-        throughput, path, medium = _of_hits(rays, hits)
+        throughput, path, medium = of_hits(rays, hits)
         if self.plan.absorbs:
             throughput = self._absorbed(hits, throughput, medium)
         counters.lap("hits")
@@ -140,7 +142,7 @@ class Tracer:
         if radiance is not None:
             if throughput is not None:
                 radiance *= throughput
-            _add(film, path, radiance)
+            add_radiance(film, path, radiance)
         counters.lap("shade")
         if depth == self.plan.max_depth:
             return None
@@ -215,7 +217,7 @@ class Tracer:
             radiance = radiance * rays.throughput.take(which, axis=1)
         elif radiance.shape[1] == 1:
             radiance = np.repeat(radiance, len(which), axis=1)
-        _add(film, which if rays.path is None else rays.path.take(which), radiance)
+        add_radiance(film, which if rays.path is None else rays.path.take(which), radiance)
 
     def _absorbed(
         self,
@@ -248,9 +250,10 @@ def make_tracer(
     camera: Camera,
     sampler: Sampler,
     reconstruction: Reconstruction,
+    kind: type[Tracer] = Tracer,
 ) -> Tracer:
     """Bind a compiled scene to what renders it."""
-    return Tracer(
+    return kind(
         world,
         settings,
         camera,
@@ -261,7 +264,7 @@ def make_tracer(
     )
 
 
-def _of_hits(rays: Rays, hits: Hits) -> tuple[Floats32 | None, Indices | None, Media | None]:
+def of_hits(rays: Rays, hits: Hits) -> tuple[Floats32 | None, Indices | None, Media | None]:
     """Throughput, path and medium of the rays that hit something."""
     throughput, path, medium = rays.throughput, rays.path, rays.medium
     if hits.ray is None:
@@ -273,7 +276,7 @@ def _of_hits(rays: Rays, hits: Hits) -> tuple[Floats32 | None, Indices | None, M
     )
 
 
-def _add(film: Floats32, path: Indices | None, radiance: Floats32) -> None:
+def add_radiance(film: Floats32, path: Indices | None, radiance: Floats32) -> None:
     """Add radiance (3, n) to the paths it belongs to; several rays may belong to one path."""
     if path is None:
         film += radiance

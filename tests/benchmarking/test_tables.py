@@ -123,6 +123,13 @@ def test_the_summary_has_a_row_for_each_estimator() -> None:
     assert rows(table)["sobol"]["order"] == "-1.00"
 
 
+def test_a_bar_in_a_cell_ends_none_in_markdown() -> None:
+    table = Table("a | b", ("|t|", "n"), (("largest |t|", "1"),))
+    lines = table.markdown().splitlines()
+    assert lines == [r"| \|t\| | n |", "| --- | ---: |", r"| largest \|t\| | 1 |"]
+    assert "|t|" in table.plain()
+
+
 def test_markdown_and_plain_text_hold_the_same_cells() -> None:
     table = time_table(BOTH)
     lines = table.markdown().splitlines()

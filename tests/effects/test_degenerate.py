@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from course import Scene, render
 from course.core.samplers import Block
-from course.rendering import rendering
+from course.rendering.binding import bind
 from course.transport.counters import Counters
 from course.transport.paths import Draws, Rays
 
@@ -66,7 +66,7 @@ def test_an_aperture_of_0_is_the_pinhole(room: MakeScene, shape: str, sampler: s
     same(room(camera=CAMERA | {"lens": lens}), room(), sampler=sampler)
     # The lens's own formula agrees where it is called: at its centre.
     small = room(camera=CAMERA | {"lens": lens | {"aperture_radius": 0.2}})
-    tracer = rendering._tracer(small, small.settings)
+    tracer = bind(small, small.settings)
     optics = small.compiled.world.lens
     assert optics is not None
     directions = tracer.camera.directions(
@@ -180,7 +180,7 @@ def test_one_regular_sample_is_the_pixels_centre(room: MakeScene) -> None:
         lights=[{"type": "point", "position": [1, 3, 1], "intensity": 9}],
     )
     shown = render(scene).linear
-    tracer = rendering._tracer(scene, scene.settings)
+    tracer = bind(scene, scene.settings)
     x, y = np.meshgrid(np.arange(40, dtype=np.float32) + 0.5, np.arange(30, dtype=np.float32) + 0.5)
     rays = Rays(
         tracer.camera.origin[:, None],

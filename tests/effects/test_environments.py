@@ -24,7 +24,7 @@ from course import Scene, render
 from course.appearance.cube_environment import CubeEnvironment
 from course.core.samplers import Block
 from course.core.samplers.sobol import SobolSampler
-from course.rendering import rendering
+from course.rendering.binding import bind
 from course.rendering.passes import passes
 from course.transport.counters import Counters
 from tests.effects.skies import (
@@ -496,7 +496,7 @@ def test_the_sky_has_numbers_of_its_own_at_every_bounce(make_scene: MakeScene) -
         environment=WHITE | {"lights": True},
         integrator={"max_depth": 3, "cutoff": 0},
     )
-    tracer = rendering._tracer(scene, scene.settings)
+    tracer = bind(scene, scene.settings)
     tracer = dataclasses.replace(tracer, sampler=Noted(0))
     for work in passes(scene.settings, tracer.sampler):
         tracer.render_tile(work.tile, work.first, work.samples, Counters())

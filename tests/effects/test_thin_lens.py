@@ -19,7 +19,7 @@ import pytest
 from numpy.typing import NDArray
 
 from course import Scene, render
-from course.rendering import rendering
+from course.rendering.binding import bind
 from course.scene.compiling import compile_camera
 
 MakeScene = Callable[..., Scene]
@@ -287,4 +287,4 @@ def test_the_camera_rays_are_those_of_the_lens(make_scene: MakeScene) -> None:
     paths = SIZE * SIZE * 256
     assert receipt.numbers == {"pixel": 2 * paths, "lens": 2 * paths}
     assert receipt.rays == {"camera": paths, "shadow": 0, "reflection": 0, "refraction": 0}
-    assert rendering._tracer(scene, scene.settings).plan.lens_dimension == 2
+    assert bind(scene, scene.settings).plan.lens_dimension == 2

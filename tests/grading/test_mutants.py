@@ -15,7 +15,7 @@ from course.grading.calibration import trusted
 from course.grading.checks.check import Check
 from course.grading.checks.running import References, prepared
 from course.grading.known import Known, known
-from course.grading.mutants import judge, matrix
+from course.grading.mutants import Verdict, judge, matrix
 from course.grading.references import reference
 
 ALL = [submission for module in COURSE for submission in known(module)]
@@ -48,6 +48,22 @@ def test_there_are_enough_of_them(module: str) -> None:
     )
     wrong = [(s.function, s.about) for s in found if not s.right]
     assert len(set(wrong)) == len(wrong)
+
+
+def test_columns_of_the_matrix_stand_apart_and_below_each_other() -> None:
+    lines = matrix(Verdict(one, (f"{one.function}/contract",), "its-mistake", "") for one in ALL)
+    rows = lines[::2]
+    assert [line.split() for line in rows] == [
+        ["ok", one.module, "right" if one.right else "wrong", one.name, f"{one.function}/contract"]
+        for one in ALL
+    ]
+    columns = {
+        (line.index(one.module), line.index(" right " if one.right else " wrong "))
+        for line, one in zip(rows, ALL, strict=True)
+    }
+    assert len(columns) == 1
+    names = {line.index(f" {one.name} ") for line, one in zip(rows, ALL, strict=True)}
+    assert {len(told) - len(told.lstrip()) for told in lines[1::2]} == {n + 1 for n in names}
 
 
 def test_a_grader_that_lets_everything_pass_is_found_out() -> None:

@@ -176,7 +176,7 @@ class Noise:
             assert item.first + item.samples in LADDER
             assert item.parts == PARTS
             assert item.samples <= LONGEST
-            assert item.samples * item.tile.size <= adaptive.RAYS
+            assert item.samples * item.tile.size <= adaptive.LARGEST
             assert item.whole
             assert item.order == 0
             assert item.tile.number not in self._numbers, "numbers choose what is drawn at random"
@@ -280,7 +280,7 @@ def test_no_target_is_too_small_to_be_aimed_at(error: float) -> None:
 @pytest.fixture
 def small_groups(monkeypatch: pytest.MonkeyPatch) -> None:
     """Many groups in every round of a small picture."""
-    monkeypatch.setattr(adaptive, "RAYS", 4096)
+    monkeypatch.setattr(adaptive, "LARGEST", 4096)
 
 
 @pytest.mark.usefixtures("small_groups")

@@ -167,8 +167,8 @@ def test_a_time_limit_begins_when_the_workers_have_the_scene(
         module.write("\nimport sys, time\nif 'dask_worker' in sys.argv[0]:\n    time.sleep(2.5)\n")
     scene = load_scene(every_stage().path, effects=mine)
     began = time.monotonic()
-    picture = render(scene, time_limit=1, address=cluster.address)
-    assert 3.5 <= time.monotonic() - began < 20
+    picture = render(scene, time_limit=2, address=cluster.address)
+    assert time.monotonic() - began >= 4.5
     assert picture.film.samples.min() >= 1
     assert not picture.complete
 
@@ -284,7 +284,8 @@ def test_an_address_where_nobody_answers_is_told(
             began = time.monotonic()
             with pytest.raises(CourseError, match=rf"^tcp://127.0.0.1:{port}: no dask scheduler"):
                 render(scene, address=f"tcp://127.0.0.1:{port}")
-            assert time.monotonic() - began < 10
+            # Left to itself, a client waits for 30 seconds or for ever.
+            assert time.monotonic() - began < 25
     with pytest.raises(CourseError, match=r"^nonsense: no dask scheduler"):
         render(scene, address="nonsense")
 

@@ -15,10 +15,10 @@ from course.errors import CourseError
 from course.imaging.film import Film
 from course.imaging.tiles import Tile
 from course.rendering import rendering
+from course.rendering.binding import bind
 from course.rendering.passes import Work, passes
 from course.rendering.pool import Pool
 from course.transport.counters import Counters
-from course.transport.tracing import Tracer
 
 SAMPLERS = ("sobol", "random", "jittered", "regular")
 FILTERS = ("box", "gaussian")
@@ -109,7 +109,7 @@ def test_any_order_of_tiles_gives_the_same_bits(
 
 def test_a_tile_does_not_know_which_tiles_came_before(every_stage: EveryStage) -> None:
     scene = every_stage(film=film_of("box"))
-    tracer: Tracer = rendering._tracer(scene, scene.settings)
+    tracer = bind(scene, scene.settings)
     work = list(passes(scene.settings, tracer.sampler))
     film = Film(scene.settings.width, scene.settings.height)
     for item in work[::-1]:

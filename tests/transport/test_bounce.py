@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from course import Scene, render
 from course.geometry.embree import QueryTime
 from course.geometry.hits import find_hits
-from course.rendering import rendering
+from course.rendering.binding import bind
 from course.transport.bounce import bounced
 
 MakeScene = Callable[..., Scene]
@@ -299,7 +299,7 @@ def test_rays_leave_a_smooth_mesh_on_the_side_they_are_meant_to(
         objects=[{"shape": "sphere", "material": "m", "segments": segments}],
         materials={"m": {"mirror": 0.1, "dielectric": {"refraction_index": index}}},
     )
-    tracer = rendering._tracer(scene, scene.settings)
+    tracer = bind(scene, scene.settings)
     rng = np.random.default_rng(2)
     n = 20000
     target = rng.normal(size=(3, n))

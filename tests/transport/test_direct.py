@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from course import Scene, render
 from course.core.samplers import Block
 from course.core.samplers.sobol import SobolSampler
-from course.rendering import rendering
+from course.rendering.binding import bind
 from course.rendering.passes import passes
 from course.transport.counters import Counters
 
@@ -330,7 +330,7 @@ def test_every_light_and_every_depth_has_numbers_of_its_own(make_scene: MakeScen
         integrator={"max_depth": 2},
     )
     settings = scene.settings
-    tracer = dataclasses.replace(rendering._tracer(scene, settings), sampler=Noted(0))
+    tracer = dataclasses.replace(bind(scene, settings), sampler=Noted(0))
     for work in passes(settings, tracer.sampler):
         tracer.render_tile(work.tile, work.first, work.samples, Counters())
     used = [d + row for d, width in sorted(set(drawn)) for row in range(width)]

@@ -22,6 +22,7 @@ class PointLight:
     ----------
     normal : (3,) float32 unit, or None
         Where the light is a cell of a Lambertian emitter: the emitting side, and then I falls with the cosine to it.
+    two_sided, visible : of that emitter, see ``RectangleLight``
     """
 
     name: str
@@ -30,16 +31,18 @@ class PointLight:
     normal: Floats32 | None = None
     width: int = 0
     velocity: Floats32 | None = None
+    two_sided: bool = False
+    visible: bool = True
 
     @property
     def limit(self) -> float:
         """How far along ``to_light`` a blocker counts."""
-        return TO_A_POINT if self.normal is None else TO_A_SURFACE
+        return TO_A_SURFACE if self.normal is not None and self.visible else TO_A_POINT
 
     def sample(self, points: Floats32, u: Floats32 | None) -> Sample:
         """See ``course.appearance.lights``."""
         to_light = self.position[:, None] - points
         inverse_length, factor = inverse_square(to_light)
         if self.normal is not None:
-            factor *= emitted_cosine(self.normal, to_light, inverse_length)
+            factor *= emitted_cosine(self.normal, to_light, inverse_length, self.two_sided)
         return Sample(to_light, inverse_length, factor)

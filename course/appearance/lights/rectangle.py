@@ -27,6 +27,8 @@ class RectangleLight:
     normal : (3,) float32 unit, the emitting side of a light by radiance; None for one by intensity
     color : (3,) float32, I / pi, or radiance times area / pi
     point_on_rectangle : the function of the soft_shadows module
+    two_sided : whether the side away from the normal shines like the other
+    visible : whether a light by radiance is also a surface
     """
 
     name: str
@@ -38,11 +40,13 @@ class RectangleLight:
     point_on_rectangle: PointOnRectangle
     width: int = 2
     velocity: Floats32 | None = None
+    two_sided: bool = False
+    visible: bool = True
 
     @property
     def limit(self) -> float:
         """How far along ``to_light`` a blocker counts."""
-        return TO_A_POINT if self.normal is None else TO_A_SURFACE
+        return TO_A_SURFACE if self.normal is not None and self.visible else TO_A_POINT
 
     def sample(self, points: Floats32, u: Floats32 | None) -> Sample:
         """See ``course.appearance.lights``."""
@@ -50,5 +54,5 @@ class RectangleLight:
         to_light = self.point_on_rectangle(self.corner, self.edge_u, self.edge_v, u) - points
         inverse_length, factor = inverse_square(to_light)
         if self.normal is not None:
-            factor *= emitted_cosine(self.normal, to_light, inverse_length)
+            factor *= emitted_cosine(self.normal, to_light, inverse_length, self.two_sided)
         return Sample(to_light, inverse_length, factor)

@@ -46,8 +46,12 @@ def inverse_square(to_light: Floats32) -> tuple[Floats32, Floats32]:
     return np.sqrt(inverse), inverse
 
 
-def emitted_cosine(normal: Floats32, to_light: Floats32, inverse_length: Floats32) -> Floats32:
-    """Cosine (n,) between an emitter's normal (3,) and the way it shines; 0 behind it."""
+def emitted_cosine(
+    normal: Floats32, to_light: Floats32, inverse_length: Floats32, two_sided: bool = False
+) -> Floats32:
+    """Cosine (n,) between an emitter's normal (3,) and the way it shines; behind it 0, or as in front of it."""
     cosine = dot(normal[:, None], to_light)
     cosine *= -inverse_length
+    if two_sided:
+        return np.abs(cosine, out=cosine)
     return np.maximum(cosine, 0, out=cosine)

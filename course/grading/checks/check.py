@@ -107,7 +107,7 @@ class Trial:
         self.figures.append(Figure(kind, title, arrays))
 
 
-Prepare = Callable[["Caller", np.random.Generator], dict[str, Array]]
+Prepare = Callable[[Caller, np.random.Generator], dict[str, Array]]
 """(the reference solution's module, rng) -> arrays; rng is the very one that ``run`` will get in ``Trial.rng``."""
 
 

@@ -1,4 +1,4 @@
-"""What `modules.md`'s conventions ask of every function: shapes, dtypes, inputs untouched, N = 0, finite, ValueError.
+"""What the course's conventions ask of every function: shapes, dtypes, inputs untouched, N = 0, finite, ValueError.
 
 A helper that checks raises ``Failure`` with what was expected and what was found.
 """

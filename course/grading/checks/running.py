@@ -1,7 +1,8 @@
 """Run the checks of a module on somebody's functions.
 
 One result for each check, whatever happens: a mistake costs the checks that it concerns, and an exception in a check
-itself is the grader's error, with its points given. A function that has run out of time once is not called again.
+itself is the grader's error, with its points given. A function that has run out of time once, or isn't written yet, is
+not called again.
 """
 
 from __future__ import annotations
@@ -47,6 +48,7 @@ class Result:
     Attributes
     ----------
     module, function, check, title : which one
+    kind : which sort of check it is
     status : how
     points, of : what it earned, and what it could; a grader's error earns all
     expected, found, where, hint : what a failure says

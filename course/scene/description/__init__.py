@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from course.scene.description.camera import (
     CameraDescription,
+    ImagePlaneDescription,
     LensDescription,
     ShutterDescription,
 )
@@ -26,7 +27,7 @@ from course.scene.description.lights import (
     RectangleLight,
     SphereLight,
 )
-from course.scene.description.materials import Dielectric, MaterialDescription
+from course.scene.description.materials import Conductor, Dielectric, MaterialDescription
 from course.scene.description.motion import MotionDescription
 from course.scene.description.objects import (
     Box,
@@ -54,6 +55,7 @@ __all__ = [
     "Box",
     "CameraDescription",
     "Color",
+    "Conductor",
     "Cone",
     "ConstantEnvironment",
     "CubeEnvironment",
@@ -67,6 +69,7 @@ __all__ = [
     "FilmDescription",
     "Gloss",
     "HeightField",
+    "ImagePlaneDescription",
     "IntegratorDescription",
     "LatLongEnvironment",
     "LensDescription",

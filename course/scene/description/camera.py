@@ -36,6 +36,20 @@ class ShutterDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unkno
     close: Annotated[float, about("When it closes, not before it opens.", "second")] = 1.0
 
 
+class ImagePlaneDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """The picture as a rectangle in front of the eye; it may lie off the view's axis, and stretch its pixels."""
+
+    distance: Annotated[
+        float, about("Its distance from the eye, along the view.", "world unit", gt=0)
+    ] = 1.0
+    left: Annotated[
+        float, about("Where its left edge is, seen from the view's axis.", "world unit")
+    ]
+    right: Annotated[float, about("Its right edge, more than left.", "world unit")]
+    bottom: Annotated[float, about("Its lower edge.", "world unit")]
+    top: Annotated[float, about("Its upper edge, more than bottom.", "world unit")]
+
+
 class CameraDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """A perspective camera."""
 
@@ -49,6 +63,15 @@ class CameraDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknow
     vertical_fov: Annotated[
         float, about("Angle from the picture's lower to its upper edge.", "degree", gt=0, lt=180)
     ] = 40.0
+    image_plane: Annotated[
+        ImagePlaneDescription | None, about("The picture's edges; they replace vertical_fov.")
+    ] = None
+    near: Annotated[
+        float,
+        about(
+            "The camera sees nothing that is nearer than this along the view.", "world unit", ge=0
+        ),
+    ] = 0.0
     lens: Annotated[LensDescription | None, about("A thin lens; null for a pinhole.")] = None
     shutter: Annotated[ShutterDescription, about("When light is let in.")] = ShutterDescription()
     motion: Annotated[MotionDescription, about("How the camera moves.")] = MotionDescription()

@@ -11,6 +11,10 @@ from course.scene.description.values import Color, about
 _Lights: TypeAlias = Annotated[
     bool, about("Whether it also lights diffuse surfaces, by one shadow ray for each sample.")
 ]
+_SeenBy: TypeAlias = Annotated[
+    Literal["all", "camera"],
+    about("Which rays see it: all of them, or only those from the camera, like a backdrop."),
+]
 _Scale: TypeAlias = Annotated[Color, about("Radiance of white.", "W/(m^2 sr)")]
 _Lookup: TypeAlias = Annotated[
     Literal["seamless", "clamped"],
@@ -29,6 +33,7 @@ class ConstantEnvironment(EnvironmentDescription, frozen=True, kw_only=True, tag
 
     radiance: Annotated[Color, about("Radiance of the background.", "W/(m^2 sr)")] = 0.0
     lights: _Lights = False
+    seen_by: _SeenBy = "all"
 
 
 class CubeEnvironment(EnvironmentDescription, frozen=True, kw_only=True, tag="cube"):
@@ -44,6 +49,7 @@ class CubeEnvironment(EnvironmentDescription, frozen=True, kw_only=True, tag="cu
     scale: _Scale = 1.0
     lookup: _Lookup = "seamless"
     lights: _Lights = False
+    seen_by: _SeenBy = "all"
 
 
 class LatLongEnvironment(EnvironmentDescription, frozen=True, kw_only=True, tag="lat_long"):
@@ -60,6 +66,7 @@ class LatLongEnvironment(EnvironmentDescription, frozen=True, kw_only=True, tag=
     scale: _Scale = 1.0
     lookup: _Lookup = "seamless"
     lights: _Lights = False
+    seen_by: _SeenBy = "all"
 
 
 Environment: TypeAlias = ConstantEnvironment | CubeEnvironment | LatLongEnvironment

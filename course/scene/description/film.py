@@ -27,6 +27,15 @@ class FilmDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_
             "radiance",
         ),
     ] = None
+    white: Annotated[
+        float, about("What a PNG shows as white, and anything brighter too.", "radiance", gt=0)
+    ] = 1.0
+    encoding: Annotated[
+        Literal["srgb", "linear"],
+        about(
+            "Codes of a PNG: the nearest ones of the sRGB curve, or in proportion to the radiance and rounded down."
+        ),
+    ] = "srgb"
     sigma: Annotated[float, about("Standard deviation of the gaussian filter.", "pixel", gt=0)] = (
         1 / 6
     )

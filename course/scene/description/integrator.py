@@ -2,22 +2,36 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 import msgspec
 
 from course.scene.description.values import about
 
+_Bounces = Annotated[int, msgspec.Meta(ge=0, le=1024)]
+
 
 class IntegratorDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """Where the recursion of reflected and refracted rays ends."""
+    """Which light reaches the eye, and where the recursion ends."""
 
-    max_depth: Annotated[int, about("Bounces after the camera ray.", ge=0, le=64)] = 5
+    type: Annotated[
+        Literal["distribution", "path"],
+        about(
+            "`distribution`: direct light, seen through mirrors and glass; `path`: all light, that from"
+            " wall to wall too."
+        ),
+    ] = "distribution"
+    max_depth: Annotated[int, about("Bounces after the camera ray.", ge=0, le=1024)] = 5
     cutoff: Annotated[
         float,
         about(
-            "A bounced ray is dropped when the largest channel of its throughput is below this.",
+            "A bounced ray is dropped when the largest channel of its throughput is below this;"
+            " paths are not, they have the roulette.",
             ge=0,
             lt=1,
         ),
     ] = 1 / 512
+    roulette: Annotated[
+        _Bounces | None,
+        about("Bounces that a path makes before Russian roulette may end it; null for never."),
+    ] = 1

@@ -48,7 +48,7 @@ class DirectionalLight(LightDescription, frozen=True, kw_only=True, tag="directi
 
 
 class RectangleLight(LightDescription, frozen=True, kw_only=True, tag="rectangle"):
-    """A parallelogram; by radiance it emits towards cross(edge_u, edge_v) only."""
+    """A parallelogram; by radiance it emits towards cross(edge_u, edge_v), unless it is two-sided."""
 
     corner: Annotated[Vector, about("One corner.", "world unit")]
     edge_u: Annotated[Vector, about("Edge from the corner.", "world unit")]
@@ -62,6 +62,12 @@ class RectangleLight(LightDescription, frozen=True, kw_only=True, tag="rectangle
             pattern=r"^(point|grid [1-9][0-9]?)$",
         ),
     ] = "point"
+    two_sided: Annotated[
+        bool, about("By radiance: whether it shines to both sides; then it can't be visible.")
+    ] = False
+    visible: Annotated[
+        bool, about("By radiance: whether rays can see it, and whether it casts shadows.")
+    ] = True
     motion: _Motion = MotionDescription()
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 import msgspec
 
@@ -18,10 +18,24 @@ class Dielectric(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_field
         Color,
         about("Absorption coefficient: light fades by exp(-absorption * length).", "1/world unit"),
     ] = 0.0
+    shaded: Annotated[
+        bool, about("Whether the ambient and diffuse terms are added to what it reflects.")
+    ] = False
+
+
+class Conductor(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A metal: by the Fresnel equations it mirrors more the more grazing the light, white at last."""
+
+    refraction_index: Annotated[
+        Color, about("Real part of the index of refraction, against vacuum.")
+    ]
+    absorption_index: Annotated[
+        Color, about("Imaginary part of the index of refraction, the extinction coefficient.")
+    ]
 
 
 class MaterialDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """Blinn-Phong reflection, with a mirror or a dielectric on top."""
+    """Blinn-Phong reflection, with a mirror, a metal or a dielectric on top."""
 
     color: Annotated[
         Reflectance | None,
@@ -32,12 +46,28 @@ class MaterialDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unkn
     ] = None
     ambient: Annotated[float, about("Factor of the ambient term.", ge=0, le=1)] = 1.0
     diffuse: Annotated[float, about("Factor of the diffuse term.", ge=0, le=1)] = 1.0
-    specular: Annotated[Reflectance, about("Colour of the highlight.")] = 0.0
+    ambient_color: Annotated[
+        Reflectance | None, about("Colour of the ambient term, where it is another than color.")
+    ] = None
+    specular: Annotated[Color, about("Colour of the highlight; a sharp one may exceed 1.")] = 0.0
     exponent: Annotated[float, about("Blinn-Phong exponent of the highlight.", ge=0)] = 32.0
+    highlight: Annotated[
+        Literal["cosine", "plain"],
+        about(
+            "Whether the highlight fades with the cosine between light and normal, as the diffuse term does;"
+            " plain is Blinn's formula, without it."
+        ),
+    ] = "cosine"
     mirror: Annotated[Reflectance, about("Share of the light that is mirrored.")] = 0.0
     gloss: Annotated[Gloss | None, about("Blurs what is mirrored; null for a perfect mirror.")] = (
         None
     )
     dielectric: Annotated[
         Dielectric | None, about("Makes the material refract; null where it is opaque.")
+    ] = None
+    conductor: Annotated[
+        Conductor | None,
+        about(
+            "Makes the mirror a metal's: its Fresnel reflectance times mirror; null where it is none."
+        ),
     ] = None

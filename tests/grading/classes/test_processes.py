@@ -5,7 +5,7 @@ from __future__ import annotations
 import multiprocessing
 from collections import Counter
 from pathlib import Path
-from time import monotonic, sleep
+from time import sleep
 
 from course.grading.classes.processes import DIED, in_processes
 from tests.grading.classes.work import work
@@ -38,8 +38,7 @@ def test_closing_ends_work_that_is_under_way(tmp_path: Path) -> None:
     assert next(outcomes).value == "A"
     while not calls(tmp_path)["sleep 1"]:
         sleep(0.05)
-    started = monotonic()
     outcomes.close()
-    assert monotonic() - started < 10
+    assert not [*tmp_path.glob("* woke")]
     assert set(multiprocessing.active_children()) <= before
     assert calls(tmp_path)["b"] == 0

@@ -23,4 +23,5 @@ def work(item: str, folder: Path) -> str:
         sys.exit(7)
     if kind == "sleep":
         time.sleep(60)
+        (folder / f"{item} woke").touch()
     return item.upper()

@@ -1,0 +1,155 @@
+"""Path tracing: the cost of a Cornell box, its agreement with Mitsuba 3, and the picture of depths and samples.
+
+The picture has the samples a pixel in its rows and the depth in its columns: noise goes away downwards, and light is
+added to the right. Mitsuba's is its own `path`, with light and reflection that it shares with nothing of ours; its
+LLVM variant where there is an LLVM, else its scalar one.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from importlib.util import find_spec
+from pathlib import Path
+
+import numpy as np
+from PIL import Image, ImageDraw, ImageFont
+
+from benchmarks.figures import Figure, summary
+from benchmarks.mitsuba_agreement import Agreement, Converged, compare, converge, save_difference
+from benchmarks.mitsuba_export import export
+from benchmarks.mitsuba_llvm import find_llvm, start_llvm
+from benchmarks.mitsuba_scalar import NativeScene, start_scalar
+from course import Scene, render
+from course.benchmarking.sources import scene_hash
+from course.benchmarking.variants import load_variant
+from course.effects import PROJECT
+from course.imaging.srgb import linear_to_srgb8
+
+SCENE = PROJECT / "scenes" / "path_tracing.yaml"
+OUT = Path("out/bench")
+ROUNDS = 5
+THREADS = 2
+
+SAMPLES = (1, 16, 64)
+DEPTHS = (1, 3, 100)
+CELL = 200
+"""Pixels along a picture's side in the figure."""
+
+MARGIN = 34
+"""For the labels."""
+
+
+@dataclass(frozen=True)
+class Effort:
+    """Converged pictures for the agreement: their size, their batches, and the samples of each batch."""
+
+    size: tuple[int, int] = (96, 96)
+    batches: int = 32
+    samples: int = 256
+
+
+def measure_path_tracing() -> list[Figure]:
+    """Write the picture; the whole render over the time inside Embree, and how far Mitsuba's picture is."""
+    print(f"written to {draw_figure(OUT / 'path_tracing.png')}")
+    figures = [_cost()]
+    if find_spec("mitsuba") is None:
+        print("without Mitsuba (pip install .[peers]) there is nothing to agree with")
+        return figures
+    found = agreement(load_scene_for_mitsuba(), Effort(), OUT / "peers")
+    name = "path tracing, beside Mitsuba"
+    # A right pair has 432 blocks and channels; with 31 degrees of freedom one exceeds 6 once in 1,800 pairs, or less.
+    return [
+        *figures,
+        Figure(f"{name}: largest |t| of a block", found.largest, found.largest, found.largest, 6.0),
+        Figure(
+            f"{name}: means differ by (percent)",
+            *[100 * abs(found.mean)] * 3,
+            0.5,
+        ),
+    ]
+
+
+def _cost() -> Figure:
+    scene = load_variant(SCENE)
+    ratios = []
+    for seed in range(ROUNDS + 1):
+        receipt = render(scene, spp=16, seed=seed, threads=THREADS).receipt
+        ratios.append(THREADS * receipt.wall_seconds / receipt.embree_seconds)
+    return summary("path tracing: whole render / inside Embree", ratios[1:], 1.8)
+
+
+# ---------------------------------------------------------------- Mitsuba
+
+
+def load_scene_for_mitsuba(path: Path = SCENE) -> Scene:
+    """The scene with the filter that both programs have."""
+    return load_variant(path, {("film", "filter"): "box"})
+
+
+def agreement(scene: Scene, effort: Effort, folder: Path) -> Agreement:
+    """How far the converged pictures of both are apart; kept in a folder, with both and their difference as a PNG."""
+    ours, theirs = our_reference(scene, effort, folder), their_reference(scene, effort, folder)
+    save_difference(theirs, ours, folder / "path_tracing.png")
+    return compare(theirs, ours)
+
+
+def our_reference(scene: Scene, effort: Effort, folder: Path) -> Converged:
+    """Our converged picture."""
+
+    def picture(seed: int) -> np.ndarray:
+        return render(
+            scene, size=effort.size, spp=effort.samples, seed=seed, threads=THREADS
+        ).linear
+
+    return converge(picture, effort.batches, folder / f"ours_{_key(scene, effort)}.npz")
+
+
+def their_reference(scene: Scene, effort: Effort, folder: Path) -> Converged:
+    """Mitsuba's converged picture."""
+    if find_llvm() is None:
+        start_scalar(THREADS)
+    else:
+        start_llvm(THREADS)
+    loaded = NativeScene(export(scene, *effort.size))
+
+    def picture(seed: int) -> np.ndarray:
+        return loaded.render("independent", effort.samples, seed)
+
+    return converge(picture, effort.batches, folder / f"mitsuba_{_key(scene, effort)}.npz")
+
+
+def _key(scene: Scene, effort: Effort) -> str:
+    digest = scene_hash(
+        scene.loaded, scene.effects, samples=effort.samples, batches=effort.batches, of=effort.size
+    )
+    return f"path_tracing_{digest[:24]}"
+
+
+# ---------------------------------------------------------------- the figure
+
+
+def draw_figure(path: Path) -> Path:
+    """The Cornell box with 1, 16 and 64 rays a pixel and depths of 1, 3 and 100, as one labelled PNG."""
+    size = len(DEPTHS) * CELL + MARGIN, len(SAMPLES) * CELL + MARGIN
+    sheet = Image.new("RGB", size, "white")
+    draw = ImageDraw.Draw(sheet)
+    font = ImageFont.load_default(16)
+    for column, depth in enumerate(DEPTHS):
+        scene = load_variant(SCENE, {("integrator", "max_depth"): depth})
+        label = f"{depth} bounce" if depth == 1 else f"{depth} bounces"
+        middle = MARGIN + column * CELL + CELL // 2
+        draw.text((middle, MARGIN // 2), label, "black", font, anchor="mm")
+        for row, samples in enumerate(SAMPLES):
+            picture = render(scene, size=(CELL, CELL), spp=samples)
+            place = MARGIN + column * CELL, MARGIN + row * CELL
+            codes = linear_to_srgb8(np.moveaxis(picture.linear, -1, 0))
+            sheet.paste(Image.fromarray(codes), place)
+    for row, samples in enumerate(SAMPLES):
+        label = f"{samples} ray a pixel" if samples == 1 else f"{samples} rays a pixel"
+        strip = Image.new("RGB", (CELL, MARGIN), "white")
+        text = ImageDraw.Draw(strip)
+        text.text((CELL // 2, MARGIN // 2), label, "black", font, anchor="mm")
+        sheet.paste(strip.rotate(90, expand=True), (0, MARGIN + row * CELL))
+    path.parent.mkdir(parents=True, exist_ok=True)
+    sheet.save(path)
+    return path

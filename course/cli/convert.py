@@ -1,0 +1,39 @@
+"""`course convert SCENE.xml -o SCENE.yaml`: scenes of METU's ray tracing courses as scenes of this one."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from course.errors import OutputError
+from course.imaging.atomic import check_writable
+
+
+@click.command()
+@click.argument("scene", metavar="SCENE", type=click.Path(path_type=Path))
+@click.option(
+    "-o",
+    "--out",
+    metavar="FILE.yaml",
+    type=click.Path(path_type=Path),
+    help="Scene file to write.  [default: SCENE's name with .yaml]",
+)
+def convert(scene: Path, out: Path | None) -> None:
+    """Convert a METU scene, XML or JSON, to a scene file.
+
+    With several cameras there is a file for each, FILE.PICTURE.yaml. Meshes that stand in the
+    scene are written to the folder FILE.meshes, mesh files stay where they are. What isn't known
+    is named in a warning.
+    """
+    from course.scene.metu.converting import convert as convert_scene
+
+    out = Path(f"{scene.stem}.yaml") if out is None else out
+    if out.suffix.lower() not in (".yaml", ".yml"):
+        raise OutputError(f"{out}: the name of a scene file must end in .yaml")
+    check_writable(out)
+    converted, warnings = convert_scene(scene, out)
+    for warning in warnings:
+        click.echo(f"warning: {warning}", err=True)
+    for one in converted:
+        click.echo(f"{one.path}: camera {one.camera}, {one.image}")

@@ -1,0 +1,214 @@
+"""`course radiosity SCENE`: the light on all surfaces, worked out once and looked at from any camera."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Literal
+
+import click
+
+from course.cli import options
+from course.cli.progress import progress_bar
+from course.errors import CourseError
+from course.imaging.atomic import check_writable
+
+if TYPE_CHECKING:
+    from course.radiosity.solution import Solution
+    from course.radiosity.viewing import View
+
+NUMBER = r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
+POINT = rf"\s*({NUMBER})\s*,\s*({NUMBER})\s*,\s*({NUMBER})\s*"
+
+Place = tuple[float, float, float]
+
+
+def _cameras(
+    _ctx: click.Context, _option: click.Parameter, texts: tuple[str, ...]
+) -> list[tuple[Place, Place]]:
+    """Return eyes and the points they look at."""
+    found = []
+    for text in texts:
+        match = re.fullmatch(f"{POINT}:{POINT}", text)
+        if match is None:
+            raise click.BadParameter(
+                f"{text!r} is no camera: expected EYE:LOOK_AT, such as 0,1,4:0,1,0"
+            )
+        x = [float(number) for number in match.groups()]
+        found.append(((x[0], x[1], x[2]), (x[3], x[4], x[5])))
+    return found
+
+
+@click.command()
+@click.argument("scene", metavar="SCENE", type=click.Path(path_type=Path))
+@click.option(
+    "-o",
+    "--out",
+    "outs",
+    multiple=True,
+    type=click.Path(path_type=Path),
+    help="Picture (.png, .exr) or solution (.npz) to write; may be given for each."
+    "  [default: SCENE's name with .png]",
+)
+@click.option(
+    "--patches",
+    type=click.IntRange(1, 100_000),
+    help="Triangles to divide the surfaces into.  [default: 10000]",
+)
+@click.option(
+    "--method",
+    type=click.Choice(["auto", "gather", "shoot"]),
+    help="Gather with all form factors at once, or shoot from patch after patch."
+    "  [default: auto, gather up to 1000 patches]",
+)
+@click.option(
+    "--iterations",
+    type=click.IntRange(min=0),
+    help="End after so many iterations of gathering, or so many shots.",
+)
+@click.option(
+    "--tolerance",
+    type=click.FloatRange(0, 1, min_open=True),
+    help="End this near to convergence, as a share of all light.  [default: 0.01]",
+)
+@click.option(
+    "--split",
+    metavar="CONTRAST",
+    type=click.FloatRange(0, 1),
+    help="Begin with a fourth of the patches, and divide those with more contrast than this.",
+)
+@click.option(
+    "--camera",
+    "cameras",
+    metavar="EYE:LOOK_AT",
+    multiple=True,
+    callback=_cameras,
+    help="Look from there, such as 0,1,4:0,1,0; given more than once, a picture for each."
+    "  [default: the scene's camera]",
+)
+@click.option(
+    "--frames",
+    type=click.IntRange(2, 10_000),
+    help="Fly from the first camera to the last in so many pictures.",
+)
+@click.option("--size", metavar="WxH", callback=options.size, help="Size in pixels.")
+@click.option(
+    "--effects",
+    help="Whose functions to call: solutions, assignments, or a folder of modules."
+    "  [default: solutions, or assignments where there are none]",
+)
+def radiosity(
+    scene: Path,
+    outs: tuple[Path, ...],
+    patches: int | None,
+    method: Literal["auto", "gather", "shoot"] | None,
+    iterations: int | None,
+    tolerance: float | None,
+    split: float | None,
+    cameras: list[tuple[Place, Place]],
+    frames: int | None,
+    size: tuple[int, int] | None,
+    effects: str | None,
+) -> None:
+    """Work out the light on all surfaces of a scene, and look at it.
+
+    SCENE is a scene file, or an .npz that was written before, which only has to be looked at.
+    Several pictures are numbered: NAME_000.png, NAME_001.png.
+    """
+    outs = outs or (Path(f"{scene.stem}.png"),)
+    pictures = [out for out in outs if out.suffix.lower() != ".npz"]
+    _check_outs(outs, pictures)
+    if frames is not None and len(cameras) < 2:
+        raise CourseError("--frames needs two or more --camera to fly between")
+    if scene.suffix.lower() == ".npz":
+        given = {
+            "--patches": patches,
+            "--method": method,
+            "--iterations": iterations,
+            "--tolerance": tolerance,
+            "--split": split,
+        }
+        for name, value in given.items():
+            if value is not None:
+                raise CourseError(f"{name} is for scene files; {scene} has been worked out already")
+    solution = _solution(scene, effects, patches, method, iterations, tolerance, split)
+    views = _views(solution, cameras, frames)
+    for out in outs:
+        if out in pictures:
+            _write_pictures(solution, views, out, size)
+        else:
+            solution.save(out)
+            click.echo(str(out))
+
+
+def _solution(
+    scene: Path,
+    effects: str | None,
+    patches: int | None,
+    method: Literal["auto", "gather", "shoot"] | None,
+    iterations: int | None,
+    tolerance: float | None,
+    split: float | None,
+) -> Solution:
+    from course.radiosity.solution import load_solution
+
+    if scene.suffix.lower() == ".npz":
+        return load_solution(scene)
+    from course import load_scene
+    from course.radiosity.radiosity import PATCHES, TOLERANCE, solve
+
+    loaded = load_scene(scene, effects=effects)
+    with progress_bar(scene.stem) as report:
+        solution = solve(
+            loaded,
+            patches=PATCHES if patches is None else patches,
+            tolerance=TOLERANCE if tolerance is None else tolerance,
+            iterations=iterations,
+            method=method or "auto",
+            split=split,
+            report=report,
+        )
+    click.echo(
+        f"{len(solution.triangles)} patches, {int(solution.steps[0])} steps, "
+        f"within {float(solution.left[0]):.2%} of convergence"
+    )
+    return solution
+
+
+def _check_outs(outs: Sequence[Path], pictures: Sequence[Path]) -> None:
+    from course.imaging.files import check_picture_path
+
+    for out in outs:
+        if out in pictures:
+            check_picture_path(out)
+        else:
+            check_writable(out)
+
+
+def _views(
+    solution: Solution, cameras: list[tuple[Place, Place]], frames: int | None
+) -> list[View]:
+    import numpy as np
+
+    from course.radiosity.viewing import flight, own_view, views_of
+
+    if not cameras:
+        return [own_view(solution)]
+    views = list(views_of(solution, [(np.array(eye), np.array(at)) for eye, at in cameras]))
+    return views if frames is None else flight(views, frames)
+
+
+def _write_pictures(
+    solution: Solution, views: Sequence[View], out: Path, size: tuple[int, int] | None
+) -> None:
+    from course.imaging.files import save
+    from course.radiosity.viewing import look
+
+    width, height = size or (int(solution.size[0]), int(solution.size[1]))
+    digits = max(len(str(len(views) - 1)), 3)
+    for number, view in enumerate(views):
+        name = out.name if len(views) == 1 else f"{out.stem}_{number:0{digits}d}{out.suffix}"
+        path = out.with_name(name)
+        save(path, look(solution, view, width, height))
+        click.echo(str(path))

@@ -1,0 +1,157 @@
+"""Pictures of a solution, from any camera: one ray a sample, and no light is computed any more."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from course.core.types import Floats32, Floats64, Numbers
+from course.errors import CourseError
+from course.geometry.embree import QueryTime
+from course.imaging.camera import Camera, make_camera
+from course.radiosity.solution import Solution
+
+RAYS = 1 << 17
+"""In a batch."""
+
+SAMPLES = 3
+"""Along each side of a pixel."""
+
+PARALLEL = 1e-6
+"""Sine of the angle between view and up below which a camera can't tell where up is."""
+
+
+@dataclass(frozen=True)
+class View:
+    """A pinhole camera in the units of the scene file.
+
+    Attributes
+    ----------
+    eye, look_at, up : (3,) float64
+    vertical_fov : [degrees]
+    """
+
+    eye: Floats64
+    look_at: Floats64
+    up: Floats64
+    vertical_fov: float
+
+    def __post_init__(self) -> None:
+        view = self.look_at - self.eye
+        length = float(np.linalg.norm(view))
+        if not (np.isfinite(length) and length > 0):
+            raise CourseError(
+                f"the camera at {self.eye.tolist()} looks at itself: give another point to look at"
+            )
+        sine = np.linalg.norm(np.cross(view / length, self.up / np.linalg.norm(self.up)))
+        if sine < PARALLEL:
+            raise CourseError(
+                f"the camera at {self.eye.tolist()} looks along its up, {self.up.tolist()}: "
+                "look a little to one side"
+            )
+
+
+def own_view(solution: Solution) -> View:
+    """The scene file's camera."""
+    c = solution.camera
+    return View(c[0:3], c[3:6], c[6:9], float(c[9]))
+
+
+def flight(views: Sequence[View], frames: int) -> list[View]:
+    """Views from the first to the last, by all between, evenly along the straight lines between their eyes.
+
+    Raises
+    ------
+    CourseError
+        There are fewer than two views or frames.
+    """
+    if len(views) < 2 or frames < 2:
+        raise CourseError(
+            f"a flight needs two cameras and two frames at least, got {len(views)} and {frames}"
+        )
+    eyes = np.array([view.eye for view in views])
+    targets = np.array([view.look_at for view in views])
+    # Where only the view turns, it turns as evenly as the target goes.
+    length = np.linalg.norm(np.diff(eyes, axis=0), axis=1)
+    length += 1e-3 * np.linalg.norm(np.diff(targets, axis=0), axis=1)
+    way = np.concatenate(([0.0], np.cumsum(length)))
+    at = np.linspace(0, way[-1], frames)
+
+    def along(points: Floats64) -> Floats64:
+        return np.stack([np.interp(at, way, column) for column in points.T], axis=1)
+
+    fov = np.interp(at, way, [view.vertical_fov for view in views])
+    up = along(np.array([view.up for view in views]))
+    rows = zip(along(eyes), along(targets), up, fov, strict=True)
+    return [View(eye, target, u, float(angle)) for eye, target, u, angle in rows]
+
+
+def look(
+    solution: Solution, view: View, width: int, height: int, samples: int = SAMPLES
+) -> Floats32:
+    """The picture of a solution.
+
+    Parameters
+    ----------
+    samples : along each side of a pixel
+
+    Returns
+    -------
+    (3, height, width) float32, radiance [W/(m^2 sr)], black where nothing is
+    """
+    eye = (view.eye - solution.center) / solution.scale
+    fov = math.radians(view.vertical_fov)
+    camera = make_camera(eye, view.look_at - view.eye, view.up, fov, width, height)
+    picture = np.zeros((3, height * width), np.float32)
+    inside = (np.arange(samples, dtype=np.float32) + np.float32(0.5)) / np.float32(samples)
+    for first in range(0, height * width, RAYS):
+        pixel = np.arange(first, min(first + RAYS, height * width))
+        for dy in inside:
+            for dx in inside:
+                x, y = (pixel % width + dx, pixel // width + dy)
+                light = _light(solution, camera, x.astype(np.float32), y.astype(np.float32))
+                picture[:, pixel] += light
+    return (picture / np.float32(samples**2)).reshape(3, height, width)
+
+
+def _light(solution: Solution, camera: Camera, x: Floats32, y: Floats32) -> Floats32:
+    """(3, N) radiance that comes from points of the picture."""
+    direction = camera.directions(x, y)
+    found = solution.accelerator.intersect(
+        camera.origin[:, None], direction, QueryTime(), coherent=True
+    )
+    hit = np.flatnonzero(found.triangle >= 0)
+    light = np.zeros_like(direction)
+    triangle, u, v = found.triangle[hit], found.u[hit], found.v[hit]
+    light[:, hit] = radiance(solution, triangle, u, v, direction[:, hit])
+    return light
+
+
+def radiance(
+    solution: Solution, triangle: Numbers, u: Floats32, v: Floats32, direction: Floats32
+) -> Floats32:
+    """(3, n) radiance [W/(m^2 sr)] of points on triangles, the same in all directions of the side that is seen.
+
+    Parameters
+    ----------
+    triangle : (n,) int32, u, v : (n,) float32, barycentrics of corners 1 and 2
+    direction : (3, n) float32 in which the ray travels that came there
+    """
+    p0, p1, p2 = (solution.vertices[solution.triangles[triangle, k]].T for k in range(3))
+    normal = np.cross(p1 - p0, p2 - p0, axis=0)
+    behind = np.einsum("xn,xn->n", normal, direction) > 0
+    corners = solution.corners[:, :, triangle + behind * len(solution.triangles)]
+    weights = np.stack((1 - u - v, u, v))
+    # A diffuse surface's radiance is its radiosity over pi.
+    light: Floats32 = np.einsum("ckn,kn->cn", corners, weights) / np.float32(math.pi)
+    return light
+
+
+def views_of(solution: Solution, cameras: Sequence[tuple[Floats64, Floats64]]) -> Iterator[View]:
+    """Views with the scene's own up and field of view, from (eye, look_at) each."""
+    own = own_view(solution)
+    for eye, look_at in cameras:
+        yield View(eye, look_at, own.up, own.vertical_fov)

@@ -1,0 +1,155 @@
+"""From a METU scene file to scene files of the project's own format, one for each camera."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from pathlib import Path, PurePath
+from typing import Any, Final
+
+import yaml
+
+from course.errors import SceneError
+from course.imaging.atomic import write_text
+from course.scene.loading import load_description
+from course.scene.metu.cameras import MetuCamera, read_cameras
+from course.scene.metu.element import Element
+from course.scene.metu.lights import read_lights
+from course.scene.metu.materials import material_name, read_materials
+from course.scene.metu.meshes import read_vertices
+from course.scene.metu.notes import Notes
+from course.scene.metu.objects import Objects
+from course.scene.metu.reading import read_elements
+from course.scene.metu.transformations import read_steps
+
+CUTOFF: Final = 1e-6
+"""Bounced rays with less throughput are dropped; a METU scene drops none, but nobody sees these."""
+
+DEEPEST: Final = 1024
+"""Bounces that the engine follows."""
+
+
+@dataclass(frozen=True)
+class Converted:
+    """One camera's scene.
+
+    Attributes
+    ----------
+    camera : its id
+    image : the picture's name as the METU scene has it, .png or .exr
+    path : the converted scene file
+    """
+
+    camera: str
+    image: str
+    path: Path
+
+
+def convert(source: Path, target: Path) -> tuple[list[Converted], list[str]]:
+    """Convert a METU scene.
+
+    Parameters
+    ----------
+    source : XML or JSON
+    target : the scene file to write, .yaml; where there are several cameras, each has a file of its own beside it,
+        NAME.PICTURE.yaml. Meshes that the scene holds itself go to the folder NAME.meshes, other mesh files stay
+        where they are.
+
+    Returns
+    -------
+    scenes : in the order of the cameras
+    warnings : what was left out or changed, each with its place in the file
+
+    Raises
+    ------
+    SceneError
+        For the first mistake; names file, line where there is one, and element.
+    OutputError
+        Something can't be written.
+    """
+    scene = read_elements(source)
+    notes = Notes()
+    cameras = read_cameras(scene, notes)
+    common = _common(scene, source, target, notes)
+    notes.add_left_over(scene)
+    names = _file_names(cameras, target)
+    converted = []
+    for camera, name in zip(cameras, names, strict=True):
+        parts = {
+            "title": f"{source.stem}, camera {camera.name}",
+            "camera": camera.camera,
+            "film": camera.film,
+            "sampler": camera.sampler,
+            **common,
+        }
+        path = target.with_name(name)
+        text = yaml.dump(parts, Dumper=_Dumper, sort_keys=False, default_flow_style=None, width=110)
+        write_text(
+            path, f"# Converted from {ascii(source.name)[1:-1]} by `course convert`.\n{text}"
+        )
+        try:
+            load_description(path)
+        except SceneError as error:
+            raise retold(error, source, path) from None
+        converted.append(Converted(camera.name, camera.image, path))
+    return converted, notes.texts()
+
+
+def retold(error: SceneError, source: Path, path: Path) -> SceneError:
+    """An error about a converted scene as one about the METU scene that it comes from."""
+    told = re.sub(rf"^{re.escape(str(path))}(:\d+)?: ", "", str(error))
+    return SceneError(f"{source}: as a scene of this course: {told}")
+
+
+def _common(scene: Element, source: Path, target: Path, notes: Notes) -> dict[str, Any]:
+    """What all cameras see."""
+    # The engine leaves surfaces by an offset of its own, which suits scenes of any size.
+    for name in ("ShadowRayEpsilon", "IntersectionTestEpsilon"):
+        found = scene.maybe(name)
+        if found is not None:
+            found.number(0)
+    background = scene.maybe("BackgroundColor")
+    materials = read_materials(scene, notes)
+    objects = Objects(
+        read_vertices(scene),
+        set(materials),
+        read_steps(scene),
+        source.parent,
+        target.parent,
+        f"{target.stem}.meshes",
+    )
+    radiance = [0.0, 0.0, 0.0] if background is None else list(background.color())
+    return {
+        "integrator": {"max_depth": _depth(scene, notes), "cutoff": CUTOFF},
+        "environment": {"type": "constant", "radiance": radiance, "seen_by": "camera"},
+        "materials": {material_name(number): keys for number, keys in materials.items()},
+        "lights": read_lights(scene),
+        "objects": objects.read(scene),
+    }
+
+
+def _depth(scene: Element, notes: Notes) -> int:
+    element = scene.maybe("MaxRecursionDepth")
+    depth = 0 if element is None else element.whole(0)
+    if element is not None and depth > DEEPEST:
+        notes.add(element, f"is {depth}: {DEEPEST} bounces are followed")
+    return min(depth, DEEPEST)
+
+
+def _file_names(cameras: list[MetuCamera], target: Path) -> list[str]:
+    if len(cameras) == 1:
+        return [target.name]
+    names: list[str] = []
+    for camera in cameras:
+        name = f"{target.stem}.{PurePath(camera.image).stem}{target.suffix}"
+        if name in names:
+            name = f"{target.stem}.{PurePath(camera.image).stem}-{len(names) + 1}{target.suffix}"
+        names.append(name)
+    return names
+
+
+class _Dumper(yaml.SafeDumper):
+    """Writes everything out: no anchors."""
+
+    def ignore_aliases(self, data: Any) -> bool:
+        return True

@@ -1,0 +1,75 @@
+"""`VertexData` and `Faces`: the triangles of meshes that stand in the scene file, and the files of those that don't."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from course.core.types import Floats64, Indices
+from course.geometry.mesh import Mesh
+from course.geometry.smooth_normals import smooth_normals
+from course.scene.metu.element import Element
+
+NO_CREASE = 0.0
+"""Degrees: vertices are smooth where triangles share them by number, not where they only lie at one place."""
+
+
+def read_vertices(scene: Element) -> Floats64:
+    """The vertices of a scene, (V, 3) float64; none where it has no VertexData."""
+    element = scene.maybe("VertexData")
+    if element is None:
+        return np.zeros((0, 3))
+    if element.attributes.get("type", "xyz") == "xyz":
+        element.attribute("type")
+    values = element.many("x, y and z of each vertex")
+    if len(values) % 3:
+        raise element.error(f"has {len(values)} numbers: expected three for each vertex")
+    return values.reshape(-1, 3)
+
+
+def inline_mesh(faces: Element, vertices: Floats64, smooth: bool) -> Mesh:
+    """The mesh of triples of vertex numbers, with only the vertices that it uses."""
+    offset = vertex_offset(faces)
+    corners = corners_of(faces, vertices, offset)
+    used, triangles = np.unique(corners, return_inverse=True)
+    triangles = triangles.reshape(-1, 3)
+    own = vertices[used]
+    return Mesh(own, triangles, smooth_normals(own, triangles, NO_CREASE) if smooth else None)
+
+
+def vertex_offset(faces: Element) -> int:
+    """What is added to each vertex number."""
+    given = faces.attribute("vertexOffset") or "0"
+    try:
+        return int(given)
+    except ValueError:
+        raise faces.error(f"vertexOffset is {given!r}: expected a whole number") from None
+
+
+def corners_of(element: Element, vertices: Floats64, offset: int = 0) -> Indices:
+    """Triples of vertex numbers, counted from 1 in the file, as indices (T, 3)."""
+    values = element.many("three vertex numbers for each triangle, such as 1 2 3")
+    if len(values) == 0 or len(values) % 3 or (values != np.floor(values)).any():
+        raise element.unexpected("three vertex numbers for each triangle, such as 1 2 3")
+    check_indices(element, values + offset, vertices)
+    return (values + offset).astype(np.intp).reshape(-1, 3) - 1
+
+
+def check_indices(element: Element, numbers: Floats64, vertices: Floats64) -> None:
+    """SceneError for a vertex number that VertexData doesn't have."""
+    wrong = numbers[(numbers < 1) | (numbers > len(vertices))]
+    if len(wrong):
+        raise element.error(
+            f"refers to vertex {wrong[0]:g}: expected numbers from 1 to {len(vertices)}, as VertexData has"
+        )
+
+
+def mesh_file(faces: Element, name: str, folder: Path) -> Path:
+    """The file that Faces names; SceneError where there is none."""
+    path = folder / name.replace("\\", "/")
+    if not path.is_file():
+        raise faces.error(f"plyFile is {name}: no such file in {folder.resolve()}")
+    if path.suffix.lower() != ".ply":
+        raise faces.error(f"plyFile is {name}: expected a file that ends in .ply")
+    return path

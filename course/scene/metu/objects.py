@@ -1,0 +1,194 @@
+"""`Objects`: meshes, instances of them, spheres and triangles.
+
+An instance takes its mesh from another object; the engine has no instances, so each becomes an object with the same
+mesh file, which is read once.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from course.core.types import Floats64, Indices
+from course.geometry.mesh import Mesh
+from course.scene.document import show, suggest
+from course.scene.metu.element import Element
+from course.scene.metu.materials import material_name
+from course.scene.metu.meshes import (
+    check_indices,
+    corners_of,
+    inline_mesh,
+    mesh_file,
+)
+from course.scene.metu.ply_files import write_ply
+from course.scene.metu.transformations import transform_of
+
+SEGMENTS = ((8, 512), (32, 256), (128, 128))
+"""Spheres a scene may have at most for so many flat pieces around each: a million triangles, or two, in all."""
+
+FEWEST_SEGMENTS = 64
+
+
+@dataclass
+class Objects:
+    """Turns the objects of one scene into those of the project's own scene files.
+
+    Attributes
+    ----------
+    vertices : (V, 3) float64
+    materials : the ids that there are
+    steps : of `Transformations`, by letter and id
+    source : folder of the METU scene, from which its mesh files are named
+    target : folder of the converted scene
+    meshes : name of the folder beside it for meshes that the scene holds itself
+    """
+
+    vertices: Floats64
+    materials: set[str]
+    steps: dict[str, dict[str, Any]]
+    source: Path
+    target: Path
+    meshes: str
+    _bases: dict[str, dict[str, Any]] = field(default_factory=dict)
+
+    def read(self, scene: Element) -> list[dict[str, Any]]:
+        """All objects of a scene; what meshes it holds itself are written."""
+        parent = scene.child("Objects", "one object or more")
+        things = [self._mesh(element) for element in parent.all("Mesh")]
+        things += self._instances(parent.all("MeshInstance"))
+        spheres = parent.all("Sphere")
+        segments = next((s for most, s in SEGMENTS if len(spheres) <= most), FEWEST_SEGMENTS)
+        things += [self._sphere(element, segments) for element in spheres]
+        things += self._triangles(parent.all("Triangle"))
+        return [{key: value for key, value in thing.items() if value != []} for thing in things]
+
+    def _mesh(self, element: Element) -> dict[str, Any]:
+        number = element.id()
+        if number in self._bases:
+            raise element.error(f"its id is given twice: expected another than {number}")
+        mode = element.attribute("shadingMode") or "flat"
+        if mode not in ("flat", "smooth"):
+            raise element.error(f"shadingMode is {show(mode)}: expected flat or smooth")
+        faces = element.child("Faces", "triples of vertex numbers, or a plyFile")
+        file = faces.attribute("plyFile")
+        if file:
+            faces.attribute("vertexOffset")
+            path = self._named(mesh_file(faces, file, self.source))
+        else:
+            mesh = inline_mesh(faces, self.vertices, mode == "smooth")
+            path = self._written(mesh, f"mesh-{len(self._bases) + 1}")
+        thing = {
+            "shape": "mesh",
+            "name": f"mesh {number}",
+            "file": path,
+            "shading": mode,
+            **self._common(element),
+        }
+        self._bases[number] = thing
+        return thing
+
+    def _instances(self, elements: list[Element]) -> list[dict[str, Any]]:
+        """Instances of meshes and of other instances, whatever their order in the file."""
+        left, things = dict(enumerate(elements)), dict[int, dict[str, Any]]()
+        while left:
+            ready = {
+                k: base
+                for k, element in left.items()
+                if (base := self._bases.get(_base_of(element))) is not None
+            }
+            if not ready:
+                element = next(iter(left.values()))
+                raise element.error(
+                    f"baseMeshId is {show(_base_of(element))}: expected the id of a mesh, or of an instance"
+                    f" that comes from one; {suggest(_base_of(element), self._bases)}"
+                )
+            for k, base in ready.items():
+                things[k] = self._instance(left.pop(k), base)
+        return [things[k] for k in sorted(things)]
+
+    def _instance(self, element: Element, base: dict[str, Any]) -> dict[str, Any]:
+        number = element.id()
+        inherited = {key: base[key] for key in ("shape", "file", "shading", "material")}
+        thing = inherited | {"name": f"instance {number}"}
+        thing |= self._common(element, element.maybe("Material") is None)
+        if not element.flag("resetTransform"):
+            thing["transform"] = base["transform"] + thing["transform"]
+        # Meshes and instances are counted apart in some files; then a mesh keeps its number.
+        self._bases.setdefault(number, thing)
+        return thing
+
+    def _sphere(self, element: Element, segments: int) -> dict[str, Any]:
+        element.attribute("id")
+        center = element.child("Center", "the number of a vertex")
+        vertex = np.array(center.numbers(1, "1"))
+        if vertex[0] != np.floor(vertex[0]):
+            raise center.unexpected("the number of a vertex, such as 1")
+        check_indices(center, vertex, self.vertices)
+        middle = {"translate": self.vertices[int(vertex[0]) - 1].tolist()}
+        thing = {
+            "shape": "sphere",
+            "radius": element.child("Radius", "such as 1").number(0, above=True),
+            "segments": segments,
+            **self._common(element),
+        }
+        return thing | {"transform": [middle, *thing["transform"]]}
+
+    def _triangles(self, elements: list[Element]) -> list[dict[str, Any]]:
+        """Single triangles; those that look and move alike make one mesh."""
+        groups: dict[str, tuple[dict[str, Any], list[Indices]]] = {}
+        for element in elements:
+            element.attribute("id")
+            indices = element.child("Indices", "three vertex numbers, such as 1 2 3")
+            corners = corners_of(indices, self.vertices)
+            if len(corners) != 1:
+                raise indices.unexpected("three vertex numbers, such as 1 2 3")
+            common = self._common(element)
+            groups.setdefault(json.dumps(common), (common, []))[1].append(corners)
+        things = []
+        for count, (common, found) in enumerate(groups.values(), start=1):
+            used, triangles = np.unique(np.concatenate(found), return_inverse=True)
+            mesh = Mesh(self.vertices[used], triangles.reshape(-1, 3))
+            path = self._written(mesh, f"triangles-{count}")
+            things.append({"shape": "mesh", "file": path, "shading": "flat", **common})
+        return things
+
+    def _common(self, element: Element, inherits_material: bool = False) -> dict[str, Any]:
+        """Material, transform and motion of an object."""
+        keys: dict[str, Any] = {}
+        if not inherits_material:
+            material = element.child("Material", "the id of a material")
+            name = " ".join(material.words())
+            if name not in self.materials:
+                raise material.unexpected(
+                    f"the id of a material; {suggest(name, sorted(self.materials))}"
+                )
+            keys["material"] = material_name(name)
+        keys["transform"] = transform_of(element, self.steps)
+        blur = element.maybe("MotionBlur")
+        if blur is not None and any(velocity := blur.vector()):
+            # The shutter of the converted scene is open from 0 to 1.
+            keys["motion"] = {"velocity": list(velocity)}
+        return keys
+
+    def _written(self, mesh: Mesh, name: str) -> str:
+        write_ply(mesh, self.target / self.meshes / f"{name}.ply")
+        return f"{self.meshes}/{name}.ply"
+
+    def _named(self, path: Path) -> str:
+        """A mesh file's name as seen from the converted scene."""
+        try:
+            return Path(os.path.relpath(path.resolve(), self.target.resolve())).as_posix()
+        except ValueError:  # on another drive
+            return path.resolve().as_posix()
+
+
+def _base_of(element: Element) -> str:
+    base = element.attribute("baseMeshId")
+    if not base:
+        raise element.error("baseMeshId is missing: expected the id of a mesh")
+    return base

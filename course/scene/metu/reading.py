@@ -1,0 +1,183 @@
+"""METU scene files, XML or JSON, as one and the same tree of elements.
+
+In JSON an attribute's name has a `_` in front, the text of an element that has attributes too is `_data`, elements of
+one name make a list, and everything stands under `Scene`.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+from typing import Any, Final
+from xml.parsers import expat
+
+from course.errors import SceneError
+from course.scene.document import show
+from course.scene.metu.element import Element
+
+SUFFIXES: Final = (".xml", ".json")
+ROOT: Final = "Scene"
+LARGEST_FILE: Final = 1 << 30  # bytes
+DEEPEST: Final = 32
+
+
+def is_metu(path: Path) -> bool:
+    """Whether a file's name is that of a METU scene."""
+    return path.suffix.lower() in SUFFIXES
+
+
+def read_elements(path: Path) -> Element:
+    """Read a file as the element `Scene`.
+
+    Raises
+    ------
+    SceneError
+        For a file that is missing, unreadable, too large or not what its suffix says, for another root than Scene,
+        and for XML with a document type, whose entities could grow beyond all bounds.
+    """
+    file = str(path) if str(path).isprintable() else ascii(str(path))[1:-1]
+    if not is_metu(path):
+        raise SceneError(
+            f"{file}: expected a METU scene, a file that ends in {' or '.join(SUFFIXES)}"
+        )
+    data = _read(path, file)
+    root = _json(data, file) if path.suffix.lower() == ".json" else _xml(data, file)
+    _number(root)
+    return root
+
+
+def _read(path: Path, file: str) -> bytes:
+    try:
+        if path.exists() and not path.is_file():
+            raise SceneError(f"{file}: is not a regular file: expected a scene file")
+        with path.open("rb") as stream:
+            data = stream.read(LARGEST_FILE + 1)
+    except FileNotFoundError:
+        raise SceneError(f"{file}: no such file") from None
+    except (OSError, ValueError) as error:
+        raise SceneError(f"{file}: can't be read: {getattr(error, 'strerror', error)}") from None
+    if len(data) > LARGEST_FILE:
+        raise SceneError(f"{file}: more than {LARGEST_FILE >> 20} MB: too large for a scene file")
+    return data
+
+
+class _XmlReader:
+    """Builds the tree from expat's events; no external entity is ever followed."""
+
+    def __init__(self, file: str) -> None:
+        self.file = file
+        self.root: Element | None = None
+        self._open: list[tuple[Element, list[str]]] = []
+        self._parser = expat.ParserCreate()
+        self._parser.buffer_text = True
+        self._parser.StartElementHandler = self._start
+        self._parser.EndElementHandler = self._end
+        self._parser.CharacterDataHandler = self._characters
+        self._parser.StartDoctypeDeclHandler = self._doctype
+
+    def read(self, data: bytes) -> Element:
+        try:
+            self._parser.Parse(data, True)
+        except expat.ExpatError as error:
+            reason = expat.ErrorString(error.code)
+            raise SceneError(f"{self.file}:{error.lineno}: not valid XML: {reason}") from None
+        assert self.root is not None
+        return self.root
+
+    def _where(self) -> str:
+        return f"{self.file}:{self._parser.CurrentLineNumber}"
+
+    def _start(self, tag: str, attributes: dict[str, str]) -> None:
+        element = Element(tag, tag, self._where(), attributes)
+        if self._open:
+            self._open[-1][0].children.append(element)
+        elif tag != ROOT:
+            raise SceneError(f"{self._where()}: the root is {show(tag)}: expected {ROOT}")
+        else:
+            self.root = element
+        self._open.append((element, []))
+        if len(self._open) > DEEPEST:
+            raise SceneError(f"{self._where()}: nested more than {DEEPEST} levels deep")
+
+    def _end(self, _tag: str) -> None:
+        element, texts = self._open.pop()
+        element.text = "".join(texts)
+
+    def _characters(self, text: str) -> None:
+        self._open[-1][1].append(text)
+
+    def _doctype(self, *_: object) -> None:
+        raise SceneError(
+            f"{self._where()}: has a document type (<!DOCTYPE ...>), which a scene doesn't need: remove it"
+        )
+
+
+def _xml(data: bytes, file: str) -> Element:
+    return _XmlReader(file).read(data)
+
+
+def _json(data: bytes, file: str) -> Element:
+    try:
+        content = json.loads(data)
+    except json.JSONDecodeError as error:
+        raise SceneError(f"{file}:{error.lineno}: not valid JSON: {error.msg}") from None
+    except UnicodeDecodeError as error:
+        raise SceneError(f"{file}: not UTF-8 text: byte {error.start}") from None
+    except (RecursionError, ValueError) as error:
+        reason = "nested too deeply" if isinstance(error, RecursionError) else str(error)
+        raise SceneError(f"{file}: not JSON that can be read: {reason}") from None
+    if not (isinstance(content, dict) and isinstance(content.get(ROOT), dict)):
+        raise SceneError(f"{file}: expected a map with the key {ROOT}, which holds the scene")
+    others = [key for key in content if key != ROOT]
+    root = _from_json(ROOT, content[ROOT], file, 1)
+    root.children += [Element(key, key, file) for key in others]
+    return root
+
+
+def _from_json(tag: str, value: Any, file: str, depth: int) -> Element:
+    if depth > DEEPEST:
+        raise SceneError(f"{file}: {show(tag)}: nested more than {DEEPEST} levels deep")
+    element = Element(tag, tag, file)
+    if not isinstance(value, dict):
+        element.text = _text(value)
+        return element
+    for key, item in value.items():
+        if key == "_data":
+            element.text = _text(item)
+        elif key.startswith("_"):
+            element.attributes[key[1:]] = _text(item)
+        else:
+            items = item if isinstance(item, list) and not _all_numbers(item) else [item]
+            element.children += [_from_json(key, each, file, depth + 1) for each in items]
+    return element
+
+
+def _text(value: Any) -> str:
+    if value is None:
+        return ""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, list):
+        return " ".join(map(_text, value))
+    return str(value)
+
+
+def _all_numbers(items: list[Any]) -> bool:
+    return bool(items) and all(
+        isinstance(item, int | float) and not isinstance(item, bool) for item in items
+    )
+
+
+def _number(element: Element) -> None:
+    """Give each element below this one its path; those of one name are counted from 1."""
+    total: dict[str, int] = {}
+    for child in element.children:
+        total[child.tag] = total.get(child.tag, 0) + 1
+    count: dict[str, int] = {}
+    for child in element.children:
+        count[child.tag] = count.get(child.tag, 0) + 1
+        tag = child.tag if re.fullmatch(r"[\w.:-]{1,60}", child.tag) else show(child.tag)
+        index = f"[{count[child.tag]}]" if total[child.tag] > 1 else ""
+        child.path = f"{element.path}/{tag}{index}"
+        _number(child)

@@ -1,0 +1,57 @@
+"""`Transformations`: named steps, and the lists by which objects ask for them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from course.scene.document import suggest
+from course.scene.metu.element import Element
+
+Steps = list[dict[str, Any]]
+"""Steps of `transform` in the project's own scene files."""
+
+KINDS = {"Translation": "t", "Scaling": "s", "Rotation": "r"}
+"""Each kind of step, and the letter by which objects ask for it."""
+
+
+def read_steps(scene: Element) -> dict[str, dict[str, Any]]:
+    """The steps of a scene by letter and id, such as t1."""
+    parent = scene.maybe("Transformations")
+    steps: dict[str, dict[str, Any]] = {}
+    for kind, letter in KINDS.items() if parent is not None else ():
+        assert parent is not None
+        for element in parent.all(kind):
+            name = letter + element.id()
+            if name in steps:
+                raise element.error(f"its id is given twice: expected another than {name[1:]}")
+            steps[name] = _step(kind, element)
+    return steps
+
+
+def transform_of(thing: Element, steps: dict[str, dict[str, Any]]) -> Steps:
+    """The steps of an object, the first one first."""
+    element = thing.maybe("Transformations")
+    if element is None:
+        return []
+    chosen = []
+    for name in element.words():
+        if name not in steps:
+            raise element.unexpected(
+                f"names such as t1, s1 or r1 of a Translation, Scaling or Rotation; {name}: {suggest(name, steps)}"
+            )
+        chosen.append(steps[name])
+    return chosen
+
+
+def _step(kind: str, element: Element) -> dict[str, Any]:
+    if kind == "Translation":
+        return {"translate": list(element.vector())}
+    if kind == "Scaling":
+        factors = element.vector()
+        if 0 in factors:
+            raise element.unexpected("3 factors that are not 0, such as 1 2 1")
+        return {"scale": list(factors)}
+    degrees, *axis = element.numbers(4, "90 0 1 0")
+    if not any(axis):
+        raise element.unexpected("degrees, and an axis that is not 0 0 0, such as 90 0 1 0")
+    return {"rotate": {"axis": axis, "degrees": degrees}}

@@ -1,0 +1,49 @@
+"""What path tracing needs, where the scene asks for it."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from course.appearance.materials import MaterialTable
+from course.effects import Effects
+from course.scene import description as d
+from course.scene.world import Paths
+
+
+def path_functions(
+    integrator: d.IntegratorDescription, max_depth: int, materials: MaterialTable
+) -> list[str]:
+    """Names of the path_tracing functions that are called."""
+    if integrator.type != "path" or max_depth == 0 or not materials.diffuses.any():
+        return []
+    names = ["throughput", "diffuse_bounce"]
+    if integrator.roulette is not None and integrator.roulette < max_depth:
+        names.append("russian_roulette")
+    return names
+
+
+def compile_paths(
+    integrator: d.IntegratorDescription,
+    effects: Effects,
+    materials: MaterialTable,
+    first_lamp: int,
+) -> Paths | None:
+    """The functions of the path_tracing module; None where the integrator is another.
+
+    Parameters
+    ----------
+    first_lamp : the first material of a light's surface
+    """
+    if integrator.type != "path":
+        return None
+    functions = {
+        name: effects.function("path_tracing", name)
+        for name in path_functions(integrator, integrator.max_depth, materials)
+    }
+    return Paths(
+        integrator.roulette,
+        np.arange(materials.emission.shape[1]) >= first_lamp,
+        functions.get("diffuse_bounce"),
+        functions.get("throughput"),
+        functions.get("russian_roulette"),
+    )

@@ -1,0 +1,260 @@
+"""Where paths go on: one ray for each hit, whichever of its ways the light takes.
+
+A surface may scatter, mirror and refract at once. Of these ways one is chosen, as probable as the throughput that it
+would leave is large, and the throughput is divided by that probability. So the mean is right, and the number of rays
+doesn't grow.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from course.appearance.fresnel import fresnel_and_cos_t, refract
+from course.core.types import Floats32, Indices, Mask, Media
+from course.core.vectors import dot, reflect
+from course.geometry.hits import Hits
+from course.scene.world import Paths
+from course.transport.gloss import Blur
+from course.transport.paths import OPEN, Draws, Rays
+from course.transport.plan import Lookups, Plan
+
+DIFFUSE, MIRRORED, REFRACTED = range(3)
+
+_LEAST = np.float32(1e-30)
+"""Below any throughput that is worth a thought; keeps a division by zero away."""
+
+
+@dataclass(frozen=True)
+class _Optics:
+    """The boundary of a dielectric at m hits, (m,) each.
+
+    Attributes
+    ----------
+    reflected, refracted : shares of the light, 0 where the material is opaque
+    cos_i, cos_t : cosines of incidence and refraction
+    eta : n_from / n_to
+    """
+
+    reflected: Floats32
+    refracted: Floats32
+    cos_i: Floats32
+    cos_t: Floats32
+    eta: Floats32
+
+    def of(self, which: Indices) -> _Optics:
+        """Some of the hits."""
+        return _Optics(
+            self.reflected.take(which),
+            self.refracted.take(which),
+            self.cos_i.take(which),
+            self.cos_t.take(which),
+            self.eta.take(which),
+        )
+
+
+@dataclass(frozen=True)
+class PathBounce:
+    """Sends the paths of one depth on.
+
+    Attributes
+    ----------
+    first : what the dimensions of this depth begin with, more than those of depth 0
+    optical : (M,) which materials mirror or refract
+    survival : whether Russian roulette is played at this depth
+    """
+
+    plan: Plan
+    lookups: Lookups
+    paths: Paths
+    draws: Draws
+    first: int
+    optical: Mask
+    survival: bool
+
+    def __call__(
+        self,
+        hits: Hits,
+        beta: Floats32 | None,
+        path: Indices | None,
+        medium: Media | None,
+        blur: Blur | None,
+    ) -> tuple[Rays, Mask | None] | None:
+        """The rays that go on, and which of them left a mirror or glass (None for none); None if all paths end.
+
+        Parameters
+        ----------
+        beta : (3, n) float32 throughput of the rays that hit, or None for 1
+        path : (n,) or None for all paths in order
+        medium : (n,) the material that the arriving ray travelled in, or None where nothing absorbs
+        """
+        after = self._scattered(hits, beta)
+        other, optics, kind = None, None, None
+        if self.plan.mirrors or self.plan.refracts:
+            other = np.flatnonzero(self.optical.take(hits.material))
+        u = None
+        if self.survival or (other is not None and len(other)):
+            assert self.plan.choice_dimension is not None
+            # One pair for both: which way the light takes, and whether the path survives.
+            u = self.draws("choice", self.plan.choice_dimension + self.first, 2, path)
+        if u is not None and other is not None and len(other):
+            if self.plan.refracts:
+                optics = self._optics(hits, other)
+            after, kind = self._chosen(hits, beta, after, other, optics, u[0])
+        which, after = self._survivors(after, u)
+        if len(which) == 0:
+            return None
+        if self.plan.absorbs and medium is None:
+            medium = np.full(hits.size, OPEN)
+        whole = len(which) == hits.size
+        origin = hits.above if whole else hits.above.take(which, axis=1)
+        if path is None:
+            path = which
+        elif not whole:
+            path = path.take(which)
+        if medium is not None:
+            medium = medium.take(which)
+        time = None if hits.time is None else hits.time.take(which)
+        if kind is None:
+            direction = self._diffuse(hits, None if whole else which, path)
+            return Rays(origin, direction, after, path, medium, time), None
+        kind = kind.take(which)
+        direction = np.empty((3, len(which)), np.float32)
+        place = np.flatnonzero(kind == DIFFUSE)
+        if len(place):
+            direction[:, place] = self._diffuse(hits, which.take(place), path.take(place))
+        place = np.flatnonzero(kind == MIRRORED)
+        if len(place):
+            direction[:, place] = _mirrored(hits, which.take(place), path.take(place), blur)
+        place = np.flatnonzero(kind == REFRACTED)
+        if len(place):
+            through = which.take(place)
+            assert other is not None
+            assert optics is not None
+            direction[:, place] = _refracted(
+                hits, through, optics.of(np.searchsorted(other, through))
+            )
+            origin = origin.copy() if whole else origin
+            origin[:, place] = hits.below.take(through, axis=1)
+            if medium is not None:
+                inside = hits.material.take(through).astype(np.int16)
+                medium[place] = np.where(hits.entering.take(through), inside, OPEN)
+        return Rays(origin, direction, after, path, medium, time), kind != DIFFUSE
+
+    def _scattered(self, hits: Hits, beta: Floats32 | None) -> Floats32:
+        """Throughput (3, n) of diffuse reflection."""
+        if self.paths.throughput is None:
+            return np.zeros((3, hits.size), np.float32)
+        if beta is None:
+            beta = np.ones((3, hits.size), np.float32)
+        albedo = self.lookups.diffuse(hits.material)
+        if albedo.shape[1] != hits.size:
+            albedo = np.repeat(albedo, hits.size, axis=1)
+        return self.paths.throughput(beta, albedo)
+
+    def _chosen(
+        self,
+        hits: Hits,
+        beta: Floats32 | None,
+        diffuse: Floats32,
+        other: Indices,
+        optics: _Optics | None,
+        u: Floats32,
+    ) -> tuple[Floats32, NDArray[np.int8]]:
+        """Throughputs (3, n) and the way of each hit, by chance where it could take another than the diffuse one.
+
+        Parameters
+        ----------
+        diffuse : (3, n) throughput of diffuse reflection
+        other : (m,) the hits on materials that mirror or refract
+        optics : of those hits, None where nothing refracts
+        u : (n,) in [0, 1)
+        """
+        material = hits.material.take(other)
+        arriving = np.float32(1) if beta is None else beta.take(other, axis=1)
+        reflectance = self.lookups.mirror(material)
+        if self.lookups.conductors is not None:
+            cosine = -dot(hits.direction.take(other, axis=1), hits.ns.take(other, axis=1))
+            reflectance = self.lookups.conductors.weakened(reflectance, material, cosine)
+        ways = [diffuse.take(other, axis=1)]
+        if optics is not None:
+            ways += [(reflectance + optics.reflected) * arriving, optics.refracted * arriving]
+        else:
+            ways += [reflectance * arriving]
+        odds = np.stack([np.broadcast_to(way, ways[0].shape).max(axis=0) for way in ways])
+        reach = np.cumsum(odds, axis=0)
+        # Where nothing is left the last way is as good as any: its throughput is 0.
+        way_taken = (u.take(other) * reach[-1] >= reach[:-1]).sum(axis=0)
+        weight = np.zeros(ways[0].shape, np.float32)
+        for number, way in enumerate(ways):
+            # Over its probability, odds / reach[-1].
+            scale = reach[-1] / np.maximum(odds[number], _LEAST)
+            np.copyto(weight, way * scale, where=way_taken == number)
+        after = np.array(diffuse, np.float32)
+        after[:, other] = weight
+        kind = np.full(hits.size, DIFFUSE, np.int8)
+        kind[other] = way_taken
+        return after, kind
+
+    def _optics(self, hits: Hits, which: Indices) -> _Optics:
+        """What the boundary of a dielectric does to the light at some of the hits."""
+        index = self.lookups.refraction_index(hits.material.take(which))
+        glass = index > 0
+        # Outside is vacuum: a ray that enters goes from 1 to the index, one that leaves from the index to 1.
+        index = np.where(glass, index, np.float32(1))
+        eta = np.where(hits.entering.take(which), 1 / index, index)
+        facing = dot(hits.direction.take(which, axis=1), hits.ns.take(which, axis=1))
+        cos_i = np.clip(-facing, 0, 1)
+        share, cos_t = fresnel_and_cos_t(cos_i, eta)
+        return _Optics(share * glass, (1 - share) * glass, cos_i, cos_t, eta)
+
+    def _survivors(self, after: Floats32, u: Floats32 | None) -> tuple[Indices, Floats32]:
+        """Which paths go on, and their throughput."""
+        if self.survival and u is not None and self.paths.russian_roulette is not None:
+            survives, after = self.paths.russian_roulette(after, u[1])
+            which = np.flatnonzero(survives)
+        else:
+            which = np.flatnonzero(after.max(axis=0) > 0)
+        return which, after if len(which) == after.shape[1] else after.take(which, axis=1)
+
+    def _diffuse(self, hits: Hits, which: Indices | None, path: Indices) -> Floats32:
+        """Directions in which paths leave some of the hits, or all of them."""
+        assert self.plan.bounce_dimension is not None
+        assert self.paths.diffuse_bounce is not None
+        u = self.draws("bounce", self.plan.bounce_dimension + self.first, 2, path)
+        ns, ng = hits.ns, hits.ng
+        if which is not None:
+            ns = ns.take(which, axis=1)
+        direction = self.paths.diffuse_bounce(ns, u)
+        if hits.ns is hits.ng:
+            return direction
+        return _kept_above(direction, ng if which is None else ng.take(which, axis=1))
+
+
+def _refracted(hits: Hits, which: Indices, optics: _Optics) -> Floats32:
+    direction, ns = hits.direction.take(which, axis=1), hits.ns.take(which, axis=1)
+    bent = refract(direction, ns, optics.cos_i, optics.cos_t, optics.eta)
+    return _kept_above(bent, -hits.ng.take(which, axis=1))
+
+
+def _mirrored(hits: Hits, which: Indices, path: Indices, blur: Blur | None) -> Floats32:
+    direction, ns = hits.direction.take(which, axis=1), hits.ns.take(which, axis=1)
+    ng = hits.ng.take(which, axis=1)
+    mirrored = _kept_above(reflect(direction, ns), ng)
+    if blur is None:
+        return mirrored
+    return blur(hits.material.take(which), mirrored, ng, path)
+
+
+def _kept_above(direction: Floats32, ng: Floats32) -> Floats32:
+    """Directions that an interpolated normal has sent to the wrong side of the surface, mirrored out of it."""
+    below = np.minimum(dot(direction, ng), 0)
+    if not below.any():
+        return direction
+    below += below
+    # A copy: what a student's function returns may be read-only.
+    above = direction.copy()
+    above -= below * ng
+    return above

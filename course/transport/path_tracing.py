@@ -1,0 +1,145 @@
+"""Path tracing: each camera ray is followed from surface to surface, and brings all light, however it came.
+
+Kajiya, "The rendering equation", 1986. Light reaches a diffuse surface in two ways: from lamps and the environment,
+for which direct light casts its shadow rays at every hit, and from other surfaces, for which the path goes on. A ray
+that has left a diffuse surface and runs into a lamp, or out into the environment, has found what a shadow ray has
+already counted, so it adds nothing; after a mirror or glass, where no shadow rays are cast, it does.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from course.appearance.materials import Lookup
+from course.core.types import Floats32, Indices, Mask
+from course.geometry.hits import Hits, find_hits
+from course.scene.world import Paths
+from course.transport.counters import Counters
+from course.transport.direct import direct_light
+from course.transport.path_bounce import PathBounce
+from course.transport.paths import Draws, Rays
+from course.transport.tracing import CancelledError, Tracer, add_radiance, of_hits
+
+
+@dataclass(frozen=True)
+class PathTracer(Tracer):
+    """A tracer that follows each path to its end; the camera and the film are the distribution ray tracer's."""
+
+    @cached_property
+    def _paths(self) -> Paths:
+        assert self.world.paths is not None
+        return self.world.paths
+
+    @cached_property
+    def _optical(self) -> Mask:
+        """(M,) which materials mirror or refract."""
+        materials = self.world.materials
+        return np.asarray(materials.refracts | (materials.mirror.max(axis=0) > 0))
+
+    @cached_property
+    def _glow(self) -> Lookup | None:
+        """Light that surfaces give off and that no shadow ray looks for: it counts whenever a path meets it."""
+        m = self.world.materials
+        # Ambient light is the same at every point of a surface: what the surface gives off by itself.
+        rows = m.ambient * self.world.ambient[:, None] + m.emission * ~self._paths.lamps
+        return Lookup(rows) if rows.any() else None
+
+    @cached_property
+    def _lamps(self) -> Lookup | None:
+        """Light that shadow rays look for."""
+        rows = self.world.materials.emission * self._paths.lamps
+        return Lookup(rows) if rows.any() else None
+
+    def _trace(self, camera_rays: Rays, paths: int, draws: Draws, counters: Counters) -> Floats32:
+        """Radiance (3, paths) that the paths bring back."""
+        film = np.zeros((3, paths), np.float32)
+        following: tuple[Rays, Mask | None] | None = camera_rays, np.ones(paths, np.bool_)
+        depth = 0
+        while following is not None:
+            if draws.cancelled():
+                raise CancelledError
+            following = self._step(*following, depth, film, draws, counters)
+            depth += 1
+        return film
+
+    def _step(
+        self,
+        rays: Rays,
+        sees: Mask | None,
+        depth: int,
+        film: Floats32,
+        draws: Draws,
+        counters: Counters,
+    ) -> tuple[Rays, Mask | None] | None:
+        """One depth: what the rays bring is added to the film, and the rays that go on are returned.
+
+        Parameters
+        ----------
+        sees : (n,) which rays bring light from lamps and the environment; None for none of them
+        """
+        found = self.world.surface.accelerator.intersect(
+            rays.origin,
+            rays.direction,
+            counters.embree,
+            rays.time,
+            coherent=depth == 0 and self.world.lens is None,
+        )
+        if depth == 0:
+            self._leave_eye_surface(rays, found, counters)
+        counters.lap("trace")
+        backdrop = self.world.backdrop and depth > 0
+        if self.plan.sees_environment and sees is not None and not backdrop:
+            self._add_environment(film, rays, (found.triangle < 0) & sees)
+        hits = find_hits(self.world.surface, found, rays.direction, rays.time)
+        throughput, path, medium = of_hits(rays, hits)
+        if sees is not None and hits.ray is not None:
+            sees = sees.take(hits.ray)
+        if self.plan.absorbs:
+            throughput = self._absorbed(hits, throughput, medium)
+        counters.lap("hits")
+        if hits.size == 0:
+            return None
+        radiance = self._light(hits, sees, path, depth, draws)
+        if radiance is not None:
+            if throughput is not None:
+                radiance *= throughput
+            add_radiance(film, path, radiance)
+        counters.lap("shade")
+        if depth == self.plan.max_depth:
+            return None
+        roulette = self._paths.roulette
+        bounce = PathBounce(
+            self.plan,
+            self.lookups,
+            self._paths,
+            draws,
+            depth * self.plan.bounce_stride,
+            self._optical,
+            roulette is not None and depth >= roulette,
+        )
+        following = bounce(hits, throughput, path, medium, self._blur(depth, draws))
+        if following is not None:
+            counters.rays["path"] = counters.rays.get("path", 0) + following[0].size
+        counters.lap("bounce")
+        return following
+
+    def _light(
+        self, hits: Hits, sees: Mask | None, path: Indices | None, depth: int, draws: Draws
+    ) -> Floats32 | None:
+        """Radiance (3, n) that leaves the hits towards the viewer, without what is reflected by another surface."""
+        radiance = None
+        if self.plan.shades:
+            radiance = direct_light(self.world, self.plan, self.lookups, hits, path, depth, draws)
+        terms = []
+        if self._glow is not None:
+            terms.append(self._glow(hits.material))
+        if self._lamps is not None and sees is not None:
+            terms.append(self._lamps(hits.material) * (sees & hits.entering))
+        for term in terms:
+            if radiance is None:
+                radiance = np.zeros((3, hits.size), np.float32)
+            radiance += term
+        return radiance

@@ -1,0 +1,18 @@
+"""All paths are divided by the probability."""
+
+import numpy as np
+
+FUNCTION = "russian_roulette"
+CAUGHT_BY = "values"
+MISTAKE = "ended-divided"
+
+
+def russian_roulette(beta, u):
+    """With a mistake."""
+    _check_batch("beta", beta, 3)
+    _check_numbers("u", u, np.shape(beta)[1])
+    dtype = np.result_type(beta, u)
+    q = np.minimum(beta.max(axis=0), 1)
+    survives = u < q
+    safe = np.where(q > 0, q, 1)
+    return survives, (beta / safe).astype(dtype)

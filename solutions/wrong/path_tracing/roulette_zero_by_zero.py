@@ -1,0 +1,17 @@
+"""Divides by the probability 0 of black paths."""
+
+import numpy as np
+
+FUNCTION = "russian_roulette"
+CAUGHT_BY = "contract"
+MISTAKE = None
+
+
+def russian_roulette(beta, u):
+    """With a mistake."""
+    _check_batch("beta", beta, 3)
+    _check_numbers("u", u, np.shape(beta)[1])
+    dtype = np.result_type(beta, u)
+    q = np.minimum(beta.max(axis=0), 1)
+    survives = u < q
+    return survives, np.where(survives, 1, 0) * (beta / q).astype(dtype)

@@ -1,0 +1,33 @@
+"""What the engine's benchmark prints."""
+
+from __future__ import annotations
+
+import pytest
+
+from benchmarks.figures import Figure, markdown, print_figures
+
+FIGURES = [
+    Figure("a class of 200 [min]", 20.0, 19.0, 21.0, 25.0),
+    Figure("start [s], [bold] and [/]", 2.0, 1.0, 3.0, 1.0),
+    Figure("one thread / two", 1.5, 1.0, 2.0, 1.25, at_least=True),
+]
+
+
+def test_names_are_printed_with_their_units(capsys: pytest.CaptureFixture[str]) -> None:
+    print_figures(FIGURES)
+    told = {
+        FIGURES[0].name: ["20.00", "19.00 .. 21.00", "≤ 25", "reached"],
+        FIGURES[1].name: ["2.00", "1.00 .. 3.00", "≤ 1", "missed"],
+        FIGURES[2].name: ["1.50", "1.00 .. 2.00", "≥ 1.25", "reached"],
+    }
+    rows = [
+        [cell.strip() for cell in line.strip("│ ").split("│")]
+        for line in capsys.readouterr().out.splitlines()
+        if line.startswith("│")
+    ]
+    assert rows == [[name, *cells] for name, cells in told.items()]
+
+
+def test_a_bar_in_a_name_ends_no_cell_in_markdown() -> None:
+    *_, row = markdown([Figure("largest |t|", 2.0, 1.0, 3.0, 6.0)]).splitlines()
+    assert row == r"| largest \|t\| | 2.00 | 1.00 .. 3.00 | ≤ 6 | reached |"

@@ -1,0 +1,232 @@
+"""Radiosities against closed forms: parallel plates, a sphere's inside, and the bound of what is left."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from course.effects import PROJECT
+from course.errors import SceneError
+from course.radiosity.corners import at_corners
+from course.radiosity.hemicubes import Views, make_hemicube
+from course.radiosity.patches import Patches, make_patches
+from course.radiosity.radiosity import chosen_patches, solve
+from course.radiosity.solving import Shooting, form_factors, gathered, with_ambient
+from course.scene.scene import load_scene
+from tests.conftest import MakeScene
+from tests.radiosity.rooms import FUNCTIONS, between_plates, hollow_sphere, plates
+
+BOX = PROJECT / "scenes" / "radiosity.yaml"
+
+
+def mean(values: np.ndarray, areas: np.ndarray) -> float:
+    return float((values * areas).sum() / areas.sum())
+
+
+# ---------------------------------------------------------------- form factors
+
+
+def test_the_catalogue_knows_two_squares() -> None:
+    assert between_plates(1.0) == pytest.approx(0.199825, abs=1e-6)
+    assert between_plates(1e-4) == pytest.approx(1, abs=1e-3)
+
+
+@pytest.mark.parametrize("distance", [0.5, 1.0, 2.0])
+def test_hemicubes_see_a_plate_by_its_form_factor(make_scene: MakeScene, distance: float) -> None:
+    patches = make_patches(make_scene(**plates(0.5, distance=distance)), 200)
+    views, lamps, areas = Views(patches), patches.lamps, patches.triangles.areas()
+    factors = form_factors(views, make_hemicube(96, FUNCTIONS), 2 * patches.size)
+    fronts = factors[: patches.size, : patches.size]
+    for here, there in ((lamps, ~lamps), (~lamps, lamps)):
+        shares = fronts[np.ix_(here, there)].sum(axis=1)
+        assert mean(shares, areas[here]) == pytest.approx(between_plates(distance), rel=0.02)
+    # Fronts see fronts only, and the backs see nothing of each other.
+    assert factors[: patches.size, patches.size :].sum() == 0
+    assert factors[patches.size :].sum() == 0
+
+
+def test_in_a_sphere_every_patch_sees_the_others_by_their_areas() -> None:
+    """F[i, j] = A_j / (4 pi R^2), wherever i and j are."""
+    sphere = hollow_sphere(48, 1, 0.5)
+    views, areas = Views(sphere), sphere.triangles.areas()
+    hemicube = make_hemicube(128, FUNCTIONS)
+    for i in (0, 700, 1333):
+        row = views.row(views.look(np.array([i]), hemicube)[0], hemicube)
+        assert row.sum() == pytest.approx(1, abs=1e-6)
+        assert row[sphere.size :].sum() == 0
+        # In eight parts of the sphere, for a patch alone has few cells.
+        centre = sphere.triangles.vertices[sphere.triangles.corners].mean(axis=1)
+        part = (centre > 0) @ np.array([1, 2, 4])
+        seen = np.bincount(part, row[: sphere.size], 8)
+        assert np.allclose(seen, np.bincount(part, areas, 8) / areas.sum(), rtol=0.05)
+
+
+def test_the_same_from_behind() -> None:
+    """A sphere whose fronts look outwards has all its light on its backs."""
+    sphere = hollow_sphere(16, 1, 0.5)
+    corners = np.ascontiguousarray(sphere.triangles.corners[:, ::-1])
+    turned = Patches(
+        type(sphere.triangles)(sphere.triangles.vertices, corners, sphere.triangles.origin),
+        sphere.reflectance,
+        sphere.emission,
+        sphere.surface,
+    )
+    views, hemicube = Views(turned), make_hemicube(32, FUNCTIONS)
+    row = views.row(views.look(np.array([turned.size + 5]), hemicube)[0], hemicube)
+    assert row[turned.size :].sum() == pytest.approx(1, abs=1e-6)
+    assert row[turned.size + 5] == 0
+    outside = views.row(views.look(np.array([5]), hemicube)[0], hemicube)
+    assert outside.sum() == 0
+
+
+# ---------------------------------------------------------------- solutions
+
+
+@pytest.mark.parametrize("method", ["gather", "shoot"])
+def test_a_plate_under_a_lamp_is_as_bright_as_its_form_factor_says(
+    make_scene: MakeScene, method: str
+) -> None:
+    """B = rho F pi L on average, for nothing comes back from the lamp."""
+    patches = make_patches(make_scene(**plates(0.6, radiance=2.0)), 300)
+    if method == "gather":
+        solved = gathered(patches, FUNCTIONS, 1e-4, None, rays=8_000_000)
+    else:
+        shooting = Shooting(patches, FUNCTIONS, lamp_rays=5_000_000)
+        shooting.run(1e-4)
+        solved = shooting.solved
+    plate, areas = ~patches.lamps, patches.triangles.areas()
+    found = mean(solved.radiosity[0, : patches.size][plate], areas[plate])
+    assert found == pytest.approx(0.6 * between_plates(1.0) * math.pi * 2, rel=0.01)
+
+
+@pytest.mark.parametrize("reflectance", [0.0, 0.5, 0.8])
+def test_the_inside_of_a_sphere_is_evenly_bright(reflectance: float) -> None:
+    """B = E / (1 - rho)."""
+    sphere = hollow_sphere(16, 2.0, reflectance)
+    solved = gathered(sphere, FUNCTIONS, 1e-5, None, rays=2_000_000)
+    inside = solved.radiosity[:, : sphere.size]
+    assert np.allclose(inside, 2 / (1 - reflectance), rtol=2e-5)
+    assert (solved.radiosity[:, sphere.size :] == 0).all()
+    shooting = Shooting(sphere, FUNCTIONS, lamp_rays=3_000_000)
+    shooting.run(1e-3)
+    bright = shooting.radiosity[0, : sphere.size]
+    # What one patch loses to the others by its hemicubes' grids, the others have.
+    areas = sphere.triangles.areas()
+    assert mean(bright, areas) == pytest.approx(2 / (1 - reflectance), rel=1e-3)
+    assert bright.std() <= 0.05 * bright.mean()
+
+
+def test_shooting_and_gathering_agree() -> None:
+    """Their hemicubes are different ones, so they do to the hemicubes' accuracy."""
+    patches = make_patches(load_scene(BOX), 500)
+    a = gathered(patches, FUNCTIONS, 1e-3, None, rays=8_000_000).radiosity[:, : patches.size]
+    shooting = Shooting(patches, FUNCTIONS, lamp_rays=5_000_000)
+    shooting.run(1e-3)
+    b = shooting.radiosity[:, : patches.size]
+    areas = np.where(patches.lamps, 0, patches.triangles.areas())
+    for channel in range(3):
+        off = np.abs(a[channel] - b[channel])
+        assert mean(off, areas) <= 0.08 * mean(a[channel], areas)
+        assert mean(a[channel], areas) == pytest.approx(mean(b[channel], areas), rel=0.02)
+
+
+def test_what_is_left_bounds_the_distance_to_the_limit() -> None:
+    """The box of 10,000 patches to 1% in small: bound after bound, against a solution a hundred times nearer."""
+    patches = make_patches(load_scene(BOX), 400)
+    areas = np.concatenate([patches.triangles.areas()] * 2)
+    final = Shooting(patches, FUNCTIONS, lamp_rays=5_000_000)
+    final.run(1e-4)
+    shooting = Shooting(patches, FUNCTIONS, lamp_rays=5_000_000)
+    for tolerance in (0.3, 0.1, 0.03, 0.01):
+        shooting.run(tolerance)
+        assert shooting.left <= tolerance
+        missing = (final.radiosity - shooting.radiosity) @ areas
+        # Whatever is shot later is added; 1e-5 is for single precision.
+        assert (missing >= -1e-5).all()
+        assert (missing <= shooting.left * (shooting.radiosity @ areas) + 1e-5).all()
+    assert (missing >= 0.02 * tolerance * (shooting.radiosity @ areas)).any()
+
+
+def test_no_light_is_made_or_lost_in_a_closed_room() -> None:
+    """What lamps emit is what surfaces absorb."""
+    sphere = hollow_sphere(16, 1.0, 0.6)
+    shooting = Shooting(sphere, FUNCTIONS, lamp_rays=3_000_000)
+    shooting.run(1e-4)
+    areas = np.concatenate([sphere.triangles.areas()] * 2)
+    emitted = areas[: sphere.size].sum()
+    arrived = (shooting.radiosity[0] - sphere.both(sphere.emission, 0 * sphere.emission)[0]) / 0.6
+    assert (0.4 * arrived) @ areas == pytest.approx(emitted, rel=1e-3)
+
+
+def test_shots_end_when_asked_and_the_brightest_comes_first() -> None:
+    patches = make_patches(load_scene(BOX), 600)
+    shooting = Shooting(patches, FUNCTIONS, lamp_rays=5_000_000)
+    lamps = int(patches.lamps.sum())
+    shooting.run(0, most=lamps)
+    assert shooting.steps == lamps
+    assert (shooting.unshot[:, : patches.size][:, patches.lamps] == 0).all()
+    areas = np.concatenate([patches.triangles.areas()] * 2)
+    power = (shooting.unshot * areas).sum()
+    brightest = int((shooting.unshot * areas).sum(axis=0).argmax())
+    shooting.run(0, most=lamps + 1)
+    assert shooting.steps == lamps + 1
+    assert (shooting.unshot[:, brightest] == 0).all()
+    after = (shooting.unshot * areas).sum()
+    assert after < power
+
+
+def test_the_ambient_term_tells_what_the_limit_will_be() -> None:
+    """In a sphere it is exact: what is unshot comes to all patches alike."""
+    sphere = hollow_sphere(16, 1.0, 0.5)
+    shooting = Shooting(sphere, FUNCTIONS, lamp_rays=3_000_000)
+    front, areas = slice(0, sphere.size), sphere.triangles.areas()
+    for shots in (0, 200):
+        shooting.run(0, most=shots)
+        light = with_ambient(sphere, shooting.radiosity, shooting.unshot)
+        assert mean(light[0, front], areas) == pytest.approx(2, rel=1e-3)
+        assert (light[:, sphere.size :] == 0).all()
+    some = np.arange(2 * sphere.size) < 100
+    light = with_ambient(sphere, shooting.radiosity, shooting.unshot, some)
+    assert (light[:, 100:] == shooting.radiosity[:, 100:]).all()
+    assert (light[:, :100] > shooting.radiosity[:, :100]).all()
+
+
+def test_subdivision_goes_where_the_light_changes() -> None:
+    scene = load_scene(BOX)
+    even = solve(scene, patches=1600, tolerance=0.2, method="shoot")
+    uneven = solve(scene, patches=1600, tolerance=0.2, method="shoot", split=0.1)
+    assert 400 < len(uneven.triangles) <= 1700
+
+    def sizes(solution) -> np.ndarray:  # type: ignore[no-untyped-def]
+        p = solution.vertices[solution.triangles].astype(float)
+        return np.linalg.norm(np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]), axis=1)
+
+    assert sizes(uneven).min() < sizes(even).min() / 1.9
+    assert sizes(uneven).max() > sizes(even).max() * 1.9
+
+
+def test_only_patches_with_contrast_are_divided() -> None:
+    patches = make_patches(load_scene(BOX), 300)
+    shooting = Shooting(patches, FUNCTIONS, lamp_rays=1_000_000)
+    shooting.run(0.3)
+    corners = at_corners(patches, shooting.radiosity)
+    for threshold in (0.2, 0.6):
+        found = chosen_patches(patches, shooting.solved, FUNCTIONS, threshold, room=10**6)
+        uneven = FUNCTIONS.needs_split(corners, threshold).reshape(2, -1).any(axis=0)
+        assert (found == (uneven & ~patches.lamps)).all()
+        assert 0 < found.sum() < patches.size
+    # Where not all can be divided, those with the most contrast are.
+    few = chosen_patches(patches, shooting.solved, FUNCTIONS, 0.2, room=20)
+    assert 0 < few.sum() <= 20
+    contrast = (corners.max(1) - corners.min(1)).max(0) / np.maximum(corners.max((0, 1)), 1e-9)
+    contrast = np.where(patches.lamps, 0, contrast.reshape(2, -1).max(axis=0))
+    assert contrast[few].min() >= contrast[~few].max() - 2e-3
+
+
+def test_a_white_room_has_no_limit_to_go_to(make_scene: MakeScene) -> None:
+    scene = make_scene(**plates(1.0))
+    with pytest.raises(SceneError, match=r"materials\.grey: reflects all light"):
+        solve(scene, patches=20)
+    assert solve(scene, patches=20, iterations=3).steps.tolist() == [3]

@@ -1,0 +1,272 @@
+"""Files that are wrong: one message with file, element and remedy; and parts that nobody knows are named."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from course.errors import SceneError
+from course.scene.metu.converting import convert
+from tests.scene.metu.conftest import CAMERA, MATT, Metu, Tree, tree, write
+
+Change = Callable[[Tree], Any]
+
+MISTAKES: list[tuple[Change, str]] = [
+    (lambda s: s.pop("Cameras"), "Scene: Cameras is missing: expected one Camera or more"),
+    (lambda s: s["Cameras"].pop("Camera"), "Scene/Cameras: Camera is missing"),
+    (lambda s: s.pop("Objects"), "Scene: Objects is missing"),
+    (lambda s: s.pop("Materials"), "Scene: Materials is missing"),
+    (
+        lambda s: s["Cameras"]["Camera"].update(Position="1 2"),
+        'Scene/Cameras/Camera/Position is "1 2": expected 3 numbers, such as 0 1 -2.5',
+    ),
+    (
+        lambda s: s["Cameras"]["Camera"].update(Position="1 2 nan"),
+        'Camera/Position is "1 2 nan": expected 3 numbers',
+    ),
+    (
+        lambda s: s["Cameras"]["Camera"].update(Position="1 2 1e999"),
+        'Camera/Position is "1 2 1e999": expected 3 numbers',
+    ),
+    (
+        lambda s: s["Cameras"]["Camera"].update(Gaze="0 0 0"),
+        'Gaze is "0 0 0": expected a direction',
+    ),
+    (lambda s: s["Cameras"]["Camera"].update(Up="0 0 7"), 'Up is "0 0 7": expected a direction'),
+    (
+        lambda s: s["Cameras"]["Camera"].update(NearPlane="1 -1 -1 1"),
+        'NearPlane is "1 -1 -1 1": expected left < right and bottom < top',
+    ),
+    (
+        lambda s: s["Cameras"]["Camera"].update(NearDistance="0"),
+        'NearDistance is "0": expected a number > 0',
+    ),
+    (
+        lambda s: s["Cameras"]["Camera"].update(ImageResolution="640 0"),
+        'ImageResolution is "640 0": expected 2 whole numbers from 1 to 65536',
+    ),
+    (
+        lambda s: s["Cameras"]["Camera"].update(NumSamples="2.5"),
+        'NumSamples is "2.5": expected a whole number >= 1',
+    ),
+    (
+        lambda s: s["Cameras"]["Camera"].update(ApertureSize="1"),
+        "Camera: FocusDistance is missing or 0: expected a distance > 0",
+    ),
+    (
+        lambda s: s["Cameras"]["Camera"].update(_type="fisheye"),
+        "Camera: type is 'fisheye': expected lookAt or none",
+    ),
+    (lambda s: s["Cameras"].update(Camera=[CAMERA, CAMERA | {"Up": ""}]), "Camera[2]/Up is"),
+    (lambda s: s["Cameras"].update(Camera=[CAMERA, CAMERA]), "Camera[2]: its id is given twice"),
+    (
+        lambda s: s["Materials"]["Material"][0].update(_type="plastic"),
+        "Material: type is 'plastic': expected mirror, conductor, dielectric or none",
+    ),
+    (
+        lambda s: s["Materials"]["Material"][0].update(_type="conductor"),
+        "Material: MirrorReflectance is missing: expected such as 0.9 0.9 0.9",
+    ),
+    (
+        lambda s: s["Materials"]["Material"][0].update(DiffuseReflectance="2 0 0"),
+        'DiffuseReflectance is "2 0 0": expected 3 numbers from 0 to 1',
+    ),
+    (
+        lambda s: s["Materials"].update(Material=[MATT, MATT]),
+        "Material[2]: its id is given twice: expected another than 1",
+    ),
+    (
+        lambda s: s["Lights"].update(PointLight={"_id": "1", "Position": "0 0 0"}),
+        "Lights/PointLight: Intensity is missing",
+    ),
+    (
+        lambda s: s["Lights"].update(AmbientLight="-1 0 0"),
+        'AmbientLight is "-1 0 0": expected 3 numbers from 0',
+    ),
+    (
+        lambda s: s["Objects"]["Mesh"].update(Material="4"),
+        'Mesh/Material is "4": expected the id of a material; known are "1"',
+    ),
+    (
+        lambda s: s["Objects"]["Mesh"].update(Faces="1 2"),
+        'Mesh/Faces is "1 2": expected three vertex numbers for each triangle',
+    ),
+    (
+        lambda s: s["Objects"]["Mesh"].update(Faces="1 2 5"),
+        "Mesh/Faces: refers to vertex 5: expected numbers from 1 to 4",
+    ),
+    (
+        lambda s: s["Objects"]["Mesh"].update(Faces="0 1 2"),
+        "Mesh/Faces: refers to vertex 0: expected numbers from 1 to 4",
+    ),
+    (
+        lambda s: s["Objects"]["Mesh"].update(Faces={"_plyFile": "no.ply"}),
+        "Mesh/Faces: plyFile is no.ply: no such file in ",
+    ),
+    (
+        lambda s: s["Objects"]["Mesh"].update(_shadingMode="phong"),
+        'Mesh: shadingMode is "phong": expected flat or smooth',
+    ),
+    (
+        lambda s: s["Objects"]["Mesh"].update(Transformations="t1"),
+        'Mesh/Transformations is "t1": expected names such as t1, s1 or r1',
+    ),
+    (
+        lambda s: s["Objects"].update(MeshInstance={"_id": "2", "_baseMeshId": "2"}),
+        'MeshInstance: baseMeshId is "2": expected the id of a mesh',
+    ),
+    (
+        lambda s: s["Objects"].update(
+            Sphere={"_id": "1", "Material": "1", "Center": "9", "Radius": "1"}
+        ),
+        "Sphere/Center: refers to vertex 9: expected numbers from 1 to 4",
+    ),
+    (
+        lambda s: s.update(Transformations={"Scaling": {"_id": "1", "_data": "1 0 1"}}),
+        'Transformations/Scaling is "1 0 1": expected 3 factors that are not 0',
+    ),
+    (
+        lambda s: s.update(Transformations={"Rotation": {"_id": "1", "_data": "90 0 0 0"}}),
+        'Transformations/Rotation is "90 0 0 0": expected degrees, and an axis',
+    ),
+    (lambda s: s.update(VertexData="1 2 3 4"), "VertexData: has 4 numbers"),
+    (lambda s: s.update(MaxRecursionDepth="six"), 'MaxRecursionDepth is "six": expected 1 number'),
+]
+
+
+@pytest.mark.parametrize(("change", "told"), MISTAKES, ids=[told for _, told in MISTAKES])
+@pytest.mark.parametrize("form", ["xml", "json"])
+def test_a_mistake_is_told_with_file_element_and_what_was_expected(
+    tmp_path: Path, form: str, change: Change, told: str
+) -> None:
+    scene = tree(
+        materials=[dict(MATT)], objects={"Mesh": {"_id": "1", "Material": "1", "Faces": "1 2 3"}}
+    )
+    change(scene)
+    path = write(tmp_path, scene, form)
+    with pytest.raises(SceneError) as caught:
+        convert(path, tmp_path / "scene.yaml")
+    message = str(caught.value)
+    assert message.startswith(f"{path}:")
+    assert told in message
+    assert "\n" not in message
+
+
+def test_xml_mistakes_have_a_line(tmp_path: Path) -> None:
+    path = write(tmp_path, tree(camera={"Gaze": "1"}), "xml")
+    line = next(
+        k for k, text in enumerate(path.read_text().splitlines(), start=1) if "Gaze" in text
+    )
+    with pytest.raises(SceneError, match=rf"scene\.xml:{line}: Scene/Cameras/Camera/Gaze is"):
+        convert(path, tmp_path / "scene.yaml")
+
+
+BOMB = """<?xml version="1.0"?>
+<!DOCTYPE Scene [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;&a;&a;&a;&a;&a;&a;">]>
+<Scene>&b;</Scene>
+"""
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "told"),
+    [
+        ("bomb.xml", BOMB, r"bomb\.xml:2: has a document type"),
+        ("a.xml", "<Scene><a></Scene>", r"a\.xml:1: not valid XML: mismatched tag"),
+        ("a.xml", "", r"a\.xml:1: not valid XML: no element found"),
+        ("a.xml", "<scene/>", r'a\.xml:1: the root is "scene": expected Scene'),
+        ("a.xml", "<Scene>" + "<a>" * 50, r"nested more than 32 levels"),
+        ("a.xml", "<Scene>&b;</Scene>", r"a\.xml:1: not valid XML: undefined entity"),
+        ("a.json", "{", r"a\.json:1: not valid JSON"),
+        ("a.json", "[]", r"expected a map with the key Scene"),
+        ("a.json", '{"Scene": 1}', r"expected a map with the key Scene"),
+        ("a.json", '{"Scene": {"a":' + "[" * 100_000, r"nested too deeply"),
+        ("a.obj", "", r"expected a METU scene, a file that ends in \.xml or \.json"),
+    ],
+)
+def test_what_is_no_scene_is_refused(tmp_path: Path, name: str, content: str, told: str) -> None:
+    (tmp_path / name).write_text(content, encoding="utf-8")
+    with pytest.raises(SceneError, match=told):
+        convert(tmp_path / name, tmp_path / "scene.yaml")
+    assert not (tmp_path / "scene.yaml").exists()
+
+
+def test_missing_files_and_folders_are_told(tmp_path: Path) -> None:
+    with pytest.raises(SceneError, match=r"none\.xml: no such file"):
+        convert(tmp_path / "none.xml", tmp_path / "scene.yaml")
+    (tmp_path / "folder.xml").mkdir()
+    with pytest.raises(SceneError, match=r"folder\.xml: is not a regular file"):
+        convert(tmp_path / "folder.xml", tmp_path / "scene.yaml")
+
+
+def test_what_is_not_known_is_named_once_a_kind(metu: Metu) -> None:
+    scene = tree(
+        camera={"Tonemap": {"TMO": "Photographic"}, "_handedness": "left"},
+        lights={"AmbientLight": "9 9 9", "SpotLight": [{"_id": "1"}, {"_id": "2"}, {"_id": "3"}]},
+        Textures={"Images": ""},
+    )
+    scene["Objects"]["Mesh"] |= {"Textures": "1", "_lod": "2"}
+    metu.load(scene)
+    warnings = "\n".join(metu.warnings)
+    for part in (
+        "Scene/Cameras/Camera/Tonemap is not known, and was left out",
+        "Scene/Cameras/Camera, attribute handedness is not known",
+        "Scene/Lights/SpotLight[1] is not known, and was left out (and 2 more of this kind)",
+        "Scene/Textures is not known",
+        "Scene/Objects/Mesh/Textures is not known",
+        "Scene/Objects/Mesh, attribute lod is not known",
+    ):
+        assert part in warnings
+    assert len(metu.warnings) == 6
+
+
+def test_everything_that_is_known_is_silent(metu: Metu) -> None:
+    scene = tree(
+        camera={"_type": "simple", "_handedness": "right"},
+        ShadowRayEpsilon="1e-3",
+        IntersectionTestEpsilon="1e-6",
+        MaxRecursionDepth="6",
+        BackgroundColor="0 0 0",
+        VertexDataX="",
+    )
+    del scene["VertexDataX"]
+    metu.load(scene)
+    assert metu.warnings == []
+
+
+def test_two_pictures_of_one_name_get_two(metu: Metu, tmp_path: Path) -> None:
+    scene = tree()
+    scene["Cameras"]["Camera"] = [CAMERA, CAMERA | {"_id": "2"}]
+    converted, (warning,) = convert(write(tmp_path, scene, metu.form), tmp_path / "scene.yaml")
+    assert [one.image for one in converted] == ["one.png", "camera-2.png"]
+    assert len({one.path for one in converted}) == 2
+    assert "Camera[2] has the ImageName of another camera" in warning
+
+
+def test_both_forms_make_the_same_scene_file(tmp_path: Path) -> None:
+    texts = []
+    for form in ("xml", "json"):
+        folder = tmp_path / form
+        folder.mkdir()
+        (one,), _ = convert(write(folder, tree(), form), folder / "scene.yaml")
+        texts.append(one.path.read_text(encoding="utf-8").partition("\n")[2])
+    assert texts[0] == texts[1]
+
+
+def test_json_may_hold_numbers_and_lists_of_numbers(tmp_path: Path) -> None:
+    scene = tree(camera={"Position": [0, 0, 1.5], "NearDistance": 2, "_id": 1})
+    path = tmp_path / "scene.json"
+    path.write_text(json.dumps({"Scene": scene}), encoding="utf-8")
+    (one,), warnings = convert(path, tmp_path / "scene.yaml")
+    assert warnings == []
+    assert "eye: [0.0, 0.0, 1.5]" in one.path.read_text(encoding="utf-8")
+
+
+def test_a_pictures_name_leads_into_no_other_folder(metu: Metu, tmp_path: Path) -> None:
+    path = write(tmp_path, tree(camera={"ImageName": "../../up/one.ppm"}), metu.form)
+    (one,), (warning,) = convert(path, tmp_path / "scene.yaml")
+    assert one.image == "one.png"
+    assert "ImageName is one.ppm: pictures are .png or .exr, so one.png is written" in warning
