@@ -13,6 +13,7 @@ from pathlib import Path
 import click
 
 from benchmarks.adaptive import measure_adaptive
+from benchmarks.adaptive_sampling import measure_adaptive_sampling
 from benchmarks.bounding_volumes import measure_bounding_volumes
 from benchmarks.convergence import measure_convergence
 from benchmarks.degenerate import measure_degenerate
@@ -21,9 +22,12 @@ from benchmarks.effects import measure_effects
 from benchmarks.engine import measure_engine
 from benchmarks.figures import Figure, markdown, print_figures
 from benchmarks.grading import measure_grading
+from benchmarks.importance_sampling import measure_importance_sampling
 from benchmarks.path_tracing import measure_path_tracing
 from benchmarks.process import measure_processes
+from benchmarks.quasi_monte_carlo import measure_quasi_monte_carlo
 from benchmarks.radiosity import measure_radiosity
+from benchmarks.sampling import measure_sampling
 from course.benchmarking.documents import replace_marked
 from course.benchmarking.machine import machine
 from course.cli.bench import DOCUMENTS, bench
@@ -42,6 +46,10 @@ MEASURES = {
     "bounding_volumes": measure_bounding_volumes,
     "grading": measure_grading,
     "path_tracing": measure_path_tracing,
+    "sampling": measure_sampling,
+    "adaptive_sampling": measure_adaptive_sampling,
+    "importance_sampling": measure_importance_sampling,
+    "quasi_monte_carlo": measure_quasi_monte_carlo,
 }
 
 
@@ -53,7 +61,8 @@ def main(names: tuple[str, ...], quick: bool, write_docs: bool) -> None:
     """Measure everything, or what NAME says; print and write it.
 
     NAME: engine, effects, degenerate, process, convergence, dragons, adaptive, bounding_volumes, grading,
-    path_tracing, radiosity, or errors (`course bench`).
+    path_tracing, radiosity, sampling, adaptive_sampling, importance_sampling, quasi_monte_carlo, or errors
+    (`course bench`).
     """
     OUT.mkdir(parents=True, exist_ok=True)
     figures = [
@@ -63,7 +72,7 @@ def main(names: tuple[str, ...], quick: bool, write_docs: bool) -> None:
         for figure in measure()
     ]
     if figures:
-        _report(figures, write_docs and not names)
+        _report(figures, names, write_docs)
     if not names or "errors" in names:
         arguments = ["--json", str(OUT / "errors.json")]
         # Plots take an extra.
@@ -73,14 +82,15 @@ def main(names: tuple[str, ...], quick: bool, write_docs: bool) -> None:
         bench.main(arguments, prog_name="course bench", standalone_mode=False)
 
 
-def _report(figures: list[Figure], write_docs: bool) -> None:
+def _report(figures: list[Figure], names: tuple[str, ...], write_docs: bool) -> None:
     print_figures(figures)
     made_with = machine()
     path = OUT / "engine.json"
     path.write_text(json.dumps({**made_with, "figures": [f.to_dict() for f in figures]}, indent=2))
     print(f"written to {path}")
     if write_docs:
-        about = f"Made by `make bench` on {made_with['processor']}, {made_with['threads']}."
+        command = f"python -m benchmarks {' '.join(names)}" if names else "make bench"
+        about = f"Made by `{command}` on {made_with['processor']}, {made_with['threads']}."
         replace_marked(DOCUMENTS / "performance.md", MARK, "\n\n".join([about, markdown(figures)]))
 
 

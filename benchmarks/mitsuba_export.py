@@ -12,6 +12,7 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
+import msgspec
 import numpy as np
 
 from course.appearance.cube_environment import CubeEnvironment
@@ -25,6 +26,21 @@ from course.scene.shutter import shutter_of
 
 LOBES = ("", "jitter_on_plane", "jitter_in_ball", "sample_phong_lobe")
 """Kinds of gloss by number; 0 is a perfect mirror."""
+
+EXPORTED: dict[type[msgspec.Struct], frozenset[str]] = {
+    d.MaterialDescription: frozenset(
+        {"color", "ambient", "diffuse", "specular", "exponent", "mirror", "gloss", "dielectric"}
+    ),
+    d.Dielectric: frozenset({"refraction_index", "absorption"}),
+    d.CameraDescription: frozenset(
+        {"eye", "look_at", "up", "vertical_fov", "lens", "shutter", "motion"}
+    ),
+    d.RectangleLight: frozenset({"corner", "edge_u", "edge_v", "radiance", "samples", "motion"}),
+    d.ConstantEnvironment: frozenset({"radiance", "lights"}),
+    d.CubeEnvironment: frozenset({"faces", "cross", "scale", "lookup", "lights"}),
+    d.LatLongEnvironment: frozenset({"image", "size", "scale", "lookup", "lights"}),
+}
+"""The keys that are exported; what any other one says beyond its default is refused by name."""
 
 LAT_LONG_COLUMNS = 4
 """Columns of the latitude-longitude picture for each texel along a face of the cube."""
@@ -91,6 +107,7 @@ class Exported:
     lat_long : (H, W, 3) float32, the same as Mitsuba's `envmap` reads it, see ``lat_long_directions``
     sky : whether the environment lights diffuse surfaces
     paths : whether light is followed from one diffuse surface to the next
+    roulette : bounces that a path makes before Russian roulette may end it, None for never
     """
 
     width: int
@@ -108,6 +125,7 @@ class Exported:
     cutoff: float
     names: tuple[str, ...] = field(default=())
     paths: bool = False
+    roulette: int | None = None
 
     @property
     def triangles(self) -> int:
@@ -121,10 +139,22 @@ def export(scene: Scene, width: int, height: int) -> Exported:
     Raises
     ------
     NotExportableError
-        For what no benchmark scene has: lights by radiance that move, grids of lights, apertures other than disks.
+        For what no benchmark scene has: lights by radiance that move, grids of lights, apertures other than disks,
+        glass that blurs, and keys that are not EXPORTED.
     """
     description = scene.loaded.description
     names = list(dict.fromkeys(thing.material for thing in description.objects))
+    _refuse_others(description.camera, "camera")
+    _refuse_others(description.environment, "environment")
+    for number, light in enumerate(description.lights):
+        _refuse_others(light, f"lights[{number}]")
+    for name in names:
+        material = description.materials[name]
+        _refuse_others(material, f"materials.{name}")
+        if material.dielectric is not None:
+            _refuse_others(material.dielectric, f"materials.{name}.dielectric")
+            if material.gloss is not None:
+                raise NotExportableError(f"materials.{name}.gloss of glass is not exported")
     return Exported(
         width,
         height,
@@ -141,7 +171,16 @@ def export(scene: Scene, width: int, height: int) -> Exported:
         description.integrator.cutoff,
         tuple(names),
         description.integrator.type == "path",
+        description.integrator.roulette,
     )
+
+
+def _refuse_others(described: msgspec.Struct, where: str) -> None:
+    exported = EXPORTED.get(type(described))
+    for key in msgspec.structs.fields(described) if exported is not None else ():
+        value = getattr(described, key.name)
+        if key.name not in exported and value is not None and value != key.default:
+            raise NotExportableError(f"{where}.{key.name} is not exported")
 
 
 def _parts(scene: Scene, names: list[str]) -> tuple[Part, ...]:

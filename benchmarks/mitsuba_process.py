@@ -19,7 +19,7 @@ def main(folder: str, form: str, sampler: str, samples: str, threads: str, out: 
     scene: LlvmScene | NativeScene
     if form == "llvm":
         start_llvm(int(threads))
-        scene = LlvmScene(exported)
+        scene = NativeScene(exported) if exported.paths else LlvmScene(exported)
     else:
         start_scalar(int(threads))
         scene = NativeScene(exported)

@@ -78,8 +78,9 @@ def native_overrides(path: Path) -> tuple[Overrides, list[str]]:
                 "center": list(light.center),
                 "radius": light.radius,
                 "radiance": radiance.tolist(),
+                "samples": "visible",
             }
-            words.append("the lamp by radiance")
+            words.append("the lamp by radiance, sampled where it is visible")
         if isinstance(light, d.AmbientLight) and moves:
             values["lights", number, "radiance"] = 0.0
             words.append("no ambient light (instances can't send out light)")
@@ -185,7 +186,8 @@ def _scene_map(e: Exported) -> dict[str, Any]:
 def _integrator(e: Exported) -> dict[str, Any]:
     m = e.materials
     if m.mirror.any() or e.sky or e.paths:
-        return {"type": "path", "max_depth": e.max_depth + 2, "rr_depth": e.max_depth + 2}
+        bounces = e.roulette if e.paths and e.roulette is not None else e.max_depth + 1
+        return {"type": "path", "max_depth": e.max_depth + 2, "rr_depth": bounces + 1}
     # One light for each sample: with more, `direct` counts lights without extent as often (Mitsuba 3.9).
     return {"type": "direct", "emitter_samples": 1, "bsdf_samples": 0}
 

@@ -40,12 +40,26 @@ from course.benchmarking.sources import scene_hash
 from course.benchmarking.tables import Table, print_tables
 from course.benchmarking.variants import load_variant
 from course.effects import PROJECT
+from course.scene.description.values import rgb
+from course.scene.loading import load_description
+from course.scene.overriding import Overrides
 
-EFFECTS = ("supersampling", "soft_shadows", "glossy", "thin_lens", "motion_blur", "cube_map")
+EFFECTS = (
+    "supersampling",
+    "soft_shadows",
+    "glossy",
+    "thin_lens",
+    "motion_blur",
+    "cube_map",
+    "path_tracing",
+)
 FORMS = ("llvm", "scalar")
 SIZE = (400, 300)
 SAMPLES = 64
 """A pixel, of Mitsuba's best sampler; its error is the one to reach."""
+
+DIFFUSE = 0.73
+"""What path tracing's mirror and glass return of the light, as surfaces that are diffuse."""
 
 MOST_SAMPLES = 16384
 OUT = Path("out/bench/peers")
@@ -151,7 +165,7 @@ class Case:
         exported = export(self.scene, *SIZE)
         if self.form == "llvm":
             start_llvm(self.threads)
-            return LlvmScene(exported)
+            return NativeScene(exported) if exported.paths else LlvmScene(exported)
         (start_llvm if native_in_llvm else start_scalar)(self.threads)
         return NativeScene(exported)
 
@@ -198,9 +212,24 @@ def our_picture(scene: Scene, threads: int, **settings: Any) -> np.ndarray:
 def make_case(effect: str, form: str, threads: int, effort: Effort) -> Case:
     """Load the scene: with a box filter, for that is what both programs have, and what the form asks for."""
     path = PROJECT / "scenes" / f"{effect}.yaml"
-    values, without = native_overrides(path) if form == "scalar" else ({}, [])
+    values: Overrides = {}
+    without: list[str] = []
+    if effect == "path_tracing":
+        values, without = diffuse_overrides(path)
+    elif form == "scalar":
+        values, without = native_overrides(path)
     scene = load_variant(path, {("film", "filter"): "box", **values})
     return Case(effect, form, threads, effort, scene, without)
+
+
+def diffuse_overrides(path: Path) -> tuple[Overrides, list[str]]:
+    """The scene with diffuse surfaces only, as values and in words: the same for Mitsuba's `path` in both forms."""
+    scene = load_description(path).description
+    values: dict[tuple[str | int, ...], Any] = {}
+    for name, material in scene.materials.items():
+        if material.dielectric is not None or np.any(rgb(material.mirror)):
+            values["materials", name] = {"color": DIFFUSE}
+    return values, ["no mirrors and no glass: those are white"] if values else []
 
 
 def measure(case: Case, say: Callable[[str], None]) -> Result:

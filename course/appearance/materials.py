@@ -29,9 +29,11 @@ class MaterialTable:
     exponent : (M,) float32
     refraction_index : (M,) float32, 0 where the material is opaque
     absorption : (3, M) float32 [1 / unit of the compiled scene]
-    emission : (3, M) float32 [W/(m^2 sr)], of the surfaces of lights
+    emission : (3, M) float32 [W/(m^2 sr)], of the surfaces of lights and of all that glows by itself
     conductors : the metals, None where there are none
     plain : (M,) which materials have highlights without the cosine in E, None where none has
+    lamps : (M,) which are the surfaces of lights: they shine from their fronts alone, and shadow rays look for them;
+        None where none is
     """
 
     ambient: Floats32
@@ -44,11 +46,22 @@ class MaterialTable:
     emission: Floats32
     conductors: Conductors | None = None
     plain: Mask | None = None
+    lamps: Mask | None = None
 
     @property
     def shaded(self) -> Mask:
         """(M,) which materials light from point-like sources makes visible."""
         return np.asarray((self.diffuse.max(0) > 0) | (self.specular.max(0) > 0))
+
+    @property
+    def shining(self) -> Floats32:
+        """(3, M) emission of the surfaces of lights, 0 elsewhere."""
+        return np.zeros_like(self.emission) if self.lamps is None else self.emission * self.lamps
+
+    @property
+    def glowing(self) -> Floats32:
+        """(3, M) emission of all other surfaces, which they send out from both sides."""
+        return self.emission - self.shining
 
     @property
     def diffuses(self) -> Mask:

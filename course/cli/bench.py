@@ -21,10 +21,11 @@ if TYPE_CHECKING:
     from course.benchmarking.measuring import Effort, Measured
 
 DOCUMENTS = PROJECT / "docs"
+FURTHER = ("blurred_transparency", "textures")
 
 
 @click.command()
-@click.argument("modules", metavar="[MODULE]...", nargs=-1, type=click.Choice(list(MODULES)))
+@click.argument("modules", metavar="[MODULE]...", nargs=-1, type=click.Choice([*MODULES, *FURTHER]))
 @click.option(
     "--estimator",
     "words",
@@ -74,11 +75,11 @@ def bench(
 ) -> None:
     """Measure how error falls with samples and with run time.
 
-    For each MODULE (all of them without one) its scene in scenes/ is rendered by several estimators with several
+    For each MODULE (without one, those of the core) its scene in scenes/ is rendered by several estimators with several
     seeds, and compared with a converged picture, which is rendered first and kept. All of it takes about a quarter of
     an hour.
     """
-    from course.benchmarking.estimators import BENCHED
+    from course.benchmarking.estimators import BENCHED, FURTHER_BENCHED
     from course.benchmarking.machine import machine
     from course.benchmarking.measuring import FULL, QUICK
     from course.benchmarking.tables import print_tables, summary_table
@@ -89,7 +90,8 @@ def bench(
         raise click.UsageError(
             "--write-docs is for all modules and estimators: leave MODULE and --estimator out"
         )
-    chosen = _chosen([BENCHED[name] for name in dict.fromkeys(modules or BENCHED)], words)
+    known = BENCHED | FURTHER_BENCHED
+    chosen = _chosen([known[name] for name in dict.fromkeys(modules or BENCHED)], words)
     _prepare(json_path, plots, write_docs)
     results = []
     for module, estimators in chosen:

@@ -16,7 +16,6 @@ from course.errors import CourseError, SceneError
 from course.imaging.atomic import check_writable, write_text
 
 if TYPE_CHECKING:
-    from course.rendering.picture import Picture
     from course.scene.metu.converting import Converted
 
 SAMPLERS = ("sobol", "random", "jittered", "regular")
@@ -183,28 +182,16 @@ def _render_one(
         picture = render_picture(world, progress=progress, **choices)
     if picture.interrupted:
         partial = out.with_name(f"{out.stem}.partial{out.suffix}")
-        _save(picture, partial)
+        picture.save(partial)
         click.echo(f"interrupted: what there is was written to {partial}", err=True)
         raise click.exceptions.Exit(options.INTERRUPTED)
-    _save(picture, out)
+    picture.save(out)
     if heat_map is not None:
         picture.save_heat_map(heat_map)
     receipt = picture.receipt.to_dict()
     if receipt_path is not None:
         write_text(receipt_path, json.dumps(receipt, indent=2, allow_nan=False) + "\n")
     print_sections(str(out), receipt_sections(receipt))
-
-
-def _save(picture: Picture, path: Path) -> None:
-    """Write a picture, shown as its film asks for."""
-    from course.imaging.files import save
-    from course.imaging.srgb import SRGB
-
-    settings = getattr(picture, "settings", None)
-    if settings is None or settings.display == SRGB:
-        picture.save(path)
-    else:
-        save(path, picture.film.linear, settings.display)
 
 
 def _check_engine(engine: str, address: str | None, threads: int | None) -> None:

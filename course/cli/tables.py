@@ -74,6 +74,7 @@ def receipt_sections(receipt: Mapping[str, Any]) -> list[Section]:
     sections = [
         ("rays", [*_counts(rays), *_total(rays, wall)]),
         ("samples", _samples(receipt)),
+        ("subdivision", _corners(receipt)),
         ("numbers", _counts(receipt["numbers"])),
         (
             "effects",
@@ -92,6 +93,19 @@ def receipt_sections(receipt: Mapping[str, Any]) -> list[Section]:
         ),
     ]
     return [(heading, rows) for heading, rows in sections if rows]
+
+
+def _corners(receipt: Mapping[str, Any]) -> list[tuple[str, str]]:
+    divided = receipt.get("subdivision")
+    if divided is None:
+        return []
+    return [
+        (
+            "corners",
+            f"{divided['corners']:,} of {divided['lattice']:,}, {divided['saved']:.0%} saved",
+        ),
+        ("shared", f"{divided['shared']:,} times"),
+    ]
 
 
 def _samples(receipt: Mapping[str, Any]) -> list[tuple[str, str]]:

@@ -31,6 +31,7 @@ class Hits:
     above : (3, n) float32, p + step
     time : (n,) float32, when; None where nothing moves
     side : (n,) float32, 1 where the ray meets the front of the triangle, -1 where it meets the back
+    tint : (3, n) float32, what textures say; 1 where there is none, None where none of the hits has one
     """
 
     ray: Indices | None
@@ -47,6 +48,7 @@ class Hits:
     above: Floats32
     side: Floats32
     time: Floats32 | None = None
+    tint: Floats32 | None = None
 
     @property
     def size(self) -> int:
@@ -112,7 +114,11 @@ def find_hits(
         ns *= side
         _turn_to_viewer(ns, direction)
     material = surface.material.take(triangle)
-    return Hits(ray, triangle, u, v, t, material, direction, p, ng, ns, step, p + step, side, time)
+    tint = None if surface.painting is None else surface.painting.tint(triangle, u, v)
+    above = p + step
+    return Hits(
+        ray, triangle, u, v, t, material, direction, p, ng, ns, step, above, side, time, tint
+    )
 
 
 def bulge(surface: Surface, hits: Hits, which: Indices) -> Floats32:

@@ -72,7 +72,8 @@ def parse_obj(data: bytes) -> list[Part]:
     # Without materials and groups it is one part: vertices shared across them stay shared.
     text = re.sub(r"(?m)^(?:usemtl|mtllib|o|g)\b.*$", "", text)
     stream = BytesIO(text.encode())
-    return _parts(load_obj(stream, skip_materials=True, maintain_order=True))
+    in_order = not _has_seams(text)
+    return _parts(load_obj(stream, skip_materials=True, maintain_order=in_order))
 
 
 def parse_stl(data: bytes) -> list[Part]:
@@ -185,6 +186,12 @@ def _check_references(text: str) -> None:
             raise IndexError(
                 f"a face refers to {noun} {wrong[0]:.0f}, but there are {there}, from 1"
             )
+
+
+def _has_seams(text: str) -> bool:
+    """Whether a vertex of an OBJ file has several uv, or several normals beside its uv, and must be split."""
+    corners = re.findall(r" ((\d+)/\d+(?:/\d+)?)", "\n".join(re.findall(r"(?m)^f( .*)$", text)))
+    return len({word for word, _ in corners}) > len({vertex for _, vertex in corners})
 
 
 FORMATS: dict[str, Callable[[bytes], list[Part]]] = {

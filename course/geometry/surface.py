@@ -30,6 +30,7 @@ from course.geometry.embree import Accelerator
 from course.geometry.mesh import Mesh
 from course.geometry.motion_functions import MotionFunctions
 from course.geometry.moving import Mover, MovingAccelerator
+from course.geometry.painting import Paint, Painting, make_painting
 
 OFFSET = 2.0**-19
 """Rays leave a surface from a point this far above it, as a share of the largest coordinate of its triangle.
@@ -66,6 +67,7 @@ class Part:
     mesh: Mesh
     material: int
     velocity: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    paint: Paint | None = None
 
 
 @dataclass(frozen=True)
@@ -82,6 +84,7 @@ class Surface:
     bend : sine of the largest angle between a triangle and a normal at its corners, 0 when every triangle is flat
     material : (T,) uint16 material numbers
     accelerator : the same triangles in Embree
+    painting : the textures, None where there are none
     """
 
     corner_edges: Floats32
@@ -92,6 +95,7 @@ class Surface:
     bend: float
     material: Materials
     accelerator: Accelerator | MovingAccelerator
+    painting: Painting | None = None
 
     @property
     def size(self) -> int:
@@ -130,6 +134,7 @@ def build_surface(parts: list[Part], motion: MotionFunctions | None = None) -> S
         bend=max(table.bend for table in tables),
         material=np.concatenate([table.material for table in tables]),
         accelerator=accelerator,
+        painting=make_painting([(len(table.triangles), table.paint) for table in tables]),
     )
 
 
@@ -170,6 +175,7 @@ class _Tables:
     bulge: Floats32
     bend: float
     velocity: tuple[float, float, float]
+    paint: Paint | None
 
 
 def _tables(part: Part, smooth: bool) -> _Tables:
@@ -213,6 +219,7 @@ def _tables(part: Part, smooth: bool) -> _Tables:
         bulge,
         bend,
         part.velocity,
+        None if part.paint is None else Paint(part.paint.corners[has_area], part.paint.color_at),
     )
 
 

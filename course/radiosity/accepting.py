@@ -11,6 +11,7 @@ from course.scene.document import KeyPath
 from course.scene.loading import Loaded
 
 LAMPS = "a rectangle or a sphere with radiance: radiosity takes lamps that are surfaces"
+SHINES = "a light that is a rectangle or a sphere with radiance, or a material with emission"
 
 
 def check_accepted(loaded: Loaded) -> None:
@@ -31,8 +32,8 @@ def check_accepted(loaded: Loaded) -> None:
     if not any(
         isinstance(light, d.RectangleLight | d.SphereLight) and np.any(rgb(light.radiance or 0))
         for light in scene.lights
-    ):
-        raise loaded.document.error(("lights",), f"nothing shines: expected {LAMPS}")
+    ) and not any(np.any(rgb(scene.materials[name].emission)) for name in used):
+        raise loaded.document.error(("lights",), f"nothing shines: expected {SHINES}")
     for number, thing in enumerate(scene.objects):
         _check_still(thing.motion, ("objects", number, "motion"), loaded)
     _check_surroundings(loaded)
@@ -43,6 +44,10 @@ def _check_material(material: d.MaterialDescription, path: KeyPath, loaded: Load
     for key in ("dielectric", "conductor"):
         if getattr(material, key, None) is not None:
             raise loaded.document.error((*path, key), f"expected null {diffuse_only}")
+    if material.texture is not None:
+        raise loaded.document.error(
+            (*path, "texture"), "expected null for radiosity, whose patches have one color each"
+        )
     for key in ("mirror", "specular"):
         if rgb(getattr(material, key)).any():
             raise loaded.document.unexpected((*path, key), f"0 {diffuse_only}")
@@ -88,6 +93,10 @@ def _check_surroundings(loaded: Loaded) -> None:
     if scene.camera.image_plane is not None:
         raise loaded.document.error(
             ("camera", "image_plane"), "expected vertical_fov instead, which fits cameras anywhere"
+        )
+    if scene.camera.handedness == "left":
+        raise loaded.document.unexpected(
+            ("camera", "handedness"), "right: solutions are looked at as they are"
         )
     if scene.camera.near > 0:
         raise loaded.document.unexpected(

@@ -50,12 +50,14 @@ class Patches:
     reflectance : (3, T) float32, of either side
     emission : (3, T) float32 [W/m^2], radiosity that the front has by itself
     surface : (T,) intp, number of the smooth surface that the triangle is a part of
+    two_sided : (T,) which triangles emit from their backs as well, None where none does
     """
 
     triangles: Triangles
     reflectance: Floats32
     emission: Floats32
     surface: Indices
+    two_sided: Mask | None = None
 
     @property
     def size(self) -> int:
@@ -64,8 +66,15 @@ class Patches:
 
     @property
     def lamps(self) -> Mask:
-        """(T,) which triangles emit."""
-        return np.asarray(self.emission.any(axis=0))
+        """(T,) which triangles emit and reflect nothing: their light is the same all over."""
+        return np.asarray(self.emission.any(axis=0) & ~self.reflectance.any(axis=0))
+
+    @property
+    def back_emission(self) -> Floats32:
+        """(3, T) float32 [W/m^2], radiosity that the backs have by themselves."""
+        if self.two_sided is None:
+            return np.zeros_like(self.emission)
+        return self.emission * self.two_sided
 
     def both(self, front: Floats32, back: Floats32 | None = None) -> Floats32:
         """(..., P) numbers of all patches from the triangles' (..., T), the same for both sides by default."""
@@ -81,6 +90,7 @@ class Patches:
             self.reflectance[:, parent],
             self.emission[:, parent],
             self.surface[parent],
+            None if self.two_sided is None else self.two_sided[parent],
         )
 
 
@@ -107,8 +117,9 @@ def make_patches(scene: Scene, count: int) -> Patches:
 def _undivided(scene: Scene) -> Patches:
     meshes, reflectance, emission = zip(*_meshes(scene.loaded, scene.compiled.frame), strict=True)
     counts = [len(mesh.triangles) for mesh in meshes]
+    objects = len(scene.loaded.description.objects)
     if sum(counts) > MOST:
-        most = int(np.argmax(counts[: len(scene.loaded.description.objects)]))
+        most = int(np.argmax(counts[:objects]))
         raise scene.loaded.document.error(
             ("objects", most),
             f"the scene has {sum(counts)} triangles, most of them here: expected at most {MOST} for radiosity; "
@@ -125,6 +136,8 @@ def _undivided(scene: Scene) -> Patches:
         np.stack(reflectance, axis=1)[:, number[has_area]].astype(np.float32),
         np.stack(emission, axis=1)[:, number[has_area]].astype(np.float32),
         surface.ravel()[has_area],
+        # What glows by itself does so all around, a lamp from its front.
+        (number < objects)[has_area],
     )
 
 
@@ -135,10 +148,11 @@ def _meshes(loaded: Loaded, frame: Frame) -> Iterator[tuple[Mesh, Floats64, Floa
     for number, thing in enumerate(scene.objects):
         material = scene.materials[thing.material]
         mesh = object_mesh(thing, number, loaded.document, loaded.path.parent)
-        yield frame.mesh(mesh), base_color(material) * material.diffuse, black
+        # A Lambertian emitter's radiosity is pi times its radiance.
+        glow = math.pi * rgb(material.emission)
+        yield frame.mesh(mesh), base_color(material) * material.diffuse, glow
     for light in scene.lights:
         if isinstance(light, d.RectangleLight | d.SphereLight) and light.radiance is not None:
-            # A Lambertian emitter's radiosity is pi times its radiance.
             yield frame.mesh(_lamp(light)), black, math.pi * rgb(light.radiance)
 
 

@@ -252,7 +252,7 @@ class _Kept:
 
 
 def _both_sides(patches: Patches) -> tuple[Floats32, Floats32, Floats64]:
-    emission = patches.both(patches.emission, np.zeros_like(patches.emission))
+    emission = patches.both(patches.emission, patches.back_emission)
     areas = patches.triangles.areas()
     return emission, patches.both(patches.reflectance), np.concatenate((areas, areas))
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from course.core.samplers import make_sampler
 from course.imaging.reconstruction import Reconstruction
+from course.rendering.corners import CornerSampler
 from course.scene.compiling import compile_camera
 from course.scene.scene import Scene
 from course.scene.world import Settings
@@ -25,6 +26,9 @@ def bind(scene: Scene, settings: Settings) -> Tracer:
         film.sigma,
     )
     compiled = scene.compiled
+    sampler = make_sampler(settings.sampler, settings.seed, place)
+    if settings.subdivision is not None:
+        sampler = CornerSampler(settings.seed)
     kind = Tracer
     if compiled.world.paths is not None:
         from course.transport.path_tracing import PathTracer
@@ -34,7 +38,7 @@ def bind(scene: Scene, settings: Settings) -> Tracer:
         compiled.world,
         settings,
         compile_camera(scene.loaded, compiled.frame, settings.width, settings.height),
-        make_sampler(settings.sampler, settings.seed, place),
+        sampler,
         reconstruction,
         kind,
     )

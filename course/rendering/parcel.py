@@ -109,6 +109,12 @@ def _renamed(description: SceneDescription, files: _Files) -> SceneDescription:
         change(thing, file=files.add(thing.file)) if isinstance(thing, MeshFile) else thing
         for thing in description.objects
     )
+    materials = dict(description.materials)
+    for name in dict.fromkeys(thing.material for thing in objects):
+        texture = materials[name].texture
+        if texture is not None:
+            texture = change(texture, image=files.add(texture.image))
+            materials[name] = change(materials[name], texture=texture)
     environment = description.environment
     if isinstance(environment, LatLongEnvironment):
         environment = change(environment, image=files.add(environment.image))
@@ -118,4 +124,4 @@ def _renamed(description: SceneDescription, files: _Files) -> SceneDescription:
         if environment.faces is not None:
             faces = tuple(files.add(face) for face in environment.faces)
             environment = change(environment, faces=faces)
-    return change(description, objects=objects, environment=environment)
+    return change(description, objects=objects, materials=materials, environment=environment)

@@ -41,7 +41,7 @@ class Picture:
         return np.moveaxis(self.film.linear, 0, 2)
 
     def save(self, path: str | Path) -> None:
-        """Write the picture: ``.png`` (sRGB, 8 bit) or ``.exr`` (linear, float32).
+        """Write the picture: ``.png`` (8 bit, sRGB unless the scene's film says otherwise) or ``.exr`` (linear).
 
         Raises
         ------
@@ -50,7 +50,7 @@ class Picture:
         """
         from course.imaging.files import save
 
-        save(Path(path), self.film.linear)
+        save(Path(path), self.film.linear, self.settings.display)
 
     def save_heat_map(self, path: str | Path) -> None:
         """Write where the samples went: black the fewest, white the most, logarithmic between.
@@ -68,4 +68,4 @@ class Picture:
     def _repr_png_(self) -> bytes:
         from course.imaging.files import encode_png
 
-        return encode_png(self.film.linear)
+        return encode_png(self.film.linear, self.settings.display)

@@ -12,7 +12,8 @@ class Receipt:
 
     Attributes
     ----------
-    rays : kind (camera, shadow, reflection, refraction) -> rays cast
+    rays : kind (camera, shadow, reflection, refraction) -> rays cast; path tracing has a kind path for all that go
+        on from a surface, whichever way
     numbers : dimension -> numbers drawn
     effects : "called" -> list of functions, "skipped" -> name -> reason
     seconds : stage -> seconds, summed over threads
@@ -25,6 +26,8 @@ class Receipt:
         was not needed; else None
     pixels : of the picture
     seed, version : what to repeat it with
+    subdivision : where pixels are divided by contrast: "corners" that got rays, corners of cells that were "shared",
+        corners of the smallest cells ("lattice"), and the part of those that was "saved"; else None
     """
 
     rays: dict[str, int]
@@ -39,7 +42,11 @@ class Receipt:
     pixels: int
     seed: int
     version: str
+    subdivision: dict[str, float] | None = None
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain data, as written by ``course render --receipt``."""
-        return asdict(self)
+        """Plain data, as written by ``course render --receipt``; without a subdivision where there was none."""
+        told = asdict(self)
+        if self.subdivision is None:
+            del told["subdivision"]
+        return told

@@ -18,6 +18,7 @@ from course.imaging.film import Film
 from course.rendering.adaptive import render_adaptively
 from course.rendering.allocation import FIRST
 from course.rendering.binding import bind
+from course.rendering.corners import Corners
 from course.rendering.memory import keep_freed_memory
 from course.rendering.passes import (
     Work,
@@ -29,6 +30,7 @@ from course.rendering.passes import (
 from course.rendering.picture import Picture
 from course.rendering.pool import Pool, default_threads
 from course.rendering.receipt import Receipt
+from course.rendering.subdivision import Functions, Saving, render_subdivided
 from course.scene.consistency import nearest_squares
 from course.scene.needs import Need, needs_of, skipped_modules
 from course.scene.scene import Scene
@@ -49,6 +51,9 @@ WORTH_COMPILED = 8_000_000
 
 BYTES_A_PIXEL = 64
 """Sums, weights, the picture itself, and its copies on the way to a file."""
+
+BYTES_A_DIVIDED_PIXEL = 400
+"""Those of a render by subdivision: cells, their corners and what is known of them; measured, 350 or less."""
 
 
 def render(
@@ -116,6 +121,7 @@ def render(
         tracer = bind(scene, settings)
         film: Film | AdaptiveFilm
         done = 0
+        saving = None
         if settings.error is None:
             film = Film(settings.width, settings.height)
         else:
@@ -125,16 +131,26 @@ def render(
             assert isinstance(film, Film)
             assert isinstance(start.film, Film)
             film = start.film.continued(done)
+        corners = None
+        if settings.subdivision is not None:
+            corners = Corners(
+                settings.width, settings.height, settings.subdivision.depth, settings.samples
+            )
+        sink = film if corners is None else corners
         pool: Pool | Cluster
         if address is None:
-            pool = Pool(tracer, film, threads or default_threads())
+            pool = Pool(tracer, sink, threads or default_threads())
         else:
             from course.rendering.cluster import Cluster
 
-            pool = Cluster(address, scene, settings, film, packets)
+            pool = Cluster(address, scene, settings, sink, packets)
         with closing(pool):
             deadline = None if time_limit is None else pool.prepare(began) + time_limit
-            if isinstance(film, AdaptiveFilm):
+            if corners is not None:
+                complete, saving = _render_subdivided(
+                    pool, scene, film, corners, settings, progress
+                )
+            elif isinstance(film, AdaptiveFilm):
                 complete = _render_adaptively(pool, film, settings, deadline, progress)
             elif deadline is None or time_limit is None:
                 complete = _render_all(pool, tracer, settings, done, progress)
@@ -146,6 +162,8 @@ def render(
         raise _not_written(scene, needs, error) from error
     wall = monotonic() - began
     receipt = _receipt(scene, settings, needs, tracer.plan, pool.counters, film, pool.threads, wall)
+    if saving is not None:
+        receipt = replace(receipt, subdivision=saving.to_dict())
     return Picture(film, settings, receipt, complete, pool.interrupted)
 
 
@@ -187,7 +205,28 @@ def _settings(
                 f"{settings.samples}; the nearest are {' and '.join(map(str, squares))}"
             )
     _check_adaptive(settings)
+    if settings.subdivision is not None:
+        _check_subdivision(scene, settings, time_limit)
     return settings
+
+
+def _check_subdivision(scene: Scene, settings: Settings, time_limit: float | None) -> None:
+    """What places samples in pixels, or leaves them off, doesn't go together with rays through corners."""
+    where = f"{scene.loaded.document.where(('film', 'subdivision'))}: film.subdivision"
+    if settings.error is not None:
+        raise CourseError(
+            f"{where} sends rays where corners differ, an error where estimates are large; give one of the two"
+        )
+    if time_limit is not None:
+        raise CourseError(
+            f"{where} ends when no cell needs dividing and not by a time limit; a lower depth takes less time"
+        )
+    if settings.sampler != "sobol":
+        raise CourseError(
+            f"{where} places its rays by itself; the {settings.sampler} sampler has nothing to place, use sobol"
+        )
+    if scene.loaded.description.film.filter != "box":
+        raise CourseError(f"{where} weighs cells by their area; film.filter must be box")
 
 
 def _check_adaptive(settings: Settings) -> None:
@@ -216,7 +255,8 @@ def _use_compiled(settings: Settings, wanted: bool | None) -> bool:
 
 
 def _check_memory(settings: Settings) -> None:
-    needed = settings.width * settings.height * BYTES_A_PIXEL
+    each = BYTES_A_PIXEL if settings.subdivision is None else BYTES_A_DIVIDED_PIXEL
+    needed = settings.width * settings.height * each
     if needed < 256e6:
         return
     import psutil
@@ -233,6 +273,8 @@ def _check_start(start: Picture, settings: Settings, sampler: Sampler) -> int:
     """How many samples of the picture to continue can be kept."""
     if settings.error is not None or start.settings.error is not None:
         raise CourseError("a picture with an error to aim at can't be continued; start afresh")
+    if settings.subdivision is not None:
+        raise CourseError("a picture by subdivision can't be continued; start afresh")
     same = replace(start.settings, samples=settings.samples) == settings
     if not same or not start.complete or start.settings.samples > settings.samples:
         raise CourseError(
@@ -319,6 +361,34 @@ def _render_adaptively(
     return render_adaptively(film, settings.error, budget, run)
 
 
+def _render_subdivided(
+    pool: Pool | Cluster,
+    scene: Scene,
+    film: Film | AdaptiveFilm,
+    corners: Corners,
+    settings: Settings,
+    progress: Progress | None,
+) -> tuple[bool, Saving]:
+    """Level by level; the picture is covered once the corners of all pixels have had their rays."""
+    assert settings.subdivision is not None
+    assert isinstance(film, Film)
+    covered = False
+
+    def run(work: list[Work], done: float, after: float) -> bool:
+        nonlocal covered
+
+        def tick(count: int, _count_first: int) -> None:
+            if progress is not None:
+                progress(done + (after - done) * count / max(len(work), 1), covered)
+
+        whole = pool.run(work, None, tick)
+        covered = covered or whole
+        return whole
+
+    functions = Functions(scene.effects, settings.subdivision)
+    return render_subdivided(corners, film, functions, settings.subdivision.depth, run)
+
+
 def _not_written(scene: Scene, needs: list[Need], error: NotImplementedError) -> EffectError:
     """Which line of the scene asked for the function that says it isn't there yet."""
     function = str(error).partition(":")[0]
@@ -348,6 +418,14 @@ def _error(film: Film | AdaptiveFilm, settings: Settings) -> dict[str, float] | 
     }
 
 
+def _numbers(settings: Settings, counters: Counters) -> dict[str, int]:
+    numbers = dict(counters.numbers)
+    if settings.subdivision is not None:
+        # A ray through a corner draws no place in a pixel.
+        numbers.pop("pixel", None)
+    return numbers
+
+
 def _receipt(
     scene: Scene,
     settings: Settings,
@@ -359,7 +437,10 @@ def _receipt(
     wall: float,
 ) -> Receipt:
     samples = float(film.samples.mean())
-    skipped = {**skipped_modules(needs), **scene.compiled.world.skipped_lights}
+    skipped = {
+        **skipped_modules(needs, scene.loaded.description.integrator),
+        **scene.compiled.world.skipped_lights,
+    }
     if not plan.mirrors:
         skipped["reflection"] = "no material mirrors, or the depth is 0"
     if not plan.refracts:
@@ -368,7 +449,7 @@ def _receipt(
         skipped["environment"] = "it is black"
     return Receipt(
         rays=dict(counters.rays),
-        numbers=dict(counters.numbers),
+        numbers=_numbers(settings, counters),
         effects={
             "called": list(dict.fromkeys(need.function for need in needs)),
             "skipped": skipped,

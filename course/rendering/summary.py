@@ -24,17 +24,25 @@ def summarize(scene: Scene) -> dict[str, dict[str, object]]:
     needs = needs_of(scene.loaded, settings, world)
     frame = compiled.frame
     dimensions = {"pixel": "2 numbers a sample"}
+    samples = f"{settings.samples} a pixel, {settings.sampler}"
+    division = settings.subdivision
+    if division is not None:
+        dimensions = {}
+        samples = (
+            f"{settings.samples} through each corner of a pixel, and of its parts down to 1/{1 << division.depth}"
+            f" where corners differ by more than {division.threshold:g}"
+        )
     for light in world.lights:
         if light.width:
             dimensions[light.name] = f"{light.width} numbers a sample and bounce"
     kinds = Counter(light.__struct_config__.tag for light in description.lights)
     shapes = Counter(thing.__struct_config__.tag for thing in description.objects)
-    skipped = {**skipped_modules(needs), **world.skipped_lights}
+    skipped = {**skipped_modules(needs, description.integrator), **world.skipped_lights}
     return {
         "scene": {
             "title": scene.title,
             "picture": f"{settings.width} x {settings.height} pixels",
-            "samples": f"{settings.samples} a pixel, {settings.sampler}",
+            "samples": samples,
             "bounces": plan.max_depth,
         },
         "objects": {

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from course.appearance.lobes import Lobe
 from course.core.types import Floats64
 from course.effects import Effects
 from course.geometry.mesh import Mesh
@@ -26,7 +27,9 @@ from course.scene.material_table import compile_materials
 from course.scene.motion_compiling import check_sweeps, compile_motion
 from course.scene.path_compiling import compile_paths
 from course.scene.reach import in_reach
+from course.scene.roughness_compiling import reflecting, with_rough_glass
 from course.scene.shutter import shutter_of
+from course.scene.texture_compiling import Painter, shows_texture
 from course.scene.world import World
 
 
@@ -76,10 +79,18 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
         for name in dict.fromkeys(thing.material for thing in scene.objects)
     }
     names = list(used)
+    painter = _painter(used, loaded, effects, files)
     parts = [
-        Part(frame.mesh(mesh), names.index(thing.material), shutter.velocity(thing.motion, frame))
-        for mesh, thing in zip(meshes, scene.objects, strict=True)
+        Part(
+            frame.mesh(mesh),
+            names.index(thing.material),
+            shutter.velocity(thing.motion, frame),
+            None if painter is None else painter.paint(number, mesh),
+        )
+        for number, (mesh, thing) in enumerate(zip(meshes, scene.objects, strict=True))
     ]
+    for name, material in used.items():
+        in_range(rgb(material.emission), loaded, ("materials", name, "emission"), "the emission")
     emitters, emission = emitter_parts(loaded, frame, shutter, first_material=len(names))
     materials = compile_materials(used, emission, frame)
     lights, skipped = compile_lights(loaded, frame, shutter, effects, materials)
@@ -95,13 +106,31 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
         skipped_lights=skipped,
         ambient=in_range(ambient, loaded, ("lights",), "ambient radiance"),
         environment=compile_environment(loaded, effects),
-        lobes=compile_lobes(used, effects, scene.integrator),
+        lobes=_lobes(used, effects, scene.integrator),
         lens=compile_lens(loaded, frame, effects),
         motion=motion,
-        paths=compile_paths(scene.integrator, effects, materials, first_lamp=len(names)),
+        paths=compile_paths(scene.integrator, effects, materials),
         backdrop=scene.environment.seen_by == "camera",
     )
     return Compiled(world, frame, tuple(len(mesh.triangles) for mesh in meshes), tuple(bounds))
+
+
+def _painter(
+    used: dict[str, d.MaterialDescription], loaded: Loaded, effects: Effects, files: dict[str, Mesh]
+) -> Painter | None:
+    """What paints the objects; None where no surface shows a texture."""
+    if not any(shows_texture(material) for material in used.values()):
+        return None
+    return Painter(loaded, effects, files)
+
+
+def _lobes(
+    used: dict[str, d.MaterialDescription], effects: Effects, integrator: d.IntegratorDescription
+) -> tuple[Lobe, ...]:
+    """Of what is glossy, and of rough glass."""
+    mirrors = {name: reflecting(material) for name, material in used.items()}
+    lobes = compile_lobes(mirrors, effects, integrator)
+    return with_rough_glass(lobes, used, effects, integrator)
 
 
 def _moved(mesh: Mesh, by: Floats64) -> Mesh:
@@ -120,10 +149,19 @@ def compile_camera(loaded: Loaded, frame: Frame, width: int, height: int) -> Cam
     in_reach(np.array(near), loaded, ("camera", "near"), "the distance from which the camera sees")
     # In the file's units: in a huge scene the two positions may round to one.
     view, up = np.array(camera.look_at) - np.array(camera.eye), np.array(camera.up)
-    if camera.image_plane is None:
+    plane = camera.image_plane
+    if plane is not None:
+        edges = np.array((plane.left, plane.right, plane.bottom, plane.top)) / plane.distance
+        in_reach(edges, loaded, ("camera", "image_plane"), "the widest slope of a ray")
+    elif camera.handedness == "right":
         fov = np.radians(camera.vertical_fov)
         return make_camera(eye, view, up, fov, width, height, near)
-    plane = camera.image_plane
-    edges = np.array((plane.left, plane.right, plane.bottom, plane.top)) / plane.distance
-    in_reach(edges, loaded, ("camera", "image_plane"), "the widest slope of a ray")
-    return make_window_camera(eye, view, up, edges, width, height, near)
+    else:
+        top = np.tan(np.radians(camera.vertical_fov) / 2)
+        edges = top * np.array((-width / height, width / height, -1, 1))
+    if camera.handedness == "right":
+        return make_window_camera(eye, view, up, edges, width, height, near)
+    # What lies at x to the right is shown where -x would be; the lens, too, is mirrored.
+    edges[:2] *= -1
+    mirrored = make_window_camera(eye, view, up, edges, width, height, near)
+    return replace(mirrored, right=-mirrored.right)

@@ -16,7 +16,7 @@ from course.scene.description.lights import DirectionalLight, Light, RectangleLi
 from course.scene.description.objects import DisplacedSphere, Object, Torus, TorusKnot
 from course.scene.description.sampler import SamplerDescription
 from course.scene.description.scene import SceneDescription
-from course.scene.description.transforms import Rotate, Scale, Transform
+from course.scene.description.transforms import Affine, Rotate, Scale, Transform
 from course.scene.description.values import Vector
 from course.scene.document import Document, KeyPath, suggest
 
@@ -121,11 +121,20 @@ def _check_emission(light: RectangleLight | SphereLight, path: KeyPath, document
             (*path, "radius"),
             "a number > 0 [world unit] for a light by radiance; a point has no area to emit from",
         )
-    if isinstance(light, SphereLight) and light.radiance is not None and light.samples != "sphere":
+    if not isinstance(light, SphereLight):
+        return
+    of_surface = ("sphere", "visible")
+    if light.radiance is not None and light.samples not in of_surface:
         raise document.unexpected(
             (*path, "samples"),
-            '"sphere" for a light by radiance, which shines from its surface; by intensity'
+            '"sphere" or "visible" for a light by radiance, which shines from its surface; by intensity'
             " it may be a ball or a facing disk",
+        )
+    if light.radiance is None and light.samples == "visible":
+        raise document.unexpected(
+            (*path, "samples"),
+            '"sphere", "ball" or "facing disk" for a light by intensity: all of it shines everywhere, and only'
+            " a light by radiance has a side that can't be seen",
         )
 
 
@@ -180,11 +189,28 @@ def _check_step(step: Transform, path: KeyPath, document: Document) -> None:
         factors = step.scale if isinstance(step.scale, tuple) else (step.scale,)
         if 0 in factors:
             raise document.unexpected((*path, "scale"), "factors that are not 0")
+    if isinstance(step, Affine):
+        if step.matrix[3] != (0.0, 0.0, 0.0, 1.0):
+            raise document.unexpected(
+                (*path, "matrix", 3), "[0, 0, 0, 1], the last row of any affine map"
+            )
+        if flattens(np.array(step.matrix)):
+            raise document.unexpected(
+                (*path, "matrix"), "rows that are independent; this matrix flattens what it maps"
+            )
 
 
 def _check_not_zero(vector: Vector, path: KeyPath, document: Document) -> None:
     if not any(vector):
         raise document.unexpected(path, "a vector that is not zero")
+
+
+def flattens(matrix: NDArray[np.float64]) -> bool:
+    """Whether an affine map (4, 4) has no inverse."""
+    linear = matrix[:3, :3]
+    largest = np.abs(linear).max()
+    # By the largest component first, so that no product underflows or overflows.
+    return bool(largest == 0 or np.linalg.matrix_rank(linear / largest) < 3)
 
 
 def sine(a: NDArray[np.float64], b: NDArray[np.float64]) -> float:

@@ -44,7 +44,8 @@ SYNONYMS: Final[dict[str, tuple[str, ...]]] = {
     "brightness": _EMITTED,
     "strength": _EMITTED,
     "emission": _EMITTED,
-    "radiance": ("irradiance", "intensity"),
+    "radiance": ("irradiance", "intensity", "emission"),
+    "emissive": ("emission",),
     "intensity": ("irradiance", "radiance"),
     "type": ("shape",),
     "shape": ("type",),
@@ -124,6 +125,8 @@ def _describe(kind: inspect.Type) -> str:
 def _describe_list(kind: Sequence) -> str:
     length = fixed_length(kind)
     item = item_type(kind, 0)
+    if length is not None and isinstance(item, Sequence):
+        return f"{length} lists of {_describe_list(item)}"
     if length is None or not isinstance(item, inspect.FloatType | inspect.IntType):
         return "a list"
     return f"{length} {_NOUNS[type(item)]}s{bounds(item)}"

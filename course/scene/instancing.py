@@ -92,3 +92,5 @@ def _matrix(step: d.Transform) -> Floats64:
             return transforms.scale(np.broadcast_to(np.array(step.scale, np.float64), (3,)))
         case d.Rotate():
             return transforms.rotate(np.array(step.rotate.axis), step.rotate.degrees)
+        case d.Affine():
+            return np.array(step.matrix, np.float64)

@@ -13,6 +13,7 @@ from course.appearance.lights import (
     PointLight,
     RectangleLight,
     SphereLight,
+    VisibleSphereLight,
 )
 from course.appearance.materials import MaterialTable
 from course.core.types import Floats32, Floats64
@@ -137,6 +138,8 @@ class _Compiler:
         velocity = self._velocity(light)
         if np.float32(radius) == 0:
             return PointLight(self.name, center, color, velocity=velocity)
+        if light.samples == "visible":
+            return VisibleSphereLight(self.name, center, radius, color, velocity=velocity)
         method = METHODS[light.samples]
         return SphereLight(
             self.name,
@@ -174,7 +177,7 @@ METHODS = {
     "ball": "point_in_ball",
     "facing disk": "point_on_facing_disk",
 }
-"""The soft_shadows function for each value of a sphere light's ``samples``."""
+"""The soft_shadows function for each value of a sphere light's ``samples``; the visible part needs none."""
 
 
 def light_function(light: d.Light) -> str | None:
@@ -183,7 +186,7 @@ def light_function(light: d.Light) -> str | None:
         case d.RectangleLight():
             return "point_on_rectangle" if light.samples == "point" else "light_grid"
         case d.SphereLight() if light.radius > 0:
-            return METHODS[light.samples]
+            return METHODS.get(light.samples)
     return None
 
 

@@ -26,7 +26,9 @@ LARGEST = 1e30
 def base_color(material: MaterialDescription) -> Floats64:
     """(3,) float64 colour of the ambient and diffuse terms, as given or as the mirror leaves it."""
     if material.color is None:
-        return DEFAULT_COLOR * (1.0 - rgb(material.mirror))
+        # The picture of a texture says itself how dark it is.
+        share = DEFAULT_COLOR if material.texture is None else 1.0
+        return share * (1.0 - rgb(material.mirror))
     return rgb(material.color)
 
 
@@ -80,7 +82,12 @@ def _plain(materials: Mapping[str, MaterialDescription], count: int) -> Mask | N
 def compile_materials(
     materials: Mapping[str, MaterialDescription], emission: list[Floats64], frame: Frame
 ) -> MaterialTable:
-    """One column for each material, then one for each emitting surface, which reflects nothing."""
+    """One column for each material, then one for each surface of a light, which reflects nothing.
+
+    Parameters
+    ----------
+    emission : radiance of the lights that have a surface
+    """
     count = len(materials) + len(emission)
     ambient, diffuse, specular, mirror, absorption, emitted = np.zeros((6, 3, max(count, 1)))
     exponent, index = np.ones(max(count, 1)), np.zeros(max(count, 1))
@@ -88,6 +95,7 @@ def compile_materials(
         color = base_color(material)
         specular[:, column] = rgb(material.specular)
         mirror[:, column] = rgb(material.mirror)
+        emitted[:, column] = rgb(material.emission)
         exponent[column] = material.exponent
         if has_body(material):
             ambient[:, column] = ambient_color(material) * material.ambient
@@ -110,4 +118,5 @@ def compile_materials(
         emitted.astype(f),
         _conductors(materials, max(count, 1)),
         _plain(materials, max(count, 1)),
+        np.arange(max(count, 1)) >= len(materials),
     )

@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import get_args
 
-from course.effects import MODULES
 from course.scene import description as d
 from course.scene.document import KeyPath
 from course.scene.environment_compiling import LOOKUPS
@@ -15,8 +14,11 @@ from course.scene.loading import Loaded
 from course.scene.lobe_compiling import lobe_function
 from course.scene.motion_compiling import movers
 from course.scene.path_compiling import path_functions
+from course.scene.roughness_compiling import FUNCTIONS as ROUGH_GLASS
+from course.scene.roughness_compiling import is_rough, reflecting
 from course.scene.scene import Scene
 from course.scene.shutter import shutter_of
+from course.scene.texture_compiling import places_function, shows_texture
 from course.scene.world import Settings, World
 
 
@@ -44,6 +46,10 @@ def needs_of(loaded: Loaded, settings: Settings, world: World) -> list[Need]:
         needs.append(Need("supersampling.gaussian_weights", ("film", "filter")))
     if settings.samples > 1:
         needs.append(Need("supersampling.resolve", ("sampler", "samples")))
+    if settings.subdivision is not None:
+        needs.append(Need("adaptive_sampling.needs_subdivision", ("film", "subdivision")))
+        if settings.subdivision.depth:
+            needs.append(Need("adaptive_sampling.subdivide", ("film", "subdivision")))
     for number, light in enumerate(scene.lights):
         if why_dark(light, world.materials):
             continue
@@ -53,10 +59,19 @@ def needs_of(loaded: Loaded, settings: Settings, world: World) -> list[Need]:
     if settings.max_depth:
         used = dict.fromkeys(thing.material for thing in scene.objects)
         for name in used:
-            lobe = lobe_function(scene.materials[name], settings.cutoff)
+            material = scene.materials[name]
+            lobe = lobe_function(reflecting(material), settings.cutoff)
             if lobe:
                 asked_by = ("materials", name, "gloss")
                 needs += [Need(f"glossy.{lobe}", asked_by), Need("glossy.keep_above", asked_by)]
+            if is_rough(material):
+                needs += [
+                    Need(
+                        f"blurred_transparency.{f}", ("materials", name, "dielectric", "roughness")
+                    )
+                    for f in ROUGH_GLASS
+                ]
+    needs += _of_textures(scene)
     needs += [
         Need(f"path_tracing.{name}", ("integrator", "type"))
         for name in path_functions(scene.integrator, settings.max_depth, world.materials)
@@ -80,6 +95,16 @@ def needs_of(loaded: Loaded, settings: Settings, world: World) -> list[Need]:
     return needs
 
 
+def _of_textures(scene: d.SceneDescription) -> list[Need]:
+    """A function for each kind of shape that shows a texture, and the lookup."""
+    asked: dict[str, KeyPath] = {}
+    for thing in scene.objects:
+        if shows_texture(scene.materials[thing.material]):
+            for name in (places_function(thing), "texture_lookup"):
+                asked.setdefault(name, ("materials", thing.material, "texture"))
+    return [Need(f"textures.{name}", path) for name, path in asked.items()]
+
+
 _REASONS = {
     "supersampling": "one Sobol sample a pixel needs no pattern and no mean",
     "soft_shadows": "no light that has a size lights anything",
@@ -87,13 +112,22 @@ _REASONS = {
     "thin_lens": "the aperture is 0",
     "motion_blur": "nothing moves while the shutter is open",
     "cube_map": "the environment is no picture, or a black one",
+    "blurred_transparency": "no glass is rough",
+    "textures": "no surface shows a texture",
 }
 
 
-def skipped_modules(needs: list[Need]) -> dict[str, str]:
+def skipped_modules(needs: list[Need], integrator: d.IntegratorDescription) -> dict[str, str]:
     """Modules that are never imported for this scene, each with the reason."""
     used = {need.function.partition(".")[0] for need in needs}
-    return {module: _REASONS[module] for module in MODULES if module not in used}
+    reasons = {module: reason for module, reason in _REASONS.items() if module not in used}
+    if "path_tracing" not in used:
+        reasons["path_tracing"] = (
+            "no path goes on from a diffuse surface"
+            if integrator.type == "path"
+            else "the integrator is the distribution ray tracer"
+        )
+    return reasons
 
 
 def why_black(scene: Scene) -> str:

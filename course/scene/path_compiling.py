@@ -26,14 +26,8 @@ def compile_paths(
     integrator: d.IntegratorDescription,
     effects: Effects,
     materials: MaterialTable,
-    first_lamp: int,
 ) -> Paths | None:
-    """The functions of the path_tracing module; None where the integrator is another.
-
-    Parameters
-    ----------
-    first_lamp : the first material of a light's surface
-    """
+    """The functions of the path_tracing module; None where the integrator is another."""
     if integrator.type != "path":
         return None
     functions = {
@@ -42,7 +36,9 @@ def compile_paths(
     }
     return Paths(
         integrator.roulette,
-        np.arange(materials.emission.shape[1]) >= first_lamp,
+        np.zeros(materials.emission.shape[1], np.bool_)
+        if materials.lamps is None
+        else materials.lamps,
         functions.get("diffuse_bounce"),
         functions.get("throughput"),
         functions.get("russian_roulette"),

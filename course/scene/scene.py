@@ -9,7 +9,7 @@ from course.effects import Effects
 from course.imaging.srgb import Display
 from course.scene.compiling import Compiled, compile_scene
 from course.scene.loading import Loaded, load_description
-from course.scene.world import Settings
+from course.scene.world import Settings, Subdivision
 
 
 @dataclass(frozen=True)
@@ -41,6 +41,7 @@ class Scene:
     def settings(self) -> Settings:
         """How the file wants to be rendered."""
         scene = self.loaded.description
+        division = scene.film.subdivision
         return Settings(
             width=scene.film.width,
             height=scene.film.height,
@@ -51,6 +52,9 @@ class Scene:
             cutoff=scene.integrator.cutoff,
             error=scene.film.error,
             display=Display(scene.film.white, scene.film.encoding),
+            subdivision=None
+            if division is None
+            else Subdivision(division.threshold, division.depth),
         )
 
 

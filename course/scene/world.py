@@ -82,6 +82,14 @@ class World:
 
 
 @dataclass(frozen=True)
+class Subdivision:
+    """Where pixels are divided: ``threshold`` [radiance] between two corners, down to ``depth`` times."""
+
+    threshold: float
+    depth: int
+
+
+@dataclass(frozen=True)
 class Settings:
     """How a scene is to be rendered: everything of the scene file that isn't the world.
 
@@ -94,6 +102,7 @@ class Settings:
     cutoff : bounced rays whose largest throughput channel is below this are dropped
     error : the root-mean-square error [radiance] at which sampling ends; None samples all pixels alike
     display : how a PNG shows the picture
+    subdivision : rays through the corners of cells, which are divided by contrast; None takes samples in pixels
     """
 
     width: int
@@ -105,3 +114,4 @@ class Settings:
     cutoff: float
     error: float | None = None
     display: Display = SRGB
+    subdivision: Subdivision | None = None

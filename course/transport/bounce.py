@@ -11,6 +11,7 @@ from course.geometry.hits import Hits
 from course.transport.gloss import Blur
 from course.transport.paths import OPEN, Rays
 from course.transport.plan import Lookups, Plan
+from course.transport.rough_refraction import bend, scatter
 
 
 def bounced(
@@ -29,7 +30,8 @@ def bounced(
     ----------
     throughput : (3, n) float32 of the rays that hit, or None for 1
     path : (n,) or None for all paths in order
-    blur : jitters the mirrored directions of glossy materials; None where there are none
+    blur : jitters the mirrored directions of glossy materials, and has the lobes of rough glass; None where there are
+        none
     medium : (n,) the material that the arriving ray travelled in, or None where nothing absorbs
     """
     if plan.absorbs and medium is None:
@@ -48,13 +50,19 @@ def bounced(
         cos_i = np.clip(-dot(hits.direction, hits.ns), 0, 1)
         share, cos_t = fresnel_and_cos_t(cos_i, eta)
         share *= glass
+        bent = None
+        if plan.refraction_dimension is not None and blur is not None:
+            bent = bend(blur.lobes, hits.material, hits.direction, hits.ns, cos_i, eta, share)
         reflectance = reflectance + share
         transmitted = _weight((1 - share) * glass, throughput)
     weight = _weight(reflectance, throughput)
     reflected = _reflected(hits, weight, path, medium, cutoff, blur)
     if transmitted is None:
         return reflected, None
-    return reflected, _refracted(hits, transmitted, cos_i, cos_t, eta, path, medium, cutoff)
+    refracted = _refracted(
+        hits, transmitted, cos_i, cos_t, eta, path, medium, cutoff, plan, blur, bent
+    )
+    return reflected, refracted
 
 
 def _weight(factor: Floats32, throughput: Floats32 | None) -> Floats32:
@@ -118,10 +126,14 @@ def _refracted(
     path: Indices | None,
     medium: Media | None,
     cutoff: float,
+    plan: Plan,
+    blur: Blur | None,
+    bent: Floats32 | None,
 ) -> Rays | None:
     which = _visible(weight, hits.size, cutoff)
     if len(which) == 0:
         return None
+    path = which if path is None else path.take(which)
     direction = refract(
         hits.direction.take(which, axis=1),
         hits.ns.take(which, axis=1),
@@ -135,15 +147,20 @@ def _refracted(
     if above.any():
         above += above
         direction -= above * ng
+    if bent is not None and blur is not None and plan.refraction_dimension is not None:
+        # As far into this depth's dimensions as the gloss is.
+        dimension = plan.refraction_dimension + blur.dimension - plan.gloss_dimension
+        material = hits.material.take(which)
+        scatter(blur, dimension, material, bent.take(which, axis=1), ng, path, direction)
     inside = None
     if medium is not None:
-        material = hits.material.take(which).astype(np.int16)
-        inside = np.where(hits.entering.take(which), material, OPEN)
+        within = hits.material.take(which).astype(np.int16)
+        inside = np.where(hits.entering.take(which), within, OPEN)
     return Rays(
         hits.below.take(which, axis=1),
         direction,
         _columns(weight, which),
-        which if path is None else path.take(which),
+        path,
         inside,
         None if hits.time is None else hits.time.take(which),
     )

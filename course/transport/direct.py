@@ -63,6 +63,8 @@ def direct_light(
     if diffuse is None:
         return None
     diffuse *= lookups.diffuse(hits.material)
+    if hits.tint is not None:
+        diffuse *= hits.tint
     if specular is not None:
         specular *= lookups.specular(hits.material)
         diffuse += specular

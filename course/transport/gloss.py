@@ -17,7 +17,7 @@ class Blur:
 
     Attributes
     ----------
-    lobes : of the glossy materials
+    lobes : of the glossy materials, and of rough glass
     dimension : the first dimension of this bounce's gloss
     """
 
@@ -37,6 +37,8 @@ class Blur:
         path : (n,)
         """
         for lobe in self.lobes:
+            if lobe.width == 0:
+                continue
             which = np.flatnonzero(material == lobe.material)
             if len(which) == 0:
                 continue

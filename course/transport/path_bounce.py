@@ -20,6 +20,7 @@ from course.scene.world import Paths
 from course.transport.gloss import Blur
 from course.transport.paths import OPEN, Draws, Rays
 from course.transport.plan import Lookups, Plan
+from course.transport.rough_refraction import bend, scatter
 
 DIFFUSE, MIRRORED, REFRACTED = range(3)
 
@@ -36,6 +37,7 @@ class _Optics:
     reflected, refracted : shares of the light, 0 where the material is opaque
     cos_i, cos_t : cosines of incidence and refraction
     eta : n_from / n_to
+    bent : (3, m) directions refracted by rough glass, of no meaning at other hits; None where there are none
     """
 
     reflected: Floats32
@@ -43,6 +45,7 @@ class _Optics:
     cos_i: Floats32
     cos_t: Floats32
     eta: Floats32
+    bent: Floats32 | None
 
     def of(self, which: Indices) -> _Optics:
         """Some of the hits."""
@@ -52,6 +55,7 @@ class _Optics:
             self.cos_i.take(which),
             self.cos_t.take(which),
             self.eta.take(which),
+            None if self.bent is None else self.bent.take(which, axis=1),
         )
 
 
@@ -98,10 +102,14 @@ class PathBounce:
         if self.survival or (other is not None and len(other)):
             assert self.plan.choice_dimension is not None
             # One pair for both: which way the light takes, and whether the path survives.
-            u = self.draws("choice", self.plan.choice_dimension + self.first, 2, path)
+            first = self.plan.choice_dimension + self.first
+            if other is None or len(other) == 0:
+                u = self.draws("choice", first + 1, 1, path)
+            else:
+                u = self.draws("choice", first, 2, path)
         if u is not None and other is not None and len(other):
             if self.plan.refracts:
-                optics = self._optics(hits, other)
+                optics = self._optics(hits, other, blur)
             after, kind = self._chosen(hits, beta, after, other, optics, u[0])
         which, after = self._survivors(after, u)
         if len(which) == 0:
@@ -133,9 +141,8 @@ class PathBounce:
             through = which.take(place)
             assert other is not None
             assert optics is not None
-            direction[:, place] = _refracted(
-                hits, through, optics.of(np.searchsorted(other, through))
-            )
+            within = optics.of(np.searchsorted(other, through))
+            direction[:, place] = self._refracted(hits, through, within, path.take(place), blur)
             origin = origin.copy() if whole else origin
             origin[:, place] = hits.below.take(through, axis=1)
             if medium is not None:
@@ -152,6 +159,8 @@ class PathBounce:
         albedo = self.lookups.diffuse(hits.material)
         if albedo.shape[1] != hits.size:
             albedo = np.repeat(albedo, hits.size, axis=1)
+        if hits.tint is not None:
+            albedo = albedo * hits.tint
         return self.paths.throughput(beta, albedo)
 
     def _chosen(
@@ -198,22 +207,26 @@ class PathBounce:
         kind[other] = way_taken
         return after, kind
 
-    def _optics(self, hits: Hits, which: Indices) -> _Optics:
+    def _optics(self, hits: Hits, which: Indices, blur: Blur | None) -> _Optics:
         """What the boundary of a dielectric does to the light at some of the hits."""
-        index = self.lookups.refraction_index(hits.material.take(which))
+        material = hits.material.take(which)
+        index = self.lookups.refraction_index(material)
         glass = index > 0
         # Outside is vacuum: a ray that enters goes from 1 to the index, one that leaves from the index to 1.
         index = np.where(glass, index, np.float32(1))
         eta = np.where(hits.entering.take(which), 1 / index, index)
-        facing = dot(hits.direction.take(which, axis=1), hits.ns.take(which, axis=1))
-        cos_i = np.clip(-facing, 0, 1)
+        direction, ns = hits.direction.take(which, axis=1), hits.ns.take(which, axis=1)
+        cos_i = np.clip(-dot(direction, ns), 0, 1)
         share, cos_t = fresnel_and_cos_t(cos_i, eta)
-        return _Optics(share * glass, (1 - share) * glass, cos_i, cos_t, eta)
+        bent = None
+        if self.plan.refraction_dimension is not None and blur is not None:
+            bent = bend(blur.lobes, material, direction, ns, cos_i, eta, share)
+        return _Optics(share * glass, (1 - share) * glass, cos_i, cos_t, eta, bent)
 
     def _survivors(self, after: Floats32, u: Floats32 | None) -> tuple[Indices, Floats32]:
         """Which paths go on, and their throughput."""
         if self.survival and u is not None and self.paths.russian_roulette is not None:
-            survives, after = self.paths.russian_roulette(after, u[1])
+            survives, after = self.paths.russian_roulette(after, u[-1])
             which = np.flatnonzero(survives)
         else:
             which = np.flatnonzero(after.max(axis=0) > 0)
@@ -232,11 +245,22 @@ class PathBounce:
             return direction
         return _kept_above(direction, ng if which is None else ng.take(which, axis=1))
 
-
-def _refracted(hits: Hits, which: Indices, optics: _Optics) -> Floats32:
-    direction, ns = hits.direction.take(which, axis=1), hits.ns.take(which, axis=1)
-    bent = refract(direction, ns, optics.cos_i, optics.cos_t, optics.eta)
-    return _kept_above(bent, -hits.ng.take(which, axis=1))
+    def _refracted(
+        self, hits: Hits, which: Indices, optics: _Optics, path: Indices, blur: Blur | None
+    ) -> Floats32:
+        """Directions in which paths go through the boundary at some of the hits."""
+        direction, ns = hits.direction.take(which, axis=1), hits.ns.take(which, axis=1)
+        ng = hits.ng.take(which, axis=1)
+        through = refract(direction, ns, optics.cos_i, optics.cos_t, optics.eta)
+        through = _kept_above(through, -ng)
+        if (
+            optics.bent is not None
+            and self.plan.refraction_dimension is not None
+            and blur is not None
+        ):
+            dimension = self.plan.refraction_dimension + self.first
+            scatter(blur, dimension, hits.material.take(which), optics.bent, ng, path, through)
+        return through
 
 
 def _mirrored(hits: Hits, which: Indices, path: Indices, blur: Blur | None) -> Floats32:

@@ -13,7 +13,6 @@ from functools import cached_property
 
 import numpy as np
 
-from course.appearance.materials import Lookup
 from course.core.types import Floats32, Indices, Mask
 from course.geometry.hits import Hits, find_hits
 from course.scene.world import Paths
@@ -22,6 +21,20 @@ from course.transport.direct import direct_light
 from course.transport.path_bounce import PathBounce
 from course.transport.paths import Draws, Rays
 from course.transport.tracing import CancelledError, Tracer, add_radiance, of_hits
+
+
+@dataclass(frozen=True)
+class Glow:
+    """Light that M materials give off.
+
+    Attributes
+    ----------
+    radiance : (3, M) float32
+    which : (M,) those that give off any
+    """
+
+    radiance: Floats32
+    which: Mask
 
 
 @dataclass(frozen=True)
@@ -40,18 +53,18 @@ class PathTracer(Tracer):
         return np.asarray(materials.refracts | (materials.mirror.max(axis=0) > 0))
 
     @cached_property
-    def _glow(self) -> Lookup | None:
+    def _glow(self) -> Glow | None:
         """Light that surfaces give off and that no shadow ray looks for: it counts whenever a path meets it."""
         m = self.world.materials
         # Ambient light is the same at every point of a surface: what the surface gives off by itself.
         rows = m.ambient * self.world.ambient[:, None] + m.emission * ~self._paths.lamps
-        return Lookup(rows) if rows.any() else None
+        return _glow(rows)
 
     @cached_property
-    def _lamps(self) -> Lookup | None:
+    def _lamps(self) -> Glow | None:
         """Light that shadow rays look for."""
         rows = self.world.materials.emission * self._paths.lamps
-        return Lookup(rows) if rows.any() else None
+        return _glow(rows)
 
     def _trace(self, camera_rays: Rays, paths: int, draws: Draws, counters: Counters) -> Floats32:
         """Radiance (3, paths) that the paths bring back."""
@@ -133,13 +146,31 @@ class PathTracer(Tracer):
         radiance = None
         if self.plan.shades:
             radiance = direct_light(self.world, self.plan, self.lookups, hits, path, depth, draws)
-        terms = []
         if self._glow is not None:
-            terms.append(self._glow(hits.material))
+            radiance = _added(radiance, hits, self._glow, None)
+        if hits.tint is not None and self.plan.has_ambient:
+            # A texture colours the ambient term, and no other light that a surface gives off.
+            change = self.lookups.ambient(hits.material) * (hits.tint - 1)
+            radiance = change if radiance is None else np.add(radiance, change, out=radiance)
         if self._lamps is not None and sees is not None:
-            terms.append(self._lamps(hits.material) * (sees & hits.entering))
-        for term in terms:
-            if radiance is None:
-                radiance = np.zeros((3, hits.size), np.float32)
-            radiance += term
+            radiance = _added(radiance, hits, self._lamps, sees)
         return radiance
+
+
+def _glow(radiance: Floats32) -> Glow | None:
+    return Glow(radiance, np.asarray(radiance.any(axis=0))) if radiance.any() else None
+
+
+def _added(radiance: Floats32 | None, hits: Hits, glow: Glow, sees: Mask | None) -> Floats32 | None:
+    """Radiance (3, n) or None for 0, and what the surfaces that glow add to it, seen from their front if ``sees``."""
+    glows = glow.which.take(hits.material)
+    if sees is not None:
+        glows &= sees
+        glows &= hits.entering
+    which = np.flatnonzero(glows)
+    if len(which) == 0:
+        return radiance
+    if radiance is None:
+        radiance = np.zeros((3, hits.size), np.float32)
+    radiance[:, which] += glow.radiance.take(hits.material.take(which), axis=1)
+    return radiance

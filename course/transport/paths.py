@@ -8,11 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from course.core.samplers import Block, Sampler
+from course.core.samplers.sobol import SobolSampler
 from course.core.types import Floats32, Indices, Media
 from course.transport.counters import Counters
-
-FEW = 12
-"""One path of so many left, and it is worth looking for the pixels that they belong to."""
 
 OPEN = np.int16(-1)
 """The medium of rays that travel in no dielectric."""
@@ -73,25 +71,14 @@ class Draws:
 
     def __call__(self, name: str, dimension: int, width: int, path: Indices | None) -> Floats32:
         """(width, n) numbers for the given paths, or for all paths of the block."""
-        if path is not None and len(path) * FEW < self.block.size and self.sampler.name == "sobol":
-            u = self._of_few(dimension, width, path)
-        else:
+        if path is None:
             u = self.sampler.draw(self.block, dimension, width)
-            if path is not None:
-                u = u.take(path, axis=1)
+        elif isinstance(self.sampler, SobolSampler):
+            u = self.sampler.draw_some(self.block, dimension, width, path)
+        else:
+            u = self.sampler.draw(self.block, dimension, width).take(path, axis=1)
         self.counters.drew(name, u.size)
         return u
-
-    def _of_few(self, dimension: int, width: int, path: Indices) -> Floats32:
-        """The same numbers, drawn for those pixels alone whose paths go on: Sobol's know nothing of the others."""
-        block = self.block
-        pixel, sample = np.divmod(path, block.samples)
-        alive = np.zeros(len(block.pixels), np.bool_)
-        alive[pixel] = True
-        place = np.cumsum(alive) - 1
-        part = Block(block.pixels[alive], block.first, block.samples, block.part)
-        u = self.sampler.draw(part, dimension, width)
-        return u.take(place.take(pixel) * block.samples + sample, axis=1)
 
 
 def together(reflected: Rays | None, refracted: Rays | None) -> Rays | None:

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 
 from course.appearance.conductors import Conductors
 from course.appearance.materials import Lookup
+from course.appearance.rough_glass import RoughGlass
 from course.scene.world import Settings, World
 
 
@@ -21,7 +22,7 @@ class Plan:
     ----------
     shades : any material shows light from the lights
     all_shade : every material does
-    has_ambient : some surface has a visible ambient term
+    has_ambient : some surface has a visible ambient term, or glows by itself
     emits : some surface is a light that rays can see
     specular : some material has a highlight
     mirrors, refracts, absorbs : some reachable material does
@@ -31,6 +32,7 @@ class Plan:
     lens_dimension, time_dimension : None where the camera needs none
     sky_dimension : the same for light from the environment, None where it lights nothing
     gloss_dimension : the first dimension of glossy reflection at depth 0
+    refraction_dimension : the same for refraction by rough glass, None where there is none
     bounce_stride : how many dimensions one depth takes
     bounce_dimension : where paths go after a diffuse hit at depth 0, None where none does
     choice_dimension : by which of its ways light leaves a surface, and whether the path survives
@@ -54,11 +56,18 @@ class Plan:
     bounce_stride: int
     bounce_dimension: int | None = None
     choice_dimension: int | None = None
+    refraction_dimension: int | None = None
 
 
 @dataclass(frozen=True)
 class Lookups:
-    """Gathers of the properties that the plan needs."""
+    """Gathers of the properties that the plan needs.
+
+    Attributes
+    ----------
+    ambient : what surfaces send out from both sides without any light of the lights: ambient light, and what glows
+    emission : of the surfaces of lights
+    """
 
     ambient: Lookup
     diffuse: Lookup
@@ -88,6 +97,8 @@ def make_plan(world: World, settings: Settings) -> Plan:
     # Where lens and time need none, gloss gets the pair that is joined to the pixel's: mirror images are sharper, so
     # worth more, than soft shadows.
     gloss_dimension = dimensions.take(max((lobe.width for lobe in world.lobes), default=0))
+    rough = refracts and any(isinstance(lobe, RoughGlass) for lobe in world.lobes)
+    refraction_dimension = dimensions.take(2) if rough else None
     light_dimensions = tuple(
         dimensions.take(light.width) if light.width else None for light in world.lights
     )
@@ -99,8 +110,8 @@ def make_plan(world: World, settings: Settings) -> Plan:
     return Plan(
         shades=sky or (bool(m.shaded.any()) and bool(world.lights)),
         all_shade=bool(m.shaded.all()),
-        has_ambient=bool((m.ambient * world.ambient[:, None]).any()),
-        emits=bool(m.emission.any()),
+        has_ambient=bool((m.ambient * world.ambient[:, None] + m.glowing).any()),
+        emits=bool(m.shining.any()),
         specular=bool(m.specular.any()),
         mirrors=mirrors,
         refracts=refracts,
@@ -115,6 +126,7 @@ def make_plan(world: World, settings: Settings) -> Plan:
         bounce_stride=dimensions.next - first,
         bounce_dimension=bounce_dimension,
         choice_dimension=choice_dimension,
+        refraction_dimension=refraction_dimension,
     )
 
 
@@ -138,14 +150,14 @@ def make_lookups(world: World) -> Lookups:
         *(
             Lookup(rows)
             for rows in (
-                m.ambient * world.ambient[:, None],
+                m.ambient * world.ambient[:, None] + m.glowing,
                 m.diffuse,
                 m.specular,
                 m.exponent,
                 m.mirror,
                 m.refraction_index,
                 m.absorption,
-                m.emission,
+                m.shining,
             )
         ),
         conductors=m.conductors,

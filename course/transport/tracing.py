@@ -203,6 +203,8 @@ class Tracer:
             term = lookup(hits.material)
             if lookup is self.lookups.emission:
                 term = term * hits.entering
+            elif hits.tint is not None:
+                term = term * hits.tint
             elif term.shape[1] == 1:
                 term = np.repeat(term, hits.size, axis=1)
             radiance = term if radiance is None else np.add(radiance, term, out=radiance)

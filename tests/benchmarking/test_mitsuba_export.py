@@ -126,6 +126,54 @@ def test_what_is_not_exported_is_refused(make_scene: MakeScene, lamp: dict[str, 
         export(make_scene(objects=[FLOOR], lights=[lamp]), *SIZE)
 
 
+SQUARE = {"type": "rectangle", "corner": [0, 3, 0], "edge_u": [1, 0, 0], "edge_v": [0, 0, 1]}
+METAL = {"refraction_index": 1, "absorption_index": 2}
+
+
+@pytest.mark.parametrize(
+    ("part", "value", "key"),
+    [
+        ("materials", {"grey": {"emission": [0, 1, 0]}}, "materials.grey.emission"),
+        ("materials", {"grey": {"conductor": METAL}}, "materials.grey.conductor"),
+        ("materials", {"grey": {"highlight": "plain"}}, "materials.grey.highlight"),
+        ("materials", {"grey": {"ambient_color": 0.2}}, "materials.grey.ambient_color"),
+        (
+            "materials",
+            {"grey": {"dielectric": {"shaded": True}}},
+            "materials.grey.dielectric.shaded",
+        ),
+        (
+            "materials",
+            {"grey": {"dielectric": {}, "gloss": {"lobe": "plane", "roughness": 0.1}}},
+            "materials.grey.gloss",
+        ),
+        ("camera", {"near": 1}, "camera.near"),
+        ("camera", {"handedness": "left"}, "camera.handedness"),
+        (
+            "camera",
+            {"image_plane": {"left": -1, "right": 1, "bottom": -1, "top": 1}},
+            "camera.image_plane",
+        ),
+        (
+            "lights",
+            [{**SQUARE, "radiance": 1, "two_sided": True, "visible": False}],
+            "lights[0].two_sided",
+        ),
+        ("lights", [{**SQUARE, "radiance": 1, "visible": False}], "lights[0].visible"),
+        ("environment", {"type": "constant", "seen_by": "camera"}, "environment.seen_by"),
+    ],
+    ids=lambda value: value if isinstance(value, str) else "",
+)
+def test_keys_that_mitsuba_is_not_told_are_refused_by_name(
+    make_scene: MakeScene, part: str, value: Any, key: str
+) -> None:
+    if part == "camera":
+        value = {"eye": [0, 0, 4], "look_at": [0, 0, 0]} | value
+    with pytest.raises(NotExportableError) as caught:
+        export(make_scene(**{"objects": [FLOOR], part: value}), *SIZE)
+    assert str(caught.value).startswith(key)
+
+
 def test_directions_of_the_picture_of_all_directions() -> None:
     directions = lat_long_directions(5)
     assert directions.shape == (5, 8, 3)

@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 from course import Scene
 from course.core.samplers import Block, make_sampler
 from course.core.samplers.sobol import SobolSampler
+from course.core.types import Indices
 from course.rendering.binding import bind
 from course.rendering.passes import passes
 from course.transport.counters import Counters
@@ -42,6 +43,10 @@ def drawn(make_scene: MakeScene) -> list[tuple[int, int]]:
         def draw(self, block: Block, dimension: int, width: int) -> Any:
             found.add((dimension, width))
             return super().draw(block, dimension, width)
+
+        def draw_some(self, block: Block, dimension: int, width: int, path: Indices) -> Any:
+            found.add((dimension, width))
+            return super().draw_some(block, dimension, width, path)
 
     ball = {"type": "sphere", "radius": 0.2, "intensity": 1}
     plates = [

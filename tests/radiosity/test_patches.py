@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from course.effects import PROJECT
 from course.errors import SceneError
 from course.radiosity.bisection import Triangles, bisected, undivided
 from course.radiosity.patches import make_patches
@@ -109,6 +110,39 @@ def test_what_patches_are_made_of(make_scene: MakeScene) -> None:
     assert len(np.unique(patches.surface[patches.lamps])) == 1
 
 
+def test_what_glows_emits_from_both_sides_and_is_a_lamp_where_it_reflects_nothing(
+    make_scene: MakeScene,
+) -> None:
+    room = plates(0.5, radiance=3)
+    panel = {"shape": "quad", "transform": [{"translate": [0, 2, 0]}]}
+    patches = make_patches(
+        make_scene(
+            camera=CAMERA,
+            materials={
+                "grey": {"color": 0.5},
+                "black": {"color": 0, "emission": [1, 0, 2]},
+                "white": {"color": 0.8, "emission": 1},
+            },
+            lights=room["lights"],
+            objects=[
+                *room["objects"],
+                panel | {"material": "black"},
+                panel | {"material": "white"},
+            ],
+        ),
+        1,
+    )
+    assert np.allclose(patches.emission[:, ::2].T / math.pi, [[0] * 3, [1, 0, 2], [1] * 3, [3] * 3])
+    assert np.allclose(
+        patches.back_emission[:, ::2].T / math.pi, [[0] * 3, [1, 0, 2], [1] * 3, [0] * 3]
+    )
+    assert patches.lamps[::2].tolist() == [False, True, False, True]
+    # All of it goes on to the halves of a triangle.
+    halves = patches.split(np.arange(8) == 2)
+    assert np.allclose(halves.back_emission[0, halves.triangles.origin == 2], math.pi)
+
+
+TILES = PROJECT / "scenes" / "textures" / "tiles.png"
 LAMP: dict[str, Any] = plates(0.5)["lights"][0]
 
 
@@ -172,7 +206,18 @@ def test_lights_that_are_no_surfaces_are_refused(
 @pytest.mark.parametrize(
     ("changed", "told"),
     [
-        ({"lights": []}, "nothing shines"),
+        (
+            {"materials": {"grey": {"color": 0.5, "texture": {"image": str(TILES)}}}},
+            "materials.grey.texture: expected null",
+        ),
+        (
+            {"camera": CAMERA | {"handedness": "left"}},
+            'camera.handedness is "left": expected right',
+        ),
+        (
+            {"lights": []},
+            "lights: nothing shines: expected a light that is a rectangle or a sphere",
+        ),
         ({"environment": {"type": "constant", "radiance": 0.2}}, "environment.radiance"),
         (
             {"camera": {**CAMERA, "lens": {"aperture_radius": 0.1, "focus_distance": 1}}},

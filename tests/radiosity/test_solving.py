@@ -101,6 +101,47 @@ def test_a_plate_under_a_lamp_is_as_bright_as_its_form_factor_says(
     assert found == pytest.approx(0.6 * between_plates(1.0) * math.pi * 2, rel=0.01)
 
 
+@pytest.mark.parametrize("method", ["gather", "shoot"])
+def test_a_plate_that_glows_lights_another_as_a_lamp_does(
+    make_scene: MakeScene, method: str
+) -> None:
+    """Down with its back, and up with its front, where nothing is."""
+    room = plates(0.6)
+    panel = {"shape": "quad", "material": "panel", "transform": [{"translate": [0, 1, 0]}]}
+    scene = make_scene(
+        camera=room["camera"],
+        materials=room["materials"] | {"panel": {"color": 0, "emission": 2}},
+        objects=[*room["objects"], panel],
+    )
+    patches = make_patches(scene, 300)
+    if method == "gather":
+        solved = gathered(patches, FUNCTIONS, 1e-4, None, rays=8_000_000)
+    else:
+        shooting = Shooting(patches, FUNCTIONS, lamp_rays=5_000_000)
+        shooting.run(1e-4)
+        solved = shooting.solved
+    plate, areas = ~patches.lamps, patches.triangles.areas()
+    fronts, backs = solved.radiosity[0, : patches.size], solved.radiosity[0, patches.size :]
+    found = mean(fronts[plate], areas[plate])
+    assert found == pytest.approx(0.6 * between_plates(1.0) * math.pi * 2, rel=0.01)
+    assert np.allclose(fronts[~plate], 2 * math.pi, rtol=1e-6)
+    assert np.allclose(backs[~plate], 2 * math.pi, rtol=1e-6)
+
+
+def test_a_glowing_room_is_a_furnace(make_scene: MakeScene) -> None:
+    """Inside a box B = pi L / (1 - rho) everywhere, as its backs see nothing but each other; outside pi L."""
+    scene = make_scene(
+        camera={"eye": [0.1, 0.1, 0], "look_at": [1, 0, 0]},
+        materials={"m": {"color": 0.5, "emission": [1, 2, 0]}},
+        objects=[{"shape": "box", "material": "m", "size": [2, 2, 2]}],
+    )
+    patches = make_patches(scene, 100)
+    solved = gathered(patches, FUNCTIONS, 1e-5, None, rays=2_000_000)
+    light = math.pi * np.array([[1], [2], [0]])
+    assert np.allclose(solved.radiosity[:, : patches.size], light, rtol=1e-5)
+    assert np.allclose(solved.radiosity[:, patches.size :], light / (1 - 0.5), rtol=1e-4)
+
+
 @pytest.mark.parametrize("reflectance", [0.0, 0.5, 0.8])
 def test_the_inside_of_a_sphere_is_evenly_bright(reflectance: float) -> None:
     """B = E / (1 - rho)."""

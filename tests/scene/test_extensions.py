@@ -1,4 +1,4 @@
-"""Keys that few scenes have: windows, backdrops, lights that nobody sees, metals; and what contradicts itself."""
+"""Keys that few scenes have: windows, matrices, backdrops, lights that nobody sees; and what contradicts itself."""
 
 from __future__ import annotations
 
@@ -10,6 +10,9 @@ import pytest
 
 from course import Scene, render
 from course.errors import SceneError
+from course.geometry.mesh import Mesh
+from course.scene.compiling import compile_camera
+from course.scene.instancing import object_mesh
 
 MakeScene = Callable[..., Scene]
 
@@ -106,6 +109,10 @@ PLANE = {"left": -1, "right": 1, "bottom": -1, "top": 1}
             },
             "materials.grey: both dielectric and conductor are given",
         ),
+        (
+            {"camera": ABOVE | {"handedness": "both"}},
+            'camera.handedness is "both": expected left or',
+        ),
         ({"film": {"encoding": "gamma"}}, 'film.encoding is "gamma": expected linear or srgb'),
         ({"film": {"white": 0}}, "film.white is 0: expected a number > 0"),
     ],
@@ -152,3 +159,118 @@ def test_plain_highlights_have_no_cosine(make_scene: MakeScene) -> None:
         values.append(float(render(scene).linear[0, 0, 0]))
     assert values[0] > 0
     assert values[1] == pytest.approx(values[0] / 0.8, rel=1e-4)
+
+
+WINDOW = {"left": -0.5, "right": 1.5, "bottom": -0.25, "top": 1}
+
+
+@pytest.mark.parametrize("keys", [{}, {"image_plane": WINDOW}], ids=["field of view", "window"])
+def test_a_left_handed_camera_shows_the_right_on_the_left(
+    make_scene: MakeScene, keys: dict[str, Any]
+) -> None:
+    """The direction through x is what the other camera has there, with its part to the right turned round."""
+    eye = {"eye": [1, 2, 4], "look_at": [0, 0.5, 0], "up": [0.2, 1, 0]}
+    right, left = (
+        compile_camera(scene.loaded, scene.compiled.frame, 30, 20)
+        for scene in (
+            make_scene(camera=eye | keys | {"handedness": hand}, objects=[FLOOR])
+            for hand in ("right", "left")
+        )
+    )
+    x, y = np.array([[0, 7.5, 30, 12], [0, 3.25, 20, 20]], np.float32)
+    seen, mirrored = right.directions(x, y), left.directions(x, y)
+    across = right.right[:, None]
+    expected = seen - 2 * across * (across * seen).sum(axis=0)
+    np.testing.assert_allclose(mirrored, expected, atol=3e-7)
+    np.testing.assert_array_equal(left.right, -right.right)
+    np.testing.assert_array_equal(left.up, right.up)
+
+
+def test_a_left_handed_picture_is_the_other_flipped(make_scene: MakeScene) -> None:
+    parts: dict[str, Any] = {
+        "lights": [{"type": "directional", "direction": [-1, -2, -1], "irradiance": 1}],
+        "objects": [{"shape": "box", "material": "grey"}, FLOOR],
+        "sampler": {"type": "regular", "samples": 1},
+        "film": {"width": 24, "height": 16},
+    }
+    eye = {"eye": [1, 2, 4], "look_at": [0.4, 0, 0]}
+    right, left = (
+        render(make_scene(camera=eye | {"handedness": hand}, **parts)).linear
+        for hand in ("right", "left")
+    )
+    assert not np.allclose(right, right[:, ::-1])
+    # A sample next to an edge may fall to its other side by rounding.
+    assert np.isclose(left, right[:, ::-1], atol=1e-5).mean() > 0.99
+
+
+def moved(make_scene: MakeScene, transform: list[dict[str, Any]]) -> Mesh:
+    ball = {"shape": "sphere", "material": "grey", "segments": 12, "transform": transform}
+    loaded = make_scene(objects=[ball]).loaded
+    return object_mesh(loaded.description.objects[0], 0, loaded.document, loaded.path.parent)
+
+
+def test_a_matrix_is_the_steps_that_it_stands_for(make_scene: MakeScene) -> None:
+    """Scaled by 2, 3, 1, turned from x to y, moved: rows worked out by hand; then another step."""
+    steps = [
+        {"scale": [2, 3, 1]},
+        {"rotate": {"axis": [0, 0, 1], "degrees": 90}},
+        {"translate": [10, 20, 30]},
+    ]
+    rows = [[0, -3, 0, 10], [2, 0, 0, 20], [0, 0, 1, 30], [0, 0, 0, 1]]
+    after = {"rotate": {"axis": [1, 2, 3], "degrees": 40}}
+    by_steps, by_matrix = (
+        moved(make_scene, transform) for transform in ([*steps, after], [{"matrix": rows}, after])
+    )
+    np.testing.assert_allclose(by_matrix.vertices, by_steps.vertices, atol=1e-12)
+    np.testing.assert_allclose(by_matrix.normals, by_steps.normals, atol=1e-12)
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+def test_a_matrix_keeps_normals_and_triangles_outwards(make_scene: MakeScene, sign: int) -> None:
+    """A ball sheared, and mirrored or not: normals are the gradient of |M^-1 p|^2."""
+    rows = [[sign * 1.0, 0.5, 0, 0], [0, 1, 0.25, 0], [0, 0, 2, 0], [0, 0, 0, 1]]
+    mesh = moved(make_scene, [{"matrix": rows}])
+    inverse = np.linalg.inv(np.array(rows)[:3, :3])
+    gradient = mesh.vertices @ inverse.T @ inverse
+    gradient /= np.linalg.norm(gradient, axis=1, keepdims=True)
+    np.testing.assert_allclose(mesh.normals, gradient, atol=1e-9)
+    p = mesh.vertices[mesh.triangles]
+    volume = np.einsum("ni,ni->n", p[:, 0], np.cross(p[:, 1], p[:, 2]))
+    assert volume.min() > -1e-12
+    assert volume.max() > 0
+
+
+@pytest.mark.parametrize(
+    ("matrix", "told"),
+    [
+        (3, "matrix is 3: expected 4 lists of 4 numbers"),
+        ([1] * 16, "matrix is [1, 1, 1, 1, ...]: expected 4 lists of 4 numbers"),
+        (
+            [[1, 0, 0], [0, 1, 0], [0, 0, 1], [0, 0, 0]],
+            "matrix[0] is [1, 0, 0]: expected 4 numbers",
+        ),
+        (
+            [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 1, 1]],
+            "matrix[3] is [0, 0, 1, 1]: expected [0, 0, 0, 1], the last row of any affine map",
+        ),
+        (
+            [[1, 2, 3, 0], [4, 5, 6, 0], [7, 8, 9, 0], [0, 0, 0, 1]],
+            "matrix is [[...], [...], [...], [...]]: expected rows that are independent",
+        ),
+        ([[0] * 4, [0] * 4, [0] * 4, [0, 0, 0, 1]], "expected rows that are independent"),
+    ],
+)
+def test_matrices_that_map_no_body_to_a_body_are_told(
+    make_scene: MakeScene, matrix: Any, told: str
+) -> None:
+    with pytest.raises(SceneError) as caught:
+        make_scene(objects=[FLOOR | {"transform": [{"scale": 2}, {"matrix": matrix}]}])
+    assert "objects[0].transform[1].matrix" in str(caught.value)
+    assert told in str(caught.value)
+
+
+@pytest.mark.parametrize("size", [1e-140, 1e140])
+def test_matrices_may_be_of_any_size(make_scene: MakeScene, size: float) -> None:
+    rows = [[size, 0, 0, 0], [0, size, 0, 0], [0, 0, size, 0], [0, 0, 0, 1]]
+    mesh = moved(make_scene, [{"matrix": rows}])
+    assert np.abs(mesh.vertices).max() == pytest.approx(size, rel=1e-12)

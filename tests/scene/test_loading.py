@@ -178,14 +178,14 @@ def test_a_wrong_value_is_named_with_what_was_expected(
             "bend: 1.5",
             (
                 "16: materials.glass.dielectric.bend: unknown key; known are refraction_index, "
-                "absorption, shaded"
+                "absorption, shaded, roughness"
             ),
         ),
         ("width: 10,", "widht: 10,", "24: objects[0].widht: unknown key; did you mean width?"),
         (
             "- scale: -2",
             "- move: -2",
-            "31: objects[1].transform[1].move: unknown key; known are translate, scale, rotate",
+            "31: objects[1].transform[1].move: unknown key; known are translate, scale, rotate, matrix",
         ),
         (
             "- scale: -2",
@@ -197,7 +197,7 @@ def test_a_wrong_value_is_named_with_what_was_expected(
             "- <step>: scale",
             (
                 '31: objects[1].transform[1]["<step>"]: unknown key; known are translate, '
-                "scale, rotate"
+                "scale, rotate, matrix"
             ),
         ),
         (
@@ -381,12 +381,12 @@ def test_an_unknown_kind_is_answered_with_the_known_ones(
 @pytest.mark.parametrize(
     ("new", "message"),
     [
-        ("- 3", "is 3: expected a map with one key, translate, scale or rotate"),
+        ("- 3", "is 3: expected a map with one key, translate, scale, rotate or matrix"),
         ("- {scale: 2, <step>: 3}", '["<step>"]: unknown key; known are translate, scale'),
-        ("- {}", ": a step with 0 keys: expected one, translate, scale or rotate"),
+        ("- {}", ": a step with 0 keys: expected one, translate, scale, rotate or matrix"),
         (
             "- {scale: 2, translate: [0, 0, 0]}",
-            ": a step with 2 keys: expected one, translate, scale or rotate; each step is an item",
+            ": a step with 2 keys: expected one, translate, scale, rotate or matrix; each step is an item",
         ),
     ],
 )

@@ -235,11 +235,13 @@ def test_a_rectangle_by_intensity_is_the_mean_of_point_lights(
 SPHERES = [([0, 1.5, 0], 0.5), ([0.8, 0.9, -0.5], 0.4), ([2, 0.31, 0.5], 0.3), ([0, 1.0, 0], 0.8)]
 
 
+@pytest.mark.parametrize("samples", ["sphere", "visible"])
 @pytest.mark.parametrize(("center", "radius"), SPHERES)
 def test_a_sphere_by_radiance_gives_pi_l_sin_squared_cos(
-    spot: MakeScene, center: list[float], radius: float
+    spot: MakeScene, center: list[float], radius: float, samples: str
 ) -> None:
     light = {"type": "sphere", "center": center, "radius": radius, "radiance": 3.0}
+    light["samples"] = samples
     mean, tolerance = estimate(spot(light), 1024)
     d = np.linalg.norm(center)
     exact = 3.0 * (radius / d) ** 2 * center[1] / d

@@ -1,4 +1,4 @@
-"""Numbers for a few paths of a block are those that a draw for the whole block has for them."""
+"""Numbers for some paths of a block are those that a draw for the whole block has for them."""
 
 from __future__ import annotations
 
@@ -7,29 +7,54 @@ from typing import Any
 import numpy as np
 import pytest
 
-from course.core.samplers import Block
+from course.core.samplers import Block, make_sampler
 from course.core.samplers.sobol import SobolSampler
 from course.transport.counters import Counters
-from course.transport.paths import FEW, Draws
+from course.transport.paths import Draws
 
-BLOCK = Block(np.arange(100, 356, dtype=np.uint32), 16, 16, 7)
+PIXELS = np.arange(100, 356, dtype=np.uint32)
+
+ALL = 256 * 16
 
 
-@pytest.mark.parametrize("count", [1, 5, BLOCK.size // FEW - 1, BLOCK.size // FEW + 1])
-@pytest.mark.parametrize(("dimension", "width"), [(4, 2), (7, 1), (10, 3), (0, 4)])
-def test_few_paths_draw_what_all_paths_would(count: int, dimension: int, width: int) -> None:
-    drawn: list[int] = []
+@pytest.mark.parametrize("count", [1, 5, 255, 257, ALL // 2, ALL // 2 + 1, ALL])
+@pytest.mark.parametrize(("dimension", "width"), [(2, 2), (4, 2), (7, 1), (3, 1), (10, 3), (0, 4)])
+def test_some_paths_draw_what_all_paths_would(count: int, dimension: int, width: int) -> None:
+    _check(Block(PIXELS, 16, 16, 7), count, dimension, width)
 
-    class Noted(SobolSampler):
-        def draw(self, block: Block, dimension: int, width: int) -> Any:
-            drawn.append(len(block.pixels))
-            return super().draw(block, dimension, width)
 
+@pytest.mark.parametrize("samples", [1, 5, 12, 64])
+def test_any_number_of_samples(samples: int) -> None:
+    for count in (3, 256 * samples // 3):
+        _check(Block(PIXELS, 0, samples, 7), count, 4, 2)
+
+
+def test_few_paths_leave_the_block_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(*_: Any) -> Any:
+        raise AssertionError("a whole block was drawn")
+
+    monkeypatch.setattr(SobolSampler, "draw", refuse)
+    draws = Draws(SobolSampler(3), Block(PIXELS, 16, 16, 7), Counters(), lambda: False)
+    assert draws("light", 4, 2, np.arange(ALL // 2)).shape == (2, ALL // 2)
+
+
+def test_samplers_that_know_no_parts_draw_the_whole() -> None:
+    def place(k: int, n: int, rng: Any) -> Any:
+        return rng.random((2, n, k * k), np.float32)
+
+    sampler = make_sampler("random", 3, place)
+    block = Block(PIXELS, 0, 16, 7)
+    path = np.arange(0, ALL, 100)
+    found = Draws(sampler, block, Counters(), lambda: False)("light", 4, 2, path)
+    assert found.tobytes() == np.ascontiguousarray(sampler.draw(block, 4, 2)[:, path]).tobytes()
+
+
+def _check(block: Block, count: int, dimension: int, width: int) -> None:
     counters = Counters()
-    draws = Draws(Noted(3), BLOCK, counters, lambda: False)
-    path = np.sort(np.random.default_rng(count).choice(BLOCK.size, count, replace=False))
+    draws = Draws(SobolSampler(3), block, counters, lambda: False)
+    path = np.sort(np.random.default_rng(count).choice(block.size, count, replace=False))
     found = draws("light", dimension, width, path)
-    whole = SobolSampler(3).draw(BLOCK, dimension, width)
+    whole = SobolSampler(3).draw(block, dimension, width)
+    assert found.dtype == np.float32
     assert found.tobytes() == np.ascontiguousarray(whole[:, path]).tobytes()
     assert counters.numbers == {"light": width * count}
-    assert (drawn[0] < len(BLOCK.pixels)) == (count * FEW < BLOCK.size)

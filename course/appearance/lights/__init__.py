@@ -17,7 +17,16 @@ from course.appearance.lights.point import PointLight
 from course.appearance.lights.rectangle import RectangleLight
 from course.appearance.lights.sample import Sample
 from course.appearance.lights.sphere import SphereLight
+from course.appearance.lights.visible_sphere import VisibleSphereLight
 
-Light = PointLight | DirectionalLight | RectangleLight | SphereLight
+Light = PointLight | DirectionalLight | RectangleLight | SphereLight | VisibleSphereLight
 
-__all__ = ["DirectionalLight", "Light", "PointLight", "RectangleLight", "Sample", "SphereLight"]
+__all__ = [
+    "DirectionalLight",
+    "Light",
+    "PointLight",
+    "RectangleLight",
+    "Sample",
+    "SphereLight",
+    "VisibleSphereLight",
+]

@@ -9,7 +9,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
-from course.core.types import Words
+import numpy as np
+
+from course.core.types import Indices, Words
 
 
 @dataclass(frozen=True)
@@ -37,3 +39,11 @@ class Block:
     def size(self) -> int:
         """How many paths: pixels times samples."""
         return len(self.pixels) * self.samples
+
+    def places(self, path: Indices) -> tuple[Indices, Indices]:
+        """Column of ``pixels`` and number in the stretch of some paths, (n,) each."""
+        bits = self.samples.bit_length() - 1
+        if self.samples == 1 << bits:
+            return path >> bits, path & (self.samples - 1)
+        pixel, sample = np.divmod(path, self.samples)
+        return pixel, sample

@@ -14,7 +14,7 @@ import numpy as np
 from course.core.hashing import combine, hash_words
 from course.core.samplers.block import Block
 from course.core.sobol import joined, owen_scrambled, shuffled, sobol_words
-from course.core.types import Floats32, Words
+from course.core.types import Floats32, Indices, Words
 
 _TO_UNIT = np.float32(2.0**-24)
 
@@ -46,14 +46,9 @@ class SobolSampler:
         -------
         (width, block.size) float32 in [0, 1); the top 24 bits, so that none rounds up to 1.
         """
-        last = dimension + width - 1
-        pairs = range(dimension // 2, last // 2 + 1)
+        pairs = _pairs(dimension, width)
         table = _points(block.first, block.samples)
-        salts = [
-            combine(self._seed, 0 if word == 0 and pair < _JOINED_PAIRS else pair, word)
-            for pair in pairs
-            for word in range(3)
-        ]
+        salts = _salts(self._seed, pairs)
         hashes = hash_words(block.pixels, *salts).reshape(len(pairs), 3, len(block.pixels))
         mixed = np.empty((2 * len(pairs), len(block.pixels), block.samples), np.uint32)
         for number, (order, *scramble) in enumerate(hashes):
@@ -68,6 +63,42 @@ class SobolSampler:
         chosen >>= np.uint32(8)
         u: Floats32 = np.multiply(chosen, _TO_UNIT, dtype=np.float32)
         return u.reshape(width, block.size)
+
+    def draw_some(self, block: Block, dimension: int, width: int, path: Indices) -> Floats32:
+        """The columns of ``draw`` that belong to some paths (n,), made without the others where that is less work."""
+        first, pair = dimension % 2, dimension // 2
+        if 2 * len(path) > block.size or first + width > 2:
+            return self.draw(block, dimension, width).take(path, axis=1)
+        rows = _points(block.first, block.samples)[2 * pair if pair < _JOINED_PAIRS else 0 :]
+        pixel, sample = block.places(path)
+        salts = _salts(self._seed, range(pair, pair + 1))
+        # Hashed once for each path or for each pixel, whichever there are fewer of.
+        if len(path) < len(block.pixels):
+            hashes = hash_words(block.pixels.take(pixel), *salts)
+        else:
+            hashes = hash_words(block.pixels, *salts).take(pixel, axis=1)
+        place = (hashes[0] % np.uint32(rows.shape[1])).astype(np.intp)
+        place *= block.samples
+        place += sample
+        words = rows[first : first + width].reshape(width, -1).take(place, axis=1)
+        words ^= hashes[1 + first : 1 + first + width]
+        words >>= np.uint32(8)
+        u: Floats32 = np.multiply(words, _TO_UNIT, dtype=np.float32)
+        return u
+
+
+def _pairs(dimension: int, width: int) -> range:
+    return range(dimension // 2, (dimension + width - 1) // 2 + 1)
+
+
+@lru_cache(maxsize=1024)
+def _salts(seed: int, pairs: range) -> tuple[int, ...]:
+    """Of each pair: one for its order and one for either scramble."""
+    return tuple(
+        combine(seed, 0 if word == 0 and pair < _JOINED_PAIRS else pair, word)
+        for pair in pairs
+        for word in range(3)
+    )
 
 
 @lru_cache(maxsize=64)

@@ -46,10 +46,18 @@ from course.scene.description.objects import (
 )
 from course.scene.description.sampler import SamplerDescription
 from course.scene.description.scene import SceneDescription
-from course.scene.description.transforms import Rotate, Rotation, Scale, Transform, Translate
+from course.scene.description.transforms import (
+    Affine,
+    Rotate,
+    Rotation,
+    Scale,
+    Transform,
+    Translate,
+)
 from course.scene.description.values import Color, Reflectance, Vector, rgb
 
 __all__ = [
+    "Affine",
     "AmbientLight",
     "BallLobe",
     "Box",

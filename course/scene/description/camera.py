@@ -66,6 +66,10 @@ class CameraDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknow
     image_plane: Annotated[
         ImagePlaneDescription | None, about("The picture's edges; they replace vertical_fov.")
     ] = None
+    handedness: Annotated[
+        Literal["right", "left"],
+        about("Whether the picture shows what is to the right on the right; left mirrors it."),
+    ] = "right"
     near: Annotated[
         float,
         about(

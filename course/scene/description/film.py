@@ -11,6 +11,27 @@ from course.scene.description.values import about
 _Positive: TypeAlias = Annotated[float, msgspec.Meta(gt=0)]
 
 
+class SubdivisionDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """Adaptive supersampling by contrast: rays through the corners of pixels, more where corners differ."""
+
+    threshold: Annotated[
+        float,
+        about(
+            "Cells with two corners that differ by more than this in some channel are divided into four.",
+            "radiance",
+            ge=0,
+        ),
+    ] = 0.1
+    depth: Annotated[
+        int,
+        about(
+            "How many times a pixel may be divided: its smallest cells are 1 / 2^depth wide.",
+            ge=0,
+            le=8,
+        ),
+    ] = 3
+
+
 class FilmDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """Size of the picture and its reconstruction filter."""
 
@@ -25,6 +46,13 @@ class FilmDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_
             "Sample until the root-mean-square error of the whole picture is estimated to be this; a"
             " radiance of 1 is white. sampler.samples is the most that a pixel takes on average.",
             "radiance",
+        ),
+    ] = None
+    subdivision: Annotated[
+        SubdivisionDescription | None,
+        about(
+            "Rays through the corners of pixels instead of samples within them, and more where corners differ."
+            " sampler.samples is the number of rays through each corner."
         ),
     ] = None
     white: Annotated[

@@ -79,10 +79,10 @@ class SphereLight(LightDescription, frozen=True, kw_only=True, tag="sphere"):
     intensity: _Intensity = None
     radiance: _Radiance = None
     samples: Annotated[
-        Literal["sphere", "ball", "facing disk"],
+        Literal["sphere", "ball", "facing disk", "visible"],
         about(
             "Where its light comes from: the surface, the whole ball, or the disk that it shows;"
-            " by radiance only the surface."
+            " by radiance the surface, or only what is visible of it, which is less noisy."
         ),
     ] = "sphere"
     motion: _Motion = MotionDescription()

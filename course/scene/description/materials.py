@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Literal, TypeAlias
 
 import msgspec
 
@@ -21,6 +21,14 @@ class Dielectric(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_field
     shaded: Annotated[
         bool, about("Whether the ambient and diffuse terms are added to what it reflects.")
     ] = False
+    roughness: Annotated[
+        float,
+        about(
+            "Frosted glass: refracted directions are moved on a square of this edge, at distance 1;"
+            " 0 is clear glass.",
+            ge=0,
+        ),
+    ] = 0.0
 
 
 class Conductor(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -32,6 +40,28 @@ class Conductor(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
     absorption_index: Annotated[
         Color, about("Imaginary part of the index of refraction, the extinction coefficient.")
     ]
+
+
+_Times: TypeAlias = Annotated[float, msgspec.Meta(gt=0, le=1e4)]
+
+
+class TextureDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A picture on a surface: bilinear between its pixels, and repeated beyond its edges."""
+
+    image: Annotated[
+        str,
+        about(
+            "File of the picture, relative to the scene file: PNG, JPEG, EXR or HDR, nothing in it above 1.",
+            min_length=1,
+        ),
+    ]
+    repeat: Annotated[
+        tuple[_Times, _Times],
+        about(
+            "How often the picture repeats along u and v: a quad's x and -z, a sphere's longitude and latitude,"
+            " and the texture coordinates of a mesh."
+        ),
+    ] = (1.0, 1.0)
 
 
 class MaterialDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -58,6 +88,14 @@ class MaterialDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unkn
             " plain is Blinn's formula, without it."
         ),
     ] = "cosine"
+    emission: Annotated[
+        Color,
+        about(
+            "What the surface sends out by itself, the same from both sides and in all directions. It counts wherever"
+            " a ray meets it; no shadow ray looks for it, so only path tracing and radiosity light others by it.",
+            "W/(m^2 sr)",
+        ),
+    ] = 0.0
     mirror: Annotated[Reflectance, about("Share of the light that is mirrored.")] = 0.0
     gloss: Annotated[Gloss | None, about("Blurs what is mirrored; null for a perfect mirror.")] = (
         None
@@ -69,5 +107,12 @@ class MaterialDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unkn
         Conductor | None,
         about(
             "Makes the mirror a metal's: its Fresnel reflectance times mirror; null where it is none."
+        ),
+    ] = None
+    texture: Annotated[
+        TextureDescription | None,
+        about(
+            "A picture that multiplies color and ambient_color from place to place; with one, color left out is all"
+            " that the mirror leaves."
         ),
     ] = None

@@ -14,6 +14,8 @@ from course.scene.description.values import Vector, about
 
 STEP: Final = "<step>"
 
+Row: TypeAlias = tuple[float, float, float, float]
+
 
 class TransformStep(
     msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True, tag_field=STEP
@@ -46,4 +48,16 @@ class Rotate(TransformStep, frozen=True, kw_only=True, tag="rotate"):
     rotate: Annotated[Rotation, about("Axis and angle.")]
 
 
-Transform: TypeAlias = Translate | Scale | Rotate
+class Affine(TransformStep, frozen=True, kw_only=True, tag="matrix"):
+    """Any affine map."""
+
+    matrix: Annotated[
+        tuple[Row, Row, Row, Row],
+        about(
+            "Rows of the matrix that takes a place, as the column (x, y, z, 1), to where it goes;"
+            " the last one is 0 0 0 1, and nothing is flattened."
+        ),
+    ]
+
+
+Transform: TypeAlias = Translate | Scale | Rotate | Affine

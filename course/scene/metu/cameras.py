@@ -11,6 +11,7 @@ import numpy as np
 
 from course.core.types import Floats64
 from course.scene.consistency import sine
+from course.scene.document import show
 from course.scene.metu.element import Element
 from course.scene.metu.notes import Notes
 
@@ -73,8 +74,11 @@ def _camera(element: Element, notes: Notes) -> MetuCamera:
         **_window(element),
         **_lens(element),
     }
-    if element.attributes.get("handedness", "right") == "right":
-        element.attribute("handedness")
+    handedness = element.attribute("handedness") or "right"
+    if handedness not in ("right", "left"):
+        raise element.error(f"handedness is {show(handedness)}: expected right or left")
+    if handedness == "left":
+        camera["handedness"] = "left"
     film = {"width": int(width), "height": int(height), "white": 255.0, "encoding": "linear"}
     return MetuCamera(name, _image_name(element, notes), camera, film, _sampler(element, notes))
 

@@ -67,6 +67,8 @@ def _material(element: Element, notes: Notes) -> dict[str, Any]:
     if roughness is not None and roughness.number(0):
         if kind:
             material["gloss"] = {"lobe": "plane", "roughness": roughness.number(0)}
+            if kind == "dielectric":
+                material["dielectric"]["roughness"] = roughness.number(0)
         else:
             notes.add(roughness, "counts only with a type, and was left out")
     return material

@@ -116,6 +116,8 @@ class Objects:
         inherited = {key: base[key] for key in ("shape", "file", "shading", "material")}
         thing = inherited | {"name": f"instance {number}"}
         thing |= self._common(element, element.maybe("Material") is None)
+        if "motion" in base and element.maybe("MotionBlur") is None:
+            thing["motion"] = base["motion"]
         if not element.flag("resetTransform"):
             thing["transform"] = base["transform"] + thing["transform"]
         # Meshes and instances are counted apart in some files; then a mesh keeps its number.

@@ -4,14 +4,19 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
+from course.scene.consistency import flattens
 from course.scene.document import suggest
 from course.scene.metu.element import Element
 
 Steps = list[dict[str, Any]]
 """Steps of `transform` in the project's own scene files."""
 
-KINDS = {"Translation": "t", "Scaling": "s", "Rotation": "r"}
+KINDS = {"Translation": "t", "Scaling": "s", "Rotation": "r", "Composite": "c"}
 """Each kind of step, and the letter by which objects ask for it."""
+
+IDENTITY = "1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1"
 
 
 def read_steps(scene: Element) -> dict[str, dict[str, Any]]:
@@ -37,7 +42,8 @@ def transform_of(thing: Element, steps: dict[str, dict[str, Any]]) -> Steps:
     for name in element.words():
         if name not in steps:
             raise element.unexpected(
-                f"names such as t1, s1 or r1 of a Translation, Scaling or Rotation; {name}: {suggest(name, steps)}"
+                "names such as t1, s1, r1 or c1 of a Translation, Scaling, Rotation or Composite;"
+                f" {name}: {suggest(name, steps)}"
             )
         chosen.append(steps[name])
     return chosen
@@ -51,7 +57,20 @@ def _step(kind: str, element: Element) -> dict[str, Any]:
         if 0 in factors:
             raise element.unexpected("3 factors that are not 0, such as 1 2 1")
         return {"scale": list(factors)}
+    if kind == "Composite":
+        return {"matrix": _rows(element)}
     degrees, *axis = element.numbers(4, "90 0 1 0")
     if not any(axis):
         raise element.unexpected("degrees, and an axis that is not 0 0 0, such as 90 0 1 0")
     return {"rotate": {"axis": axis, "degrees": degrees}}
+
+
+def _rows(element: Element) -> list[list[float]]:
+    """The rows of a matrix that acts on columns."""
+    matrix = np.array(element.numbers(16, IDENTITY)).reshape(4, 4)
+    if matrix[3].tolist() != [0, 0, 0, 1]:
+        raise element.unexpected(f"a last row of 0 0 0 1, as in {IDENTITY}")
+    if flattens(matrix):
+        raise element.unexpected("a matrix that can be inverted; this one flattens what it maps")
+    rows: list[list[float]] = matrix.tolist()
+    return rows

@@ -49,6 +49,18 @@ def test_samples_lie_on_the_image_plane_row_0_on_top(metu: Metu, x: float, y: fl
     np.testing.assert_allclose(got, expected, atol=3e-7)
 
 
+@pytest.mark.parametrize("lens", [{}, {"ApertureSize": "0.4", "FocusDistance": "7"}])
+def test_the_axis_u_of_a_left_handed_camera_is_turned_round(metu: Metu, lens: Tree) -> None:
+    u, v, w = axes(TILTED, np.array([0.4, -0.6, -2]))
+    j, i = np.mgrid[:3, :6]
+    s, t = -1 + (i + 0.5) * 3 / 6, 1.5 - (j + 0.5) * 2 / 3
+    expected = -1.5 * w - s[..., None] * u + t[..., None] * v
+    expected /= np.linalg.norm(expected, axis=-1, keepdims=True)
+    scene = metu.load(tree(camera=TILTED | lens | {"_handedness": "left"}))
+    np.testing.assert_allclose(pixel_directions(scene, 0.5, 0.5), expected, atol=3e-7)
+    assert metu.warnings == []
+
+
 @pytest.mark.parametrize("aim", [{"GazePoint": "1.4 1.4 3"}, {"Gaze": "0.4 -0.6 -2"}])
 def test_a_look_at_camera_has_a_vertical_field_of_view(metu: Metu, aim: Tree) -> None:
     camera = {

@@ -17,6 +17,7 @@ STEPS: Tree = {
     "Translation": [{"_id": "1", "_data": "10 0 0"}, {"_id": "2", "_data": "0 0 5"}],
     "Scaling": {"_id": "1", "_data": "2 3 1"},
     "Rotation": {"_id": "3", "_data": "90 0 0 2"},
+    "Composite": {"_id": "1", "_data": "0 -1 0 7  1 0 0 0  0 0 2 -3  0 0 0 1"},
 }
 FACES = "1 2 3"
 TRIANGLE = "1 0 0  2 0 0  1 1 0"
@@ -41,6 +42,10 @@ def one_mesh(transformations: str, **keys: object) -> Tree:
         ("s1 r3 t1", [10, 2, 0]),
         ("r3 s1 t1 t2", [10, 3, 5]),
         (" r3\n r3 ", [-1, 0, 0]),
+        # Its rows: to 7 - y, x, 2 z - 3.
+        ("c1", [7, 1, -3]),
+        ("t1 c1 s1", [14, 33, -3]),
+        ("c1 c1", [6, 7, -9]),
     ],
 )
 def test_steps_apply_from_left_to_right(metu: Metu, names: str, corner: list[float]) -> None:
@@ -85,6 +90,22 @@ def test_an_instance_has_a_material_of_its_own_or_its_bases(metu: Metu) -> None:
     scene["Materials"]["Material"].append(MATT | {"_id": "7"})
     names = [thing.material for thing in metu.load(scene).loaded.description.objects]
     assert names == ["material 1", "material 7", "material 7"]
+
+
+@pytest.mark.parametrize(
+    ("own", "velocity"), [(None, (2, 0, 1)), ("0 3 0", (0, 3, 0)), ("0 0 0", (0, 0, 0))]
+)
+@pytest.mark.parametrize("reset", ["false", "true"])
+def test_an_instance_moves_as_its_base_unless_it_says_how(
+    metu: Metu, own: str | None, velocity: tuple[float, ...], reset: str
+) -> None:
+    """Whether its transformation is reset or not: motion is none."""
+    keys = {} if own is None else {"MotionBlur": own}
+    scene = one_mesh("t1", MotionBlur="2 0 1")
+    moving = instance(2, 1, _resetTransform=reset, **keys)
+    scene["Objects"]["MeshInstance"] = [moving, instance(3, 2)]
+    things = metu.load(scene).loaded.description.objects
+    assert [thing.motion.velocity for thing in things] == [(2, 0, 1), velocity, velocity]
 
 
 def test_a_sphere_is_stretched_after_it_is_put_at_its_vertex(metu: Metu) -> None:

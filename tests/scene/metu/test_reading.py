@@ -58,6 +58,10 @@ MISTAKES: list[tuple[Change, str]] = [
         "Camera: FocusDistance is missing or 0: expected a distance > 0",
     ),
     (
+        lambda s: s["Cameras"]["Camera"].update(_handedness="both"),
+        'Camera: handedness is "both": expected right or left',
+    ),
+    (
         lambda s: s["Cameras"]["Camera"].update(_type="fisheye"),
         "Camera: type is 'fisheye': expected lookAt or none",
     ),
@@ -113,7 +117,7 @@ MISTAKES: list[tuple[Change, str]] = [
     ),
     (
         lambda s: s["Objects"]["Mesh"].update(Transformations="t1"),
-        'Mesh/Transformations is "t1": expected names such as t1, s1 or r1',
+        'Mesh/Transformations is "t1": expected names such as t1, s1, r1 or c1',
     ),
     (
         lambda s: s["Objects"].update(MeshInstance={"_id": "2", "_baseMeshId": "2"}),
@@ -132,6 +136,20 @@ MISTAKES: list[tuple[Change, str]] = [
     (
         lambda s: s.update(Transformations={"Rotation": {"_id": "1", "_data": "90 0 0 0"}}),
         'Transformations/Rotation is "90 0 0 0": expected degrees, and an axis',
+    ),
+    (
+        lambda s: s.update(Transformations={"Composite": {"_id": "1", "_data": "1 0 0 0"}}),
+        'Transformations/Composite is "1 0 0 0": expected 16 numbers, such as 1 0 0 0  0 1 0 0',
+    ),
+    (
+        lambda s: s.update(Transformations={"Composite": {"_id": "1", "_data": "1 0 0 0 " * 4}}),
+        "expected a last row of 0 0 0 1, as in 1 0 0 0  0 1 0 0",
+    ),
+    (
+        lambda s: s.update(
+            Transformations={"Composite": {"_id": "1", "_data": "1 2 3 0 4 5 6 0 7 8 9 0 0 0 0 1"}}
+        ),
+        "expected a matrix that can be inverted; this one flattens what it maps",
     ),
     (lambda s: s.update(VertexData="1 2 3 4"), "VertexData: has 4 numbers"),
     (lambda s: s.update(MaxRecursionDepth="six"), 'MaxRecursionDepth is "six": expected 1 number'),
@@ -204,7 +222,7 @@ def test_missing_files_and_folders_are_told(tmp_path: Path) -> None:
 
 def test_what_is_not_known_is_named_once_a_kind(metu: Metu) -> None:
     scene = tree(
-        camera={"Tonemap": {"TMO": "Photographic"}, "_handedness": "left"},
+        camera={"Tonemap": {"TMO": "Photographic"}, "_fovAxis": "x"},
         lights={"AmbientLight": "9 9 9", "SpotLight": [{"_id": "1"}, {"_id": "2"}, {"_id": "3"}]},
         Textures={"Images": ""},
     )
@@ -213,7 +231,7 @@ def test_what_is_not_known_is_named_once_a_kind(metu: Metu) -> None:
     warnings = "\n".join(metu.warnings)
     for part in (
         "Scene/Cameras/Camera/Tonemap is not known, and was left out",
-        "Scene/Cameras/Camera, attribute handedness is not known",
+        "Scene/Cameras/Camera, attribute fovAxis is not known",
         "Scene/Lights/SpotLight[1] is not known, and was left out (and 2 more of this kind)",
         "Scene/Textures is not known",
         "Scene/Objects/Mesh/Textures is not known",
@@ -225,7 +243,7 @@ def test_what_is_not_known_is_named_once_a_kind(metu: Metu) -> None:
 
 def test_everything_that_is_known_is_silent(metu: Metu) -> None:
     scene = tree(
-        camera={"_type": "simple", "_handedness": "right"},
+        camera={"_type": "simple", "_handedness": "left"},
         ShadowRayEpsilon="1e-3",
         IntersectionTestEpsilon="1e-6",
         MaxRecursionDepth="6",

@@ -1,0 +1,204 @@
+"""What division by contrast saves: camera rays at equal error, spread evenly over those through corners.
+
+Rays are counted, not timed. Evenly spread are k x k cell centres in every pixel, and Sobol points; their errors against
+a converged picture say how many rays they would need for the error that division leaves. Once for the scene as it is,
+whose wires pass between corners unseen, and once without its wires. The figures are
+`out/bench/adaptive_sampling_NAME.svg`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from benchmarks.drawing import OUT, Line, draw_lines, logarithmic, sheet, slopes, styled, write
+from benchmarks.figures import Figure
+from course import Picture, Scene, load_scene, render
+from course.benchmarking.tables import NONE, Table, digits, print_tables
+from course.benchmarking.variants import load_variant
+from course.core.types import Floats64
+from course.effects import PROJECT
+
+SCENE = PROJECT / "scenes" / "adaptive_sampling.yaml"
+THREADS = 2
+THIN = "wire"
+"""The material of what is missed."""
+
+GOALS = {"wires": {2: 3.0, 3: 2.0}, "edges": {2: 4.0, 3: 5.0}}
+"""Rays of the grid over those of the divided picture, by depth; at the least."""
+
+
+@dataclass(frozen=True)
+class Effort:
+    """Size of the pictures, samples of the converged one, and what is compared."""
+
+    size: tuple[int, int] = (240, 180)
+    reference: int = 1024
+    depths: tuple[int, ...] = (0, 1, 2, 3, 4, 5)
+    thresholds: tuple[float, ...] = (0.4, 0.1, 0.025)
+    even: tuple[int, ...] = (1, 4, 16, 64, 256)
+
+
+@dataclass(frozen=True)
+class Point:
+    """A picture: camera rays a pixel, and its root-mean-square error."""
+
+    rays: float
+    error: float
+
+
+@dataclass(frozen=True)
+class Division:
+    """A divided picture, and the rays a pixel that evenly spread ones would need for its error.
+
+    Attributes
+    ----------
+    saved : part of the corners of the smallest cells that got no rays
+    regular, sobol : NaN where more rays would be needed than were tried
+    """
+
+    threshold: float
+    depth: int
+    point: Point
+    saved: float
+    regular: float
+    sobol: float
+
+
+@dataclass(frozen=True)
+class Measured:
+    """What was found in one scene."""
+
+    regular: list[Point]
+    sobol: list[Point]
+    divisions: list[Division]
+
+
+def measure_adaptive_sampling() -> list[Figure]:
+    """Print and draw the errors over rays; the rays saved at the scene's own threshold and depth."""
+    figures = []
+    division = load_scene(SCENE).settings.subdivision
+    assert division is not None
+    for name, title, thin in (
+        ("wires", "with its wires", True),
+        ("edges", "without its wires", False),
+    ):
+        found = measure(thin, Effort())
+        print_tables([table(found, title)])
+        draw(found, title, OUT / f"adaptive_sampling_{name}.svg")
+        for depth, goal in GOALS[name].items():
+            chosen = [
+                one
+                for one in found.divisions
+                if (one.threshold, one.depth) == (division.threshold, depth)
+            ]
+            gain = chosen[0].regular / chosen[0].point.rays
+            label = f"division {title}, depth {depth}: rays, even grid / divided"
+            figures.append(Figure(label, gain, gain, gain, goal, at_least=True))
+    return figures
+
+
+def measure(thin: bool, effort: Effort) -> Measured:
+    """Even and divided pictures of the scene, with what is thin or without."""
+    even, reference = _scene(thin, None), None
+    reference = render(
+        even, size=effort.size, spp=effort.reference, sampler="sobol", seed=99, threads=THREADS
+    ).linear.astype(np.float64)
+
+    def point(picture: Picture) -> Point:
+        error = math.sqrt(float(((picture.linear - reference) ** 2).mean()))
+        return Point(picture.receipt.rays["camera"] / picture.receipt.pixels, error)
+
+    curves = {
+        sampler: [
+            point(render(even, size=effort.size, spp=spp, sampler=sampler, threads=THREADS))
+            for spp in effort.even
+        ]
+        for sampler in ("regular", "sobol")
+    }
+    divisions = []
+    for threshold in effort.thresholds:
+        for depth in effort.depths:
+            scene = _scene(thin, {"threshold": threshold, "depth": depth})
+            picture = render(scene, size=effort.size, threads=THREADS)
+            found = point(picture)
+            told = picture.receipt.subdivision
+            assert told is not None
+            equal = {name: rays_for(found.error, curve) for name, curve in curves.items()}
+            divisions.append(Division(threshold, depth, found, told["saved"], **equal))
+    return Measured(curves["regular"], curves["sobol"], divisions)
+
+
+def _scene(thin: bool, division: dict[str, float] | None) -> Scene:
+    scene = load_scene(SCENE)
+    things = scene.loaded.document.data["objects"]
+    kept = [thing for thing in things if thin or thing["material"] != THIN]
+    return load_variant(SCENE, {("film", "subdivision"): division, ("objects",): kept})
+
+
+def rays_for(error: float, curve: list[Point]) -> float:
+    """Rays a pixel at which a falling curve reaches an error, on straight lines between its points in logarithms.
+
+    NaN where the error is below the curve's last, and the first point's rays where it is above the first.
+    """
+    x, y = np.log([point.rays for point in curve]), np.log([point.error for point in curve])
+    if math.log(error) < y[-1]:
+        return math.nan
+    return float(np.exp(np.interp(-math.log(error), -y, x)))
+
+
+def table(found: Measured, title: str) -> Table:
+    """A row for each threshold and depth."""
+    columns = (
+        "threshold",
+        "depth",
+        "rays a pixel",
+        "RMSE",
+        "of the lattice",
+        "k x k grid",
+        "times",
+        "Sobol",
+        "times",
+    )
+    most = max(point.rays for point in found.regular)
+    rows = []
+    for one in found.divisions:
+        cells = [f"{one.threshold:g}", f"{one.depth}", f"{one.point.rays:.2f}"]
+        cells += [digits(one.point.error), f"{1 - one.saved:.1%}"]
+        for equal in (one.regular, one.sobol):
+            reached = not math.isnan(equal)
+            cells += [f"{equal:.1f}" if reached else f"> {most:g}"]
+            cells += [f"{equal / one.point.rays:.1f}" if reached else NONE]
+        rows.append(tuple(cells))
+    about = f"The scene {title}: camera rays a pixel, and how many spread evenly for the same error"
+    return Table(about, columns, tuple(rows))
+
+
+def draw(found: Measured, title: str, path: Path) -> Path:
+    """Error over camera rays a pixel."""
+    with styled():
+        about = "error against the converged picture; each mark of a divided one is a depth"
+        figure = sheet(f"Division by contrast, the scene {title}", about)
+        axes = figure.add_axes((0.1, 0.15, 0.58, 0.62))
+        logarithmic(axes, "camera rays a pixel", "RMSE")
+        lines = [_line("k x k grid", found.regular, 3), _line("Sobol", found.sobol, 2)]
+        thresholds = list(dict.fromkeys(one.threshold for one in found.divisions))
+        for style, threshold in zip((0, 1, 4, 5), thresholds, strict=False):
+            points = [one.point for one in found.divisions if one.threshold == threshold]
+            lines.append(_line(f"divided over {threshold:g}", points, style))
+        draw_lines(axes, lines)
+        slopes(
+            axes, lines[0].x, 1.4 * float(lines[0].y[0]), [(-0.5, "order -1/2"), (-1, "order -1")]
+        )
+        return write(figure, path)
+
+
+def _line(name: str, points: list[Point], style: int) -> Line:
+    def column(of: Callable[[Point], float]) -> Floats64:
+        return np.array([of(point) for point in points])
+
+    return Line(name, column(lambda point: point.rays), column(lambda point: point.error), style)

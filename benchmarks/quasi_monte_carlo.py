@@ -1,0 +1,245 @@
+"""Error over the number of points: random, jittered, Sobol, Hammersley, Halton, and patterns chained by ids.
+
+Three integrals whose values are known: the area of a disk, a smooth function of two numbers, and a product of six, as
+a path takes them: two each for the pixel, the lens and the light. Every point set is drawn anew for each seed, so that
+an error can be told from luck: Hammersley's and Halton's points, and the patterns, are shifted by a random number
+modulo 1 in each dimension; Sobol's are the renderer's own, scrambled. In six dimensions jittered points are stratified
+pair by pair, the pairs in random order. The figures are `out/bench/quasi_monte_carlo_NAME.svg`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from benchmarks.drawing import OUT, Line, draw_lines, logarithmic, sheet, slopes, styled, write
+from benchmarks.figures import Figure
+from course.benchmarking.orders import Order, fit_order
+from course.benchmarking.tables import Table, digits, print_tables
+from course.core.samplers import Block
+from course.core.samplers.sobol import SobolSampler
+from course.core.types import Floats32, Floats64
+from course.effects import PROJECT, Effects
+
+COUNTS = tuple(4**power for power in range(2, 8))
+"""Numbers of points: squares for the jittered ones, and powers of 2 for the others."""
+
+SEEDS = 64
+STRETCH = 1024
+COMMON = 1024
+
+MODULE = Effects(PROJECT / "solutions")
+halton = MODULE.function("quasi_monte_carlo", "halton")
+hammersley = MODULE.function("quasi_monte_carlo", "hammersley")
+radical_inverse = MODULE.function("quasi_monte_carlo", "radical_inverse")
+chain = MODULE.function("quasi_monte_carlo", "chain")
+random = MODULE.function("supersampling", "random")
+jittered = MODULE.function("supersampling", "jittered")
+
+Points = Callable[[int, int, int], Floats32]
+"""(dims, n) for n, dims and a seed."""
+
+
+@dataclass(frozen=True)
+class Integral:
+    """A mean over the unit cube.
+
+    Attributes
+    ----------
+    f : of points (dims, n) float64
+    value : of the mean
+    """
+
+    name: str
+    title: str
+    dims: int
+    f: Callable[[Floats64], Floats64]
+    value: float
+
+
+INTEGRALS = (
+    Integral(
+        "disk",
+        "a disk's area",
+        2,
+        lambda x: ((2 * x - 1) ** 2).sum(axis=0) < 1,
+        math.pi / 4,
+    ),
+    Integral(
+        "smooth",
+        "a smooth function, exp(x + y)",
+        2,
+        lambda x: np.exp(x.sum(axis=0)),
+        (math.e - 1) ** 2,
+    ),
+    Integral(
+        "path",
+        "a product of six, as of pixel, lens and light",
+        6,
+        lambda x: (math.pi / 2 * np.sin(math.pi * x)).prod(axis=0),
+        1.0,
+    ),
+)
+
+
+@dataclass(frozen=True)
+class Curve:
+    """Squared errors (counts, seeds) of one point set."""
+
+    name: str
+    mse: Floats64
+    order: Order
+
+    @property
+    def rmse(self) -> Floats64:
+        """(counts,) root-mean-square errors over the seeds."""
+        return np.sqrt(self.mse.mean(axis=1))
+
+
+def measure_quasi_monte_carlo() -> list[Figure]:
+    """Print and draw the errors; the fitted orders with their intervals."""
+    figures = []
+    tables = []
+    for integral in INTEGRALS:
+        curves = measure(integral, COUNTS, SEEDS)
+        tables.append(table(integral, curves))
+        draw(integral, curves, OUT / f"quasi_monte_carlo_{integral.name}.svg")
+        figures += [
+            Figure(
+                f"{integral.title}: order of {curve.name}",
+                curve.order.value,
+                curve.order.low,
+                curve.order.high,
+                GOALS[integral.name].get(curve.name, -0.45),
+            )
+            for curve in curves
+        ]
+    print_tables(tables)
+    return figures
+
+
+GOALS = {
+    "disk": {"jittered": -0.7, "Sobol": -0.65, "Hammersley": -0.65, "Halton": -0.6},
+    "smooth": {"jittered": -0.9, "Sobol": -1.2, "Hammersley": -0.85, "Halton": -0.85},
+    "path": {"Hammersley": -0.7, "Halton": -0.7},
+}
+"""Orders to be reached, at most; -0.45 where nothing better than random points is promised."""
+
+
+# ---------------------------------------------------------------- point sets
+
+
+def _random(n: int, dims: int, seed: int) -> Floats32:
+    side = math.isqrt(n)
+    rng = np.random.default_rng(seed)
+    pairs = [random(side, 1, rng)[:, 0] for _ in range(dims // 2)]
+    return np.concatenate(pairs)
+
+
+def _jittered(n: int, dims: int, seed: int) -> Floats32:
+    side = math.isqrt(n)
+    rng = np.random.default_rng(seed)
+    pairs = [jittered(side, 1, rng)[:, 0] for _ in range(dims // 2)]
+    return np.concatenate([pairs[0], *(rng.permutation(pair, axis=1) for pair in pairs[1:])])
+
+
+def _sobol(n: int, dims: int, seed: int) -> Floats32:
+    """The renderer's own, of a pixel of that number, in stretches no longer than the renderer asks for."""
+    pixel, sampler = np.array([seed], np.uint32), SobolSampler(1)
+    length = min(n, STRETCH)
+    stretches = [Block(pixel, first, length, 0) for first in range(0, n, length)]
+    return np.concatenate([sampler.draw(block, 0, dims) for block in stretches], axis=1)
+
+
+def _hammersley(n: int, dims: int, seed: int) -> Floats32:
+    return shifted(hammersley(n, dims), np.random.default_rng(seed))
+
+
+def _halton(n: int, dims: int, seed: int) -> Floats32:
+    return shifted(halton(np.arange(n), dims), np.random.default_rng(seed))
+
+
+def _chained(n: int, dims: int, seed: int) -> Floats32:
+    """Six dimensions as three patterns of pairs; two as two patterns of one dimension each."""
+    rng = np.random.default_rng(seed)
+    ids = np.arange(n)
+    alike = [radical_inverse(2, ids)[None]] * 2 if dims == 2 else [hammersley(n, 2)] * (dims // 2)
+    patterns = [shifted(pattern, rng) for pattern in alike]
+    return np.concatenate(chain(patterns, ids, rng))
+
+
+def shifted(points: Floats32, rng: np.random.Generator) -> Floats32:
+    """Points (dims, n) moved by one random vector, modulo 1: each is uniform then, and they are as even as before."""
+    moved: Floats32 = (points + rng.random((len(points), 1))) % 1.0
+    return moved
+
+
+SETS: dict[str, Points] = {
+    "random": _random,
+    "jittered": _jittered,
+    "Sobol": _sobol,
+    "Hammersley": _hammersley,
+    "Halton": _halton,
+    "chained ids": _chained,
+}
+
+
+# ---------------------------------------------------------------- measurements
+
+
+def measure(integral: Integral, counts: tuple[int, ...], seeds: int) -> list[Curve]:
+    """The errors of every point set, and the order that they fall with."""
+    curves = []
+    for name, points in SETS.items():
+        mse = np.empty((len(counts), seeds))
+        for row, n in enumerate(counts):
+            for seed in range(seeds):
+                # Other points for each number of them, lest the errors hang together.
+                x = points(n, integral.dims, 1000 * row + seed).astype(np.float64)
+                mse[row, seed] = (integral.f(x).mean() - integral.value) ** 2
+        order = fit_order(np.array(counts, np.float64), mse)
+        assert order is not None
+        curves.append(Curve(name, mse, order))
+    return curves
+
+
+def table(integral: Integral, curves: list[Curve]) -> Table:
+    """Errors and orders."""
+    shown = (COUNTS.index(64), COUNTS.index(COMMON), len(COUNTS) - 1)
+    columns = ("points", *(f"RMSE, {COUNTS[row]:,}" for row in shown), "order (95% interval)")
+    rows = tuple(
+        (
+            curve.name,
+            *(digits(float(curve.rmse[row])) for row in shown),
+            f"{curve.order.value:.2f} ({curve.order.low:.2f} .. {curve.order.high:.2f})",
+        )
+        for curve in curves
+    )
+    title = f"The mean of {integral.title}, {integral.value:.5f}; {SEEDS} seeds"
+    return Table(title, columns, rows)
+
+
+# ---------------------------------------------------------------- the figure
+
+
+def draw(integral: Integral, curves: list[Curve], path: Path) -> Path:
+    """All point sets on one plot, each with its order."""
+    with styled():
+        seeds = curves[0].mse.shape[1]
+        about = f"error of the mean over {seeds} seeds; the numbers at the right are fitted orders"
+        figure = sheet(f"Points for {integral.title}", about)
+        axes = figure.add_axes((0.1, 0.15, 0.58, 0.62))
+        logarithmic(axes, "points", "RMSE")
+        n = np.array(COUNTS[: len(curves[0].mse)], np.float64)
+        lines = [
+            Line(f"{curve.name}  {curve.order.value:.2f}", n, curve.rmse, style)
+            for style, curve in enumerate(curves)
+        ]
+        draw_lines(axes, lines)
+        start = 1.3 * max(float(curve.rmse[0]) for curve in curves)
+        slopes(axes, n, start, [(-0.5, "order -1/2"), (-1.0, "order -1")])
+        return write(figure, path)

@@ -1,0 +1,425 @@
+"""Textures through the engine: every texel where its formula puts it, on each kind of shape, in both tracers.
+
+An ambient light of 1 shows the colour of a surface and nothing else, so the expected values are the pictures' own.
+"""
+
+from __future__ import annotations
+
+import math
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import yaml
+from numpy.typing import NDArray
+
+from course import Scene, SceneError, load_scene, render
+from course.effects import PROJECT
+from course.imaging.files import save
+from course.imaging.reading import read_picture
+from course.rendering.parcel import pack, unpack
+
+MakeScene = Callable[..., Scene]
+Array = NDArray[np.float64]
+
+SCENES = PROJECT / "scenes"
+MODULE = "textures"
+TRACERS = ["distribution", "path"]
+CHECKER = np.array([[[1, 0, 0], [0, 1, 0]], [[0, 0, 1], [0.25, 0.5, 0.75]]], np.float32)
+"""Rows from the top, (2, 2, 3)."""
+
+
+@pytest.fixture
+def checker(tmp_path: Path) -> str:
+    save(tmp_path / "checker.exr", np.ascontiguousarray(CHECKER.transpose(2, 0, 1)))
+    return "checker.exr"
+
+
+def looked_at(
+    make_scene: MakeScene,
+    point: Any,
+    away: Any,
+    thing: dict[str, Any],
+    material: dict[str, Any],
+    kind: str = "distribution",
+    **more: Any,
+) -> Array:
+    """The colour of a surface at a point, seen from a direction."""
+    point, away = np.array(point, float), np.array(away, float)
+    up = [0, 0, -1] if abs(away[1]) > 0.9 * np.linalg.norm(away) else [0, 1, 0]
+    scene = make_scene(
+        camera={"eye": (point + away).tolist(), "look_at": point.tolist(), "up": up}
+        | {"vertical_fov": 1e-4},
+        film={"width": 1, "height": 1},
+        materials={"painted": material},
+        objects=[thing | {"material": "painted"}],
+        lights=[{"type": "ambient", "radiance": 1}],
+        integrator={"type": kind},
+        **more,
+    )
+    return render(scene).linear[0, 0].astype(np.float64)
+
+
+def bilinear(u: float, v: float) -> Array:
+    """The checker between its texels, by tents that repeat."""
+    color = np.zeros(3)
+    for j in range(2):
+        for i in range(2):
+            across = abs(u - (i + 0.5) / 2)
+            down = abs(v - (1 - (j + 0.5) / 2))
+            across, down = (min(d % 1, -d % 1) * 2 for d in (across, down))
+            color += max(0, 1 - across) * max(0, 1 - down) * CHECKER[j, i]
+    return color
+
+
+@pytest.mark.parametrize("kind", TRACERS)
+@pytest.mark.parametrize(
+    ("u", "v", "color"),
+    [
+        (0.25, 0.75, CHECKER[0, 0]),
+        (0.75, 0.75, CHECKER[0, 1]),
+        (0.25, 0.25, CHECKER[1, 0]),
+        (0.75, 0.25, CHECKER[1, 1]),
+        (0.5, 0.75, (CHECKER[0, 0] + CHECKER[0, 1]) / 2),
+        (0.25, 0.5, (CHECKER[0, 0] + CHECKER[1, 0]) / 2),
+        (0.5, 0.5, CHECKER.mean(axis=(0, 1))),
+        # Beyond the edge begins the opposite one.
+        (0.999999, 0.75, (CHECKER[0, 0] + CHECKER[0, 1]) / 2),
+        (0.4, 0.85, bilinear(0.4, 0.85)),
+    ],
+)
+def test_a_quad_has_its_texels_where_they_belong(
+    make_scene: MakeScene, checker: str, u: float, v: float, color: Array, kind: str
+) -> None:
+    quad = {"shape": "quad", "width": 3, "depth": 2}
+    point = (3 * (u - 0.5), 0, -2 * (v - 0.5))
+    seen = looked_at(make_scene, point, (0, 1, 0), quad, {"texture": {"image": checker}}, kind)
+    assert np.allclose(seen, color, rtol=0, atol=2e-4)
+
+
+def test_a_quad_keeps_its_picture_however_it_is_moved(make_scene: MakeScene, checker: str) -> None:
+    # Turned by 90 degrees about z, x becomes y; mirrored in x, and squeezed.
+    steps = [
+        {"scale": [-2, 1, 0.5]},
+        {"rotate": {"axis": [0, 0, 1], "degrees": 90}},
+        {"translate": [5, 6, 7]},
+    ]
+    for u, v in ((0.25, 0.75), (0.75, 0.75), (0.25, 0.25), (0.3, 0.9)):
+        x, z = u - 0.5, 0.5 - v
+        seen = looked_at(
+            make_scene,
+            (5, 6 - 2 * x, 7 + 0.5 * z),
+            (-1, 0, 0),
+            {"shape": "quad", "transform": steps},
+            {"texture": {"image": checker}},
+        )
+        assert np.allclose(seen, bilinear(u, v), rtol=0, atol=2e-4)
+
+
+def test_a_picture_repeats_as_often_as_is_said(make_scene: MakeScene, checker: str) -> None:
+    texture = {"image": checker, "repeat": [3, 2]}
+    for u, v in ((0.05, 0.1), (0.4, 0.55), (0.9, 0.8)):
+        seen = looked_at(
+            make_scene, (u - 0.5, 0, 0.5 - v), (0, 1, 0), {"shape": "quad"}, {"texture": texture}
+        )
+        assert np.allclose(seen, bilinear(3 * u % 1, 2 * v % 1), rtol=0, atol=5e-4)
+
+
+@pytest.mark.parametrize("turn", [0.0, 40.0])
+@pytest.mark.parametrize(
+    ("longitude", "latitude"),
+    [(45, 30), (135, 30), (225, -30), (315, -45), (90, 0), (180, 20), (2, -50), (358, 50)],
+)
+def test_a_sphere_is_a_globe(
+    make_scene: MakeScene, checker: str, longitude: float, latitude: float, turn: float
+) -> None:
+    # Eastwards from +x over -z, and turned on with the object about y, which turns eastwards as well.
+    u, v = longitude / 360, latitude / 180 + 0.5
+    azimuth, height = math.radians(longitude + turn), math.radians(latitude)
+    out = np.array(
+        [
+            math.cos(height) * math.cos(azimuth),
+            math.sin(height),
+            -math.cos(height) * math.sin(azimuth),
+        ]
+    )
+    ball = {"shape": "sphere", "radius": 2, "segments": 512}
+    steps = [{"rotate": {"axis": [0, 1, 0], "degrees": turn}}, {"translate": [1, 2, 3]}]
+    seen = looked_at(
+        make_scene,
+        np.array([1, 2, 3]) + 2 * out,
+        3 * out,
+        ball | {"transform": steps},
+        {"texture": {"image": checker}},
+    )
+    assert np.allclose(seen, bilinear(u, v), rtol=0, atol=2e-3)
+
+
+OBJ = """v 0 0 0
+v 1 0 0
+v 1 1 0
+v 0 1 0
+vt 0.25 0.75
+vt 0.75 0.75
+vt 0.75 0.25
+vt 0.25 0.25
+f 1/{} 2/{} 3/{}
+f 1/{} 3/{} 4/{}
+"""
+
+
+@pytest.mark.parametrize("kind", TRACERS)
+def test_a_mesh_has_the_places_that_its_file_says(
+    make_scene: MakeScene, tmp_path: Path, checker: str, kind: str
+) -> None:
+    # The triangles share two corners of the square; at one of them each has a place of its own, as at a seam.
+    (tmp_path / "square.obj").write_text(OBJ.format(1, 2, 3, 4, 3, 2), encoding="utf-8")
+    mesh = {"shape": "mesh", "file": "square.obj"}
+    corners = {1: (0.25, 0.75), 2: (0.75, 0.75), 3: (0.75, 0.25), 4: (0.25, 0.25)}
+    for x, y in ((0.7, 0.2), (0.9, 0.5), (0.2, 0.7), (0.1, 0.3)):
+        weights = {1: 1 - x, 2: x - y, 3: y} if y < x else {4: 1 - y, 3: x, 2: y - x}
+        u, v = (sum(w * corners[k][i] for k, w in weights.items()) for i in (0, 1))
+        seen = looked_at(
+            make_scene, (x, y, 0), (0, 0, 1), mesh, {"texture": {"image": checker}}, kind
+        )
+        assert np.allclose(seen, bilinear(u, v), rtol=0, atol=2e-4)
+
+
+def test_a_box_has_the_picture_on_each_side(make_scene: MakeScene, checker: str) -> None:
+    seen = [
+        looked_at(
+            make_scene,
+            0.5 * np.array(side),
+            side,
+            {"shape": "box"},
+            {"texture": {"image": checker}},
+        )
+        for side in ((1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1))
+    ]
+    assert np.allclose(seen, CHECKER.mean(axis=(0, 1)), rtol=0, atol=2e-4)
+
+
+def test_codes_are_decoded_to_linear_light(make_scene: MakeScene, tmp_path: Path) -> None:
+    save(tmp_path / "grey.png", np.full((3, 2, 2), 0.21586, np.float32))  # code 128
+    seen = looked_at(
+        make_scene, (0, 0, 0), (0, 1, 0), {"shape": "quad"}, {"texture": {"image": "grey.png"}}
+    )
+    assert np.allclose(seen, ((128 / 255 + 0.055) / 1.055) ** 2.4, rtol=0, atol=1e-6)
+
+
+def test_the_colour_is_multiplied_and_left_out_it_is_what_the_mirror_leaves(
+    make_scene: MakeScene, checker: str
+) -> None:
+    for material, factor in (
+        ({"color": [0.5, 0.25, 1]}, np.array([0.5, 0.25, 1])),
+        ({"ambient_color": [1, 0.5, 0.25]}, np.array([1, 0.5, 0.25])),
+        ({"mirror": 0.25}, np.array(0.75)),
+    ):
+        seen = looked_at(
+            make_scene,
+            (0, 0, 0),
+            (0, 1, 0),
+            {"shape": "quad"},
+            {"texture": {"image": checker}} | material,
+        )
+        assert np.allclose(seen, factor * CHECKER.mean(axis=(0, 1)), rtol=0, atol=2e-4)
+
+
+@pytest.mark.parametrize("kind", TRACERS)
+def test_direct_light_shows_the_texture_and_leaves_the_highlight_white(
+    make_scene: MakeScene, checker: str, kind: str
+) -> None:
+    # E = I / d^2 straight from above; color / pi of it is diffuse, 0.5 / pi is the highlight.
+    scene = make_scene(
+        camera={"eye": [0, 3, 0], "look_at": [0, 0, 0], "up": [0, 0, -1], "vertical_fov": 1e-4},
+        film={"width": 1, "height": 1},
+        materials={"painted": {"texture": {"image": checker}, "specular": 0.5}},
+        objects=[{"shape": "quad", "material": "painted"}],
+        lights=[{"type": "point", "position": [0, 2, 0], "intensity": 4 * math.pi}],
+        integrator={"type": kind},
+    )
+    expected = CHECKER.mean(axis=(0, 1)) + 0.5
+    assert np.allclose(render(scene).linear[0, 0], expected, rtol=0, atol=1e-3)
+
+
+def test_paths_carry_the_texture_s_colour(make_scene: MakeScene, tmp_path: Path) -> None:
+    # In a closed box whose walls reflect c, and give off c by an ambient light of 1: c (1 + c + c^2 + ...).
+    colors = np.array([0.5, 0.25, 1], np.float32)
+    save(tmp_path / "half.exr", np.broadcast_to(colors[:, None, None], (3, 2, 3)).copy())
+    scene = make_scene(
+        camera={"eye": [0.1, 0.2, 0.1], "look_at": [0.3, -0.5, 0.2]},
+        film={"width": 8, "height": 8},
+        sampler={"samples": 16},
+        materials={"painted": {"color": 0.5, "texture": {"image": "half.exr"}}},
+        objects=[{"shape": "box", "material": "painted"}],
+        lights=[{"type": "ambient", "radiance": 1}],
+        integrator={"type": "path", "max_depth": 40, "roulette": None},
+    )
+    c = np.array([0.25, 0.125, 0.5])
+    assert np.allclose(render(scene).linear, c / (1 - c), rtol=1e-4)
+
+
+def test_a_moving_object_takes_its_picture_along(make_scene: MakeScene, checker: str) -> None:
+    # As long as the shutter is open the texel on the axis is another one; their mean is by the formula.
+    scene = make_scene(
+        camera={"eye": [0, 3, 0], "look_at": [0, 0, 0], "up": [0, 0, -1], "vertical_fov": 1e-4},
+        film={"width": 1, "height": 1},
+        sampler={"samples": 1024},
+        materials={"painted": {"texture": {"image": checker}}},
+        objects=[{"shape": "quad", "material": "painted", "width": 4, "depth": 4}
+                 | {"motion": {"velocity": [1, 0, 0]}}],
+        lights=[{"type": "ambient", "radiance": 1}],
+    )  # fmt: skip
+    expected = np.mean([bilinear(0.5 - t / 4, 0.5) for t in (np.arange(400) + 0.5) / 400], axis=0)
+    assert np.allclose(render(scene).linear[0, 0], expected, rtol=0, atol=1e-3)
+
+
+PLAIN: dict[str, dict[str, Any]] = {
+    "no texture": {"materials": {"grey": {}}},
+    "on nothing": {"materials": {"grey": {}, "other": {"texture": {"image": "missing.png"}}}},
+    "on clear glass": {"materials": {"grey": {"dielectric": {}, "texture": {"image": "missing.png"}}}},
+    "on black": {"materials": {"grey": {"color": 0, "texture": {"image": "missing.png"}}}},
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("parts", PLAIN.values(), ids=list(PLAIN))
+def test_a_scene_that_shows_no_texture_pays_nothing(
+    make_scene: MakeScene, parts: dict[str, Any]
+) -> None:
+    scene = make_scene(
+        objects=[{"shape": "sphere", "material": "grey"}],
+        lights=[{"type": "ambient", "radiance": 1}],
+        **parts,
+    )
+    receipt = render(scene).receipt
+    assert scene.compiled.world.surface.painting is None
+    assert MODULE not in scene.effects.imported
+    assert receipt.effects["skipped"][MODULE] == "no surface shows a texture"
+    assert not any(name.startswith(MODULE) for name in receipt.effects["called"])
+
+
+def test_the_receipt_names_the_functions_of_the_shapes(make_scene: MakeScene, checker: str) -> None:
+    objects = [{"shape": "quad"}, {"shape": "sphere"}, {"shape": "cone"}]
+    names = ["rectangle_uv", "sphere_uv", "triangle_uv"]
+    for thing, name in zip(objects, names, strict=True):
+        scene = make_scene(
+            materials={"painted": {"texture": {"image": checker}}},
+            objects=[thing | {"material": "painted"}],
+            lights=[{"type": "ambient", "radiance": 1}],
+        )
+        called = render(scene).receipt.effects["called"]
+        assert {f for f in called if f.startswith(MODULE)} == {
+            f"{MODULE}.{name}",
+            f"{MODULE}.texture_lookup",
+        }
+
+
+def refused(make_scene: MakeScene, image: str, thing: dict[str, Any] | None = None) -> str:
+    with pytest.raises(SceneError) as caught:
+        make_scene(
+            materials={"painted": {"texture": {"image": image}}},
+            objects=[(thing or {"shape": "quad"}) | {"material": "painted"}],
+        )
+    return str(caught.value)
+
+
+def test_what_is_no_picture_of_reflectances_is_refused_by_name(
+    make_scene: MakeScene, tmp_path: Path
+) -> None:
+    for name, value, said in (
+        ("nan.exr", np.nan, "the pixel in column 1, row 2 is negative or not finite"),
+        ("inf.exr", np.inf, "the pixel in column 1, row 2 is negative or not finite"),
+        ("bright.exr", 1.5, "the pixel in column 1, row 2 is 1.5"),
+    ):
+        picture = np.full((3, 4, 3), 0.5, np.float32)
+        picture[0, 2, 1] = value
+        import OpenImageIO
+
+        file = OpenImageIO.ImageOutput.create(str(tmp_path / name))
+        file.open(str(tmp_path / name), OpenImageIO.ImageSpec(3, 4, 3, "float"))
+        file.write_image(np.ascontiguousarray(picture.transpose(1, 2, 0)))
+        file.close()
+        message = refused(make_scene, name)
+        assert said in message
+        assert name in message
+        assert "materials.painted.texture.image" in message
+    assert "no such file" in refused(make_scene, "missing.png")
+    (tmp_path / "text.png").write_text("no picture", encoding="utf-8")
+    assert "not a picture that can be read" in refused(make_scene, "text.png")
+
+
+def test_a_mesh_without_places_is_refused(
+    make_scene: MakeScene, tmp_path: Path, checker: str
+) -> None:
+    (tmp_path / "bare.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", encoding="utf-8")
+    message = refused(make_scene, checker, {"shape": "mesh", "file": "bare.obj"})
+    assert "objects[0]" in message
+    assert "no texture coordinates" in message
+
+
+def test_another_machine_gets_the_pictures_too(
+    make_scene: MakeScene, tmp_path: Path, checker: str
+) -> None:
+    scene = make_scene(
+        camera={"eye": [0, 3, 0.1], "look_at": [0, 0, 0]},
+        materials={
+            "painted": {"texture": {"image": checker}},
+            "other": {"texture": {"image": "missing.png"}},
+        },
+        objects=[{"shape": "quad", "material": "painted"}],
+        lights=[{"type": "ambient", "radiance": 1}],
+    )
+    here = render(scene).linear
+    content = pack(scene).content
+    (tmp_path / checker).unlink()
+    folder = tmp_path / "there"
+    folder.mkdir()
+    assert np.array_equal(render(unpack(content, folder)).linear, here)
+
+
+@pytest.mark.parametrize(("folder", "calls"), [("", True), ("before", False)])
+def test_only_the_scene_calls_the_module(folder: str, calls: bool) -> None:
+    scene = load_scene(SCENES / folder / f"{MODULE}.yaml")
+    called = render(scene, size=(32, 20), spp=4).receipt.effects["called"]
+    found = {name.partition(".")[2] for name in called if name.startswith(f"{MODULE}.")}
+    every = {"rectangle_uv", "sphere_uv", "triangle_uv", "texture_lookup"}
+    assert found == (every if calls else set())
+    assert (MODULE in scene.effects.imported) == calls
+
+
+def test_the_twin_has_the_mean_colour_of_each_picture() -> None:
+    after, before = (
+        yaml.safe_load((SCENES / folder / f"{MODULE}.yaml").read_text(encoding="utf-8"))
+        for folder in ("", "before")
+    )
+    for name in ("floor", "globe", "vase"):
+        painted, plain = after["materials"][name], before["materials"][name]
+        image = read_picture(SCENES / painted.pop("texture")["image"])
+        mean = image.mean(axis=(0, 1)) * (1 - painted.get("mirror", 0))
+        assert plain.pop("color") == pytest.approx(list(mean), abs=0.001)
+    after["environment"]["image"] = "../" + after["environment"]["image"]
+    for thing in after["objects"]:
+        if "file" in thing:
+            thing["file"] = "../" + thing["file"]
+    assert after == before
+
+
+def test_the_textures_are_what_their_script_paints(tmp_path: Path) -> None:
+    folder = SCENES / "textures"
+    script = tmp_path / "make_textures.py"
+    script.write_text((folder / "make_textures.py").read_text(encoding="utf-8"), encoding="utf-8")
+    subprocess.run([sys.executable, script], cwd=PROJECT, check=True, timeout=120)
+    made = {path.name for path in tmp_path.iterdir()} - {script.name}
+    assert made == {"globe.png", "tiles.png", "weave.png", "vase.obj"}
+    for name in made:
+        assert (folder / name).stat().st_size < 300_000
+        if name.endswith(".png"):
+            # A code may fall the other way on another machine.
+            difference = abs(read_picture(folder / name) - read_picture(tmp_path / name))
+            assert difference.max() <= 0.01
+        else:
+            assert (folder / name).read_text() == (tmp_path / name).read_text()
