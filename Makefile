@@ -7,6 +7,8 @@
 VENV := .venv
 DEMO_SCENES ?= $(addprefix scenes/,$(addsuffix .yaml,still_life knots hills hall_of_mirrors))
 DEMO_FOLDER ?= out/demo
+SITE ?= out/site
+PORT ?= 8000
 
 # The newest Python that runs and can make an environment; only asked for where there is none yet.
 ifeq ($(OS),Windows_NT)
@@ -22,7 +24,7 @@ endif
 RUN := $(BIN)/python
 STAMP := $(VENV)/.installed
 
-.PHONY: help setup check test demo bench stress mutants clean
+.PHONY: help setup check test demo bench stress mutants docs docs-serve clean
 
 help:  ## list what make can do
 	@echo "make demo    render four scenes and a page that shows them, in $(DEMO_FOLDER)"
@@ -31,6 +33,8 @@ help:  ## list what make can do
 	@echo "make bench   measure, print and write JSON"
 	@echo "make stress  thousands of ill-conditioned scenes beside their well-conditioned twins"
 	@echo "make mutants grade every known submission, right and wrong, and print what became of it"
+	@echo "make docs    build the site in $(SITE), with a picture of every scene that it shows"
+	@echo "make docs-serve  build it and show it at http://127.0.0.1:$(PORT)"
 	@echo "make setup   make $(VENV) and install into it (the others do it when needed)"
 	@echo "make clean   remove $(VENV) and all that was made"
 
@@ -71,6 +75,17 @@ stress: $(STAMP)
 
 mutants: $(STAMP)
 	"$(RUN)" -m benchmarks.mutants
+
+# What the site needs is installed when it is first built. Pictures are kept in out/docs;
+# `make docs SPHINXOPTS="-D pictures=blank"` does without, for a quick look at the text.
+docs: $(STAMP)
+	@"$(RUN)" -c "import furo, latex2mathml, myst_parser, sphinx" 2>/dev/null \
+		|| "$(RUN)" -m pip --disable-pip-version-check -qq install --editable ".[docs]"
+	@"$(RUN)" -m sphinx -W --keep-going -q -b html -d out/docs/doctrees $(SPHINXOPTS) docs $(SITE)
+	@echo "$(SITE)/index.html"
+
+docs-serve: docs
+	"$(RUN)" -m http.server --bind 127.0.0.1 --directory $(SITE) $(PORT)
 
 clean:
 	@"$(or $(PYTHON),python3)" -c "import shutil; [shutil.rmtree(f, True) for f in '$(VENV) build dist out .pytest_cache .mypy_cache .ruff_cache .hypothesis'.split()]"

@@ -273,7 +273,8 @@ def _light(light: d.Light) -> dict[str, Any]:
                 "towards": towards.tolist(),
                 "irradiance": _list(light.irradiance),
             }
-        case d.SphereLight() if light.samples == "sphere":
+        # Where on a sphere by radiance the points are is no matter of the picture.
+        case d.SphereLight() if light.samples in ("sphere", "visible"):
             quantity = "intensity" if light.radiance is None else "radiance"
             return {
                 "type": "sphere",

@@ -497,6 +497,30 @@ def _beside(ours: float, theirs: float) -> str:
     return f"{ours:.3f} ({ours / theirs:.2f})"
 
 
+def keep(result: Result, effort: Effort, about: dict[str, str]) -> None:
+    """Write a case to disk: all take an hour, and a row's figures were measured in turn, whenever that was."""
+    path = OUT / "results" / f"{result.effect}_{result.form}.json"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    document = {"effort": asdict(effort), "about": about, "result": asdict(result)}
+    path.write_text(json.dumps(document, indent=2) + "\n")
+
+
+def kept(effort: Effort, about: dict[str, str]) -> list[Result]:
+    """The latest result of each case that was measured with this effort, on this machine and with this software."""
+    results = []
+    for form in FORMS:
+        for effect in EFFECTS:
+            path = OUT / "results" / f"{effect}_{form}.json"
+            document = json.loads(path.read_text()) if path.is_file() else {}
+            if (document.get("effort"), document.get("about")) != (asdict(effort), about):
+                continue
+            values = document["result"]
+            agreement = {**values["agreement"], "where": tuple(values["agreement"]["where"])}
+            ours = [Reached(**reached) for reached in values["ours"]]
+            results.append(Result(**{**values, "agreement": Agreement(**agreement), "ours": ours}))
+    return results
+
+
 def write_document(results: list[Result], effort: Effort, about: dict[str, str]) -> None:
     """Put the tables between the marks of docs/peers.md."""
     rows = tuple(about.items())
@@ -531,7 +555,12 @@ def versions(threads: int) -> dict[str, str]:
 @click.option("--quick", is_flag=True, help="Fewer pictures, rounds and samples.")
 @click.option("--threads", default=2, show_default=True, help="Of both programs.")
 @click.option("--json", "json_path", type=click.Path(path_type=Path), help="Write the results.")
-@click.option("--write", "write_docs", is_flag=True, help="Write the tables to docs/peers.md.")
+@click.option(
+    "--write",
+    "write_docs",
+    is_flag=True,
+    help="Write the tables to docs/peers.md, with cases of earlier runs on this machine.",
+)
 def main(
     effects: Iterable[str],
     forms: Iterable[str],
@@ -546,22 +575,24 @@ def main(
     if "llvm" in forms and find_llvm() is None:
         click.echo("no LLVM that Mitsuba can use was found: scalar only", err=True)
         forms = tuple(form for form in forms if form != "llvm")
+    about = versions(threads)
     results = []
     for effect in tuple(effects) or EFFECTS:
         for form in forms:
             case = make_case(effect, form, threads, effort)
             label = f"{effect}, {form}"
-            results.append(
-                measure(case, lambda text, label=label: click.echo(f"{label}: {text}", err=True))
+            result = measure(
+                case, lambda text, label=label: click.echo(f"{label}: {text}", err=True)
             )
+            keep(result, effort, about)
+            results.append(result)
     print_tables(tables(results))
-    about = versions(threads)
     if json_path is not None:
         json_path.parent.mkdir(parents=True, exist_ok=True)
         document = {**about, "results": [asdict(r) for r in results]}
         json_path.write_text(json.dumps(document, indent=2) + "\n")
     if write_docs:
-        write_document(results, effort, about)
+        write_document(kept(effort, about), effort, about)
 
 
 if __name__ == "__main__":

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import shlex
+import tomllib
 from pathlib import Path
 
 import click
@@ -39,7 +40,11 @@ def _commands(path: Path) -> list[str]:
     return sorted({line.split("  #")[0].strip() for line in [*inline, *blocks]})
 
 
-DOCUMENTS = [*sorted(PAGES.glob("*.md")), PROJECT / "docs" / "grading.md", PROJECT / "README.md"]
+DOCUMENTS = [
+    *sorted((PROJECT / "docs").rglob("*.md")),
+    PROJECT / "README.md",
+    PROJECT / "scenes" / "README.md",
+]
 
 
 @pytest.mark.parametrize("path", DOCUMENTS, ids=lambda path: path.name)
@@ -55,7 +60,7 @@ def test_every_command_is_one_that_the_program_takes(path: Path) -> None:
         for word in words[1:]:
             if word.startswith("-"):
                 assert word.partition("=")[0] in known | {"--help", "-h"}, line
-            elif word.startswith("scenes/") and word.endswith(".yaml") and "NAME" not in word:
+            elif word.startswith("scenes/") and "NAME" not in word and "schema" not in words:
                 assert (PROJECT / word).exists(), line
         if "--only" in words and words[0] == "check" and "FUNCTION" not in line:
             function, _, name = words[words.index("--only") + 1].partition("/")
@@ -63,3 +68,26 @@ def test_every_command_is_one_that_the_program_takes(path: Path) -> None:
             assert [
                 check for check in checks if check.function == function and name in ("", check.name)
             ], line
+
+
+@pytest.mark.parametrize("path", DOCUMENTS, ids=lambda path: path.name)
+def test_what_make_and_python_are_asked_for_is_there(path: Path) -> None:
+    text = path.read_text(encoding="utf-8")
+    targets = re.findall(r"^([a-z-]+):", (PROJECT / "Makefile").read_text("utf-8"), re.MULTILINE)
+    extras = tomllib.loads((PROJECT / "pyproject.toml").read_text("utf-8"))["project"]
+    for target in re.findall(r"(?:^ {4}|`)make ([a-z-]+)", text, re.MULTILINE):
+        assert target in targets
+    for module in re.findall(r"python -m (benchmarks(?:\.\w+)*)", text):
+        folder = PROJECT.joinpath(*module.split("."))
+        assert folder.is_dir() or folder.with_suffix(".py").is_file(), module
+    for extra in re.findall(r'"\.\[(\w+)\]"', text):
+        assert extra in extras["optional-dependencies"]
+
+
+@pytest.mark.parametrize("path", DOCUMENTS, ids=lambda path: path.name)
+def test_every_file_that_is_named_is_there(path: Path) -> None:
+    text = path.read_text(encoding="utf-8")
+    folders = "assignments|benchmarks|course|docs|scenes|solutions|tests"
+    for name in re.findall(rf"`((?:{folders})/[\w/.]*)`", text):
+        if "NAME" not in name and name != "scenes/scene.schema.json":
+            assert (PROJECT / name).exists(), name

@@ -1,0 +1,54 @@
+"""How Sphinx builds the site: `make docs`."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent))
+sys.path.insert(0, str(Path(__file__).parents[1]))
+
+from course import __version__
+
+project = "Penumbra"
+author = "The Penumbra authors"
+copyright = author  # noqa: A001
+version = release = __version__
+
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sitebuild"]
+exclude_patterns = ["_build", "sitebuild", "_static"]
+
+# Headings are linked as in the repository, by the slugs that hosts of Markdown files make of them.
+myst_enable_extensions = ["deflist", "dollarmath"]
+myst_heading_anchors = 4
+
+# Formulas are MathML: no script, no font to load, read aloud by screen readers.
+html_math_renderer = "mathml"
+
+smartquotes = False
+autodoc_member_order = "bysource"
+python_use_unqualified_type_names = True
+
+html_theme = "furo"
+html_title = "Penumbra"
+html_static_path = ["_static"]
+html_css_files = ["site.css"]
+html_js_files = [("before_after.js", {"defer": "defer"})]
+html_copy_source = False
+html_show_sphinx = False
+html_last_updated_fmt = None
+html_theme_options = {
+    "light_css_variables": {
+        "color-brand-primary": "#7a4d0c",
+        "color-brand-content": "#7a4d0c",
+        "color-brand-visited": "#6b4a86",
+    },
+    "dark_css_variables": {
+        "color-brand-primary": "#e8b866",
+        "color-brand-content": "#e8b866",
+        "color-brand-visited": "#c3a5dc",
+    },
+}
+
+# "render" draws every picture with this engine and keeps it; "blank" puts grey in their places.
+pictures = "render"

@@ -1,0 +1,143 @@
+"""Pictures of scenes, rendered once and kept under a hash of all that decides them."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+import click
+from PIL import Image
+
+from course import load_scene, render
+from course.benchmarking.sources import scene_hash
+from course.cli.tables import plain_text, receipt_sections
+from course.effects import PROJECT, Effects
+from course.imaging.atomic import replacing
+from course.scene.loading import Loaded, load_description
+
+KEPT = PROJECT / "out" / "docs" / "pictures"
+
+WIDTH = 600
+"""Pixels across; wider scenes are rendered smaller, in their own proportions."""
+
+SAMPLES = 256
+"""Samples a pixel at most."""
+
+QUALITY = 92
+
+
+@dataclass(frozen=True)
+class Shot:
+    """A scene as the site shows it.
+
+    Attributes
+    ----------
+    name : of the scene, in ``scenes/`` and without ``.yaml``
+    title : what it shows
+    size : width and height [pixels]
+    samples : a pixel
+    key : hash of all that decides the picture
+    """
+
+    name: str
+    title: str
+    size: tuple[int, int]
+    samples: int
+    key: str
+
+    @property
+    def scene(self) -> Path:
+        """The scene file."""
+        return scene_path(self.name)
+
+    @property
+    def command(self) -> str:
+        """The line that renders the same picture."""
+        width, height = self.size
+        file = f"{self.name.rpartition('/')[2]}.png"
+        return f"course render scenes/{self.name}.yaml --size {width}x{height} --spp {self.samples} -o {file}"
+
+    @property
+    def file(self) -> str:
+        """Name of the picture on the site."""
+        return f"{self.name.replace('/', '-')}.webp"
+
+
+def scene_path(name: str) -> Path:
+    """Where the scene of that name is."""
+    return PROJECT / "scenes" / f"{name}.yaml"
+
+
+def shot(name: str) -> Shot:
+    """Plan the picture of a scene; nothing is rendered, no mesh is read.
+
+    Raises
+    ------
+    SceneError
+        The scene can't be read.
+    """
+    loaded = load_description(scene_path(name))
+    scene = loaded.description
+    size = _size(loaded)
+    samples = min(scene.sampler.samples, SAMPLES)
+    key = scene_hash(
+        loaded,
+        Effects(),
+        size=size,
+        sampler=scene.sampler.type,
+        samples=samples,
+        seed=scene.seed,
+        quality=QUALITY,
+    )
+    return Shot(name, scene.title or name, size, samples, key)
+
+
+def _size(loaded: Loaded) -> tuple[int, int]:
+    film = loaded.description.film
+    width = min(film.width, WIDTH)
+    return width, round(width * film.height / film.width)
+
+
+def picture(planned: Shot, kept: Path = KEPT) -> tuple[Path, dict[str, Any]]:
+    """Render the picture, unless it is kept.
+
+    Returns
+    -------
+    path, receipt
+        The WebP file, and `Receipt.to_dict` of the render that made it.
+
+    Raises
+    ------
+    CourseError
+        The scene can't be rendered, or nothing can be written to the folder.
+    """
+    image, receipt = kept / f"{planned.key}.webp", kept / f"{planned.key}.json"
+    if not (image.is_file() and receipt.is_file()):
+        click.echo(f"rendering scenes/{planned.name}.yaml", err=True)
+        kept.mkdir(parents=True, exist_ok=True)
+        made = render(load_scene(planned.scene), size=planned.size, spp=planned.samples)
+        if made.interrupted:
+            raise KeyboardInterrupt
+        png = made._repr_png_()
+        with replacing(image) as temporary:
+            Image.open(BytesIO(png)).convert("RGB").save(temporary, "WEBP", quality=QUALITY)
+        with replacing(receipt) as temporary:
+            temporary.write_text(json.dumps(made.receipt.to_dict(), indent=1), encoding="utf-8")
+    return image, json.loads(receipt.read_text(encoding="utf-8"))
+
+
+def blank(planned: Shot, folder: Path) -> Path:
+    """Make a grey picture of the same size, for builds that must not wait."""
+    folder.mkdir(parents=True, exist_ok=True)
+    path = folder / planned.file
+    Image.new("RGB", planned.size, (128, 128, 128)).save(path, "WEBP")
+    return path
+
+
+def receipt_text(planned: Shot, receipt: Mapping[str, Any]) -> str:
+    """Lay a receipt out as the command line does."""
+    return plain_text(planned.title, receipt_sections(receipt))

@@ -1,0 +1,106 @@
+"""The site in a browser without a network: no error, nothing missing, nothing wider than the window, and the slider."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+playwright = pytest.importorskip(
+    "playwright.sync_api", reason='the browser is driven by: pip install -e ".[browser]"'
+)
+
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
+
+pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="there is no chromium on this machine")
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Any]:
+    with playwright.sync_playwright() as driver:
+        browser = driver.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+        yield browser
+        browser.close()
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("width", [390, 1280])
+def test_every_page_opens_without_trouble(
+    browser: Any, site: Path, width: int, scheme: str
+) -> None:
+    context = browser.new_context(
+        viewport={"width": width, "height": 800}, color_scheme=scheme, offline=True
+    )
+    page = context.new_page()
+    trouble: list[str] = []
+    page.on("pageerror", lambda error: trouble.append(str(error)))
+    page.on("console", lambda said: trouble.append(said.text) if said.type == "error" else None)
+    page.on("requestfailed", lambda request: trouble.append(f"failed: {request.url}"))
+    page.on(
+        "request",
+        lambda request: (
+            None
+            if request.url.startswith(("file:", "data:"))
+            else trouble.append(f"asked: {request.url}")
+        ),
+    )
+    files = sorted(site.rglob("*.html"))
+    assert len(files) > 25
+    for file in files:
+        page.goto(file.as_uri())
+        wide = page.evaluate("document.documentElement.scrollWidth")
+        assert wide <= width, f"{file.name}: {wide} pixels"
+        dark = page.evaluate("getComputedStyle(document.body).backgroundColor")
+        assert (sum(map(int, dark.strip("rgb()").split(","))) < 300) == (scheme == "dark")
+        assert trouble == [], file.name
+    context.close()
+
+
+@pytest.fixture
+def pair(browser: Any, site: Path) -> Iterator[Any]:
+    """The page of a module with a pair of pictures."""
+    page = browser.new_page(viewport={"width": 1280, "height": 1000})
+    page.goto((site / "modules" / "soft_shadows.html").as_uri())
+    yield page
+    page.close()
+
+
+def _border(page: Any) -> str:
+    return str(page.evaluate("getComputedStyle(document.querySelector('.after')).clipPath"))
+
+
+def test_the_slider_moves_the_border_by_keyboard(pair: Any) -> None:
+    before, shown = _border(pair), pair.locator(".pair").screenshot()
+    for _ in range(80):
+        pair.keyboard.press("Tab")
+        if pair.evaluate("document.activeElement.matches('.before-after input')"):
+            break
+    assert pair.evaluate("document.activeElement.getAttribute('aria-label')")
+    for _ in range(10):
+        pair.keyboard.press("ArrowRight")
+    assert (before, _border(pair)) == ("inset(0px 0px 0px 50%)", "inset(0px 0px 0px 60%)")
+    assert pair.locator(".pair").screenshot() != shown
+
+
+def test_the_pointer_moves_the_border(pair: Any) -> None:
+    box = pair.locator(".pair").bounding_box()
+    pair.mouse.move(box["x"] + box["width"] / 2, box["y"] + 50)
+    pair.mouse.down()
+    pair.mouse.move(box["x"] + box["width"] / 5, box["y"] + 60)
+    pair.mouse.up()
+    assert _border(pair) == "inset(0px 0px 0px 20%)"
+    assert pair.locator(".before-after input").input_value() == "20"
+
+
+def test_without_scripts_both_pictures_stand_side_by_side(browser: Any, site: Path) -> None:
+    context = browser.new_context(java_script_enabled=False)
+    page = context.new_page()
+    page.goto((site / "modules" / "soft_shadows.html").as_uri())
+    left, right = (page.locator(f".{side} img").bounding_box() for side in ("before", "after"))
+    assert left["x"] + left["width"] <= right["x"]
+    assert left["y"] == right["y"]
+    assert page.locator(".before-after input").count() == 0
+    context.close()

@@ -1,0 +1,136 @@
+"""The parts that the site is made of: pictures that are kept, docstrings, references."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+from PIL import Image
+
+from course.effects import PROJECT
+
+pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')
+pytest.importorskip("latex2mathml", reason='the site needs: pip install -e ".[docs]"')
+sys.path.append(str(PROJECT / "docs"))
+
+from sitebuild import docstrings, mathematics, parts, pictures, scene_keys
+
+SCENE = """\
+title: A ball
+camera: {eye: [0, 0, 4], look_at: [0, 0, 0]}
+film: {width: 1200, height: 300}
+sampler: {samples: 2}
+materials: {grey: {}}
+lights: [{type: point, position: [0, 3, 3], intensity: 20}]
+objects: [{shape: sphere, material: grey, segments: 16}]
+"""
+
+
+@pytest.fixture
+def scene(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    path = tmp_path / "ball.yaml"
+    path.write_text(SCENE, encoding="utf-8")
+    monkeypatch.setattr(pictures, "scene_path", lambda name: tmp_path / f"{name}.yaml")
+    return path
+
+
+@pytest.mark.usefixtures("scene")
+def test_a_picture_is_rendered_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    planned = pictures.shot("ball")
+    path, receipt = pictures.picture(planned, tmp_path / "kept")
+    with Image.open(path) as image:
+        assert image.size == planned.size == (600, 150)
+        assert image.convert("L").getextrema()[1] > 50
+    assert receipt["samples"] == 2
+    assert receipt["rays"]["camera"] == 600 * 150 * 2
+    monkeypatch.setattr(pictures, "render", None)
+    assert pictures.picture(planned, tmp_path / "kept") == (path, receipt)
+
+
+def test_what_changes_the_picture_changes_its_key(scene: Path) -> None:
+    keys = {pictures.shot("ball").key}
+    for old, new in (
+        ("samples: 2", "samples: 3"),
+        ("samples: 2", "samples: 2, type: random"),
+        ("height: 300", "height: 400"),
+        ("intensity: 20", "intensity: 21"),
+        ("title: A ball", "seed: 5"),
+    ):
+        scene.write_text(SCENE.replace(old, new), encoding="utf-8")
+        keys.add(pictures.shot("ball").key)
+    assert len(keys) == 6
+    scene.write_text(SCENE.replace("A ball", "The same"), encoding="utf-8")
+    assert pictures.shot("ball").key in keys
+
+
+@pytest.mark.usefixtures("scene")
+def test_the_command_is_the_pictures() -> None:
+    assert pictures.shot("ball").command == (
+        "course render scenes/ball.yaml --size 600x150 --spp 2 -o ball.png"
+    )
+
+
+def test_a_page_is_read_again_when_its_parts_change(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in ("plain", "keys"):
+        (tmp_path / f"{name}.md").write_text(
+            "<!-- site: scene_keys -->\n" if name == "keys" else "Words.\n", encoding="utf-8"
+        )
+    env = SimpleNamespace(
+        found_docs={"plain", "keys"}, doc2path=lambda name: tmp_path / f"{name}.md"
+    )
+    site = parts.Site(SimpleNamespace())
+    assert site.outdated(None, env) == []
+    assert site.outdated(None, env) == []
+    monkeypatch.setattr(parts, "scene_keys", lambda: "another")
+    assert site.outdated(None, env) == ["keys"]
+
+
+def test_an_unknown_part_is_named() -> None:
+    with pytest.raises(Exception, match="site: nonsense --"):
+        parts.Site(SimpleNamespace()).expanded("page", "<!-- site: nonsense -->\n")
+
+
+def test_docstrings_keep_their_sections() -> None:
+    lines = docstrings.restructured(
+        """Do it, with |a - b| and a_.
+
+        Parameters
+        ----------
+        u : (2, N) in [0, 1)
+        k : int,
+            at least `1`
+
+        Raises
+        ------
+        ValueError
+            Another shape.
+        """.replace("\n        ", "\n").splitlines()
+    )
+    assert [line for line in lines if line] == [
+        r"Do it, with \|a - b\| and a\_.",
+        "**Parameters**",
+        "``u``",
+        "   (2, N) in [0, 1)",
+        "``k``",
+        "   int, at least ``1``",
+        "**Raises**",
+        "ValueError",
+        "   Another shape.",
+    ]
+
+
+def test_headings_of_the_format_are_words() -> None:
+    assert scene_keys.heading("ImagePlaneDescription") == "Image plane"
+    assert scene_keys.heading("Quad") == "Quad"
+
+
+def test_formulas_keep_an_upright_d_and_room_around_functions() -> None:
+    formula = mathematics.mathml(r"L(p) \cos\theta\, \mathrm{d}x")
+    assert formula.count("<mspace") == 3
+    assert "<mtext>d</mtext>" in formula
+    # A power belongs to the function, and nothing comes between.
+    assert "<msup><mi>cos</mi>" in mathematics.mathml(r"\cos^2 x")
