@@ -62,7 +62,9 @@ class Camera:
         origin : (3, N) or (3, 1) float32, at depth 0
         direction : (3, N) float32, forwards
         """
-        way = np.float32(self.near) / dot(self.forward[:, None], direction)
+        # The widest fields of view have rays that go forwards by less than float32 can tell.
+        forwards = np.maximum(dot(self.forward[:, None], direction), np.float32(1e-12))
+        way: Floats32 = np.divide(np.float32(self.near), forwards)
         return origin + direction * way
 
 

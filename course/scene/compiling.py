@@ -139,6 +139,19 @@ def _moved(mesh: Mesh, by: Floats64) -> Mesh:
     return Mesh(mesh.vertices + by, mesh.triangles, mesh.normals, mesh.uv)
 
 
+STEEPEST = 1e6
+"""Sideways over forwards, of the widest ray: beyond it float32 forgets that rays go forwards at all."""
+
+
+def _check_slopes(edges: Floats64, loaded: Loaded, key: str) -> None:
+    steepest = float(np.abs(edges).max())
+    if not steepest < STEEPEST:
+        raise loaded.document.error(
+            ("camera", key),
+            f"the widest ray goes {steepest:.3g} times as far sideways as forwards: expected less than {STEEPEST:g}",
+        )
+
+
 def compile_camera(loaded: Loaded, frame: Frame, width: int, height: int) -> Camera:
     """The camera for a picture of that size."""
     camera = loaded.description.camera
@@ -152,13 +165,13 @@ def compile_camera(loaded: Loaded, frame: Frame, width: int, height: int) -> Cam
     plane = camera.image_plane
     if plane is not None:
         edges = np.array((plane.left, plane.right, plane.bottom, plane.top)) / plane.distance
-        in_reach(edges, loaded, ("camera", "image_plane"), "the widest slope of a ray")
-    elif camera.handedness == "right":
-        fov = np.radians(camera.vertical_fov)
-        return make_camera(eye, view, up, fov, width, height, near)
+        _check_slopes(edges, loaded, "image_plane")
     else:
-        top = np.tan(np.radians(camera.vertical_fov) / 2)
-        edges = top * np.array((-width / height, width / height, -1, 1))
+        fov = np.radians(camera.vertical_fov)
+        edges = np.tan(fov / 2) * np.array((-width / height, width / height, -1, 1))
+        _check_slopes(edges, loaded, "vertical_fov")
+        if camera.handedness == "right":
+            return make_camera(eye, view, up, fov, width, height, near)
     if camera.handedness == "right":
         return make_window_camera(eye, view, up, edges, width, height, near)
     # What lies at x to the right is shown where -x would be; the lens, too, is mirrored.

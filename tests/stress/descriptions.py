@@ -174,9 +174,23 @@ def _repaired(description: dict[str, Any]) -> dict[str, Any]:
                 light.pop(key, None) if key not in given[:1] else None
             if not given:
                 light["intensity"] = 5.0
-            if light.get("radiance") is not None and light["type"] == "sphere":
-                light["samples"] = "sphere"
+            if light["type"] == "sphere" and light.get("samples", "sphere") != "sphere":
+                # Only a lamp by radiance has a visible side, and that and its surface are all it has.
+                by_radiance = light.get("radiance") is not None
+                if by_radiance or light["samples"] == "visible":
+                    light["samples"] = "visible" if by_radiance else "ball"
+            if light["type"] == "rectangle" and light.get("radiance") is None:
+                for key in ("two_sided", "visible"):
+                    light.pop(key, None)
+            elif light.get("two_sided"):
+                light["visible"] = False
+    for material in description["materials"].values():
+        if material.get("dielectric") is not None and material.get("conductor") is not None:
+            material.pop("conductor")
     for thing in description["objects"]:
+        for step in thing.get("transform", []):
+            if "matrix" in step:
+                step["matrix"][3] = [0.0, 0.0, 0.0, 1.0]
         small, large = {
             "torus": ("tube", "radius"),
             "displaced_sphere": ("amplitude", "radius"),
@@ -201,6 +215,14 @@ def _repaired(description: dict[str, Any]) -> dict[str, Any]:
     if description["film"].get("error") is not None:
         # It takes a sampler that can go on, and enough samples to see an error.
         description["sampler"] = {"type": "sobol", "samples": 16}
+        description["film"].pop("subdivision", None)
+    if description["film"].get("subdivision") is not None:
+        description["sampler"] = {"type": "sobol", "samples": 1}
+        description["film"]["filter"] = "box"
+    plane = camera.get("image_plane")
+    if plane:
+        for low, high in (("left", "right"), ("bottom", "top")):
+            plane[low], plane[high] = sorted((plane[low], plane[high]))
     lens = camera.get("lens")
     if lens:
         if (lens.get("focus_distance") is None) == (lens.get("focus_point") is None):
