@@ -17,7 +17,7 @@ from course.scene.description.objects import DisplacedSphere, Object, Torus, Tor
 from course.scene.description.sampler import SamplerDescription
 from course.scene.description.scene import SceneDescription
 from course.scene.description.transforms import Affine, Rotate, Scale, Transform
-from course.scene.description.values import Vector
+from course.scene.description.values import Vector, rgb
 from course.scene.document import Document, KeyPath, suggest
 
 # Below these sines two directions are held to be one: a picture turned by a rounding error, or a
@@ -26,6 +26,8 @@ _PARALLEL_UP: Final = 1e-6
 _PARALLEL_EDGES: Final = 1e-9
 # Of the distance from the origin; float64 keeps 16 digits, and a view needs some of them.
 _SAME_POINT: Final = 1e-12
+# Of a highlight's colour: times the brightest light it stays within float32.
+_SHARPEST: Final = 1e6
 
 
 def check_consistency(description: SceneDescription, document: Document) -> None:
@@ -39,6 +41,16 @@ def check_consistency(description: SceneDescription, document: Document) -> None
     _check_camera(description.camera, document)
     _check_sampler(description.sampler, document)
     for name, material in description.materials.items():
+        if max(rgb(material.specular)) > _SHARPEST:
+            raise document.unexpected(
+                ("materials", name, "specular"), f"numbers of at most {_SHARPEST:g}"
+            )
+        glass = material.dielectric
+        if glass is not None and glass.roughness and not 0.1 < glass.refraction_index < 10:
+            raise document.unexpected(
+                ("materials", name, "dielectric", "refraction_index"),
+                "a number between 0.1 and 10 for rough glass",
+            )
         if material.dielectric is not None and material.conductor is not None:
             raise document.error(
                 ("materials", name), "both dielectric and conductor are given: expected one of them"

@@ -303,3 +303,25 @@ def test_the_nearest_squares_enclose_the_number() -> None:
         else:
             assert squares[0] < samples < squares[1]
             assert math.isqrt(squares[1]) - math.isqrt(squares[0]) == 1
+
+
+@pytest.mark.parametrize("index", [0.1, 10, 20])
+def test_rough_glass_has_an_index_that_its_functions_take(
+    refusal: Callable[[str], str], load: Callable[[str], Loaded], index: float
+) -> None:
+    text = (
+        "camera: {eye: [0, 0, 5], look_at: [0, 0, 0]}\n"
+        "materials:\n  glass: {dielectric: {refraction_index: INDEX, roughness: 0.2}}\n"
+    )
+    message = refusal(text.replace("INDEX", str(index)))
+    assert message.startswith("scene.yaml:3: materials.glass.dielectric.refraction_index is ")
+    assert "between 0.1 and 10" in message
+    load(text.replace("INDEX", "1.5"))
+    load(text.replace("INDEX", str(index)).replace("0.2", "0"))
+
+
+def test_highlights_stay_within_float32(refusal: Callable[[str], str]) -> None:
+    text = "camera: {eye: [0, 0, 5], look_at: [0, 0, 0]}\nmaterials:\n  one: {specular: [1, 2.0e+6, 1]}\n"
+    message = refusal(text)
+    assert message.startswith("scene.yaml:3: materials.one.specular is [1, 2000000.0, 1]")
+    assert "at most 1e+06" in message
