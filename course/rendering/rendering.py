@@ -331,6 +331,30 @@ def _render_until(
     return pool.run(passes(settings, tracer.sampler, done), deadline, tick)
 
 
+class _Rounds:
+    """Has the work of rounds done; from the end of the first on, the picture is covered."""
+
+    def __init__(
+        self, pool: Pool | Cluster, deadline: float | None, progress: Progress | None
+    ) -> None:
+        self._pool = pool
+        self._deadline = deadline
+        self._progress = progress
+        self._covered = False
+
+    def __call__(self, work: list[Work], done: float, after: float) -> bool:
+        """See ``course.rendering.adaptive.Run``."""
+
+        def tick(count: int, _count_first: int) -> None:
+            if self._progress is not None:
+                share = count / max(len(work), 1)
+                self._progress(done + (after - done) * share, self._covered)
+
+        whole = self._pool.run(work, self._deadline, tick)
+        self._covered = self._covered or whole
+        return whole
+
+
 def _render_adaptively(
     pool: Pool | Cluster,
     film: AdaptiveFilm,
@@ -339,21 +363,9 @@ def _render_adaptively(
     progress: Progress | None,
 ) -> bool:
     """In rounds; under a deadline with a preview first, so that every pixel has something."""
-    covered = False
-
-    def run(work: list[Work], done: float, after: float) -> bool:
-        nonlocal covered
-
-        def tick(count: int, _count_first: int) -> None:
-            if progress is not None:
-                progress(done + (after - done) * count / max(len(work), 1), covered)
-
-        whole = pool.run(work, deadline, tick)
-        covered = covered or whole
-        return whole
-
+    run = _Rounds(pool, deadline, progress)
     if deadline is not None:
-        covered = run(preview(settings, 1), 0.0, 0.0)
+        run(preview(settings, 1), 0.0, 0.0)
         if pool.interrupted:
             return False
     assert settings.error is not None
@@ -372,19 +384,7 @@ def _render_subdivided(
     """Level by level; the picture is covered once the corners of all pixels have had their rays."""
     assert settings.subdivision is not None
     assert isinstance(film, Film)
-    covered = False
-
-    def run(work: list[Work], done: float, after: float) -> bool:
-        nonlocal covered
-
-        def tick(count: int, _count_first: int) -> None:
-            if progress is not None:
-                progress(done + (after - done) * count / max(len(work), 1), covered)
-
-        whole = pool.run(work, None, tick)
-        covered = covered or whole
-        return whole
-
+    run = _Rounds(pool, None, progress)
     functions = Functions(scene.effects, settings.subdivision)
     return render_subdivided(corners, film, functions, settings.subdivision.depth, run)
 

@@ -4,14 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from course.appearance.fresnel import fresnel_and_cos_t, refract
 from course.core.types import Floats32, Indices, Media
-from course.core.vectors import dot, reflect
 from course.geometry.hits import Hits
 from course.transport.gloss import Blur
 from course.transport.paths import OPEN, Rays
 from course.transport.plan import Lookups, Plan
-from course.transport.rough_refraction import bend, scatter
+from course.transport.ways import Boundary, beyond, divided, mirrored, reflectance, refracted
 
 
 def bounced(
@@ -36,33 +34,15 @@ def bounced(
     """
     if plan.absorbs and medium is None:
         medium = np.full(hits.size, OPEN)
-    reflectance = lookups.mirror(hits.material)
-    if lookups.conductors is not None:
-        cosine = -dot(hits.direction, hits.ns)
-        reflectance = lookups.conductors.weakened(reflectance, hits.material, cosine)
-    transmitted = None
-    if plan.refracts:
-        index = lookups.refraction_index(hits.material)
-        glass = index > 0
-        # Outside is vacuum: a ray that enters goes from 1 to the index, one that leaves from the index to 1.
-        safe = np.where(glass, index, np.float32(1))
-        eta = np.where(hits.entering, 1 / safe, safe)
-        cos_i = np.clip(-dot(hits.direction, hits.ns), 0, 1)
-        share, cos_t = fresnel_and_cos_t(cos_i, eta)
-        share *= glass
-        bent = None
-        if plan.refraction_dimension is not None and blur is not None:
-            bent = bend(blur.lobes, hits.material, hits.direction, hits.ns, cos_i, eta, share)
-        reflectance = reflectance + share
-        transmitted = _weight((1 - share) * glass, throughput)
-    weight = _weight(reflectance, throughput)
+    mirror = reflectance(lookups, hits, None)
+    if not plan.refracts:
+        weight = _weight(mirror, throughput)
+        return _reflected(hits, weight, path, medium, cutoff, blur), None
+    share, passed, boundary = divided(plan, lookups, hits, None, blur)
+    weight = _weight(mirror + share, throughput)
     reflected = _reflected(hits, weight, path, medium, cutoff, blur)
-    if transmitted is None:
-        return reflected, None
-    refracted = _refracted(
-        hits, transmitted, cos_i, cos_t, eta, path, medium, cutoff, plan, blur, bent
-    )
-    return reflected, refracted
+    weight = _weight(passed, throughput)
+    return reflected, _refracted(plan, hits, weight, boundary, path, medium, cutoff, blur)
 
 
 def _weight(factor: Floats32, throughput: Floats32 | None) -> Floats32:
@@ -98,18 +78,10 @@ def _reflected(
     if len(which) == 0:
         return None
     path = which if path is None else path.take(which)
-    mirrored = reflect(hits.direction.take(which, axis=1), hits.ns.take(which, axis=1))
     ng = hits.ng.take(which, axis=1)
-    # An interpolated normal may mirror a ray into the surface; mirror it out again.
-    below = np.minimum(dot(mirrored, ng), 0)
-    if below.any():
-        below += below
-        mirrored -= below * ng
-    if blur is not None:
-        mirrored = blur(hits.material.take(which), mirrored, ng, path)
     return Rays(
         hits.above.take(which, axis=1),
-        mirrored,
+        mirrored(hits, which, ng, path, blur),
         _columns(weight, which),
         path,
         None if medium is None else medium.take(which),
@@ -118,49 +90,24 @@ def _reflected(
 
 
 def _refracted(
+    plan: Plan,
     hits: Hits,
     weight: Floats32,
-    cos_i: Floats32,
-    cos_t: Floats32,
-    eta: Floats32,
+    boundary: Boundary,
     path: Indices | None,
     medium: Media | None,
     cutoff: float,
-    plan: Plan,
     blur: Blur | None,
-    bent: Floats32 | None,
 ) -> Rays | None:
     which = _visible(weight, hits.size, cutoff)
     if len(which) == 0:
         return None
     path = which if path is None else path.take(which)
-    direction = refract(
-        hits.direction.take(which, axis=1),
-        hits.ns.take(which, axis=1),
-        cos_i.take(which),
-        cos_t.take(which),
-        eta.take(which),
-    )
-    ng = hits.ng.take(which, axis=1)
-    # ... and it may refract a ray back to where it came from; the same cure, to the far side.
-    above = np.maximum(dot(direction, ng), 0)
-    if above.any():
-        above += above
-        direction -= above * ng
-    if bent is not None and blur is not None and plan.refraction_dimension is not None:
-        # As far into this depth's dimensions as the gloss is.
-        dimension = plan.refraction_dimension + blur.dimension - plan.gloss_dimension
-        material = hits.material.take(which)
-        scatter(blur, dimension, material, bent.take(which, axis=1), ng, path, direction)
-    inside = None
-    if medium is not None:
-        within = hits.material.take(which).astype(np.int16)
-        inside = np.where(hits.entering.take(which), within, OPEN)
     return Rays(
         hits.below.take(which, axis=1),
-        direction,
+        refracted(plan, hits, which, boundary.of(which), path, blur),
         _columns(weight, which),
         path,
-        inside,
+        None if medium is None else beyond(hits, which),
         None if hits.time is None else hits.time.take(which),
     )

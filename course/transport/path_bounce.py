@@ -7,56 +7,24 @@ doesn't grow.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from course.appearance.fresnel import fresnel_and_cos_t, refract
 from course.core.types import Floats32, Indices, Mask, Media
-from course.core.vectors import dot, reflect
 from course.geometry.hits import Hits
 from course.scene.world import Paths
 from course.transport.gloss import Blur
 from course.transport.paths import OPEN, Draws, Rays
 from course.transport.plan import Lookups, Plan
-from course.transport.rough_refraction import bend, scatter
+from course.transport.ways import beyond, divided, kept_above, mirrored, reflectance, refracted
 
 DIFFUSE, MIRRORED, REFRACTED = range(3)
 
 _LEAST = np.float32(1e-30)
 """Below any throughput that is worth a thought; keeps a division by zero away."""
-
-
-@dataclass(frozen=True)
-class _Optics:
-    """The boundary of a dielectric at m hits, (m,) each.
-
-    Attributes
-    ----------
-    reflected, refracted : shares of the light, 0 where the material is opaque
-    cos_i, cos_t : cosines of incidence and refraction
-    eta : n_from / n_to
-    bent : (3, m) directions refracted by rough glass, of no meaning at other hits; None where there are none
-    """
-
-    reflected: Floats32
-    refracted: Floats32
-    cos_i: Floats32
-    cos_t: Floats32
-    eta: Floats32
-    bent: Floats32 | None
-
-    def of(self, which: Indices) -> _Optics:
-        """Some of the hits."""
-        return _Optics(
-            self.reflected.take(which),
-            self.refracted.take(which),
-            self.cos_i.take(which),
-            self.cos_t.take(which),
-            self.eta.take(which),
-            None if self.bent is None else self.bent.take(which, axis=1),
-        )
 
 
 @dataclass(frozen=True)
@@ -95,7 +63,7 @@ class PathBounce:
         medium : (n,) the material that the arriving ray travelled in, or None where nothing absorbs
         """
         after = self._scattered(hits, beta)
-        other, optics, kind = None, None, None
+        other, boundary, kind = None, None, None
         if self.plan.mirrors or self.plan.refracts:
             other = np.flatnonzero(self.optical.take(hits.material))
         u = None
@@ -108,9 +76,10 @@ class PathBounce:
             else:
                 u = self.draws("choice", first, 2, path)
         if u is not None and other is not None and len(other):
+            shares = None
             if self.plan.refracts:
-                optics = self._optics(hits, other, blur)
-            after, kind = self._chosen(hits, beta, after, other, optics, u[0])
+                *shares, boundary = divided(self.plan, self.lookups, hits, other, blur)
+            after, kind = self._chosen(hits, beta, after, other, shares, u[0])
         which, after = self._survivors(after, u)
         if len(which) == 0:
             return None
@@ -135,19 +104,22 @@ class PathBounce:
             direction[:, place] = self._diffuse(hits, which.take(place), path.take(place))
         place = np.flatnonzero(kind == MIRRORED)
         if len(place):
-            direction[:, place] = _mirrored(hits, which.take(place), path.take(place), blur)
+            back = which.take(place)
+            ng = hits.ng.take(back, axis=1)
+            direction[:, place] = mirrored(hits, back, ng, path.take(place), blur)
         place = np.flatnonzero(kind == REFRACTED)
         if len(place):
             through = which.take(place)
             assert other is not None
-            assert optics is not None
-            within = optics.of(np.searchsorted(other, through))
-            direction[:, place] = self._refracted(hits, through, within, path.take(place), blur)
+            assert boundary is not None
+            within = boundary.of(np.searchsorted(other, through))
+            direction[:, place] = refracted(
+                self.plan, hits, through, within, path.take(place), blur
+            )
             origin = origin.copy() if whole else origin
             origin[:, place] = hits.below.take(through, axis=1)
             if medium is not None:
-                inside = hits.material.take(through).astype(np.int16)
-                medium[place] = np.where(hits.entering.take(through), inside, OPEN)
+                medium[place] = beyond(hits, through)
         return Rays(origin, direction, after, path, medium, time), kind != DIFFUSE
 
     def _scattered(self, hits: Hits, beta: Floats32 | None) -> Floats32:
@@ -169,7 +141,7 @@ class PathBounce:
         beta: Floats32 | None,
         diffuse: Floats32,
         other: Indices,
-        optics: _Optics | None,
+        shares: Sequence[Floats32] | None,
         u: Floats32,
     ) -> tuple[Floats32, NDArray[np.int8]]:
         """Throughputs (3, n) and the way of each hit, by chance where it could take another than the diffuse one.
@@ -178,20 +150,16 @@ class PathBounce:
         ----------
         diffuse : (3, n) throughput of diffuse reflection
         other : (m,) the hits on materials that mirror or refract
-        optics : of those hits, None where nothing refracts
+        shares : (m,) each, of the light that their boundary reflects and refracts; None where nothing refracts
         u : (n,) in [0, 1)
         """
-        material = hits.material.take(other)
         arriving = np.float32(1) if beta is None else beta.take(other, axis=1)
-        reflectance = self.lookups.mirror(material)
-        if self.lookups.conductors is not None:
-            cosine = -dot(hits.direction.take(other, axis=1), hits.ns.take(other, axis=1))
-            reflectance = self.lookups.conductors.weakened(reflectance, material, cosine)
+        mirror = reflectance(self.lookups, hits, other)
         ways = [diffuse.take(other, axis=1)]
-        if optics is not None:
-            ways += [(reflectance + optics.reflected) * arriving, optics.refracted * arriving]
+        if shares is not None:
+            ways += [(mirror + shares[0]) * arriving, shares[1] * arriving]
         else:
-            ways += [reflectance * arriving]
+            ways += [mirror * arriving]
         odds = np.stack([np.broadcast_to(way, ways[0].shape).max(axis=0) for way in ways])
         reach = np.cumsum(odds, axis=0)
         # Where nothing is left the last way is as good as any: its throughput is 0.
@@ -206,22 +174,6 @@ class PathBounce:
         kind = np.full(hits.size, DIFFUSE, np.int8)
         kind[other] = way_taken
         return after, kind
-
-    def _optics(self, hits: Hits, which: Indices, blur: Blur | None) -> _Optics:
-        """What the boundary of a dielectric does to the light at some of the hits."""
-        material = hits.material.take(which)
-        index = self.lookups.refraction_index(material)
-        glass = index > 0
-        # Outside is vacuum: a ray that enters goes from 1 to the index, one that leaves from the index to 1.
-        index = np.where(glass, index, np.float32(1))
-        eta = np.where(hits.entering.take(which), 1 / index, index)
-        direction, ns = hits.direction.take(which, axis=1), hits.ns.take(which, axis=1)
-        cos_i = np.clip(-dot(direction, ns), 0, 1)
-        share, cos_t = fresnel_and_cos_t(cos_i, eta)
-        bent = None
-        if self.plan.refraction_dimension is not None and blur is not None:
-            bent = bend(blur.lobes, material, direction, ns, cos_i, eta, share)
-        return _Optics(share * glass, (1 - share) * glass, cos_i, cos_t, eta, bent)
 
     def _survivors(self, after: Floats32, u: Floats32 | None) -> tuple[Indices, Floats32]:
         """Which paths go on, and their throughput."""
@@ -243,42 +195,4 @@ class PathBounce:
         direction = self.paths.diffuse_bounce(ns, u)
         if hits.ns is hits.ng:
             return direction
-        return _kept_above(direction, ng if which is None else ng.take(which, axis=1))
-
-    def _refracted(
-        self, hits: Hits, which: Indices, optics: _Optics, path: Indices, blur: Blur | None
-    ) -> Floats32:
-        """Directions in which paths go through the boundary at some of the hits."""
-        direction, ns = hits.direction.take(which, axis=1), hits.ns.take(which, axis=1)
-        ng = hits.ng.take(which, axis=1)
-        through = refract(direction, ns, optics.cos_i, optics.cos_t, optics.eta)
-        through = _kept_above(through, -ng)
-        if (
-            optics.bent is not None
-            and self.plan.refraction_dimension is not None
-            and blur is not None
-        ):
-            dimension = self.plan.refraction_dimension + self.first
-            scatter(blur, dimension, hits.material.take(which), optics.bent, ng, path, through)
-        return through
-
-
-def _mirrored(hits: Hits, which: Indices, path: Indices, blur: Blur | None) -> Floats32:
-    direction, ns = hits.direction.take(which, axis=1), hits.ns.take(which, axis=1)
-    ng = hits.ng.take(which, axis=1)
-    mirrored = _kept_above(reflect(direction, ns), ng)
-    if blur is None:
-        return mirrored
-    return blur(hits.material.take(which), mirrored, ng, path)
-
-
-def _kept_above(direction: Floats32, ng: Floats32) -> Floats32:
-    """Directions that an interpolated normal has sent to the wrong side of the surface, mirrored out of it."""
-    below = np.minimum(dot(direction, ng), 0)
-    if not below.any():
-        return direction
-    below += below
-    # A copy: what a student's function returns may be read-only.
-    above = direction.copy()
-    above -= below * ng
-    return above
+        return kept_above(direction, ng if which is None else ng.take(which, axis=1))

@@ -14,13 +14,13 @@ from functools import cached_property
 import numpy as np
 
 from course.core.types import Floats32, Indices, Mask
-from course.geometry.hits import Hits, find_hits
+from course.geometry.hits import Hits
 from course.scene.world import Paths
 from course.transport.counters import Counters
 from course.transport.direct import direct_light
 from course.transport.path_bounce import PathBounce
 from course.transport.paths import Draws, Rays
-from course.transport.tracing import CancelledError, Tracer, add_radiance, of_hits
+from course.transport.tracing import CancelledError, Tracer, add_radiance
 
 
 @dataclass(frozen=True)
@@ -93,26 +93,11 @@ class PathTracer(Tracer):
         ----------
         sees : (n,) which rays bring light from lamps and the environment; None for none of them
         """
-        found = self.world.surface.accelerator.intersect(
-            rays.origin,
-            rays.direction,
-            counters.embree,
-            rays.time,
-            coherent=depth == 0 and self.world.lens is None,
+        hits, throughput, path, medium = self._met(
+            rays, False if sees is None else sees, depth, film, counters
         )
-        if depth == 0:
-            self._leave_eye_surface(rays, found, counters)
-        counters.lap("trace")
-        backdrop = self.world.backdrop and depth > 0
-        if self.plan.sees_environment and sees is not None and not backdrop:
-            self._add_environment(film, rays, (found.triangle < 0) & sees)
-        hits = find_hits(self.world.surface, found, rays.direction, rays.time)
-        throughput, path, medium = of_hits(rays, hits)
         if sees is not None and hits.ray is not None:
             sees = sees.take(hits.ray)
-        if self.plan.absorbs:
-            throughput = self._absorbed(hits, throughput, medium)
-        counters.lap("hits")
         if hits.size == 0:
             return None
         radiance = self._light(hits, sees, path, depth, draws)

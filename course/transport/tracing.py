@@ -118,24 +118,7 @@ class Tracer:
         self, rays: Rays, depth: int, film: Floats32, draws: Draws, counters: Counters
     ) -> Rays | None:
         """One depth: what the rays bring is added to the film, and the rays that go on are returned."""
-        accelerator = self.world.surface.accelerator
-        found = accelerator.intersect(
-            rays.origin,
-            rays.direction,
-            counters.embree,
-            rays.time,
-            coherent=depth == 0 and self.world.lens is None,
-        )
-        if depth == 0:
-            self._leave_eye_surface(rays, found, counters)
-        counters.lap("trace")
-        if self.plan.sees_environment and (depth == 0 or not self.world.backdrop):
-            self._add_environment(film, rays, found.triangle < 0)
-        hits = find_hits(self.world.surface, found, rays.direction, rays.time)
-        throughput, path, medium = of_hits(rays, hits)
-        if self.plan.absorbs:
-            throughput = self._absorbed(hits, throughput, medium)
-        counters.lap("hits")
+        hits, throughput, path, medium = self._met(rays, True, depth, film, counters)
         if hits.size == 0:
             return None
         radiance = self._shade(hits, path, depth, draws)
@@ -163,6 +146,37 @@ class Tracer:
         following = together(reflected, refracted)
         counters.lap("bounce")
         return following
+
+    def _met(
+        self, rays: Rays, sees: Mask | bool, depth: int, film: Floats32, counters: Counters
+    ) -> tuple[Hits, Floats32 | None, Indices | None, Media | None]:
+        """What the rays of one depth meet, and the throughput, path and medium of those that meet something.
+
+        What the environment sends along the others is added to the film.
+
+        Parameters
+        ----------
+        sees : (n,) or for all, which rays bring the environment's light
+        """
+        found = self.world.surface.accelerator.intersect(
+            rays.origin,
+            rays.direction,
+            counters.embree,
+            rays.time,
+            coherent=depth == 0 and self.world.lens is None,
+        )
+        if depth == 0:
+            self._leave_eye_surface(rays, found, counters)
+        counters.lap("trace")
+        shown = depth == 0 or not self.world.backdrop
+        if self.plan.sees_environment and shown and sees is not False:
+            self._add_environment(film, rays, (found.triangle < 0) & sees)
+        hits = find_hits(self.world.surface, found, rays.direction, rays.time)
+        throughput, path, medium = _of_hits(rays, hits)
+        if self.plan.absorbs:
+            throughput = self._absorbed(hits, throughput, medium)
+        counters.lap("hits")
+        return hits, throughput, path, medium
 
     def _leave_eye_surface(self, rays: Rays, found: Intersections, counters: Counters) -> None:
         """A camera that stands exactly on a surface would see nothing but that; its rays start a step further."""
@@ -266,7 +280,7 @@ def make_tracer(
     )
 
 
-def of_hits(rays: Rays, hits: Hits) -> tuple[Floats32 | None, Indices | None, Media | None]:
+def _of_hits(rays: Rays, hits: Hits) -> tuple[Floats32 | None, Indices | None, Media | None]:
     """Throughput, path and medium of the rays that hit something."""
     throughput, path, medium = rays.throughput, rays.path, rays.medium
     if hits.ray is None:

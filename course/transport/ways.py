@@ -1,0 +1,131 @@
+"""The ways that light takes from a surface that mirrors or refracts: how much takes each, and in which direction."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from course.appearance.fresnel import fresnel_and_cos_t, refract
+from course.core.types import Floats32, Indices, Media
+from course.core.vectors import dot, reflect
+from course.geometry.hits import Hits
+from course.transport.gloss import Blur
+from course.transport.paths import OPEN
+from course.transport.plan import Lookups, Plan
+from course.transport.rough_refraction import bend, scatter
+
+
+@dataclass(frozen=True)
+class Boundary:
+    """The boundary of a dielectric at n hits; of no meaning where the material is opaque.
+
+    Attributes
+    ----------
+    cos_i, cos_t : (n,) cosines of incidence and refraction
+    eta : (n,) n_from / n_to
+    bent : (3, n) directions refracted by rough glass, of no meaning at other hits; None where there are none
+    """
+
+    cos_i: Floats32
+    cos_t: Floats32
+    eta: Floats32
+    bent: Floats32 | None
+
+    def of(self, which: Indices) -> Boundary:
+        """Some of the hits."""
+        return Boundary(
+            self.cos_i.take(which),
+            self.cos_t.take(which),
+            self.eta.take(which),
+            None if self.bent is None else self.bent.take(which, axis=1),
+        )
+
+
+def reflectance(lookups: Lookups, hits: Hits, which: Indices | None) -> Floats32:
+    """What some of the hits, or all of them, mirror, (3, n) or (3, 1); glass mirrors more (``divided``)."""
+    material = hits.material if which is None else hits.material.take(which)
+    mirror = lookups.mirror(material)
+    if lookups.conductors is None:
+        return mirror
+    direction, ns = hits.direction, hits.ns
+    if which is not None:
+        direction, ns = direction.take(which, axis=1), ns.take(which, axis=1)
+    return lookups.conductors.weakened(mirror, material, -dot(direction, ns))
+
+
+def divided(
+    plan: Plan, lookups: Lookups, hits: Hits, which: Indices | None, blur: Blur | None
+) -> tuple[Floats32, Floats32, Boundary]:
+    """How the boundary of a dielectric divides the light at some of the hits, or at all of them.
+
+    Returns
+    -------
+    reflected, refracted : (n,) shares of the light, 0 where the material is opaque
+    boundary : as ``refracted`` wants it
+    """
+    material, entering, direction, ns = hits.material, hits.entering, hits.direction, hits.ns
+    if which is not None:
+        material, entering = material.take(which), entering.take(which)
+        direction, ns = direction.take(which, axis=1), ns.take(which, axis=1)
+    index = lookups.refraction_index(material)
+    glass = index > 0
+    # Outside is vacuum: a ray that enters goes from 1 to the index, one that leaves from the index to 1.
+    safe = np.where(glass, index, np.float32(1))
+    eta = np.where(entering, 1 / safe, safe)
+    cos_i = np.clip(-dot(direction, ns), 0, 1)
+    share, cos_t = fresnel_and_cos_t(cos_i, eta)
+    bent = None
+    if plan.refraction_dimension is not None and blur is not None:
+        bent = bend(blur.lobes, material, direction, ns, cos_i, eta, share)
+    return share * glass, (1 - share) * glass, Boundary(cos_i, cos_t, eta, bent)
+
+
+def mirrored(
+    hits: Hits, which: Indices, ng: Floats32, path: Indices, blur: Blur | None
+) -> Floats32:
+    """Directions (3, m) in which some of the hits mirror.
+
+    Parameters
+    ----------
+    ng : (3, m) geometric normals of those hits
+    path : (m,) of those hits
+    """
+    direction, ns = hits.direction.take(which, axis=1), hits.ns.take(which, axis=1)
+    way = kept_above(reflect(direction, ns), ng)
+    return way if blur is None else blur(hits.material.take(which), way, ng, path)
+
+
+def refracted(
+    plan: Plan, hits: Hits, which: Indices, boundary: Boundary, path: Indices, blur: Blur | None
+) -> Floats32:
+    """Directions (3, m) in which some of the hits let light through.
+
+    Parameters
+    ----------
+    boundary, path : of those hits
+    """
+    direction, ns = hits.direction.take(which, axis=1), hits.ns.take(which, axis=1)
+    ng = hits.ng.take(which, axis=1)
+    way = refract(direction, ns, boundary.cos_i, boundary.cos_t, boundary.eta)
+    way = kept_above(way, -ng)
+    if boundary.bent is not None and blur is not None and plan.refraction_dimension is not None:
+        # As far into this depth's dimensions as the gloss is.
+        dimension = plan.refraction_dimension + blur.dimension - plan.gloss_dimension
+        scatter(blur, dimension, hits.material.take(which), boundary.bent, ng, path, way)
+    return way
+
+
+def beyond(hits: Hits, which: Indices) -> Media:
+    """The medium (m,) behind some of the hits, for rays that go through."""
+    material = hits.material.take(which).astype(np.int16)
+    return np.where(hits.entering.take(which), material, OPEN)
+
+
+def kept_above(direction: Floats32, ng: Floats32) -> Floats32:
+    """Directions that an interpolated normal has sent to the wrong side of the surface, mirrored out of it."""
+    below = np.minimum(dot(direction, ng), 0)
+    if not below.any():
+        return direction
+    below += below
+    return np.subtract(direction, below * ng)
