@@ -8,9 +8,10 @@ from inspect import cleandoc
 import click
 
 from course.cli.main import commands
+from sitebuild.place import Place
 
 
-def command_line() -> str:
+def command_line(place: Place, name: str = "", words: str = "") -> str:  # noqa: ARG001
     """Return the reference as Markdown: a heading for each command, with its usage and its options."""
     root = click.Context(commands, info_name="course")
     lines = []

@@ -1,35 +1,46 @@
 """The generated parts of pages, and when they are made anew.
 
-``<!-- site: scene_keys -->``, ``<!-- site: command_line -->``, ``<!-- site: functions -->``: the references.
-``<!-- site: picture NAME -->``: one scene's picture. ``<!-- site: shot NAME -->``: with its command, scene and receipt.
-``<!-- site: before_after NAME -->``: a pair of pictures; the pages of modules that have such scenes get it unasked.
+A part is asked for by ``<!-- site: KIND NAME WORDS -->`` on a line of its own; `PARTS` has the kinds. Before "The idea"
+of a module that has two scenes stands the pair of their pictures, unasked.
 """
 
 from __future__ import annotations
 
 import re
 import shutil
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from hashlib import sha256
-from html import escape
 from pathlib import Path
-from typing import Any
 
 from sphinx.application import Sphinx
 from sphinx.environment import BuildEnvironment
 from sphinx.errors import ExtensionError
 
-from course.effects import COURSE
 from course.errors import CourseError
 from sitebuild import pictures
 from sitebuild.command_line import command_line
+from sitebuild.functions import functions
+from sitebuild.place import Place
 from sitebuild.scene_keys import scene_keys
+from sitebuild.shots import before_after, picture, shot
 
-MARK = re.compile(r"^<!-- site: (\w+) ?([\w/]*) ?(.*?) ?-->$", re.MULTILINE)
+MARK = re.compile(r"^<!-- site: (\w+) ?([\w./]*) ?(.*?) ?-->$", re.MULTILINE)
+
+Part = Callable[[Place, str, str], str]
+"""Takes where the part stands, its name and the words after that; returns Markdown."""
+
+PARTS: dict[str, Part] = {
+    "before_after": before_after,
+    "command_line": command_line,
+    "functions": functions,
+    "picture": picture,
+    "scene_keys": scene_keys,
+    "shot": shot,
+}
 
 
 def connect(app: Sphinx) -> None:
-    """Expand the comments as pages are read, and hand the pictures over when all are written."""
+    """Expand the comments as pages are read, and hand the files over when all are written."""
     app.add_config_value("pictures", "render", "env", str)
     site = Site(app)
     app.connect("env-get-outdated", site.outdated)
@@ -47,7 +58,7 @@ class Site:
 
     def __init__(self, app: Sphinx) -> None:
         self.app = app
-        self.shown: dict[str, Path] = {}
+        self.files: dict[str, Path] = {}
 
     def outdated(self, app: Sphinx, env: BuildEnvironment, *_: Iterable[str]) -> list[str]:
         """Name the pages whose generated parts are no longer what they were."""
@@ -67,12 +78,12 @@ class Site:
         source[0] = self.expanded(name, source[0])
 
     def finish(self, app: Sphinx, error: Exception | None) -> None:
-        """Put the pictures and their scenes beside the pages."""
+        """Put the pictures, scenes and data beside the pages."""
         if error is not None or app.builder.name != "html":
             return
-        for folder in ("_pictures", "_scenes"):
+        for folder in {target.partition("/")[0] for target in self.files}:
             shutil.rmtree(Path(app.outdir) / folder, ignore_errors=True)
-        for target, path in self.shown.items():
+        for target, path in self.files.items():
             file = Path(app.outdir) / target
             file.parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(path, file)
@@ -84,96 +95,20 @@ class Site:
             text = text.replace(
                 "\n## The idea\n", f"\n<!-- site: before_after {module} -->\n\n## The idea\n", 1
             )
-        up = "../" * page.count("/")
-        return MARK.sub(lambda match: self._part(match, up), text)
-
-    def _part(self, match: re.Match[str], up: str) -> str:
-        kind, name, words = match.groups()
-        match kind:
-            case "scene_keys":
-                return scene_keys()
-            case "command_line":
-                return command_line()
-            case "functions":
-                return functions()
-            case "picture":
-                return f'<p class="wide">{self._image(pictures.shot(name), up, words)}</p>\n'
-            case "before_after":
-                return self._before_after(name, up)
-            case "shot":
-                return self._shot(pictures.shot(name), up)
-        raise ExtensionError(f"{match.group()}: no such part; see docs/sitebuild/parts.py")
-
-    def _picture(self, planned: pictures.Shot) -> dict[str, Any]:
-        """Have the picture made; its receipt, empty for a blank one."""
-        target = f"_pictures/{planned.file}"
-        self.shown[f"_scenes/{planned.name.replace('/', '-')}.yaml"] = planned.scene
-        if self.app.config.pictures == "blank":
-            self.shown[target] = pictures.blank(planned, Path(self.app.doctreedir) / "blank")
-            return {}
-        try:
-            path, receipt = pictures.picture(planned)
-        except CourseError as error:
-            raise ExtensionError(f"scenes/{planned.name}.yaml: {error}") from error
-        self.shown[target] = path
-        return receipt
-
-    def _image(self, planned: pictures.Shot, up: str, alternative: str = "") -> str:
-        self._picture(planned)
-        width, height = planned.size
-        return (
-            f'<img src="{up}_pictures/{planned.file}" alt="{escape(alternative or planned.title)}"'
-            f' width="{width}" height="{height}" loading="lazy">'
+        place = Place(
+            up="../" * page.count("/"),
+            blank=self.app.config.pictures == "blank",
+            made=Path(self.app.doctreedir) / "made",
+            files=self.files,
         )
-
-    def _before_after(self, module: str, up: str) -> str:
-        before, after = pictures.shot(f"before/{module}"), pictures.shot(module)
-        title = escape(after.title)
-        return f"""<figure class="before-after">
-<div class="pair">
-<div class="before">{self._image(before, up, f"{after.title}: the scene without it")}<span>without</span></div>
-<div class="after">{self._image(after, up, f"{after.title}: the same scene with it")}<span>with</span></div>
-</div>
-<figcaption>{title}: scenes/before/{module}.yaml and scenes/{module}.yaml</figcaption>
-</figure>
-"""
-
-    def _shot(self, planned: pictures.Shot, up: str) -> str:
-        receipt = self._picture(planned)
-        scene = planned.scene.read_text(encoding="utf-8").rstrip()
-        text = pictures.receipt_text(planned, receipt) if receipt else "not rendered in this build"
-        file = f"{up}_scenes/{planned.name.replace('/', '-')}.yaml"
-        return f"""## {planned.title}
-
-<p class="wide">{self._image(planned, up)}</p>
-
-    {planned.command}
-
-<details><summary>Receipt</summary>
-
-```text
-{text}
-```
-
-</details>
-<details><summary>Scene</summary>
-
-```yaml
-{scene}
-```
-
-<p><a href="{file}" download>{planned.name}.yaml</a></p>
-
-</details>
-"""
+        return MARK.sub(lambda match: _part(match, place), text)
 
 
-def functions() -> str:
-    """Return the functions that students write, from the docstrings of their stubs, as Markdown."""
-    parts = []
-    for module, names in COURSE.items():
-        parts += [f"## {module}", "", f"[The page of the module](../modules/{module}.md)", ""]
-        parts += ["```{eval-rst}"]
-        parts += [f".. autofunction:: assignments.{module}.{name}\n" for name in names]
-        parts += ["```", ""]
-    return "\n".join(parts)
+def _part(match: re.Match[str], place: Place) -> str:
+    kind, name, words = match.groups()
+    if kind not in PARTS:
+        raise ExtensionError(f"{match.group()}: no such part; there are {', '.join(PARTS)}")
+    try:
+        return PARTS[kind](place, name, words)
+    except CourseError as error:
+        raise ExtensionError(f"{match.group()}: {error}") from error

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from course.scene.schema import json_schema
+from sitebuild.place import Place
 
 Node = dict[str, Any]
 
@@ -22,7 +23,7 @@ KINDS = {
 }
 
 
-def scene_keys() -> str:
+def scene_keys(place: Place, name: str = "", words: str = "") -> str:  # noqa: ARG001
     """Return the reference as Markdown: a heading for each map that a scene file may hold, and under it its keys."""
     schema = json_schema()
     return "\n".join(

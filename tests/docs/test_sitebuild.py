@@ -72,6 +72,11 @@ def test_the_command_is_the_pictures() -> None:
     )
 
 
+def _app(folder: Path) -> SimpleNamespace:
+    """As much of Sphinx as expanding a page asks for."""
+    return SimpleNamespace(doctreedir=str(folder), config=SimpleNamespace(pictures="blank"))
+
+
 def test_a_page_is_read_again_when_its_parts_change(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -82,16 +87,16 @@ def test_a_page_is_read_again_when_its_parts_change(
     env = SimpleNamespace(
         found_docs={"plain", "keys"}, doc2path=lambda name: tmp_path / f"{name}.md"
     )
-    site = parts.Site(SimpleNamespace())
+    site = parts.Site(_app(tmp_path))
     assert site.outdated(None, env) == []
     assert site.outdated(None, env) == []
-    monkeypatch.setattr(parts, "scene_keys", lambda: "another")
+    monkeypatch.setitem(parts.PARTS, "scene_keys", lambda *_: "another")
     assert site.outdated(None, env) == ["keys"]
 
 
-def test_an_unknown_part_is_named() -> None:
+def test_an_unknown_part_is_named(tmp_path: Path) -> None:
     with pytest.raises(Exception, match="site: nonsense --"):
-        parts.Site(SimpleNamespace()).expanded("page", "<!-- site: nonsense -->\n")
+        parts.Site(_app(tmp_path)).expanded("page", "<!-- site: nonsense -->\n")
 
 
 def test_docstrings_keep_their_sections() -> None:
