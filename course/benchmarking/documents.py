@@ -1,60 +1,68 @@
-"""The measured parts of docs/accuracy.md and docs/performance.md, between lines that mark them."""
+"""The measured parts of the documentation: tables between lines that mark them, and the numbers of its plots.
+
+docs/accuracy.md and docs/performance.md have the tables, module by module; building the site draws the plots from
+docs/data/bench.json.
+"""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from course.benchmarking.convergence_data import command, record
+from course.benchmarking.estimators import BENCHED, FURTHER_BENCHED
 from course.benchmarking.measuring import Effort, Measured
-from course.benchmarking.tables import Table, error_table, reference_table, time_table
+from course.benchmarking.plot_data import read_records, write_records
+from course.benchmarking.tables import error_table, reference_table, time_table
 from course.errors import OutputError
-from course.imaging.atomic import write_text
+from course.imaging.atomic import check_writable, write_text
 
 MARK = "course bench"
 NAMES = ("accuracy.md", "performance.md")
+DATA = Path("data", "bench.json")
 
 
 def write_documents(
     results: Sequence[Measured], effort: Effort, machine: Mapping[str, str], folder: Path
 ) -> list[Path]:
-    """Put tables and figures into the two documents.
+    """Put tables into the two documents, and the plots' numbers beside them; modules not measured stay as they are.
 
     Parameters
     ----------
     machine : what it was measured with, name -> value
-    folder : of accuracy.md and performance.md, with the figures in its folder `figures`
+    folder : of accuracy.md, performance.md and data/bench.json
 
     Raises
     ------
     OutputError
         A document isn't there, has no marks, or can't be written.
     """
-    blocks = (accuracy(results, effort, machine), performance(results, effort, machine))
-    for name, block in zip(NAMES, blocks, strict=True):
-        replace_marked(folder / name, MARK, block)
-    return [folder / name for name in NAMES]
+    for name, section in zip(NAMES, (accuracy, performance), strict=True):
+        path = folder / name
+        sections = _sections(path) | {
+            _title(measured.module.name): section(measured, effort, machine) for measured in results
+        }
+        replace_marked(path, MARK, "\n\n".join(_in_order(sections)))
+    data = folder / DATA
+    records = {measured.module.name: record(measured, effort, machine) for measured in results}
+    write_records(data, records)
+    return [*(folder / name for name in NAMES), data]
 
 
-def accuracy(results: Sequence[Measured], effort: Effort, machine: Mapping[str, str]) -> str:
-    """Errors and orders as Markdown."""
-    parts = [_made_by(effort, machine)]
-    for measured in results:
-        parts.append(_heading(measured))
-        parts += _figures(measured, "samples", "error over samples")
-        parts.append(f"RMSE over samples for each pixel:\n\n{error_table(measured).markdown()}")
-        parts.append(f"Measured against:\n\n{reference_table(measured).markdown()}")
+def accuracy(measured: Measured, effort: Effort, machine: Mapping[str, str]) -> str:
+    """Errors and orders of a module as Markdown."""
+    parts = _opening(measured, effort, machine, "samples")
+    parts.append(f"RMSE over samples for each pixel:\n\n{error_table(measured).markdown()}")
+    parts.append(f"Measured against:\n\n{reference_table(measured).markdown()}")
     return "\n\n".join(parts)
 
 
-def performance(results: Sequence[Measured], effort: Effort, machine: Mapping[str, str]) -> str:
-    """Times and efficiencies as Markdown."""
-    rows = tuple((name, value) for name, value in machine.items())
-    parts = [_made_by(effort, machine), Table("", ("machine", ""), rows).markdown()]
-    for measured in results:
-        parts.append(_heading(measured))
-        parts += _figures(measured, "seconds", "error over time")
-        table = time_table(measured).markdown()
-        parts.append(f"Median seconds over samples for each pixel:\n\n{table}")
+def performance(measured: Measured, effort: Effort, machine: Mapping[str, str]) -> str:
+    """Times and efficiencies of a module as Markdown."""
+    parts = _opening(measured, effort, machine, "seconds")
+    table = time_table(measured).markdown()
+    parts.append(f"Median seconds over samples for each pixel:\n\n{table}")
     return "\n\n".join(parts)
 
 
@@ -80,6 +88,14 @@ def check_documents(folder: Path) -> None:
     """
     for name in NAMES:
         _around(folder / name, MARK)
+    data = folder / DATA
+    try:
+        data.parent.mkdir(exist_ok=True)
+    except OSError as error:
+        raise OutputError(f"{data.parent}: can't be made: {error.strerror}") from error
+    check_writable(data)
+    if data.is_file():
+        read_records(data)
 
 
 def _around(path: Path, mark: str) -> tuple[str, str]:
@@ -96,23 +112,48 @@ def _around(path: Path, mark: str) -> tuple[str, str]:
     return before + begin, end + after
 
 
-def _made_by(effort: Effort, machine: Mapping[str, str]) -> str:
-    command = "course bench --write-docs" + (" --quick" if effort.name == "quick" else "")
-    return (
-        f"Made by `{command}` on {machine['processor']}, {machine['threads']}. "
-        f"{effort.seeds} seeds, pictures {effort.height} pixels high."
-    )
+def marked(path: Path, mark: str) -> str:
+    """What stands between the marks of a file.
+
+    Raises
+    ------
+    OutputError
+        As `replace_marked`.
+    """
+    before, after = _around(path, mark)
+    text = path.read_text(encoding="utf-8")
+    return text[len(before) : len(text) - len(after)].strip()
 
 
-def _heading(measured: Measured) -> str:
+def _sections(path: Path) -> dict[str, str]:
+    """The modules that a document has, by their headings."""
+    _, *parts = re.split(r"^### (.+)\n", marked(path, MARK), flags=re.MULTILINE)
+    return {
+        title: f"### {title}\n{text.rstrip()}"
+        for title, text in zip(parts[::2], parts[1::2], strict=True)
+    }
+
+
+def _in_order(sections: Mapping[str, str]) -> list[str]:
+    known = [_title(name) for name in (*BENCHED, *FURTHER_BENCHED)]
+    return [sections[title] for title in known if title in sections]
+
+
+def _title(module: str) -> str:
+    return module.replace("_", " ").capitalize()
+
+
+def _opening(
+    measured: Measured, effort: Effort, machine: Mapping[str, str], axis: str
+) -> list[str]:
+    """A heading, what was measured by which command with what, and the plots, which the site draws there."""
     width, height = measured.size
-    title = measured.module.title.capitalize()
-    return f"### {title}\n\n`scenes/{measured.module.scene.name}`, {width} x {height} pixels."
-
-
-def _figures(measured: Measured, kind: str, about: str) -> list[str]:
-    title = measured.module.title
+    module = measured.module
+    seeds = "1 seed" if effort.seeds == 1 else f"{effort.seeds} seeds"
+    scene = f"`scenes/{module.scene.name}`, {width} x {height} pixels, {seeds}"
+    made_by = f"made by\n`{command(module.name, effort)}` on {', '.join(machine.values())}."
     return [
-        f"![{title}, {caption}: {about}](figures/{measured.module.name}_{group}_{kind}.svg)"
-        for group, caption in measured.module.groups.items()
+        f"### {_title(module.name)}",
+        f"{scene}; {made_by}",
+        f"<!-- site: convergence {module.name} {axis} -->",
     ]

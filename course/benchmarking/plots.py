@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from course.benchmarking.convergence_data import STYLES
 from course.benchmarking.curves import Curve
 from course.benchmarking.measuring import Measured
 from course.benchmarking.tables import digits
@@ -28,8 +29,6 @@ COLORS = ("#D55E00", "#0072B2", "#00805D", "#333333", "#AA4D80", "#8A6A00")
 
 MARKERS = ("o", "s", "^", "v", "D", "P")
 INK, SOFT = "#222222", "#767676"
-SAMPLERS = {"regular": 3, "random": 0, "jittered": 1, "sobol": 2}
-"""Each sampler has the same colour in all figures."""
 
 STYLE: dict[str, Any] = {
     "font.family": "sans-serif",
@@ -177,7 +176,7 @@ def _draw(
     """The lines; where each ends, and its colour."""
     ends = []
     for number, (curve, x) in enumerate(zip(curves, horizontal, strict=True)):
-        style = SAMPLERS[curve.estimator.sampler] if group == "samplers" else number
+        style = STYLES[curve.estimator.sampler] if group == "samplers" else number
         color = COLORS[style % len(COLORS)]
         axes.plot(
             x,

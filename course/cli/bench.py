@@ -61,7 +61,7 @@ FURTHER = ("blurred_transparency", "textures")
 @click.option(
     "--write-docs",
     is_flag=True,
-    help="Write tables and plots into docs/accuracy.md and docs/performance.md.",
+    help="Write tables into docs/accuracy.md and docs/performance.md, and the plots' numbers into docs/data.",
 )
 def bench(
     modules: tuple[str, ...],
@@ -75,9 +75,9 @@ def bench(
 ) -> None:
     """Measure how error falls with samples and with run time.
 
-    For each MODULE (without one, those of the core) its scene in scenes/ is rendered by several estimators with several
-    seeds, and compared with a converged picture, which is rendered first and kept. All of it takes about a quarter of
-    an hour.
+    For each MODULE (without one, those of the core, or with --write-docs all) its scene in scenes/ is rendered by
+    several estimators with several seeds, and compared with a converged picture, which is rendered first and kept. The
+    core takes about a quarter of an hour.
     """
     from course.benchmarking.estimators import BENCHED, FURTHER_BENCHED
     from course.benchmarking.machine import machine
@@ -86,12 +86,11 @@ def bench(
 
     effort = QUICK if quick else FULL
     effort = replace(effort, height=height or effort.height)
-    if write_docs and (modules or words):
-        raise click.UsageError(
-            "--write-docs is for all modules and estimators: leave MODULE and --estimator out"
-        )
+    if write_docs and words:
+        raise click.UsageError("--write-docs is for all estimators: leave --estimator out")
     known = BENCHED | FURTHER_BENCHED
-    chosen = _chosen([known[name] for name in dict.fromkeys(modules or BENCHED)], words)
+    names = modules or (known if write_docs else BENCHED)
+    chosen = _chosen([known[name] for name in dict.fromkeys(names)], words)
     _prepare(json_path, plots, write_docs)
     results = []
     for module, estimators in chosen:
@@ -107,7 +106,6 @@ def bench(
     if write_docs:
         from course.benchmarking.documents import write_documents
 
-        _plot(results, DOCUMENTS / "figures", made_with["processor"])
         for path in write_documents(results, effort, made_with, DOCUMENTS):
             click.echo(f"written: {path}", err=True)
 
@@ -149,16 +147,14 @@ def _prepare(json_path: Path | None, plots: Path | None, write_docs: bool) -> No
     if json_path is not None:
         check_writable(json_path)
     if plots:
+        from course.benchmarking.plots import check_matplotlib
+
         _make(plots)
+        check_matplotlib()
     if write_docs:
         from course.benchmarking.documents import check_documents
 
         check_documents(DOCUMENTS)
-        _make(DOCUMENTS / "figures")
-    if plots or write_docs:
-        from course.benchmarking.plots import check_matplotlib
-
-        check_matplotlib()
 
 
 def _make(folder: Path) -> None:

@@ -79,9 +79,9 @@ class Tile:
         return np.tile(x, self.height), np.repeat(y, self.width)
 
 
-def tile_picture(width: int, height: int, samples: int) -> list[Tile]:
-    """Tiles that cover a picture, row by row, each with about RAYS rays at that many samples a pixel."""
-    pixels = max(RAYS // samples, 1)
+def tile_picture(width: int, height: int, samples: int, rays: int = RAYS) -> list[Tile]:
+    """Tiles that cover a picture, row by row, each with about so many rays at that many samples a pixel."""
+    pixels = max(rays // samples, 1)
     tile_width = 1
     while tile_width * tile_width < pixels:
         tile_width *= 2

@@ -290,7 +290,7 @@ def _check_start(start: Picture, settings: Settings, sampler: Sampler) -> int:
 def _render_all(
     pool: Pool | Cluster, tracer: Tracer, settings: Settings, done: int, progress: Progress | None
 ) -> bool:
-    work = list(passes(settings, tracer.sampler, done))
+    work = list(passes(settings, tracer.sampler, done, tracer.batches))
     first_pass = sum(item.order == 0 for item in work)
 
     def tick(count: int, count_first: int) -> None:
@@ -328,7 +328,7 @@ def _render_until(
         seconds = monotonic() - before
         if seconds * size / quick < 0.5 * (deadline - monotonic()):
             break
-    return pool.run(passes(settings, tracer.sampler, done), deadline, tick)
+    return pool.run(passes(settings, tracer.sampler, done, tracer.batches), deadline, tick)
 
 
 class _Rounds:

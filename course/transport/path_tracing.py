@@ -8,18 +8,20 @@ already counted, so it adds nothing; after a mirror or glass, where no shadow ra
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
+from course.core.samplers.sobol import SobolSampler
 from course.core.types import Floats32, Indices, Mask
 from course.geometry.hits import Hits
+from course.imaging.tiles import RAYS
 from course.scene.world import Paths
 from course.transport.counters import Counters
 from course.transport.direct import direct_light
 from course.transport.path_bounce import PathBounce
-from course.transport.paths import Draws, Rays
+from course.transport.paths import Draws, Rays, joined
 from course.transport.tracing import CancelledError, Tracer, add_radiance
 
 
@@ -38,8 +40,33 @@ class Glow:
 
 
 @dataclass(frozen=True)
+class _Piece:
+    """Paths of a block that are followed together.
+
+    Attributes
+    ----------
+    sees : (n,) which rays bring light from lamps and the environment; None for none of them
+    draws : of the part of the block that the paths are numbered in
+    film : (3, paths of that part) float32
+    start : of that part's paths in the block
+    """
+
+    rays: Rays
+    sees: Mask | None
+    draws: Draws
+    film: Floats32
+    start: int
+
+
+@dataclass(frozen=True)
 class PathTracer(Tracer):
     """A tracer that follows each path to its end; the camera and the film are the distribution ray tracer's."""
+
+    @property
+    def batches(self) -> int:
+        """Batches of rays in a tile: most paths end soon, and the few that are left of several batches make one."""
+        # Sobol points are each pixel's own; those of other samplers belong to a tile, which can't be divided.
+        return 4 if isinstance(self.sampler, SobolSampler) else 1
 
     @cached_property
     def _paths(self) -> Paths:
@@ -69,14 +96,43 @@ class PathTracer(Tracer):
     def _trace(self, camera_rays: Rays, paths: int, draws: Draws, counters: Counters) -> Floats32:
         """Radiance (3, paths) that the paths bring back."""
         film = np.zeros((3, paths), np.float32)
-        following: tuple[Rays, Mask | None] | None = camera_rays, np.ones(paths, np.bool_)
+        pieces = self._pieces(camera_rays, draws, film)
         depth = 0
-        while following is not None:
-            if draws.cancelled():
-                raise CancelledError
-            following = self._step(*following, depth, film, draws, counters)
+        while pieces:
+            following = []
+            for piece in pieces:
+                if draws.cancelled():
+                    raise CancelledError
+                rest = self._step(piece.rays, piece.sees, depth, piece.film, piece.draws, counters)
+                if rest is not None:
+                    following.append(replace(piece, rays=rest[0], sees=rest[1]))
+            pieces = following
+            if len(pieces) > 1 and sum(piece.rays.size for piece in pieces) <= RAYS:
+                pieces = [_joined(pieces, draws, film)]
             depth += 1
         return film
+
+    def _pieces(self, rays: Rays, draws: Draws, film: Floats32) -> list[_Piece]:
+        """The block's camera rays in batches of RAYS, each with the pixels that it belongs to."""
+        block = draws.block
+        pixels = len(block.pixels)
+        count = min(-(-block.size // RAYS), self.batches, pixels)
+        pieces = []
+        for number in range(count):
+            mine = slice(pixels * number // count, pixels * (number + 1) // count)
+            paths = slice(mine.start * block.samples, mine.stop * block.samples)
+            part = replace(block, pixels=block.pixels[mine])
+            some = rays if count == 1 else rays.part(paths)
+            pieces.append(
+                _Piece(
+                    some,
+                    np.ones(part.size, np.bool_),
+                    replace(draws, block=part),
+                    film[:, paths],
+                    paths.start,
+                )
+            )
+        return pieces
 
     def _step(
         self,
@@ -159,3 +215,20 @@ def _added(radiance: Floats32 | None, hits: Hits, glow: Glow, sees: Mask | None)
         radiance = np.zeros((3, hits.size), np.float32)
     radiance[:, which] += glow.radiance.take(hits.material.take(which), axis=1)
     return radiance
+
+
+def _joined(pieces: list[_Piece], draws: Draws, film: Floats32) -> _Piece:
+    """What is left of all pieces as one, of the whole block."""
+    numbered = []
+    for piece in pieces:
+        assert piece.rays.path is not None
+        numbered.append(replace(piece.rays, path=piece.rays.path + piece.start))
+    sees = None
+    if any(piece.sees is not None for piece in pieces):
+        sees = np.concatenate(
+            [
+                np.zeros(piece.rays.size, np.bool_) if piece.sees is None else piece.sees
+                for piece in pieces
+            ]
+        )
+    return _Piece(joined(numbered), sees, draws, film, 0)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, fields, replace
+from typing import Any
 
 import numpy as np
 
@@ -45,19 +46,19 @@ class Rays:
     def halves(self) -> tuple[Rays, Rays]:
         """The second and the first half, each a batch of its own."""
         middle = self.size // 2
-        path = np.arange(self.size) if self.path is None else self.path
+        rays = self if self.path is not None else replace(self, path=np.arange(self.size))
+        return rays.part(slice(middle, None)), rays.part(slice(middle))
 
-        def part(columns: slice) -> Rays:
-            return Rays(
-                self.origin if self.origin.shape[1] == 1 else self.origin[:, columns],
-                self.direction[:, columns],
-                None if self.throughput is None else self.throughput[:, columns],
-                path[columns],
-                None if self.medium is None else self.medium[columns],
-                None if self.time is None else self.time[columns],
-            )
-
-        return part(slice(middle, None)), part(slice(middle))
+    def part(self, columns: slice) -> Rays:
+        """Some of the rays; where all have one for each path, in order, so have these."""
+        return Rays(
+            self.origin if self.origin.shape[1] == 1 else self.origin[:, columns],
+            self.direction[:, columns],
+            None if self.throughput is None else self.throughput[:, columns],
+            None if self.path is None else self.path[columns],
+            None if self.medium is None else self.medium[columns],
+            None if self.time is None else self.time[columns],
+        )
 
 
 @dataclass(frozen=True)
@@ -85,19 +86,14 @@ def together(reflected: Rays | None, refracted: Rays | None) -> Rays | None:
     """Both kinds in one batch: one large batch costs less than two small ones."""
     if reflected is None or refracted is None:
         return reflected or refracted
-    a, b = reflected, refracted
-    assert a.throughput is not None
-    assert b.throughput is not None
-    assert a.path is not None
-    assert b.path is not None
-    medium = None
-    if a.medium is not None and b.medium is not None:
-        medium = np.concatenate((a.medium, b.medium))
-    return Rays(
-        np.concatenate((a.origin, b.origin), axis=1),
-        np.concatenate((a.direction, b.direction), axis=1),
-        np.concatenate((a.throughput, b.throughput), axis=1),
-        np.concatenate((a.path, b.path)),
-        medium,
-        None if a.time is None or b.time is None else np.concatenate((a.time, b.time)),
-    )
+    return joined([reflected, refracted])
+
+
+def joined(batches: Sequence[Rays]) -> Rays:
+    """Several batches as one; what one of them has, all have."""
+
+    def columns(name: str) -> Any:
+        arrays = [getattr(rays, name) for rays in batches]
+        return None if arrays[0] is None else np.concatenate(arrays, axis=-1)
+
+    return Rays(*(columns(field.name) for field in fields(Rays)))

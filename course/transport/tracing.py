@@ -43,6 +43,11 @@ class Tracer:
     plan: Plan
     lookups: Lookups
 
+    @property
+    def batches(self) -> int:
+        """Batches of RAYS camera rays that a tile should have where the picture has so many."""
+        return 1
+
     def render_tile(
         self,
         tile: Area,
