@@ -1,15 +1,28 @@
-"""Radiosities at the corners of patches, for a smooth picture and for finding where the light changes."""
+"""Radiosities at the corners of patches, for a smooth picture and for finding where the light changes.
+
+A patch's radiosity is that of its centre. Around a corner the patches' centres don't lie evenly, least of all at the
+rim of a surface, so their mean belongs to another place. A plane through their radiosities tells the corner's own.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
-from course.core.types import Floats32
+from course.core.types import Floats32, Floats64
 from course.radiosity.patches import Patches
+
+RIDGE = 1e-6
+"""Keeps slopes 0 in directions about which the patches of a corner say nothing, such as that of their normal."""
 
 
 def at_corners(patches: Patches, radiosity: Floats32) -> Floats32:
-    """Means over the patches that meet at each corner and belong to one smooth surface, weighted by area.
+    """What the patches that meet at each corner and belong to one smooth surface say of it.
+
+    By least squares, weighted by area, as a plane over the patches' centres; what the patches then lack of their own
+    radiosities is given back to their corners, so that no light is lost. Never below 0, and no farther from the
+    patches' radiosities than they are apart, for light may also change abruptly.
 
     Parameters
     ----------
@@ -23,12 +36,55 @@ def at_corners(patches: Patches, radiosity: Floats32) -> Floats32:
     place = np.stack((corners, np.broadcast_to(patches.surface[:, None], corners.shape)), axis=2)
     points, point = np.unique(place.reshape(-1, 2), axis=0, return_inverse=True)
     point = point.ravel()
-    weight = np.repeat(patches.triangles.areas(), 3)
-    total = np.bincount(point, weight, len(points))
+    vertices = patches.triangles.vertices.astype(np.float64)
+    offset = (vertices[corners].mean(axis=1)[:, None] - vertices[corners]).reshape(-1, 3)
+    weight = np.repeat(patches.triangles.areas(), 3).astype(np.float64)
+
+    def summed(values: Floats64) -> Floats64:
+        return np.asarray(np.bincount(point, values * weight, len(points)), np.float64)
+
+    total = summed(np.ones(len(point)))
+    value_at = _planes(offset, summed)
+    order = np.argsort(point, kind="stable")
+    starts = np.searchsorted(point[order], np.arange(len(points)))
     result = np.empty((3, 3, 2 * size), np.float32)
     for channel in range(3):
         for side in (slice(0, size), slice(size, 2 * size)):
-            light = np.repeat(radiosity[channel, side], 3) * weight
-            mean = np.bincount(point, light, len(points)) / total
-            result[channel, :, side] = mean[point].reshape(size, 3).T
+            own = radiosity[channel, side].astype(np.float64)
+            light = np.repeat(own, 3)
+            low, high = (f.reduceat(light[order], starts) for f in (np.minimum, np.maximum))
+            apart = high - low
+            corner = value_at(light)
+            lacking = own - corner[point].reshape(size, 3).mean(axis=1)
+            corner += summed(np.repeat(lacking, 3)) / total
+            corner = np.clip(corner, np.maximum(low - apart, 0), high + apart)
+            result[channel, :, side] = corner[point].reshape(size, 3).T
     return result
+
+
+def _planes(
+    offset: Floats64, summed: Callable[[Floats64], Floats64]
+) -> Callable[[Floats64], Floats64]:
+    """For light (n,) of the patches around all points, the heights (points,) of the fitted planes at the points.
+
+    Parameters
+    ----------
+    offset : (n, 3) from the points to the centres of patches
+    summed : weighted sums over the patches of each point, (n,) -> (points,)
+    """
+    terms = np.concatenate((np.ones((1, len(offset))), offset.T))
+    moments = np.array([[summed(a * b) for b in terms] for a in terms])
+    moments = np.moveaxis(moments, 2, 0)
+    spread = np.trace(moments[:, 1:, 1:], axis1=1, axis2=2)
+    moments[:, range(1, 4), range(1, 4)] += RIDGE * spread[:, None]
+    # The first row of the inverse is all that the height at the point takes.
+    first = np.linalg.solve(moments, np.broadcast_to(np.eye(4)[:, :1], (len(moments), 4, 1)))[
+        ..., 0
+    ]
+
+    def value_at(light: Floats64) -> Floats64:
+        sums = np.stack([summed(term * light) for term in terms], axis=1)
+        heights: Floats64 = np.einsum("pk,pk->p", first, sums)
+        return heights
+
+    return value_at

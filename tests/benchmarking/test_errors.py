@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
@@ -42,6 +42,7 @@ def test_rmse_of_known_differences() -> None:
     assert rmse(image, reference) == pytest.approx((0.09 / 2 + 0.36 / 6) ** 0.5, rel=1e-12)
 
 
+@settings(deadline=None)
 @given(value=st.floats(0, 100), offset=st.floats(-10, 10))
 def test_relative_mse_of_a_constant_offset(value: float, offset: float) -> None:
     expected = offset**2 / (value**2 + 0.01)
@@ -52,6 +53,7 @@ def test_relative_mse_of_a_constant_offset(value: float, offset: float) -> None:
     )
 
 
+@settings(deadline=None)
 @given(a=st.floats(0, 1), b=st.floats(0, 1))
 def test_dissimilarity_of_two_flat_pictures(a: float, b: float) -> None:
     # Without variance SSIM is its luminance term alone, of the values that a screen shows.
