@@ -79,7 +79,8 @@ mutants: $(STAMP)
 # What the site needs is installed when it is first built. Pictures are kept in out/docs;
 # `make docs SPHINXOPTS="-D pictures=blank"` does without, for a quick look at the text.
 docs: $(STAMP)
-	@"$(RUN)" -c "import furo, latex2mathml, myst_parser, sphinx" 2>/dev/null \
+	$(if $(wildcard docs/conf.py),,$(error this copy has no docs/: the site is made from the whole course))
+	@"$(RUN)" -c "import furo, ipykernel, latex2mathml, myst_parser, nbclient, sphinx" 2>/dev/null \
 		|| "$(RUN)" -m pip --disable-pip-version-check -qq install --editable ".[docs]"
 	@"$(RUN)" -m sphinx -W --keep-going -q -b html -d out/docs/doctrees $(SPHINXOPTS) docs $(SITE)
 	@echo "$(SITE)/index.html"

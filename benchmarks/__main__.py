@@ -16,24 +16,24 @@ from benchmarks.adaptive import measure_adaptive
 from benchmarks.adaptive_sampling import measure_adaptive_sampling
 from benchmarks.bounding_volumes import measure_bounding_volumes
 from benchmarks.convergence import measure_convergence
+from benchmarks.curve_files import publish
 from benchmarks.degenerate import measure_degenerate
 from benchmarks.dragons import measure_dragons
 from benchmarks.effects import measure_effects
 from benchmarks.engine import measure_engine
-from benchmarks.figures import Figure, markdown, print_figures
+from benchmarks.figures import Figure, print_figures
 from benchmarks.grading import measure_grading
 from benchmarks.importance_sampling import measure_importance_sampling
 from benchmarks.path_tracing import measure_path_tracing
 from benchmarks.process import measure_processes
 from benchmarks.quasi_monte_carlo import measure_quasi_monte_carlo
 from benchmarks.radiosity import measure_radiosity
+from benchmarks.ratios import write_ratios
 from benchmarks.sampling import measure_sampling
-from course.benchmarking.documents import replace_marked
 from course.benchmarking.machine import machine
 from course.cli.bench import DOCUMENTS, bench
 
 OUT = Path("out/bench")
-MARK = "make bench"
 MEASURES = {
     "engine": measure_engine,
     "effects": measure_effects,
@@ -56,7 +56,11 @@ MEASURES = {
 @click.command()
 @click.argument("names", metavar="[NAME]...", nargs=-1, type=click.Choice([*MEASURES, "errors"]))
 @click.option("--quick", is_flag=True, help="Measure errors over time in about a minute.")
-@click.option("--write-docs", is_flag=True, help="Write what was found into docs/, too.")
+@click.option(
+    "--write-docs",
+    is_flag=True,
+    help="Write the table into docs/performance.md and the numbers of plots into docs/data, too.",
+)
 def main(names: tuple[str, ...], quick: bool, write_docs: bool) -> None:
     """Measure everything, or what NAME says; print and write it.
 
@@ -65,14 +69,9 @@ def main(names: tuple[str, ...], quick: bool, write_docs: bool) -> None:
     (`course bench`).
     """
     OUT.mkdir(parents=True, exist_ok=True)
-    figures = [
-        figure
-        for name, measure in MEASURES.items()
-        if not names or name in names
-        for figure in measure()
-    ]
-    if figures:
-        _report(figures, names, write_docs)
+    found = {name: measure() for name, measure in MEASURES.items() if not names or name in names}
+    if found:
+        _report(found, write_docs)
     if not names or "errors" in names:
         arguments = ["--json", str(OUT / "errors.json")]
         # Plots take an extra.
@@ -82,16 +81,16 @@ def main(names: tuple[str, ...], quick: bool, write_docs: bool) -> None:
         bench.main(arguments, prog_name="course bench", standalone_mode=False)
 
 
-def _report(figures: list[Figure], names: tuple[str, ...], write_docs: bool) -> None:
+def _report(found: dict[str, list[Figure]], write_docs: bool) -> None:
+    figures = [figure for part in found.values() for figure in part]
     print_figures(figures)
     made_with = machine()
     path = OUT / "engine.json"
     path.write_text(json.dumps({**made_with, "figures": [f.to_dict() for f in figures]}, indent=2))
     print(f"written to {path}")
     if write_docs:
-        command = f"python -m benchmarks {' '.join(names)}" if names else "make bench"
-        about = f"Made by `{command}` on {made_with['processor']}, {made_with['threads']}."
-        replace_marked(DOCUMENTS / "performance.md", MARK, "\n\n".join([about, markdown(figures)]))
+        publish(list(found), DOCUMENTS / "data")
+        write_ratios(found, made_with, DOCUMENTS, MEASURES)
 
 
 if __name__ == "__main__":

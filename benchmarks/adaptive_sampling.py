@@ -15,9 +15,11 @@ from pathlib import Path
 
 import numpy as np
 
+from benchmarks.curve_files import keep
 from benchmarks.drawing import OUT, Line, draw_lines, logarithmic, sheet, slopes, styled, write
 from benchmarks.figures import Figure
 from course import Picture, Scene, load_scene, render
+from course.benchmarking.plot_data import Plot, Series
 from course.benchmarking.tables import NONE, Table, digits, print_tables
 from course.benchmarking.variants import load_variant
 from course.core.types import Floats64
@@ -81,6 +83,7 @@ class Measured:
 def measure_adaptive_sampling() -> list[Figure]:
     """Print and draw the errors over rays; the rays saved at the scene's own threshold and depth."""
     figures = []
+    plots = []
     division = load_scene(SCENE).settings.subdivision
     assert division is not None
     for name, title, thin in (
@@ -89,6 +92,7 @@ def measure_adaptive_sampling() -> list[Figure]:
     ):
         found = measure(thin, Effort())
         print_tables([table(found, title)])
+        plots.append(plot(name, title, found))
         draw(found, title, OUT / f"adaptive_sampling_{name}.svg")
         for depth, goal in GOALS[name].items():
             chosen = [
@@ -99,6 +103,8 @@ def measure_adaptive_sampling() -> list[Figure]:
             gain = chosen[0].regular / chosen[0].point.rays
             label = f"division {title}, depth {depth}: rays, even grid / divided"
             figures.append(Figure(label, gain, gain, gain, goal, at_least=True))
+    width, height = Effort().size
+    keep("adaptive_sampling", f"{width} x {height} pixels", plots)
     return figures
 
 
@@ -178,6 +184,16 @@ def table(found: Measured, title: str) -> Table:
     return Table(about, columns, tuple(rows))
 
 
+def plot(name: str, title: str, found: Measured) -> Plot:
+    """Error over camera rays a pixel, as the documentation's data files keep it."""
+    series = tuple(
+        Series(line.name, line.style, {"samples": tuple(line.x.tolist())}, tuple(line.y.tolist()))
+        for line in _lines(found)
+    )
+    axes = {"samples": "camera rays a pixel"}
+    return Plot(name, f"division by contrast, the scene {title}", axes, "RMSE", series)
+
+
 def draw(found: Measured, title: str, path: Path) -> Path:
     """Error over camera rays a pixel."""
     with styled():
@@ -185,16 +201,21 @@ def draw(found: Measured, title: str, path: Path) -> Path:
         figure = sheet(f"Division by contrast, the scene {title}", about)
         axes = figure.add_axes((0.1, 0.15, 0.58, 0.62))
         logarithmic(axes, "camera rays a pixel", "RMSE")
-        lines = [_line("k x k grid", found.regular, 3), _line("Sobol", found.sobol, 2)]
-        thresholds = list(dict.fromkeys(one.threshold for one in found.divisions))
-        for style, threshold in zip((0, 1, 4, 5), thresholds, strict=False):
-            points = [one.point for one in found.divisions if one.threshold == threshold]
-            lines.append(_line(f"divided over {threshold:g}", points, style))
+        lines = _lines(found)
         draw_lines(axes, lines)
         slopes(
             axes, lines[0].x, 1.4 * float(lines[0].y[0]), [(-0.5, "order -1/2"), (-1, "order -1")]
         )
         return write(figure, path)
+
+
+def _lines(found: Measured) -> list[Line]:
+    lines = [_line("k x k grid", found.regular, 3), _line("Sobol", found.sobol, 2)]
+    thresholds = list(dict.fromkeys(one.threshold for one in found.divisions))
+    for style, threshold in zip((0, 1, 4, 5), thresholds, strict=False):
+        points = [one.point for one in found.divisions if one.threshold == threshold]
+        lines.append(_line(f"divided over {threshold:g}", points, style))
+    return lines
 
 
 def _line(name: str, points: list[Point], style: int) -> Line:

@@ -15,7 +15,9 @@ import numpy as np
 from rich.console import Console
 from rich.table import Table
 
+from benchmarks.curve_files import keep
 from benchmarks.figures import Figure, summary
+from course.benchmarking.plot_data import Plot, Series
 from course.core.types import Floats32
 from course.effects import PROJECT, Effects
 from course.geometry.embree import Accelerator, QueryTime
@@ -51,6 +53,7 @@ def measure_bounding_volumes() -> list[Figure]:
     for column in ("triangles", "leaf size", "nodes", "boxes", "triangles tested", "brute force"):
         table.add_column(column, justify="right")
     figures = []
+    usual: list[tuple[int, float, float]] = []
     for size in MESHES:
         _, corners = _knot(size)
         for leaf_size in LEAF_SIZES if size == USUAL else (LEAF_SIZE,):
@@ -67,10 +70,24 @@ def measure_bounding_volumes() -> list[Figure]:
                 f"{triangles:,}",
             )
             if leaf_size == LEAF_SIZE:
+                usual.append((triangles, *counts))
                 name = f"hierarchy: tests a ray, {triangles:,} triangles"
                 figures.append(summary(name, [sum(counts)], MOST))
     Console(width=110).print(table)
+    keep("bounding_volumes", f"{RAYS:,} rays, leaf size {LEAF_SIZE}", [plot(usual)])
     return [*figures, *_times(o, d)]
+
+
+def plot(rows: list[tuple[int, float, float]]) -> Plot:
+    """Tests of boxes and of triangles over the number of triangles, as the documentation's data files keep them."""
+    triangles, boxes, tested = zip(*rows, strict=True)
+    lines = {"brute force": triangles, "boxes": boxes, "triangles": tested}
+    series = tuple(
+        Series(name, style, {"samples": triangles}, values)
+        for style, (name, values) in zip((3, 1, 0), lines.items(), strict=True)
+    )
+    axes = {"samples": "triangles in the mesh"}
+    return Plot("tests", "what a ray is tested against", axes, "tests a ray", series, slope=False)
 
 
 def _times(o: Floats32, d: Floats32) -> list[Figure]:

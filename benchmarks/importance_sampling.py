@@ -3,7 +3,8 @@
 The first is that of cos^3, for which any density will do, some better. The second is matt with a highlight: the lobe
 fits the highlight and all but misses the rest, so alone it has no finite variance; with cosine-weighted directions,
 weighted by the power heuristic, it beats both. Variances are predicted from the densities, and measured. The figures
-are `out/bench/importance_sampling_cube.svg` and `importance_sampling_highlight.svg`.
+are `out/bench/importance_sampling_cube.svg` and `importance_sampling_highlight.svg`, their numbers
+`out/bench/data/importance_sampling.json`.
 """
 
 from __future__ import annotations
@@ -16,8 +17,10 @@ from pathlib import Path
 
 import numpy as np
 
+from benchmarks.curve_files import keep
 from benchmarks.drawing import OUT, Line, draw_lines, logarithmic, sheet, slopes, styled, write
 from benchmarks.figures import Figure
+from course.benchmarking.plot_data import Plot, Series
 from course.benchmarking.plots import COLORS
 from course.benchmarking.tables import NONE, Table, print_tables
 from course.core.types import Floats64
@@ -113,8 +116,10 @@ class Measured:
 def measure_importance_sampling() -> list[Figure]:
     """Print and draw both integrals."""
     figures = []
+    plots = []
     for integrand in (CUBE, HIGHLIGHT):
         found = measure(integrand, BATCHES, SAMPLES)
+        plots.append(plot(integrand, found))
         print_tables([table(integrand, found)])
         draw(integrand, found, OUT / f"importance_sampling_{integrand.name}.svg")
         figures += [
@@ -132,6 +137,7 @@ def measure_importance_sampling() -> list[Figure]:
         gain = found[0].measured / best
         name = f"{integrand.title}: variance, uniform / best"
         figures.append(Figure(name, gain, gain, gain, 10, at_least=True))
+    keep("importance_sampling", f"{BATCHES} estimates with each number of samples", plots)
     return figures
 
 
@@ -250,6 +256,29 @@ def table(integrand: Integrand, found: list[Measured]) -> Table:
         rows.append(row)
     title = f"The integral of {integrand.title} over the hemisphere, {integrand.value:.5f}: variance of one sample"
     return Table(title, columns, tuple(rows))
+
+
+def plot(integrand: Integrand, found: list[Measured]) -> Plot:
+    """The errors, measured and predicted, as the documentation's data files keep them."""
+    samples = {"samples": SHOWN}
+    measured = [
+        Series(way.name, style, samples, tuple(way.curve.tolist()))
+        for style, way in enumerate(found)
+    ]
+    expected = [
+        Series(
+            way.name,
+            style,
+            samples,
+            tuple(math.sqrt(way.predicted / n) for n in SHOWN),
+            predicted=True,
+        )
+        for style, way in enumerate(found)
+        if math.isfinite(way.predicted)
+    ]
+    title = f"the integral of {integrand.title} over the hemisphere"
+    lines = tuple(expected + measured)
+    return Plot(integrand.name, title, {"samples": "samples"}, "RMSE", lines, slope=False)
 
 
 # ---------------------------------------------------------------- the figure

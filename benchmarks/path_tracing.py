@@ -2,7 +2,8 @@
 
 The picture has the samples a pixel in its rows and the depth in its columns: noise goes away downwards, and light is
 added to the right. Mitsuba's is its own `path`, with light and reflection that it shares with nothing of ours; its
-LLVM variant where there is an LLVM, else its scalar one.
+LLVM variant where there is an LLVM, else its scalar one. `out/bench/data/path_tracing.json` has the error over samples
+and over seconds, of each sampler and of Russian roulette from different depths on.
 """
 
 from __future__ import annotations
@@ -14,12 +15,17 @@ from pathlib import Path
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
+from benchmarks.curve_files import keep
 from benchmarks.figures import Figure, summary
 from benchmarks.mitsuba_agreement import Agreement, Converged, compare, converge, save_difference
 from benchmarks.mitsuba_export import export
 from benchmarks.mitsuba_llvm import find_llvm, start_llvm
 from benchmarks.mitsuba_scalar import NativeScene, start_scalar
 from course import Scene, render
+from course.benchmarking.convergence_data import comparisons
+from course.benchmarking.estimators import SAMPLERS, Estimator, Module
+from course.benchmarking.measuring import Effort as CurveEffort
+from course.benchmarking.measuring import Measured, measure
 from course.benchmarking.sources import scene_hash
 from course.benchmarking.variants import load_variant
 from course.effects import PROJECT
@@ -29,6 +35,10 @@ SCENE = PROJECT / "scenes" / "path_tracing.yaml"
 OUT = Path("out/bench")
 ROUNDS = 5
 THREADS = 2
+
+CURVES = CurveEffort("curves", 64, (1, 4, 16, 64, 256), 4, 8192)
+ROULETTE = {"never": None, "from bounce 5": 5, "from bounce 2": 2, "from the first": 0}
+"""Bounces that a path makes before it may end by chance."""
 
 SAMPLES = (1, 16, 64)
 DEPTHS = (1, 3, 100)
@@ -51,6 +61,10 @@ class Effort:
 def measure_path_tracing() -> list[Figure]:
     """Write the picture; the whole render over the time inside Embree, and how far Mitsuba's picture is."""
     print(f"written to {draw_figure(OUT / 'path_tracing.png')}")
+    measured = curves(CURVES)
+    width, height = measured.size
+    about = f"{width} x {height} pixels, {CURVES.seeds} seeds"
+    keep("path_tracing", about, comparisons(measured))
     figures = [_cost()]
     if find_spec("mitsuba") is None:
         print("without Mitsuba (pip install .[peers]) there is nothing to agree with")
@@ -76,6 +90,30 @@ def _cost() -> Figure:
         receipt = render(scene, spp=16, seed=seed, threads=THREADS).receipt
         ratios.append(THREADS * receipt.wall_seconds / receipt.embree_seconds)
     return summary("path tracing: whole render / inside Embree", ratios[1:], 1.8)
+
+
+# ---------------------------------------------------------------- error over time
+
+
+def curves(effort: CurveEffort, folder: Path = Path("out/references")) -> Measured:
+    """The errors and times of every sampler, and of roulette from different depths on; references go into the folder.
+
+    Roulette takes one from every depth to the same picture, so all share a reference.
+    """
+    samplers = [Estimator("", sampler, "as the scene", ("samplers",)) for sampler in SAMPLERS]
+    players = [
+        Estimator(
+            name,
+            "sobol",
+            "as the scene",
+            ("roulette",),
+            {("integrator", "roulette"): bounces},
+        )
+        for name, bounces in ROULETTE.items()
+    ]
+    groups = {"samplers": "four ways to place samples", "roulette": "when paths may end by chance"}
+    module = Module("path_tracing", SCENE, groups, (*samplers, *players))
+    return measure(module, module.estimators, effort, folder=folder)
 
 
 # ---------------------------------------------------------------- Mitsuba

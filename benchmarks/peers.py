@@ -36,10 +36,12 @@ from benchmarks.mitsuba_scalar import ALIKE, NativeScene, native_overrides, star
 from course import Scene, render
 from course.benchmarking.documents import replace_marked
 from course.benchmarking.machine import machine
+from course.benchmarking.plot_data import rounded
 from course.benchmarking.sources import scene_hash
 from course.benchmarking.tables import Table, print_tables
 from course.benchmarking.variants import load_variant
 from course.effects import PROJECT
+from course.imaging.atomic import write_text
 from course.scene.description.values import rgb
 from course.scene.loading import load_description
 from course.scene.overriding import Overrides
@@ -64,6 +66,7 @@ DIFFUSE = 0.73
 MOST_SAMPLES = 16384
 OUT = Path("out/bench/peers")
 DOCUMENT = PROJECT / "docs" / "peers.md"
+DATA = PROJECT / "docs" / "data" / "peers.json"
 MARK = "python -m benchmarks.peers"
 
 
@@ -529,8 +532,12 @@ def write_document(results: list[Result], effort: Effort, about: dict[str, str])
         f"Made by `{command}`, pictures of {SIZE[0]} x {SIZE[1]}, medians of {effort.rounds} rounds.",
         Table("", ("machine", ""), rows).markdown(),
     ]
-    for table in tables(results):
-        parts += [f"### {table.title[0].upper()}{table.title[1:]}", table.markdown()]
+    forms = [form for form in FORMS if any(r.form == form for r in results)]
+    for number, table in enumerate(tables(results)):
+        parts.append(f"### {table.title[0].upper()}{table.title[1:]}")
+        # The tables of times come first, one for each form.
+        parts += [f"<!-- site: peer_times {form} -->" for form in forms[number : number + 1]]
+        parts.append(table.markdown())
     without = [
         f"- {r.effect}, {r.form}: {', '.join(r.without) or 'as it is'}"
         + (f"; {ALIKE[r.effect]}" if r.alike else "")
@@ -538,6 +545,23 @@ def write_document(results: list[Result], effort: Effort, about: dict[str, str])
     ]
     parts += ["What the scenes do without:", "\n".join(without)]
     replace_marked(DOCUMENT, MARK, "\n\n".join(parts))
+    write_data(results, command, about, DATA)
+
+
+def write_data(results: list[Result], command: str, about: dict[str, str], path: Path) -> None:
+    """Keep the numbers that the site's plots are drawn from: seconds to the same error, by form and scene."""
+    forms: dict[str, list[dict[str, Any]]] = {}
+    for r in results:
+        seconds = {"Mitsuba": r.seconds, **{ours.name: ours.seconds for ours in r.ours}}
+        row = {
+            "scene": _effect(r),
+            "error": rounded(r.error),
+            "seconds": {name: rounded(value) for name, value in seconds.items()},
+        }
+        forms.setdefault(r.form, []).append(row)
+    data = {"command": command, "machine": about, "forms": forms}
+    path.parent.mkdir(exist_ok=True)
+    write_text(path, json.dumps(data, indent=1, ensure_ascii=False) + "\n")
 
 
 def versions(threads: int) -> dict[str, str]:

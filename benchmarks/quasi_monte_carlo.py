@@ -4,7 +4,8 @@ Three integrals whose values are known: the area of a disk, a smooth function of
 a path takes them: two each for the pixel, the lens and the light. Every point set is drawn anew for each seed, so that
 an error can be told from luck: Hammersley's and Halton's points, and the patterns, are shifted by a random number
 modulo 1 in each dimension; Sobol's are the renderer's own, scrambled. In six dimensions jittered points are stratified
-pair by pair, the pairs in random order. The figures are `out/bench/quasi_monte_carlo_NAME.svg`.
+pair by pair, the pairs in random order. The figures are `out/bench/quasi_monte_carlo_NAME.svg`, their numbers
+`out/bench/data/quasi_monte_carlo.json`.
 """
 
 from __future__ import annotations
@@ -16,9 +17,11 @@ from pathlib import Path
 
 import numpy as np
 
+from benchmarks.curve_files import keep
 from benchmarks.drawing import OUT, Line, draw_lines, logarithmic, sheet, slopes, styled, write
 from benchmarks.figures import Figure
 from course.benchmarking.orders import Order, fit_order
+from course.benchmarking.plot_data import Plot, Series
 from course.benchmarking.tables import Table, digits, print_tables
 from course.core.samplers import Block
 from course.core.samplers.sobol import SobolSampler
@@ -104,9 +107,11 @@ def measure_quasi_monte_carlo() -> list[Figure]:
     """Print and draw the errors; the fitted orders with their intervals."""
     figures = []
     tables = []
+    plots = []
     for integral in INTEGRALS:
         curves = measure(integral, COUNTS, SEEDS)
         tables.append(table(integral, curves))
+        plots.append(plot(integral, curves))
         draw(integral, curves, OUT / f"quasi_monte_carlo_{integral.name}.svg")
         figures += [
             Figure(
@@ -119,6 +124,7 @@ def measure_quasi_monte_carlo() -> list[Figure]:
             for curve in curves
         ]
     print_tables(tables)
+    keep("quasi_monte_carlo", f"{SEEDS} seeds", plots)
     return figures
 
 
@@ -221,6 +227,23 @@ def table(integral: Integral, curves: list[Curve]) -> Table:
     )
     title = f"The mean of {integral.title}, {integral.value:.5f}; {SEEDS} seeds"
     return Table(title, columns, rows)
+
+
+def plot(integral: Integral, curves: list[Curve]) -> Plot:
+    """The errors as the documentation's data files keep them."""
+    series = tuple(
+        Series(
+            curve.name,
+            style,
+            {"samples": COUNTS[: len(curve.mse)]},
+            tuple(curve.rmse.tolist()),
+            order=curve.order.value,
+        )
+        for style, curve in enumerate(curves)
+    )
+    return Plot(
+        integral.name, f"points for {integral.title}", {"samples": "points"}, "RMSE", series
+    )
 
 
 # ---------------------------------------------------------------- the figure

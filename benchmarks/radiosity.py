@@ -1,8 +1,8 @@
 """Radiosity of a Cornell box of 10,000 patches: time and error over the shots, and pictures of the first ones.
 
 The error is the light that is still missing, as a share of all light, against a solution that went on for ten times
-nearer to its limit. Beside it stands the bound that the solution itself gives. `out/bench/radiosity.json` holds the
-curve, and `out/bench/radiosity.png` shows the box after 1, 32 and 320 shots.
+nearer to its limit. Beside it stands the bound that the solution itself gives. `out/bench/radiosity.json` and
+`out/bench/data/radiosity.json` hold the curve, and `out/bench/radiosity.png` shows the box after 1, 32 and 320 shots.
 """
 
 from __future__ import annotations
@@ -15,8 +15,10 @@ from time import perf_counter
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
+from benchmarks.curve_files import keep
 from benchmarks.figures import Figure
 from course import load_scene
+from course.benchmarking.plot_data import Plot, Series
 from course.core.types import Floats32
 from course.effects import PROJECT
 from course.imaging.srgb import linear_to_srgb8
@@ -100,6 +102,7 @@ def measure_radiosity() -> list[Figure]:
             f"  with the ambient term {row['missing_with_ambient']:7.2%}  bound {row['bound']:8.2%}"
         )
     (OUT / "radiosity.json").write_text(json.dumps(rows, indent=2))
+    keep("radiosity", f"{patches.size:,} patches", [plot(rows)])
     first = [number for number, p in enumerate(points) if p.shots in SHOWN]
     pictures = [
         [
@@ -127,6 +130,23 @@ def measure_radiosity() -> list[Figure]:
             100 * TOLERANCE,
         ),
     ]
+
+
+def plot(rows: list[dict[str, float]]) -> Plot:
+    """The curve as the documentation's data files keep it."""
+    places = {axis: tuple(row[axis] for row in rows) for axis in ("shots", "seconds")}
+    names = {
+        "bound": "bound",
+        "missing": "light missing",
+        "missing_with_ambient": "with the ambient term",
+    }
+    series = tuple(
+        Series(name, style, places, tuple(row[key] for row in rows))
+        for style, (key, name) in zip((3, 0, 1), names.items(), strict=True)
+    )
+    axes = {"shots": "shots", "seconds": "seconds"}
+    title = "the light that is still missing"
+    return Plot("shots", title, axes, "share of all light", series, slope=False)
 
 
 def _write(rows: list[list[Floats32]], names: list[str]) -> None:

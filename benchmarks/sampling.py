@@ -2,7 +2,8 @@
 
 A square's points lie within its disk with probability pi / 4, a cube's within its ball with pi / 6. The figure,
 `out/bench/sampling.svg`, shows points by rejection and by polar warps, and below them a popular mistake: radius and
-angle uniform.
+angle uniform. `out/bench/data/sampling.json` has the error of a mean over the disk, for points by rejection and by the
+polar warp of random, jittered and Sobol numbers: a warp carries evenness over, and rejection destroys it.
 """
 
 from __future__ import annotations
@@ -15,8 +16,12 @@ from typing import Any
 
 import numpy as np
 
+from benchmarks.curve_files import keep
 from benchmarks.drawing import OUT, sheet, styled, write
 from benchmarks.figures import Figure
+from benchmarks.quasi_monte_carlo import COUNTS, SEEDS, SETS
+from course.benchmarking.orders import fit_order
+from course.benchmarking.plot_data import Plot, Series
 from course.benchmarking.plots import COLORS, SOFT
 from course.benchmarking.tables import Table, print_tables
 from course.core.types import Floats32
@@ -83,6 +88,7 @@ def measure_sampling() -> list[Figure]:
     rates = acceptances(POINTS)
     print_tables([table(rates)])
     draw(OUT / "sampling.svg", SHOWN)
+    keep("sampling", f"{SEEDS} seeds", [errors(COUNTS, SEEDS)])
     return [
         Figure(
             f"sampling: {rate.name}, acceptance off by [standard errors]",
@@ -127,6 +133,42 @@ def table(rates: list[Acceptance]) -> Table:
         for rate in rates
     )
     return Table("Rejection: candidates that lie inside", columns, rows)
+
+
+# ---------------------------------------------------------------- errors
+
+
+def _by_rejection(n: int, seed: int) -> Floats32:
+    return disk_by_rejection(n, np.random.default_rng(seed))
+
+
+def _by_polar(numbers: str) -> Callable[[int, int], Floats32]:
+    return lambda n, seed: disk_by_polar(SETS[numbers](n, 2, seed))
+
+
+DISKS = {
+    "rejection, random": _by_rejection,
+    **{f"polar, {numbers}": _by_polar(numbers) for numbers in ("random", "jittered", "Sobol")},
+}
+"""Ways to points of the disk, (2, n) for n and a seed."""
+
+
+def errors(counts: tuple[int, ...], seeds: int) -> Plot:
+    """Errors of the mean of x^2 over the unit disk, which is 1/4, as the documentation's data files keep them."""
+    series = []
+    for style, (name, points) in zip((4, 0, 1, 2), DISKS.items(), strict=True):
+        mse = np.empty((len(counts), seeds))
+        for row, n in enumerate(counts):
+            for seed in range(seeds):
+                # Other points for each number of them, lest the errors hang together.
+                x = points(n, 1000 * row + seed)[0].astype(np.float64)
+                mse[row, seed] = ((x**2).mean() - 1 / 4) ** 2
+        order = fit_order(np.array(counts, np.float64), mse)
+        assert order is not None
+        rmse = tuple(np.sqrt(mse.mean(axis=1)).tolist())
+        series.append(Series(name, style, {"samples": counts}, rmse, order=order.value))
+    title = "the mean of x² over the disk"
+    return Plot("disk", title, {"samples": "points"}, "RMSE", tuple(series))
 
 
 # ---------------------------------------------------------------- the figure

@@ -32,8 +32,23 @@ python_use_unqualified_type_names = True
 html_theme = "furo"
 html_title = "Penumbra"
 html_static_path = ["_static"]
-html_css_files = ["site.css"]
-html_js_files = [("before_after.js", {"defer": "defer"})]
+html_css_files = [
+    "site.css",
+    "key_pictures.css",
+    "diagrams.css",
+    "plots.css",
+    "series.css",
+    "pattern_explorer.css",
+    "mistakes.css",
+]
+html_js_files = [
+    ("before_after.js", {"defer": "defer"}),
+    ("scrollers.js", {"defer": "defer"}),
+    ("plot_values.js", {"defer": "defer"}),
+    ("series.js", {"defer": "defer"}),
+    ("patterns.js", {"defer": "defer"}),
+    ("pattern_explorer.js", {"defer": "defer"}),
+]
 html_copy_source = False
 html_show_sphinx = False
 html_last_updated_fmt = None

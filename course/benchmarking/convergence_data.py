@@ -62,7 +62,7 @@ def _series(group: str, number: int, curve: Curve) -> Series:
     return Series(
         curve.estimator.label(group),
         STYLES[curve.estimator.sampler] if group == "samplers" else number,
-        {"samples": tuple(samples.tolist()), "seconds": tuple(curve.time.tolist())},
+        {"samples": tuple(map(int, samples)), "seconds": tuple(curve.time.tolist())},
         tuple(curve.rmse.tolist()),
         order=None if order is None else order.value,
         limit=bias if grid and bias >= 2 * curve.reference.error else None,

@@ -17,8 +17,8 @@ from typing import Any
 from course.errors import CourseError, OutputError
 from course.imaging.atomic import write_text
 
-DIGITS = 4
-"""Digits that count of a number in a file."""
+DIGITS = 6
+"""Digits that count of a number in a file: enough for the three that are shown to be rounded once."""
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,7 @@ class Series:
     ----------
     name : of the estimator
     style : number of its colour and its mark
-    x : name of an axis -> values along it
+    x : name of an axis -> values along it; counts are of type int
     y : as many values
     order : the fitted order, if there is one
     limit : the error that is left however large x is, if it can be told from noise
@@ -148,7 +148,7 @@ def _trim(data: dict[str, Any], **defaults: Any) -> None:
 
 
 def _drawable(series: dict[str, Any]) -> None:
-    """Leave out points that have no place on logarithmic axes; round the others, whole numbers to such."""
+    """Leave out points that have no place on logarithmic axes; round the others."""
     columns = [*series["x"].values(), series["y"]]
     rows = [row for row in zip(*columns, strict=True) if all(isfinite(v) and v > 0 for v in row)]
     kept = [[_number(row[place]) for row in rows] for place in range(len(columns))]
@@ -157,7 +157,8 @@ def _drawable(series: dict[str, Any]) -> None:
 
 
 def _number(value: float) -> float:
-    return int(value) if float(value).is_integer() else rounded(value)
+    """A count as it is, a measurement rounded."""
+    return value if isinstance(value, int) else rounded(value)
 
 
 def _record(data: dict[str, Any]) -> Record:

@@ -10,11 +10,12 @@ from typing import Any
 
 from sphinx.application import Sphinx
 
-from sitebuild import docstrings, mathematics, parts
+from sitebuild import captions, docstrings, mathematics, parts
 
 
 def setup(app: Sphinx) -> dict[str, Any]:
     """Connect the parts to Sphinx's events."""
+    captions.connect(app)
     docstrings.connect(app)
     mathematics.connect(app)
     parts.connect(app)

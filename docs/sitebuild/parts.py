@@ -1,7 +1,7 @@
 """The generated parts of pages, and when they are made anew.
 
-A part is asked for by ``<!-- site: KIND NAME WORDS -->`` on a line of its own; `PARTS` has the kinds. Before "The idea"
-of a module that has two scenes stands the pair of their pictures, unasked.
+A part is asked for by ``<!-- site: KIND NAME WORDS -->`` on a line of its own; `PARTS` has the kinds. "The
+phenomenon" of a module that has two scenes begins with the pair of their pictures, unasked.
 """
 
 from __future__ import annotations
@@ -17,12 +17,22 @@ from sphinx.environment import BuildEnvironment
 from sphinx.errors import ExtensionError
 
 from course.errors import CourseError
-from sitebuild import pictures
+from sitebuild import key_pictures, pictures
 from sitebuild.command_line import command_line
+from sitebuild.convergence import convergence
+from sitebuild.diagrams.part import diagram
 from sitebuild.functions import functions
+from sitebuild.kept import forget_unused
+from sitebuild.mistakes.part import mistakes
+from sitebuild.notebook import notebook
+from sitebuild.other_shots import metu_shot, radiosity_shot
+from sitebuild.pattern_explorer import pattern_explorer
+from sitebuild.peer_times import peer_times
 from sitebuild.place import Place
 from sitebuild.scene_keys import scene_keys
+from sitebuild.series import series
 from sitebuild.shots import before_after, picture, shot
+from sitebuild.signatures import linked
 
 MARK = re.compile(r"^<!-- site: (\w+) ?([\w./]*) ?(.*?) ?-->$", re.MULTILINE)
 
@@ -32,9 +42,18 @@ Part = Callable[[Place, str, str], str]
 PARTS: dict[str, Part] = {
     "before_after": before_after,
     "command_line": command_line,
+    "convergence": convergence,
+    "diagram": diagram,
     "functions": functions,
+    "mistakes": mistakes,
+    "metu_shot": metu_shot,
+    "notebook": notebook,
+    "pattern_explorer": pattern_explorer,
+    "peer_times": peer_times,
     "picture": picture,
+    "radiosity_shot": radiosity_shot,
     "scene_keys": scene_keys,
+    "series": series,
     "shot": shot,
 }
 
@@ -87,13 +106,20 @@ class Site:
             file = Path(app.outdir) / target
             file.parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(path, file)
+        if app.config.pictures != "blank":
+            for folder in (pictures.KEPT, key_pictures.KEPT):
+                forget_unused(folder, self.files.values())
 
     def expanded(self, page: str, text: str) -> str:
         """Return a page's Markdown with its generated parts."""
         folder, _, module = page.rpartition("/")
+        if folder == "modules":
+            text = linked(module, text)
         if folder == "modules" and pictures.scene_path(f"before/{module}").is_file():
             text = text.replace(
-                "\n## The idea\n", f"\n<!-- site: before_after {module} -->\n\n## The idea\n", 1
+                "\n## The phenomenon\n",
+                f"\n## The phenomenon\n\n<!-- site: before_after {module} -->\n",
+                1,
             )
         place = Place(
             up="../" * page.count("/"),

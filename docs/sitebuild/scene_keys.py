@@ -1,4 +1,4 @@
-"""The reference of scene files, from their JSON schema: each key with its unit, range and default."""
+"""The reference of scene files, from their JSON schema: each key with its unit, range, default and pictures."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from course.scene.schema import json_schema
+from sitebuild.key_pictures import key_pictures
 from sitebuild.place import Place
 
 Node = dict[str, Any]
@@ -27,7 +28,7 @@ def scene_keys(place: Place, name: str = "", words: str = "") -> str:  # noqa: A
     """Return the reference as Markdown: a heading for each map that a scene file may hold, and under it its keys."""
     schema = json_schema()
     return "\n".join(
-        line for name in _in_order(schema) for line in _section(name, schema["$defs"][name])
+        line for name in _in_order(schema) for line in _section(place, name, schema["$defs"][name])
     )
 
 
@@ -60,7 +61,7 @@ def _references(node: Any) -> Iterator[str]:
             yield from _references(child)
 
 
-def _section(name: str, node: Node) -> list[str]:
+def _section(place: Place, name: str, node: Node) -> list[str]:
     lines = [f"## {heading(name)}", "", node.get("description", ""), ""]
     keys = node.get("properties", {})
     if not keys:
@@ -74,6 +75,9 @@ def _section(name: str, node: Node) -> list[str]:
             f": {value.get('description', 'Says which of them it is.')}",
             "",
         ]
+        shown = key_pictures(place, name, key)
+        if shown:
+            lines += [f"  {shown}", ""]
     return lines
 
 

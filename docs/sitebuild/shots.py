@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from html import escape
+from pathlib import Path
 from typing import Any
 
 from sitebuild import pictures
@@ -35,28 +36,40 @@ def shot(place: Place, name: str, words: str = "") -> str:  # noqa: ARG001
     planned = pictures.shot(name)
     image, receipt = _image(place, planned)
     text = pictures.receipt_text(planned, receipt) if receipt else "not rendered in this build"
-    scene = planned.scene.read_text(encoding="utf-8").rstrip()
     file = place.address(f"_scenes/{name.replace('/', '-')}.yaml", planned.scene)
-    return f"""## {planned.title}
+    return laid_out(planned.title, image, planned.command, text, planned.scene, file)
+
+
+def laid_out(title: str, image: str, command: str, receipt: str, scene: Path, file: str) -> str:
+    """Lay out a scene with all that belongs to it.
+
+    Parameters
+    ----------
+    image : HTML
+    receipt : what the command prints
+    file : address of the scene on the site
+    """
+    kind = scene.suffix.removeprefix(".")
+    return f"""## {title}
 
 <p class="wide">{image}</p>
 
-    {planned.command}
+    {command}
 
 <details><summary>Receipt</summary>
 
 ```text
-{text}
+{receipt}
 ```
 
 </details>
 <details><summary>Scene</summary>
 
-```yaml
-{scene}
+```{kind}
+{scene.read_text(encoding="utf-8").rstrip()}
 ```
 
-<p><a href="{file}" download>{name}.yaml</a></p>
+<p><a href="{file}" download>{scene.name}</a></p>
 
 </details>
 """

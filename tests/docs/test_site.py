@@ -149,6 +149,15 @@ def test_a_module_with_two_scenes_shows_both(
     assert [name for name in shown if name in pair] == (pair if there else [])
 
 
+@pytest.mark.parametrize("module", COURSE)
+def test_each_signature_leads_to_its_reference(
+    module: str, site: Path, pages: dict[Path, Page]
+) -> None:
+    links = pages[site / "modules" / f"{module}.html"].links
+    for name in COURSE[module]:
+        assert f"../reference/functions.html#assignments.{module}.{name}" in links
+
+
 def test_every_key_of_a_scene_is_listed(site: Path, pages: dict[Path, Page]) -> None:
     text = " ".join("".join(pages[site / "reference" / "scene_files.html"].text).split())
     for definition in json_schema()["$defs"].values():

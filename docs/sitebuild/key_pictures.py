@@ -1,0 +1,130 @@
+"""Small pictures of the values of one key, beside the key in the reference of scene files."""
+
+from __future__ import annotations
+
+import json
+from copy import deepcopy
+from functools import lru_cache
+from hashlib import sha256
+from html import escape
+from io import BytesIO
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+import click
+from PIL import Image
+
+from course import load_scene, render
+from course.benchmarking.sources import engine_hash
+from course.effects import PROJECT, Effects
+from course.imaging.atomic import replacing
+from sitebuild.key_variants import COMMON, VARIANTS, Changes
+from sitebuild.place import Place
+
+KEPT = PROJECT / "out" / "docs" / "keys"
+SCENES = PROJECT / "scenes"
+FOLDERS = ("textures/", "environments/")
+"""Of `SCENES`; files in them are named relative to it."""
+
+SIZE = (200, 133)
+QUALITY = 88
+
+
+def key_pictures(place: Place, definition: str, key: str) -> str:
+    """Return the pictures of a key as HTML; nothing where it has none."""
+    variants = VARIANTS.get((definition, key), [])
+    shown = "".join(_figure(place, definition, said, changes) for said, changes in variants)
+    return f'<div class="key-pictures">{shown}</div>' if shown else ""
+
+
+def _figure(place: Place, definition: str, said: str, changes: Changes) -> str:
+    name, file = _file(place, changes)
+    address = place.address(f"_keys/{name}", file)
+    width, height = SIZE
+    text = escape(said)
+    return (
+        f'<figure><img src="{address}" alt="{escape(_about(definition))}{text}" width="{width}" height="{height}"'
+        f' loading="lazy"><figcaption>{text}</figcaption></figure>'
+    )
+
+
+def _about(definition: str) -> str:
+    return f"{definition.removesuffix('Description')} with "
+
+
+def _file(place: Place, changes: Changes) -> tuple[str, Path]:
+    """The picture's name on the site, and where it is now."""
+    if place.blank:
+        path = place.made / "key.webp"
+        path.parent.mkdir(parents=True, exist_ok=True)
+        Image.new("RGB", SIZE, (128, 128, 128)).save(path, "WEBP")
+        return path.name, path
+    path = picture(changes)
+    return path.name, path
+
+
+def described(changes: Changes) -> dict[str, Any]:
+    """Return the common scene with some of its values changed, as a scene file has it."""
+    scene: Any = {"film": {"width": SIZE[0], "height": SIZE[1]}, **deepcopy(COMMON)}
+    for where, value in changes.items():
+        *way, last = where.split(".")
+        at: Any = scene
+        for step in way:
+            at = at[int(step)] if isinstance(at, list) else at.setdefault(step, {})
+        at[int(last) if isinstance(at, list) else last] = deepcopy(value)
+    return scene  # type: ignore[no-any-return]
+
+
+def image(
+    changes: Changes, size: tuple[int, int] | None = None, samples: int | None = None
+) -> Image.Image:
+    """Render the common scene with changes; without size and samples, as it says itself."""
+    text = json.dumps(described(changes))
+    for folder in FOLDERS:
+        text = text.replace(f'"{folder}', f'"{(SCENES / folder).as_posix()}/')
+    with TemporaryDirectory(prefix="course-") as folder:
+        file = Path(folder, "key.yaml")
+        file.write_text(text, encoding="utf-8")
+        made = render(load_scene(file), size=size, spp=samples)
+    if made.interrupted:
+        raise KeyboardInterrupt
+    return Image.open(BytesIO(made._repr_png_())).convert("RGB")
+
+
+def picture(changes: Changes, kept: Path = KEPT) -> Path:
+    """Render a picture, unless it is kept; return the WebP file."""
+    path = kept / f"{_hash(changes)}.webp"
+    if not path.is_file():
+        if not kept.is_dir():
+            click.echo("rendering the pictures of the keys of scene files", err=True)
+            kept.mkdir(parents=True)
+        made = image(changes)
+        if made.size != SIZE:
+            # Pixels are meant to be seen.
+            made = made.resize(SIZE, Image.Resampling.NEAREST)
+        with replacing(path) as temporary:
+            made.save(temporary, "WEBP", quality=QUALITY)
+    return path
+
+
+def _hash(changes: Changes) -> str:
+    everything = [
+        described(changes),
+        _files(),
+        engine_hash(Effects().folder.resolve()),
+        SIZE,
+        QUALITY,
+    ]
+    return sha256(json.dumps(everything, sort_keys=True).encode()).hexdigest()[:16]
+
+
+@lru_cache(maxsize=1)
+def _files() -> dict[str, str]:
+    """Hashes of the files that the scene may name."""
+    return {
+        path.name: sha256(path.read_bytes()).hexdigest()
+        for folder in FOLDERS
+        for path in sorted((SCENES / folder).iterdir())
+        if path.is_file()
+    }

@@ -1,0 +1,356 @@
+"""Which keys of a scene file are shown by pictures, with which values, in which small scene."""
+
+from __future__ import annotations
+
+from typing import Any
+
+Changes = dict[str, Any]
+"""From the place of a value, with dots, to the value; a place is made where there is none."""
+
+COMMON: Changes = {
+    "camera": {"eye": [0, 1.7, 5.2], "look_at": [0, 0.72, 0], "vertical_fov": 30},
+    "sampler": {"samples": 16},
+    "environment": {"type": "constant", "radiance": [0.3, 0.38, 0.5]},
+    "materials": {
+        "floor": {"texture": {"image": "textures/tiles.png", "repeat": [16, 16]}},
+        "ball": {"color": [0.75, 0.25, 0.15]},
+        "far": {"color": [0.2, 0.45, 0.5]},
+        "near": {"color": [0.8, 0.65, 0.25]},
+    },
+    "lights": [
+        {"type": "ambient", "radiance": 0.15},
+        {"type": "sphere", "center": [-3, 4, 3], "radius": 0.4, "intensity": 60},
+    ],
+    "objects": [
+        {"shape": "quad", "material": "floor", "width": 24, "depth": 24},
+        {
+            "shape": "sphere",
+            "material": "ball",
+            "radius": 0.7,
+            "transform": [{"translate": [0, 0.7, 0]}],
+        },
+        {"shape": "box", "material": "far", "transform": [{"translate": [-1.6, 0.5, -1.6]}]},
+        {
+            "shape": "cone",
+            "material": "near",
+            "height": 0.9,
+            "radius": 0.4,
+            "transform": [{"translate": [1.3, 0.45, 0.8]}],
+        },
+    ],
+}
+"""What all pictures begin with: a tiled floor, a ball, a box behind it and a cone before it."""
+
+BALL, LAMP = "objects.1.", "lights.1."
+SHINY = {"environment": {"type": "lat_long", "image": "environments/studio.exr"}}
+GLASS = {"materials.ball.color": 0, "materials.ball.dielectric": {}}
+POLISHED = {"materials.ball.color": 0.1, "materials.ball.mirror": 0.8}
+ALONE = {"lights.0.radiance": 0.03}
+LENS = {"camera.lens": {"aperture_radius": 0.15, "focus_distance": 5}, "sampler.samples": 64}
+MOVING = {"objects.1.motion": {"velocity": [1.2, 0, 0]}, "sampler.samples": 64}
+SKY = {"type": "lat_long", "image": "environments/sky.exr", "lights": True}
+SKYLIT = {"lights": [], "environment": SKY, **POLISHED}
+WINDOW = {
+    "type": "rectangle",
+    "corner": [-2.1, 0.3, -2],
+    "edge_u": [0, 1.6, 0],
+    "edge_v": [0, 0, 3],
+    "radiance": 6,
+}
+
+
+def _object(shape: str, **keys: Any) -> Changes:
+    """Another shape in the ball's place."""
+    turned = [{"rotate": {"axis": [1, 0, 0], "degrees": 25}}, {"translate": [0, 0.75, 0]}]
+    return {"objects.1": {"shape": shape, "material": "ball", "transform": turned, **keys}}
+
+
+def _values(place: str, *values: Any, **rest: Any) -> list[tuple[str, Changes]]:
+    """One picture for each value of the key at ``place``; the other changes are for all."""
+    key = place.rpartition(".")[2]
+    return [(f"{key}: {_said(value)}", {**rest.get("on", {}), place: value}) for value in values]
+
+
+def _shapes(shape: str, key: str, *values: Any, **keys: Any) -> list[tuple[str, Changes]]:
+    return [(f"{key}: {_said(value)}", _object(shape, **{**keys, key: value})) for value in values]
+
+
+def _said(value: Any) -> str:
+    """As it is written in a scene file."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{key}: {_said(each)}" for key, each in value.items()) + "}"
+    return str(value)
+
+
+VARIANTS: dict[tuple[str, str], list[tuple[str, Changes]]] = {
+    ("SceneDescription", "seed"): _values(
+        "seed", 0, 1, on={"sampler": {"type": "random", "samples": 1}}
+    ),
+    ("CameraDescription", "eye"): _values("camera.eye", [0, 1.7, 5.2], [3, 2.6, 4]),
+    ("CameraDescription", "look_at"): _values("camera.look_at", [0, 0.72, 0], [1.3, 0.4, 0.8]),
+    ("CameraDescription", "up"): _values("camera.up", [0, 1, 0], [0.4, 1, 0]),
+    ("CameraDescription", "vertical_fov"): _values("camera.vertical_fov", 15, 30, 60),
+    ("CameraDescription", "handedness"): _values("camera.handedness", "right", "left"),
+    ("CameraDescription", "near"): _values("camera.near", 0, 4.3, 4.9),
+    ("LensDescription", "aperture_radius"): _values(
+        "camera.lens.aperture_radius", 0.03, 0.1, 0.3, on=LENS
+    ),
+    ("LensDescription", "focus_distance"): _values(
+        "camera.lens.focus_distance", 4.2, 5.1, 7, on=LENS
+    ),
+    ("LensDescription", "shape"): _values(
+        "camera.lens.shape",
+        "disk",
+        "polygon",
+        "square",
+        on={
+            **LENS,
+            "camera.lens": {"aperture_radius": 0.3, "focus_distance": 2.4, "blades": 5},
+            "objects.1.radius": 0.06,
+            "materials.ball.emission": 8,
+        },
+    ),
+    ("LensDescription", "blades"): _values(
+        "camera.lens.blades",
+        3,
+        5,
+        8,
+        on={
+            **LENS,
+            "camera.lens": {"aperture_radius": 0.3, "focus_distance": 2.4, "shape": "polygon"},
+            "objects.1.radius": 0.06,
+            "materials.ball.emission": 8,
+        },
+    ),
+    ("ShutterDescription", "close"): _values("camera.shutter.close", 0.2, 0.5, 1, on=MOVING),
+    ("ShutterDescription", "open"): _values("camera.shutter.open", 0, 0.5, 0.9, on=MOVING),
+    ("MotionDescription", "velocity"): _values(
+        "objects.1.motion.velocity", [0, 0, 0], [1.2, 0, 0], [0, 0.6, 0], on=MOVING
+    ),
+    ("FilmDescription", "filter"): _values(
+        "film.filter", "box", "gaussian", on={"film.width": 66, "film.height": 44}
+    ),
+    ("FilmDescription", "sigma"): _values(
+        "film.sigma", 0.17, 0.5, on={"film.filter": "gaussian", "film.width": 66, "film.height": 44}
+    ),
+    ("FilmDescription", "white"): _values("film.white", 0.5, 1, 2),
+    ("FilmDescription", "encoding"): _values("film.encoding", "srgb", "linear"),
+    ("SamplerDescription", "type"): _values(
+        "sampler.type",
+        "regular",
+        "random",
+        "jittered",
+        "sobol",
+        on={"sampler.samples": 4, "lights.1.radius": 1.2},
+    ),
+    ("SamplerDescription", "samples"): _values(
+        "sampler.samples", 1, 4, 64, on={"lights.1.radius": 1.2}
+    ),
+    ("IntegratorDescription", "type"): _values(
+        "integrator.type", "distribution", "path", on={**ALONE, "sampler.samples": 64}
+    ),
+    ("IntegratorDescription", "max_depth"): _values("integrator.max_depth", 0, 1, 5, on=GLASS),
+    ("ConstantEnvironment", "radiance"): _values("environment.radiance", 0.05, [0.3, 0.38, 0.5]),
+    ("ConstantEnvironment", "lights"): _values(
+        "environment.lights", False, True, on={"lights": []}
+    ),
+    ("ConstantEnvironment", "seen_by"): _values(
+        "environment.seen_by", "all", "camera", on=POLISHED
+    ),
+    ("CubeEnvironment", "cross"): [
+        (
+            "cross: valley.png",
+            {"environment": {"type": "cube", "cross": "environments/valley.png"}, **POLISHED},
+        )
+    ],
+    ("LatLongEnvironment", "image"): [
+        (
+            f"image: {name}.exr",
+            {"environment": {"type": "lat_long", "image": f"environments/{name}.exr"}, **POLISHED},
+        )
+        for name in ("sky", "studio")
+    ],
+    ("LatLongEnvironment", "scale"): _values("environment.scale", 0.5, 2, on=SKYLIT),
+    ("LatLongEnvironment", "lights"): _values("environment.lights", False, True, on=SKYLIT),
+    ("MaterialDescription", "color"): _values(
+        "materials.ball.color", 0.1, [0.75, 0.25, 0.15], [0.2, 0.6, 0.3]
+    ),
+    ("MaterialDescription", "ambient"): _values(
+        "materials.ball.ambient", 0, 1, on={"lights.0.radiance": 0.4}
+    ),
+    ("MaterialDescription", "diffuse"): _values("materials.ball.diffuse", 0.2, 1),
+    ("MaterialDescription", "specular"): _values("materials.ball.specular", 0, 0.5),
+    ("MaterialDescription", "exponent"): _values(
+        "materials.ball.exponent", 8, 32, 200, on={"materials.ball.specular": 0.5}
+    ),
+    ("MaterialDescription", "emission"): _values("materials.ball.emission", 0, [0.9, 0.5, 0.1]),
+    ("MaterialDescription", "mirror"): _values(
+        "materials.ball.mirror", 0, 0.3, 0.9, on={"materials.ball.color": 0.1}
+    ),
+    ("PlaneLobe", "roughness"): [
+        (
+            f"roughness: {size}",
+            {**POLISHED, **SHINY, "materials.ball.gloss": {"lobe": "plane", "roughness": size}},
+        )
+        for size in (0.1, 0.5, 1.2)
+    ],
+    ("BallLobe", "glossiness"): [
+        (
+            f"glossiness: {size}",
+            {**POLISHED, **SHINY, "materials.ball.gloss": {"lobe": "ball", "glossiness": size}},
+        )
+        for size in (0.1, 0.3, 0.8)
+    ],
+    ("PhongLobe", "exponent"): [
+        (
+            f"exponent: {size}",
+            {**POLISHED, **SHINY, "materials.ball.gloss": {"lobe": "phong", "exponent": size}},
+        )
+        for size in (1000, 100, 10)
+    ],
+    ("Dielectric", "refraction_index"): _values(
+        "materials.ball.dielectric.refraction_index", 1.05, 1.5, 2.4, on=GLASS
+    ),
+    ("Dielectric", "absorption"): _values(
+        "materials.ball.dielectric.absorption", 0, [1.5, 0.4, 0.2], on=GLASS
+    ),
+    ("Dielectric", "roughness"): _values(
+        "materials.ball.dielectric.roughness", 0, 0.2, 0.6, on={**GLASS, "sampler.samples": 36}
+    ),
+    ("Conductor", "refraction_index"): [
+        (
+            said,
+            {
+                "materials.ball.color": 0,
+                "materials.ball.mirror": 1,
+                "materials.ball.conductor": {"refraction_index": n, "absorption_index": k},
+                **SHINY,
+            },
+        )
+        for said, n, k in (
+            ("copper: [0.20, 0.92, 1.10]", [0.2, 0.92, 1.1], [3.91, 2.45, 2.14]),
+            ("silver: [0.16, 0.14, 0.14]", [0.16, 0.14, 0.14], [3.93, 3.19, 2.38]),
+        )
+    ],
+    ("TextureDescription", "image"): [
+        (
+            f"image: {name}.png",
+            {
+                "materials.ball.color": 1,
+                "materials.ball.texture": {"image": f"textures/{name}.png"},
+            },
+        )
+        for name in ("globe", "weave")
+    ],
+    ("TextureDescription", "repeat"): _values(
+        "materials.floor.texture.repeat", [4, 4], [16, 16], [16, 4]
+    ),
+    ("AmbientLight", "radiance"): _values("lights.0.radiance", 0, 0.15, 0.5),
+    ("PointLight", "position"): [
+        (f"position: {place}", {"lights.1": {"type": "point", "position": place, "intensity": 50}})
+        for place in ([-3, 4, 3], [3, 3, 2])
+    ],
+    ("PointLight", "intensity"): [
+        (
+            f"intensity: {value}",
+            {"lights.1": {"type": "point", "position": [-3, 4, 3], "intensity": value}},
+        )
+        for value in (15, 60, [60, 40, 15])
+    ],
+    ("DirectionalLight", "direction"): [
+        (
+            f"direction: {toward}",
+            {"lights.1": {"type": "directional", "direction": toward, "irradiance": 2}},
+        )
+        for toward in ([1, -1.5, -1], [1, -0.4, -0.3])
+    ],
+    ("DirectionalLight", "irradiance"): [
+        (
+            f"irradiance: {value}",
+            {"lights.1": {"type": "directional", "direction": [1, -1.5, -1], "irradiance": value}},
+        )
+        for value in (0.7, 2.5)
+    ],
+    ("RectangleLight", "radiance"): [
+        (f"radiance: {value}", {**ALONE, "lights.1": {**WINDOW, "radiance": value}})
+        for value in (2, 8)
+    ],
+    ("RectangleLight", "edge_u"): [
+        (f"edge_u: {edge}", {**ALONE, "lights.1": {**WINDOW, "edge_u": edge}})
+        for edge in ([0, 0.3, 0], [0, 1.6, 0])
+    ],
+    ("RectangleLight", "visible"): [
+        (f"visible: {_said(value)}", {**ALONE, "lights.1": {**WINDOW, "visible": value}})
+        for value in (True, False)
+    ],
+    ("RectangleLight", "samples"): [
+        (
+            f"samples: {value}",
+            {**ALONE, "sampler.samples": 1, "lights.1": {**WINDOW, "samples": value}},
+        )
+        for value in ("point", "grid 4")
+    ],
+    ("SphereLight", "radius"): _values("lights.1.radius", 0.1, 1, 2.5),
+    ("SphereLight", "intensity"): _values("lights.1.intensity", 20, 60, [60, 40, 15]),
+    ("Quad", "width"): _values("objects.0.width", 3, 24),
+    ("Quad", "depth"): _values("objects.0.depth", 3, 24),
+    ("Translate", "translate"): _values(
+        "objects.1.transform.0.translate", [0, 0.7, 0], [0.8, 1.2, 0]
+    ),
+    ("Scale", "scale"): [
+        (f"scale: {value}", {"objects.1.transform": [{"scale": value}, {"translate": [0, 0.7, 0]}]})
+        for value in (0.6, [1, 0.5, 1], [0.4, 1, 1])
+    ],
+    ("Rotation", "degrees"): [
+        (
+            f"degrees: {angle}",
+            {
+                "objects.2.transform": [
+                    {"rotate": {"axis": [0, 1, 0], "degrees": angle}},
+                    {"translate": [-1.3, 0.5, 0.4]},
+                ]
+            },
+        )
+        for angle in (0, 20, 45)
+    ],
+    ("Rotation", "axis"): [
+        (
+            f"axis: {axis}",
+            {
+                "objects.3.transform": [
+                    {"rotate": {"axis": axis, "degrees": 90}},
+                    {"translate": [1.2, 0.45, 0.8]},
+                ]
+            },
+        )
+        for axis in ([0, 1, 0], [1, 0, 0], [0, 0, 1])
+    ],
+    ("Box", "size"): _values("objects.2.size", [1, 1, 1], [0.4, 1.8, 1]),
+    ("Sphere", "radius"): _values("objects.1.radius", 0.3, 0.7),
+    ("Sphere", "segments"): _values("objects.1.segments", 6, 16, 64),
+    ("Sphere", "shading"): _values(
+        "objects.1.shading", "smooth", "flat", on={"objects.1.segments": 10}
+    ),
+    ("Disk", "radius"): _shapes("disk", "radius", 0.4, 1),
+    ("Cylinder", "radius"): _shapes("cylinder", "radius", 0.2, 0.6),
+    ("Cylinder", "height"): _shapes("cylinder", "height", 0.5, 1.3),
+    ("Cone", "radius"): _shapes("cone", "radius", 0.25, 0.7),
+    ("Cone", "height"): _shapes("cone", "height", 0.5, 1.4),
+    ("Torus", "radius"): _shapes("torus", "radius", 0.4, 0.8),
+    ("Torus", "tube"): _shapes("torus", "tube", 0.08, 0.25, radius=0.7),
+    ("TorusKnot", "p"): _shapes("torus_knot", "p", 2, 3, q=5, radius=0.6, tube=0.1, segments=256),
+    ("TorusKnot", "q"): _shapes("torus_knot", "q", 3, 7, p=2, radius=0.6, tube=0.1, segments=256),
+    ("DisplacedSphere", "amplitude"): _shapes(
+        "displaced_sphere", "amplitude", 0.03, 0.15, radius=0.7, segments=96
+    ),
+    ("DisplacedSphere", "frequency"): _shapes(
+        "displaced_sphere", "frequency", 3, 9, radius=0.7, segments=96
+    ),
+    ("HeightField", "amplitude"): _shapes("height_field", "amplitude", 0.05, 0.3, size=[2, 2]),
+    ("HeightField", "frequency"): _shapes(
+        "height_field", "frequency", 2, 8, size=[2, 2], amplitude=0.1
+    ),
+}
+"""From a definition of the schema and a key of it to the pictures: what stands under each, and what it changes."""

@@ -1,0 +1,182 @@
+"""Figures drawn once, in processes of their own, and kept under a hash of all that decides them."""
+
+from __future__ import annotations
+
+import json
+import warnings
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import lru_cache
+from hashlib import sha256
+from importlib.metadata import version
+from multiprocessing import TimeoutError as Late
+from multiprocessing import get_context
+from pathlib import Path
+from typing import Any
+
+import click
+import numpy as np
+from PIL import Image, ImageDraw
+
+from course.benchmarking.sources import engine_hash
+from course.effects import PROJECT
+from course.imaging.atomic import replacing
+from sitebuild.mistakes.catalog import look
+from sitebuild.mistakes.look import SIZE
+from sitebuild.mistakes.submissions import functions, solution, submission
+
+KEPT = PROJECT / "out" / "docs" / "mistakes"
+HERE = Path(__file__).parent
+
+PATIENCE = 60.0
+"""Seconds after which a function is taken never to end."""
+
+PROCESSES = 2
+
+QUALITY = 88
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A function and how it is looked at.
+
+    Attributes
+    ----------
+    function : MODULE.FUNCTION
+    name : of the wrong submission, or empty for the right function
+    seen : number of the look, of those that the function has
+    """
+
+    function: str
+    name: str
+    seen: int
+
+    @property
+    def file(self) -> str:
+        """Name of the picture on the site."""
+        return f"{self.function}-{self.name or f'right-{self.seen}'}.webp"
+
+    @property
+    def key(self) -> str:
+        """Hash of all that decides the picture."""
+        module = self.function.partition(".")[0]
+        known = submission(self.function, self.name).source if self.name else ""
+        chosen = look(self.function, self.seen)
+        parts = [self.function, str(self.seen), known, solution(module), _sources(module)]
+        parts += [sha256(path.read_bytes()).hexdigest() for path in chosen.files]
+        if chosen.renders:
+            parts.append(engine_hash(PROJECT / "solutions"))
+        return sha256(json.dumps(parts).encode()).hexdigest()
+
+
+@lru_cache
+def _sources(module: str) -> str:
+    """All that draws the figures of a module."""
+    names = ("figures", "look", "plots", "rendered", "submissions")
+    files = [*(HERE / f"{name}.py" for name in names), HERE / "looks" / f"{module}.py"]
+    libraries = [version(name) for name in ("matplotlib", "numpy", "pillow")]
+    return "\n".join([*libraries, *(path.read_text(encoding="utf-8") for path in files)])
+
+
+def draw(figure: Figure) -> Image.Image:
+    """Draw it, in this process; whatever the function raises is raised."""
+    module = figure.function.partition(".")[0]
+    with np.errstate(all="ignore"), warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return look(figure.function, figure.seen).draw(
+            functions(module, figure.name), functions(module)
+        )
+
+
+class Studio:
+    """The processes that draw; started when the first figure is asked for."""
+
+    def __init__(self) -> None:
+        self._pool: Any = None
+
+    def files(self, figures: Iterable[Figure], kept: Path = KEPT) -> dict[Figure, tuple[Path, str]]:
+        """Have figures drawn that aren't kept.
+
+        Returns
+        -------
+        figure -> file, note
+            The WebP file, and what there is to say if the function came to nothing.
+
+        Raises
+        ------
+        CourseError
+            A figure names a submission that isn't there.
+        """
+        found = {
+            figure: (kept / f"{figure.key}.webp", kept / f"{figure.key}.txt") for figure in figures
+        }
+        missing = [f for f, paths in found.items() if not all(path.is_file() for path in paths)]
+        if missing:
+            click.echo(f"drawing {missing[0].function}: {len(missing)} figures", err=True)
+            kept.mkdir(parents=True, exist_ok=True)
+            pool = self._running()
+            waiting = [(f, pool.apply_async(_drawn, (f, *found[f]))) for f in missing]
+            for figure, outcome in waiting:
+                try:
+                    outcome.get(PATIENCE)
+                except Late:
+                    self.close()
+                    _write(_lost("does not end"), "It does not end.", *found[figure])
+                    break
+            else:
+                waiting = []
+            if waiting:
+                return self.files(found, kept)
+        return {
+            figure: (image, note.read_text(encoding="utf-8"))
+            for figure, (image, note) in found.items()
+        }
+
+    def close(self) -> None:
+        """End the processes, whatever they are at."""
+        if self._pool is not None:
+            self._pool.terminate()
+            self._pool.join()
+        self._pool = None
+
+    def _running(self) -> Any:
+        if self._pool is None:
+            self._pool = get_context("spawn").Pool(PROCESSES)
+        return self._pool
+
+
+STUDIO = Studio()
+
+
+def _drawn(figure: Figure, image: Path, note: Path) -> None:
+    """Draw a figure to a file, in a process of the pool."""
+    try:
+        drawn, said = draw(figure), ""
+    except Exception as error:  # a wrong function may raise anything
+        if not figure.name:
+            raise
+        drawn, said = _lost(type(error).__name__), f"It ends with {type(error).__name__}: {error}"
+    _write(drawn, said, image, note)
+
+
+def _write(drawn: Image.Image, said: str, image: Path, note: Path) -> None:
+    plotted = drawn.size != SIZE
+    with replacing(image) as temporary:
+        drawn.convert("RGB").save(temporary, "WEBP", quality=QUALITY, lossless=plotted)
+    with replacing(note) as temporary:
+        temporary.write_text(said, encoding="utf-8")
+
+
+def _lost(why: str) -> Image.Image:
+    """A picture that says why there is none."""
+    image = Image.new("RGB", (SIZE[0] * 2, SIZE[1] * 2), "white")
+    ImageDraw.Draw(image).text((SIZE[0], SIZE[1]), why, fill="#a1440b", anchor="mm", font_size=40)
+    return image
+
+
+def blank(figure: Figure, folder: Path) -> Path:
+    """Make a grey picture of the same size, for builds that must not wait."""
+    folder.mkdir(parents=True, exist_ok=True)
+    path = folder / figure.file
+    Image.new("RGB", SIZE, (128, 128, 128)).save(path, "WEBP")
+    return path

@@ -1,0 +1,1 @@
+"""How the functions of each module are looked at."""

@@ -1,0 +1,124 @@
+"""The pictures of a series, rendered once and kept under a hash of all that decides them."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from io import BytesIO
+from pathlib import Path
+
+import click
+import yaml
+from PIL import Image
+
+from course import render
+from course.benchmarking.sources import scene_hash
+from course.benchmarking.variants import load_variant
+from course.effects import PROJECT, Effects
+from course.imaging.atomic import replacing
+from course.scene.document import spell
+from course.scene.loading import Loaded, load_description
+from course.scene.scene import Scene
+from sitebuild import pictures
+from sitebuild.series_file import PATTERN, SAMPLES, Series
+
+KEPT = PROJECT / "out" / "docs" / "series"
+
+QUALITY = 85
+
+
+def picture(series: Series, step: tuple[int, ...], kept: Path = KEPT) -> Path:
+    """Render the picture of one step, unless it is kept; return the WebP file.
+
+    Raises
+    ------
+    CourseError
+        The scene can't be rendered with these values, or nothing can be written to the folder.
+    """
+    path = pictures.scene_path(series.scene)
+    samples = series.samples_of(step)
+    state = (path, path.stat().st_mtime_ns, _text(series, step))
+    loaded = _described(*state)
+    settings = {
+        "size": series.size,
+        "sampler": series.overrides(step).get(PATTERN, loaded.description.sampler.type),
+        "samples": samples,
+        "seed": loaded.description.seed,
+        "quality": QUALITY,
+    }
+    image = kept / f"{scene_hash(loaded, Effects(), **settings)}.webp"
+    if not image.is_file():
+        click.echo(f"rendering scenes/{series.scene}.yaml: {caption(series, step)}", err=True)
+        kept.mkdir(parents=True, exist_ok=True)
+        made = render(_compiled(*state), size=series.size, spp=samples, sampler=settings["sampler"])
+        if made.interrupted:
+            raise KeyboardInterrupt
+        with replacing(image) as temporary:
+            Image.open(BytesIO(made._repr_png_())).convert("RGB").save(
+                temporary, "WEBP", quality=QUALITY
+            )
+    return image
+
+
+def blank(series: Series, step: tuple[int, ...], path: Path) -> Path:
+    """Make a picture of the same size, in a grey that no other step of the series has."""
+    steps = list(series.steps())
+    grey = round(40 + 175 * steps.index(step) / (len(steps) - 1))
+    path.parent.mkdir(parents=True, exist_ok=True)
+    Image.new("RGB", series.size, (grey, grey, grey)).save(path, "WEBP", lossless=True)
+    return path
+
+
+def caption(series: Series, step: tuple[int, ...]) -> str:
+    """Name a step by its values: radius: 0.4 world units, 16 samples."""
+    return ", ".join(
+        slider.words(place) if slider.key == SAMPLES else f"{slider.name}: {slider.words(place)}"
+        for slider, place in zip(series.sliders, step, strict=True)
+    )
+
+
+def command(series: Series, step: tuple[int, ...]) -> str:
+    """Write the line that renders the same picture, of the scene or of the copy that `change` asks for."""
+    width, height = series.size
+    name = "copy" if change(series, step) else series.scene
+    pattern = series.overrides(step).get(PATTERN)
+    sampler = f" --sampler {pattern}" if pattern else ""
+    return (
+        f"course render scenes/{name}.yaml --size {width}x{height} --spp {series.samples_of(step)}{sampler}"
+        f" -o {series.scene}.png"
+    )
+
+
+def change(series: Series, step: tuple[int, ...]) -> str:
+    """Write what has to stand in a copy of the scene, or nothing where options of the command line do."""
+    return "; ".join(
+        f"{spell(key)}: {_flow(value)}"
+        for key, value in series.overrides(step).items()
+        if key != PATTERN
+    )
+
+
+def _flow(value: object) -> str:
+    """Write a value as YAML on one line; PyYAML marks a document's end after a plain number."""
+    return yaml.safe_dump(value, default_flow_style=True, sort_keys=False, width=1000).split("\n")[
+        0
+    ]
+
+
+def _text(series: Series, step: tuple[int, ...]) -> str:
+    """What a step overrides in the description, as a key for what is kept in memory."""
+    changed = [[list(key), v] for key, v in series.overrides(step).items() if key != PATTERN]
+    return yaml.safe_dump(changed)
+
+
+def _overrides(text: str) -> dict[tuple[str | int, ...], object]:
+    return {tuple(key): value for key, value in yaml.safe_load(text)}
+
+
+@lru_cache(maxsize=64)
+def _described(path: Path, _: int, text: str) -> Loaded:
+    return load_description(path, _overrides(text))
+
+
+@lru_cache(maxsize=1)
+def _compiled(path: Path, _: int, text: str) -> Scene:
+    return load_variant(path, _overrides(text))

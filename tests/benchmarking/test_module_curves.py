@@ -1,0 +1,102 @@
+"""The curves that the modules' own benchmarks keep for the documentation: small runs, and what must come out."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from benchmarks import (
+    adaptive_sampling,
+    bounding_volumes,
+    importance_sampling,
+    path_tracing,
+    quasi_monte_carlo,
+    radiosity,
+    sampling,
+)
+from course.benchmarking.convergence_data import comparisons
+from course.benchmarking.measuring import Effort
+
+
+def test_a_warp_carries_evenness_over_and_rejection_does_not() -> None:
+    plot = sampling.errors(quasi_monte_carlo.COUNTS[:4], 32)
+    orders = {series.name: series.order for series in plot.series}
+    # The order of 32 seeds over a factor of 64 scatters by 0.04; the seeds are fixed.
+    for name in ("rejection, random", "polar, random"):
+        assert orders[name] == pytest.approx(-0.5, abs=0.15)
+    assert orders["polar, jittered"] < -0.85
+    assert orders["polar, Sobol"] < -1.1
+    # x^2 has the variance 1/16 over the unit disk: its mean square 1/8 less 1/16.
+    for series in plot.series[:2]:
+        assert series.y[0] == pytest.approx(math.sqrt(1 / 16 / 16), rel=0.4)
+
+
+def test_every_sampler_and_every_roulette_is_measured(tmp_path: Path) -> None:
+    effort = Effort("tiny", 11, (1, 4, 16), 2, 64)
+    samplers, roulette = comparisons(path_tracing.curves(effort, tmp_path))
+    assert [series.name for series in samplers.series] == ["regular", "random", "jittered", "Sobol"]
+    assert [series.name for series in roulette.series] == list(path_tracing.ROULETTE)
+    for plot in (samplers, roulette):
+        assert plot.floor is not None
+        for series in plot.series:
+            assert series.x["samples"] == (1, 4, 16)
+            assert series.y[0] > series.y[-1] > 0
+    # Roulette is at work: what is drawn differs, and so do the errors.
+    assert len({series.y for series in roulette.series}) == len(path_tracing.ROULETTE)
+
+
+def test_predicted_errors_are_drawn_beside_the_measured_ones() -> None:
+    ways = importance_sampling.HIGHLIGHT
+    found = importance_sampling.measure(ways, 16, 256)
+    plot = importance_sampling.plot(ways, found)
+    predicted = {series.name: series for series in plot.series if series.predicted}
+    # The lobe alone has no finite variance.
+    assert set(predicted) == {"uniform", "cosine", "cosine and lobe"}
+    for series in predicted.values():
+        assert np.diff(np.log(series.y)) == pytest.approx(np.full(len(series.y) - 1, -math.log(2)))
+    measured = [series for series in plot.series if not series.predicted]
+    assert [series.name for series in measured] == [way.name for way in found]
+    assert all(series.y == tuple(way.curve) for series, way in zip(measured, found, strict=True))
+
+
+def test_a_divided_picture_is_a_mark_for_each_depth() -> None:
+    point = adaptive_sampling.Point
+    even = [point(1.0, 0.4), point(4.0, 0.2)]
+    divisions = [
+        adaptive_sampling.Division(threshold, depth, point(depth + 1.5, 0.1), 0.0, 1.0, 1.0)
+        for threshold in (0.4, 0.1)
+        for depth in (0, 1, 2)
+    ]
+    found = adaptive_sampling.Measured(even, even, divisions)
+    plot = adaptive_sampling.plot("wires", "with its wires", found)
+    assert {series.name: series.x["samples"] for series in plot.series} == {
+        "k x k grid": (1.0, 4.0),
+        "Sobol": (1.0, 4.0),
+        "divided over 0.4": (1.5, 2.5, 3.5),
+        "divided over 0.1": (1.5, 2.5, 3.5),
+    }
+
+
+def test_brute_force_tests_every_triangle() -> None:
+    plot = bounding_volumes.plot([(2048, 42.5, 14.0), (32768, 57.0, 12.0)])
+    assert {series.name: series.y for series in plot.series} == {
+        "brute force": (2048, 32768),
+        "boxes": (42.5, 57.0),
+        "triangles": (14.0, 12.0),
+    }
+
+
+def test_radiosity_is_drawn_over_shots_and_seconds() -> None:
+    row = {"shots": 1, "seconds": 0.5, "missing": 0.4, "missing_with_ambient": 0.3, "bound": 2.0}
+    plot = radiosity.plot([row, {**row, "shots": 32, "seconds": 4.0}])
+    assert not plot.slope
+    for series in plot.series:
+        assert series.x == {"shots": (1, 32), "seconds": (0.5, 4.0)}
+    assert {series.name: series.y[0] for series in plot.series} == {
+        "bound": 2.0,
+        "light missing": 0.4,
+        "with the ambient term": 0.3,
+    }

@@ -1,0 +1,170 @@
+"""Every command and every piece of code on the pages is run, in a copy of the course, in the order of the page."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import pytest
+
+from course.effects import PROJECT
+from tests.docs.blocks import Block, blocks
+from tests.docs.following import ONCE
+
+PARTS = ("assignments", "benchmarks", "course", "docs", "scenes", "solutions")
+FILES = ("CONTRIBUTING.md", "LICENSE", "Makefile", "README.md", "pyproject.toml")
+
+PAGES = [
+    *sorted((PROJECT / "docs").rglob("*.md")),
+    PROJECT / "README.md",
+    PROJECT / "CONTRIBUTING.md",
+    PROJECT / "scenes" / "README.md",
+]
+FOLLOWED = [path.relative_to(PROJECT).as_posix() for path in PAGES if blocks(path)]
+
+KNOWN_SUBMISSIONS = 3
+"""Right and wrong submissions of a module that are kept for `course calibrate`."""
+
+FINEST = 512
+"""Flat pieces of a curve in the copy; a spring of many turns may not have less."""
+
+SMALL_SCENE = """\
+camera: {eye: [0, 2, 6], look_at: [0, 1, 0]}
+film: {width: 96, height: 64}
+sampler: {samples: 4}
+materials: {grey: {}}
+lights: [{type: sphere, center: [3, 5, 3], radius: 1, intensity: 60}]
+objects: [{shape: sphere, material: grey, segments: 16}]
+"""
+
+
+@pytest.fixture
+def copy(tmp_path: Path) -> Path:
+    return _copied(tmp_path / "penumbra")
+
+
+@pytest.fixture(scope="module")
+def another(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """One copy for pages that change nothing."""
+    return _copied(tmp_path_factory.mktemp("copy") / "penumbra")
+
+
+def _copied(folder: Path) -> Path:
+    """Copy the course, with what pages take for granted: a scene, a METU scene, submissions."""
+    for part in PARTS:
+        shutil.copytree(PROJECT / part, folder / part)
+    for file in FILES:
+        shutil.copyfile(PROJECT / file, folder / file)
+    for scene in (folder / "scenes").rglob("*.yaml"):
+        # What costs most in small pictures is to make the meshes.
+        coarse = re.sub(
+            r"\b(segments|sides): (\d+)",
+            lambda found: f"{found[1]}: {min(int(found[2]), FINEST)}",
+            scene.read_text(encoding="utf-8"),
+        )
+        scene.write_text(coarse, encoding="utf-8")
+    (folder / "few").mkdir()
+    for name in ("scenes/NAME.yaml", "few/ball.yaml"):
+        (folder / name).write_text(SMALL_SCENE, encoding="utf-8")
+    metu = PROJECT / "scenes" / "metu"
+    shutil.copyfile(metu / "showroom.xml", folder / "SCENE.xml")
+    for mesh in metu.glob("*.ply"):
+        shutil.copyfile(mesh, folder / mesh.name)
+    for known in (folder / "solutions" / "wrong", folder / "solutions" / "right"):
+        for module in known.iterdir():
+            for file in sorted(module.glob("*.py"))[KNOWN_SUBMISSIONS:]:
+                file.unlink()
+    written, handed_in = folder / "solutions" / "adaptive_sampling.py", folder / "SUBMISSIONS"
+    (handed_in / "ada").mkdir(parents=True)
+    shutil.copyfile(written, handed_in / "ada" / written.name)
+    with zipfile.ZipFile(handed_in / "ben.zip", "w") as archive:
+        archive.write(folder / "assignments" / written.name, written.name)
+    return folder
+
+
+def _follow(page: str, folder: Path) -> subprocess.CompletedProcess[str]:
+    path = os.pathsep.join([str(folder), str(PROJECT)])
+    return subprocess.run(
+        [sys.executable, "-m", "tests.docs.following", page],
+        check=False,
+        cwd=folder,
+        env=os.environ | {"PYTHONPATH": path, "COLUMNS": "120"},
+        capture_output=True,
+        text=True,
+        timeout=240,
+    )
+
+
+@pytest.mark.parametrize("page", FOLLOWED)
+def test_a_page_can_be_followed(page: str, copy: Path) -> None:
+    ended = _follow(page, copy)
+    assert ended.returncode == 0, ended.stdout + ended.stderr
+    shown = blocks(copy / page)
+    assert [
+        int(found) for found in re.findall(rf"^{page}:(\d+): ", ended.stdout, re.MULTILINE)
+    ] == [block.line for block in shown]
+    shutil.rmtree(copy)
+
+
+PAGE = """\
+Save this as `a.yaml`:
+
+```yaml
+camera: {eye: [0, 0, 4], look_at: [0, 0, 0]}
+objects: []
+```
+
+and say `course info a.yaml`:
+
+    course render a.yaml -o a.png     # a comment
+
+    # no: a list of names is not yaml
+    x = [1]
+"""
+
+
+def test_what_is_run_once_stands_on_its_page() -> None:
+    for line, page in ONCE.items():
+        assert re.search(
+            rf"^ {{4}}{re.escape(line)}( +#.*)?$", (PROJECT / page).read_text("utf-8"), re.MULTILINE
+        )
+
+
+def test_what_a_page_shows_is_found_in_order(tmp_path: Path) -> None:
+    path = tmp_path / "page.md"
+    path.write_text(PAGE, encoding="utf-8")
+    scene = "camera: {eye: [0, 0, 4], look_at: [0, 0, 0]}\nobjects: []\n"
+    first, second, third, *rest = blocks(path)
+    assert first == Block("yaml", scene, 4, "Save this as `a.yaml`:")
+    assert second == Block("inline", "course info a.yaml", 8, "")
+    assert (third.kind, third.line) == ("command", 10)
+    assert [block.kind for block in rest] == ["command", "command"]
+
+
+@pytest.mark.parametrize(
+    ("line", "why"),
+    [
+        ("    course render scenes/nowhere.yaml", "nowhere.yaml"),
+        ("    course check supersampling --only resolve/nonsense", "no check"),
+        ("    course render scenes/NAME.yaml --colour red", "No such option"),
+        ("    make nonsense", "nonsense"),
+        ("    python -m benchmarks nonsense", "nonsense"),
+        ('    python -m pip install -e ".[nonsense]"', "no extra"),
+        ("Say `course nonsense` to it.", "No such command"),
+        ("    py -3 -m nonsense", "does not know"),
+        ("```cobol\nx\n```", "cobol"),
+        ("```python\nfrom course import nonsense\n```", "nonsense"),
+        ("```yaml\n- {type: lantern}\n```", "lantern"),
+    ],
+)
+def test_what_does_not_work_is_told(line: str, why: str, another: Path) -> None:
+    (another / "page.md").write_text(f"Words.\n\n{line}\n", encoding="utf-8")
+    ended = _follow("page.md", another)
+    assert ended.returncode == 1
+    assert why in ended.stderr
+    assert "page.md:" in ended.stderr

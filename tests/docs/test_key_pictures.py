@@ -1,0 +1,87 @@
+"""Pictures of the values of keys: of keys that there are, of scenes that render, and no two of a key alike."""
+
+from __future__ import annotations
+
+import sys
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from course.effects import PROJECT
+from course.scene.schema import json_schema
+
+pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')
+sys.path.append(str(PROJECT / "docs"))
+
+from sitebuild import key_pictures
+from sitebuild.key_variants import VARIANTS
+from sitebuild.place import Place
+
+SMALL = (120, 80)
+BLOCK = 4
+"""Pictures are compared by the means of blocks, of so many pixels each way."""
+
+APART = 4
+"""Levels of 255 between two blocks that can be told apart side by side. The seed is fixed: one scene differs by 0."""
+
+
+def _blocks(image: Image.Image) -> np.ndarray:
+    values = np.asarray(image.resize(SMALL, Image.Resampling.BOX), np.float64)
+    return values.reshape(SMALL[1] // BLOCK, BLOCK, SMALL[0] // BLOCK, BLOCK, 3).mean((1, 3))
+
+
+def test_every_key_is_one_of_the_format() -> None:
+    definitions = json_schema()["$defs"]
+    for definition, key in VARIANTS:
+        assert key in definitions[definition]["properties"], f"{definition}.{key}"
+
+
+@pytest.mark.parametrize("definition", sorted({definition for definition, _ in VARIANTS}))
+def test_values_show_a_difference(definition: str) -> None:
+    for (of, key), variants in VARIANTS.items():
+        if of != definition:
+            continue
+        seen = []
+        for said, changes in variants:
+            size = None if "film.width" in changes else SMALL
+            seen.append((said, _blocks(key_pictures.image(changes, size))))
+        for (one, first), (other, second) in pairwise(seen):
+            assert np.abs(first - second).max() > APART, f"{definition}.{key}: {one}, {other}"
+
+
+def test_a_value_is_named_as_it_is_written() -> None:
+    said = [said for said, _ in VARIANTS["RectangleLight", "visible"]]
+    assert said == ["visible: true", "visible: false"]
+    for (_, key), variants in VARIANTS.items():
+        names = [name for name, _ in variants]
+        assert len(set(names)) == len(names), key
+
+
+def test_changes_are_put_into_a_copy() -> None:
+    before = key_pictures.described({})
+    changed = key_pictures.described({"objects.1.radius": 0.2, "camera.lens.blades": 5})
+    assert changed["objects"][1]["radius"] == 0.2
+    assert changed["camera"]["lens"] == {"blades": 5}
+    assert key_pictures.described({}) == before
+
+
+def test_a_picture_is_rendered_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    changes = {"sampler.samples": 1}
+    path = key_pictures.picture(changes, tmp_path)
+    with Image.open(path) as image:
+        assert image.size == key_pictures.SIZE
+    monkeypatch.setattr(key_pictures, "image", None)
+    assert key_pictures.picture(changes, tmp_path) == path
+    with pytest.raises(TypeError):
+        key_pictures.picture({"sampler.samples": 2}, tmp_path)
+
+
+def test_pictures_stand_beside_the_key(tmp_path: Path) -> None:
+    place = Place("../", blank=True, made=tmp_path, files={})
+    html = key_pictures.key_pictures(place, "CameraDescription", "vertical_fov")
+    assert html.count("<img") == html.count('loading="lazy"') == 3
+    assert 'alt="Camera with vertical_fov: 15"' in html
+    assert key_pictures.key_pictures(place, "SceneDescription", "title") == ""
