@@ -209,6 +209,9 @@ class Page:
         for path in written:
             _remove(path)
         words += SHORTER.get(name, [])
+        if "--error" in words:
+            # An error can be aimed at with 8 samples or more.
+            words += ["--spp", "8"]
         if "--spp" in words and words[words.index("--spp") + 1] == "1":
             del words[-2:]
         if name == "radiosity" and not any(word.endswith(".npz") for word in words[1:2]):
@@ -381,7 +384,7 @@ def _small(words: Sequence[str] = ()) -> Iterator[None]:
     little = measuring.Effort("little", 11, (1, 4, 16), 1, 16)
     smaller: Callable[..., Any] = partial(_smaller, course.render)
     known = estimators.BENCHED | estimators.FURTHER_BENCHED
-    named = [name for name in known if name in words] or ["glossy"]
+    named = [name for name in known if name in words] or ["motion_blur"]
     with (
         mock.patch.object(measuring, "FULL", little),
         mock.patch.object(measuring, "QUICK", little),
@@ -395,7 +398,8 @@ def _small(words: Sequence[str] = ()) -> Iterator[None]:
 
 def _smaller(render: Callable[..., Any], scene: Any, **choices: Any) -> Any:
     """Render as `course.render` does, in a small size unless one is asked for, with few samples."""
-    return render(scene, **{"size": (48, 32), **choices, "spp": 4})
+    small = {"size": choices.get("size") or (48, 32), "spp": min(choices.get("spp") or 4, 8)}
+    return render(scene, **choices | small)
 
 
 def _benchmark(module: str, words: list[str]) -> str:

@@ -130,8 +130,7 @@ def test_the_menu_opens_by_keyboard(narrow: Any) -> None:
     )
     _tab_to(narrow, ".sidebar-tree a")
     narrow.keyboard.press("Enter")
-    narrow.wait_for_load_state()
-    assert not narrow.url.endswith("soft_shadows.html")
+    narrow.wait_for_url(lambda url: not url.endswith("soft_shadows.html"))
 
 
 def test_a_closed_menu_is_passed_over(narrow: Any) -> None:

@@ -191,7 +191,7 @@ def test_a_figure_is_drawn_once_and_anew_when_its_sources_change(
     with Image.open(image) as opened:
         assert opened.format == "WEBP"
     assert note == ""
-    monkeypatch.setattr(studio, "_running", lambda: pytest.fail("drawn again"))
+    monkeypatch.setattr(studio, "_draw", lambda paths: pytest.fail(f"drawn again: {paths}"))
     assert studio.files([figure], tmp_path) == {figure: (image, "")}
     key = figure.key
     assert Figure("sampling.disk_by_polar", "", 0).key != key
@@ -208,6 +208,8 @@ def test_a_function_that_does_not_end_is_given_up(
     ((image, note),) = Studio().files([figure], tmp_path).values()
     assert note == "It does not end."
     assert image.is_file()
+    with pytest.raises(CourseError, match=r"sampling\.disk_by_polar: no picture in 0 s"):
+        Studio().files([Figure("sampling.disk_by_polar", "", 0)], tmp_path)
 
 
 def test_a_function_that_raises_is_told_in_the_caption(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import warnings
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from hashlib import sha256
@@ -20,6 +20,7 @@ from PIL import Image, ImageDraw
 
 from course.benchmarking.sources import engine_hash
 from course.effects import PROJECT
+from course.errors import CourseError
 from course.imaging.atomic import replacing
 from sitebuild.mistakes.catalog import look
 from sitebuild.mistakes.look import SIZE
@@ -28,7 +29,7 @@ from sitebuild.mistakes.submissions import functions, solution, submission
 KEPT = PROJECT / "out" / "docs" / "mistakes"
 HERE = Path(__file__).parent
 
-PATIENCE = 60.0
+PATIENCE = 120.0
 """Seconds after which a function is taken never to end."""
 
 PROCESSES = 2
@@ -72,7 +73,7 @@ class Figure:
 @lru_cache
 def _sources(module: str) -> str:
     """All that draws the figures of a module."""
-    names = ("figures", "look", "plots", "rendered", "submissions")
+    names = ("figures", "look", "plots", "rendered", "submissions", "swatches")
     files = [*(HERE / f"{name}.py" for name in names), HERE / "looks" / f"{module}.py"]
     libraries = [version(name) for name in ("matplotlib", "numpy", "pillow")]
     return "\n".join([*libraries, *(path.read_text(encoding="utf-8") for path in files)])
@@ -105,32 +106,35 @@ class Studio:
         Raises
         ------
         CourseError
-            A figure names a submission that isn't there.
+            A figure names a submission that isn't there, or takes a right function too long.
         """
         found = {
             figure: (kept / f"{figure.key}.webp", kept / f"{figure.key}.txt") for figure in figures
         }
-        missing = [f for f, paths in found.items() if not all(path.is_file() for path in paths)]
-        if missing:
+        while missing := [f for f, paths in found.items() if not all(p.is_file() for p in paths)]:
             click.echo(f"drawing {missing[0].function}: {len(missing)} figures", err=True)
             kept.mkdir(parents=True, exist_ok=True)
-            pool = self._running()
-            waiting = [(f, pool.apply_async(_drawn, (f, *found[f]))) for f in missing]
-            for figure, outcome in waiting:
-                try:
-                    outcome.get(PATIENCE)
-                except Late:
-                    self.close()
-                    _write(_lost("does not end"), "It does not end.", *found[figure])
-                    break
-            else:
-                waiting = []
-            if waiting:
-                return self.files(found, kept)
+            self._draw({figure: found[figure] for figure in missing})
         return {
             figure: (image, note.read_text(encoding="utf-8"))
             for figure, (image, note) in found.items()
         }
+
+    def _draw(self, paths: Mapping[Figure, tuple[Path, Path]]) -> None:
+        """Draw them, up to the first that does not end."""
+        if self._pool is None:
+            self._pool = get_context("spawn").Pool(PROCESSES)
+        waiting = [(f, self._pool.apply_async(_drawn, (f, *paths[f]))) for f in paths]
+        for figure, outcome in waiting:
+            try:
+                outcome.get(PATIENCE)
+            except Late:
+                self.close()
+                if not figure.name:
+                    late = f"{figure.function}: no picture in {PATIENCE:g} s"
+                    raise CourseError(late) from None
+                _write(_lost("does not end"), "It does not end.", *paths[figure])
+                return
 
     def close(self) -> None:
         """End the processes, whatever they are at."""
@@ -138,11 +142,6 @@ class Studio:
             self._pool.terminate()
             self._pool.join()
         self._pool = None
-
-    def _running(self) -> Any:
-        if self._pool is None:
-            self._pool = get_context("spawn").Pool(PROCESSES)
-        return self._pool
 
 
 STUDIO = Studio()

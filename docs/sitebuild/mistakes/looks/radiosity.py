@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from sitebuild.mistakes.look import Look
-from sitebuild.mistakes.looks.adaptive_sampling import swatches
 from sitebuild.mistakes.plots import INK, RIGHT, Array, plot, square, view
+from sitebuild.mistakes.swatches import swatches
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
