@@ -63,6 +63,9 @@ ONCE = {
 }
 """What takes seconds however small its scenes are, and the one page for which it is run."""
 
+TWINS = {"docs/accuracy.md": "docs/performance.md"}
+"""Pages that are written by the same commands: what stands on the other is run there."""
+
 SAYS = {
     ("docs/guides/start.md", "course info my_shadow.yaml"): (
         r"calls soft_shadows\.point_on_sphere +my_shadow\.yaml:11"
@@ -132,6 +135,8 @@ class Page:
                     done = "as above"
                 elif ONCE.get(line, self.name) != self.name and block.kind == "command":
                     done = f"as in {ONCE[line]}"
+                elif self.name in TWINS and line in self._twin():
+                    done = f"as in {TWINS[self.name]}"
                 else:
                     done = self._do(block)
             except Exception as error:
@@ -146,6 +151,9 @@ class Page:
         for extra in re.findall(r'"\.\[(\w+)\]"', text):
             if extra not in extras():
                 raise FollowingError(f"{self.name}: pyproject.toml has no extra {extra}")
+
+    def _twin(self) -> set[str]:
+        return {_without_comment(block.text) for block in blocks(Path(TWINS[self.name]))}
 
     def _do(self, block: Block) -> str:
         match block.kind:
