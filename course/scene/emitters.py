@@ -13,6 +13,7 @@ from course.scene.description import RectangleLight, SphereLight
 from course.scene.description.values import rgb
 from course.scene.frame import Frame
 from course.scene.loading import Loaded
+from course.scene.reach import in_reach
 from course.scene.shutter import Shutter
 
 SEGMENTS = 128
@@ -24,7 +25,7 @@ def emitter_parts(
 ) -> tuple[list[Part], list[Floats64]]:
     """Meshes of the visible lights, and the radiance of the material that each of them gets.
 
-    Materials are numbered from ``first_material``. SceneError where float32 can't carry the radiance.
+    Materials are numbered from ``first_material``. SceneError where float32 can't carry a corner or the radiance.
     """
     parts: list[Part] = []
     emission: list[Floats64] = []
@@ -36,7 +37,9 @@ def emitter_parts(
         mesh = _rectangle(light) if isinstance(light, RectangleLight) else _sphere(light)
         mesh = Mesh(mesh.vertices + shutter.start(light.motion), mesh.triangles)
         velocity = shutter.velocity(light.motion, frame)
-        parts.append(Part(frame.mesh(mesh), first_material + len(emission), velocity))
+        placed = frame.mesh(mesh)
+        in_reach(placed.vertices, loaded, ("lights", number), "the light's far end")
+        parts.append(Part(placed, first_material + len(emission), velocity))
         radiance = in_range(rgb(light.radiance), loaded, ("lights", number), "the light's radiance")
         emission.append(radiance.astype(np.float64))
     return parts, emission

@@ -101,7 +101,7 @@ def compile_materials(
             ambient[:, column] = ambient_color(material) * material.ambient
             diffuse[:, column] = color * material.diffuse
         if material.dielectric is not None:
-            index[column] = material.dielectric.refraction_index
+            index[column] = min(material.dielectric.refraction_index, LARGEST_INDEX)
             per_unit = np.minimum(rgb(material.dielectric.absorption), LARGEST / frame.scale)
             absorption[:, column] = per_unit * frame.scale
     for column, radiance in enumerate(emission, start=len(materials)):

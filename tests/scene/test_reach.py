@@ -35,6 +35,24 @@ def test_lights(make_scene: MakeScene, light: dict[str, Any]) -> None:
         make_scene(objects=[BALL], lights=[light])
 
 
+def test_a_lamp_that_is_only_seen(make_scene: MakeScene) -> None:
+    """No light falls on black things, but the lamp itself would be in the picture."""
+    black = {"materials": {"black": {"color": 0}}, "objects": [{**BALL, "material": "black"}]}
+    lamp = {"type": "rectangle", "corner": [0, 3, 0], "edge_u": [1, 0, 0], "radiance": 1}
+    with pytest.raises(SceneError, match=r"lights\[0\].*far end.*less than 1e\+18"):
+        make_scene(**black, lights=[{**lamp, "edge_v": [0, 0, 1e60]}])
+
+
+def test_glass_of_any_index(make_scene: MakeScene) -> None:
+    glass = {"glass": {"dielectric": {"refraction_index": 1e60}}}
+    sky = {"type": "constant", "radiance": 1}
+    picture = render(
+        make_scene(materials=glass, objects=[{**BALL, "material": "glass"}], environment=sky)
+    )
+    # All of the light is reflected, as by a mirror.
+    assert picture.linear == pytest.approx(1, rel=1e-3)
+
+
 def test_the_camera(make_scene: MakeScene) -> None:
     scene = make_scene(objects=[BALL], camera={"eye": [1e150, 0, 0], "look_at": [0, 0, 0]})
     with pytest.raises(SceneError, match=r"camera\.eye.*less than 1e\+18"):
