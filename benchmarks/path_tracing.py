@@ -87,7 +87,7 @@ def _cost() -> Figure:
     scene = load_variant(SCENE)
     ratios = []
     for seed in range(ROUNDS + 1):
-        receipt = render(scene, spp=16, seed=seed, threads=THREADS).receipt
+        receipt = render(scene, spp=16, seed=seed, threads=THREADS, compiled=False).receipt
         ratios.append(THREADS * receipt.wall_seconds / receipt.embree_seconds)
     return summary("path tracing: whole render / inside Embree", ratios[1:], 1.8)
 

@@ -8,7 +8,7 @@ a tile follows from the samples of each.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
@@ -79,9 +79,12 @@ class Tile:
         return np.tile(x, self.height), np.repeat(y, self.width)
 
 
-def tile_picture(width: int, height: int, samples: int, rays: int = RAYS) -> list[Tile]:
-    """Tiles that cover a picture, row by row, each with about so many rays at that many samples a pixel."""
-    pixels = max(rays // samples, 1)
+def tile_picture(width: int, height: int, samples: int, batches: int = 1) -> list[Tile]:
+    """Tiles that cover a picture, each with about so many batches of RAYS rays at that many samples a pixel.
+
+    With several batches the last quarter of the tiles has one each, for threads that run out of work to wait less.
+    """
+    pixels = max(batches * RAYS // samples, 1)
     tile_width = 1
     while tile_width * tile_width < pixels:
         tile_width *= 2
@@ -91,6 +94,31 @@ def tile_picture(width: int, height: int, samples: int, rays: int = RAYS) -> lis
         for x in range(0, width, tile_width):
             size = min(tile_width, width - x), min(tile_height, height - y)
             tiles.append(Tile(len(tiles), x, y, *size))
-    # The small ones at the edges last: threads that run out of work wait for less.
+    # The small ones at the edges last, too.
     tiles.sort(key=lambda tile: -tile.size)
+    if batches > 1:
+        whole = len(tiles) - len(tiles) // 4
+        one = max(RAYS // samples, 1)
+        small = [part for tile in tiles[whole:] for part in _halved(tile, one)]
+        first = len(tiles)
+        tiles[whole:] = [replace(tile, number=first + place) for place, tile in enumerate(small)]
     return tiles
+
+
+def _halved(tile: Tile, most: int) -> list[Tile]:
+    """Halves, and halves of halves, until none has more than ``most`` pixels; all with the tile's number."""
+    if tile.size <= most:
+        return [tile]
+    if tile.width > tile.height:
+        half = tile.width // 2
+        parts = [
+            replace(tile, width=half),
+            replace(tile, x=tile.x + half, width=tile.width - half),
+        ]
+    else:
+        half = tile.height // 2
+        parts = [
+            replace(tile, height=half),
+            replace(tile, y=tile.y + half, height=tile.height - half),
+        ]
+    return [piece for part in parts for piece in _halved(part, most)]

@@ -55,7 +55,7 @@ def passes(settings: Settings, sampler: Sampler, done: int = 0, batches: int = 1
     size = pass_size(settings, sampler)
     pixels = settings.width * settings.height
     batches = max(min(batches, pixels * size // (ENOUGH * RAYS)), 1)
-    tiles = tile_picture(settings.width, settings.height, size, batches * RAYS)
+    tiles = tile_picture(settings.width, settings.height, size, batches)
     for order, first in enumerate(range(done, settings.samples, size)):
         samples = min(size, settings.samples - first)
         whole = samples == PASS or not sampler.extensible

@@ -12,11 +12,14 @@ PICTURES = [(1, 1), (7, 5), (64, 64), (640, 480), (33, 200), (1, 1000), (1000, 1
 
 @pytest.mark.parametrize(("width", "height"), PICTURES)
 @pytest.mark.parametrize("samples", [1, 3, 16, 64, 1024, 65536])
-def test_tiles_cover_every_pixel_once(width: int, height: int, samples: int) -> None:
+@pytest.mark.parametrize("batches", [1, 3, 4])
+def test_tiles_cover_every_pixel_once(width: int, height: int, samples: int, batches: int) -> None:
     if width * height * samples > 2e8:
         width, height = min(width, 60), min(height, 50)
     count = np.zeros((height, width), int)
-    for tile in tile_picture(width, height, samples):
+    tiles = tile_picture(width, height, samples, batches)
+    assert len({tile.number for tile in tiles}) == len(tiles)
+    for tile in tiles:
         assert tile.size > 0
         assert tile.x + tile.width <= width
         assert tile.y + tile.height <= height
@@ -37,6 +40,16 @@ def test_every_tile_has_a_number_of_its_own_and_small_ones_come_last() -> None:
     assert sorted(tile.number for tile in tiles) == list(range(len(tiles)))
     sizes = [tile.size for tile in tiles]
     assert sizes == sorted(sizes, reverse=True)
+
+
+@pytest.mark.parametrize("batches", [2, 3, 4])
+def test_large_tiles_have_several_batches_and_the_last_have_one(batches: int) -> None:
+    tiles = tile_picture(1000, 800, 16, batches)
+    large = [tile for tile in tiles if tile.size * 16 > RAYS]
+    assert tiles[: len(large)] == large
+    assert max(tile.size for tile in large) * 16 <= batches * RAYS
+    share = sum(tile.size for tile in large) / 800_000
+    assert 0.7 < share < 0.9
 
 
 def test_pixels_are_numbered_row_by_row_and_corners_go_with_them() -> None:

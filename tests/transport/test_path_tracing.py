@@ -20,7 +20,9 @@ from course import Picture, Scene, render
 from course.effects import PROJECT
 from course.errors import EffectError, SceneError
 from course.geometry import shapes
+from course.rendering import passes
 from course.scene.scene import load_scene
+from course.transport.path_tracing import PathTracer
 from tests.effects import skies
 
 MakeScene = Callable[..., Scene]
@@ -393,6 +395,21 @@ def test_any_number_of_threads_gives_the_same_bits(make_scene: MakeScene, sample
     for threads in (2, 3):
         other = render(scene, sampler=sampler, threads=threads)
         assert one.linear.tobytes() == other.linear.tobytes()
+
+
+def test_batches_that_are_followed_together_give_the_same_bits(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    scene = load_scene(PROJECT / "scenes" / "path_tracing.yaml")
+    monkeypatch.setattr(passes, "ENOUGH", 1)
+
+    def picture(batches: int, **settings: Any) -> bytes:
+        monkeypatch.setattr(PathTracer, "batches", batches)
+        return render(scene, size=(140, 130), spp=16, **settings).linear.tobytes()
+
+    # 4.4 batches of rays, in tiles of one, of two and of four.
+    assert picture(1) == picture(2) == picture(4)
+    assert picture(1, error=0.05) == picture(4, error=0.05)
 
 
 def test_the_receipt_says_what_was_called(make_scene: MakeScene) -> None:
