@@ -29,7 +29,7 @@ from course.rendering.passes import Work
 SAFETY = 0.95
 """Part of the target that a round aims at, so that the last one doesn't miss it by a hair and another must follow."""
 
-SMALLEST, LARGEST = RAYS // 4, 2 * RAYS
+SMALLEST, LARGEST = RAYS, 2 * RAYS
 """Camera rays in a group of pixels, as far as pixels have so many samples to go: more than in a tile, for the hard
 pixels of a picture lose many of their rays on the way."""
 
