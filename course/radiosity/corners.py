@@ -16,13 +16,17 @@ from course.radiosity.patches import Patches
 RIDGE = 1e-6
 """Keeps slopes 0 in directions about which the patches of a corner say nothing, such as that of their normal."""
 
+DARKEST = 0.25
+"""Of the patches' mean radiosity a corner has at least so much: else all contrasts at shadows' edges would be 1, and
+none of them larger than another."""
+
 
 def at_corners(patches: Patches, radiosity: Floats32) -> Floats32:
     """What the patches that meet at each corner and belong to one smooth surface say of it.
 
     By least squares, weighted by area, as a plane over the patches' centres; what the patches then lack of their own
-    radiosities is given back to their corners, so that no light is lost. Never below 0, and no farther from the
-    patches' radiosities than they are apart, for light may also change abruptly.
+    radiosities is given back to their corners, so that no light is lost. No farther from the
+    patches' radiosities than they are apart, for light may also change abruptly, and never black among lit patches.
 
     Parameters
     ----------
@@ -57,7 +61,8 @@ def at_corners(patches: Patches, radiosity: Floats32) -> Floats32:
             corner = value_at(light)
             lacking = own - corner[point].reshape(size, 3).mean(axis=1)
             corner += summed(np.repeat(lacking, 3)) / total
-            corner = np.clip(corner, np.maximum(low - apart, 0), high + apart)
+            darkest = np.maximum(low - apart, DARKEST * summed(light) / total)
+            corner = np.clip(corner, darkest, high + apart)
             result[channel, :, side] = corner[point].reshape(size, 3).T
     return result
 
