@@ -14,14 +14,19 @@ STYLES = {"regular": 3, "random": 0, "jittered": 1, "sobol": 2}
 
 def record(measured: Measured, effort: Effort, machine: Mapping[str, str]) -> Record:
     """The plots of a module, as data files keep them."""
-    width, height = measured.size
-    seeds = "1 seed" if effort.seeds == 1 else f"{effort.seeds} seeds"
     return Record(
         command(measured.module.name, effort),
-        f"{width} x {height} pixels, {seeds}",
+        about(measured, effort),
         dict(machine),
         comparisons(measured),
     )
+
+
+def about(measured: Measured, effort: Effort) -> str:
+    """With what effort a module was measured."""
+    width, height = measured.size
+    seeds = "1 seed" if effort.seeds == 1 else f"{effort.seeds} seeds"
+    return f"{width} x {height} pixels, {seeds}"
 
 
 def command(module: str, effort: Effort) -> str:

@@ -10,7 +10,7 @@ import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from course.benchmarking.convergence_data import command, record
+from course.benchmarking.convergence_data import about, command, record
 from course.benchmarking.estimators import BENCHED, FURTHER_BENCHED
 from course.benchmarking.measuring import Effort, Measured
 from course.benchmarking.plot_data import read_records, write_records
@@ -74,7 +74,7 @@ def replace_marked(path: Path, mark: str, block: str) -> None:
     OutputError
         The file isn't there, or doesn't hold each mark once and in this order.
     """
-    before, after = _around(path, mark)
+    before, _, after = _around(path, mark)
     write_text(path, f"{before}\n\n{block}\n\n{after}")
 
 
@@ -98,18 +98,18 @@ def check_documents(folder: Path) -> None:
         read_records(data)
 
 
-def _around(path: Path, mark: str) -> tuple[str, str]:
-    """What stands in a file up to the first mark and from the second one on, with the marks."""
+def _around(path: Path, mark: str) -> tuple[str, str, str]:
+    """What stands in a file up to the first mark, between the two, and from the second on; the marks are outside."""
     begin, end = f"<!-- {mark}: begin -->", f"<!-- {mark}: end -->"
     try:
         text = path.read_text(encoding="utf-8")
     except OSError as error:
         raise OutputError(f"{path}: can't be read: {error.strerror}") from error
     before, found_begin, rest = text.partition(begin)
-    _, found_end, after = rest.partition(end)
+    block, found_end, after = rest.partition(end)
     if not (found_begin and found_end) or begin in rest or end in before + after:
         raise OutputError(f"{path}: expected the lines {begin} and {end}, once each")
-    return before + begin, end + after
+    return before + begin, block, end + after
 
 
 def marked(path: Path, mark: str) -> str:
@@ -120,9 +120,7 @@ def marked(path: Path, mark: str) -> str:
     OutputError
         As `replace_marked`.
     """
-    before, after = _around(path, mark)
-    text = path.read_text(encoding="utf-8")
-    return text[len(before) : len(text) - len(after)].strip()
+    return _around(path, mark)[1].strip()
 
 
 def _sections(path: Path) -> dict[str, str]:
@@ -147,10 +145,8 @@ def _opening(
     measured: Measured, effort: Effort, machine: Mapping[str, str], axis: str
 ) -> list[str]:
     """A heading, what was measured by which command with what, and the plots, which the site draws there."""
-    width, height = measured.size
     module = measured.module
-    seeds = "1 seed" if effort.seeds == 1 else f"{effort.seeds} seeds"
-    scene = f"`scenes/{module.scene.name}`, {width} x {height} pixels, {seeds}"
+    scene = f"`scenes/{module.scene.name}`, {about(measured, effort)}"
     made_by = f"made by\n`{command(module.name, effort)}` on {', '.join(machine.values())}."
     return [
         f"### {_title(module.name)}",

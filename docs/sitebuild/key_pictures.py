@@ -7,7 +7,6 @@ from copy import deepcopy
 from functools import lru_cache
 from hashlib import sha256
 from html import escape
-from io import BytesIO
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -18,7 +17,7 @@ from PIL import Image
 from course import load_scene, render
 from course.benchmarking.sources import engine_hash
 from course.effects import PROJECT, Effects
-from course.imaging.atomic import replacing
+from sitebuild import webp
 from sitebuild.key_variants import COMMON, VARIANTS, Changes
 from sitebuild.place import Place
 
@@ -56,9 +55,7 @@ def _about(definition: str) -> str:
 def _file(place: Place, changes: Changes) -> tuple[str, Path]:
     """The picture's name on the site, and where it is now."""
     if place.blank:
-        path = place.made / "key.webp"
-        path.parent.mkdir(parents=True, exist_ok=True)
-        Image.new("RGB", SIZE, (128, 128, 128)).save(path, "WEBP")
+        path = webp.save_blank(place.made / "key.webp", SIZE)
         return path.name, path
     path = picture(changes)
     return path.name, path
@@ -87,9 +84,7 @@ def image(
         file = Path(folder, "key.yaml")
         file.write_text(text, encoding="utf-8")
         made = render(load_scene(file), size=size, spp=samples)
-    if made.interrupted:
-        raise KeyboardInterrupt
-    return Image.open(BytesIO(made._repr_png_())).convert("RGB")
+    return webp.on_screen(made)
 
 
 def picture(changes: Changes, kept: Path = KEPT) -> Path:
@@ -98,13 +93,11 @@ def picture(changes: Changes, kept: Path = KEPT) -> Path:
     if not path.is_file():
         if not kept.is_dir():
             click.echo("rendering the pictures of the keys of scene files", err=True)
-            kept.mkdir(parents=True)
         made = image(changes)
         if made.size != SIZE:
             # Pixels are meant to be seen.
             made = made.resize(SIZE, Image.Resampling.NEAREST)
-        with replacing(path) as temporary:
-            made.save(temporary, "WEBP", quality=QUALITY)
+        webp.save(made, path, QUALITY)
     return path
 
 

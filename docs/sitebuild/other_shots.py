@@ -6,7 +6,6 @@ import json
 from collections.abc import Callable
 from hashlib import sha256
 from html import escape
-from io import BytesIO
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -18,7 +17,7 @@ from course.benchmarking.sources import engine_hash
 from course.effects import PROJECT, Effects
 from course.errors import SceneError
 from course.imaging.atomic import replacing
-from sitebuild import pictures
+from sitebuild import pictures, webp
 from sitebuild.place import Place
 from sitebuild.shots import laid_out
 
@@ -42,7 +41,7 @@ def metu_shot(place: Place, name: str, words: str = "") -> str:
             made = render(loaded)
             planned = pictures.Shot(name, title, (0, 0), 0, "")
             text = pictures.receipt_text(planned, made.receipt.to_dict())
-            return Image.open(BytesIO(made._repr_png_())).convert("RGB"), text
+            return webp.on_screen(made), text
 
         size = (settings.width, settings.height)
         return _shown(place, f"{name}-{camera}", title, scene, command, size, make)
@@ -93,9 +92,8 @@ def _shown(
 ) -> str:
     flat = name.replace("/", "-")
     if place.blank:
-        place.made.mkdir(parents=True, exist_ok=True)
-        file, text = place.made / f"{flat}.webp", "not rendered in this build"
-        Image.new("RGB", size, (128, 128, 128)).save(file, "WEBP")
+        file = webp.save_blank(place.made / f"{flat}.webp", size)
+        text = "not rendered in this build"
     else:
         file, text = _kept(scene, command, make)
     address = place.address(f"_pictures/{flat}.webp", file)
@@ -117,10 +115,8 @@ def _kept(scene: Path, command: str, make: Callable[[], Made]) -> tuple[Path, st
     image, said = pictures.KEPT / f"{key}.webp", pictures.KEPT / f"{key}.txt"
     if not (image.is_file() and said.is_file()):
         click.echo(f"rendering {scene.relative_to(PROJECT)}", err=True)
-        pictures.KEPT.mkdir(parents=True, exist_ok=True)
         made, text = make()
-        with replacing(image) as temporary:
-            made.save(temporary, "WEBP", quality=pictures.QUALITY)
+        webp.save(made, image, pictures.QUALITY)
         with replacing(said) as temporary:
             temporary.write_text(text, encoding="utf-8")
     return image, said.read_text(encoding="utf-8")

@@ -5,12 +5,10 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass
-from io import BytesIO
 from pathlib import Path
 from typing import Any
 
 import click
-from PIL import Image
 
 from course import load_scene, render
 from course.benchmarking.sources import scene_hash
@@ -18,6 +16,7 @@ from course.cli.tables import plain_text, receipt_sections
 from course.effects import PROJECT, Effects
 from course.imaging.atomic import replacing
 from course.scene.loading import Loaded, load_description
+from sitebuild import webp
 
 KEPT = PROJECT / "out" / "docs" / "pictures"
 
@@ -118,13 +117,8 @@ def picture(planned: Shot, kept: Path = KEPT) -> tuple[Path, dict[str, Any]]:
     image, receipt = kept / f"{planned.key}.webp", kept / f"{planned.key}.json"
     if not (image.is_file() and receipt.is_file()):
         click.echo(f"rendering scenes/{planned.name}.yaml", err=True)
-        kept.mkdir(parents=True, exist_ok=True)
         made = render(load_scene(planned.scene), size=planned.size, spp=planned.samples)
-        if made.interrupted:
-            raise KeyboardInterrupt
-        png = made._repr_png_()
-        with replacing(image) as temporary:
-            Image.open(BytesIO(png)).convert("RGB").save(temporary, "WEBP", quality=QUALITY)
+        webp.save(webp.on_screen(made), image, QUALITY)
         with replacing(receipt) as temporary:
             temporary.write_text(json.dumps(made.receipt.to_dict(), indent=1), encoding="utf-8")
     return image, json.loads(receipt.read_text(encoding="utf-8"))
@@ -132,10 +126,7 @@ def picture(planned: Shot, kept: Path = KEPT) -> tuple[Path, dict[str, Any]]:
 
 def blank(planned: Shot, folder: Path) -> Path:
     """Make a grey picture of the same size, for builds that must not wait."""
-    folder.mkdir(parents=True, exist_ok=True)
-    path = folder / planned.file
-    Image.new("RGB", planned.size, (128, 128, 128)).save(path, "WEBP")
-    return path
+    return webp.save_blank(folder / planned.file, planned.size)
 
 
 def receipt_text(planned: Shot, receipt: Mapping[str, Any]) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from io import BytesIO
 from pathlib import Path
 
 import click
@@ -14,11 +13,10 @@ from course import render
 from course.benchmarking.sources import scene_hash
 from course.benchmarking.variants import load_variant
 from course.effects import PROJECT, Effects
-from course.imaging.atomic import replacing
 from course.scene.document import spell
 from course.scene.loading import Loaded, load_description
 from course.scene.scene import Scene
-from sitebuild import pictures
+from sitebuild import pictures, webp
 from sitebuild.series_file import PATTERN, SAMPLES, Series
 
 KEPT = PROJECT / "out" / "docs" / "series"
@@ -48,14 +46,8 @@ def picture(series: Series, step: tuple[int, ...], kept: Path = KEPT) -> Path:
     image = kept / f"{scene_hash(loaded, Effects(), **settings)}.webp"
     if not image.is_file():
         click.echo(f"rendering scenes/{series.scene}.yaml: {caption(series, step)}", err=True)
-        kept.mkdir(parents=True, exist_ok=True)
         made = render(_compiled(*state), size=series.size, spp=samples, sampler=settings["sampler"])
-        if made.interrupted:
-            raise KeyboardInterrupt
-        with replacing(image) as temporary:
-            Image.open(BytesIO(made._repr_png_())).convert("RGB").save(
-                temporary, "WEBP", quality=QUALITY
-            )
+        webp.save(webp.on_screen(made), image, QUALITY)
     return image
 
 

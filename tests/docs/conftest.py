@@ -1,14 +1,22 @@
-"""The site, built once for all tests of it."""
+"""The site, built once for all tests of it, and a browser to open it with."""
 
 from __future__ import annotations
 
+import shutil
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from course.effects import PROJECT
+
+# For what builds the site, which Sphinx finds in the same way.
+sys.path.append(str(PROJECT / "docs"))
+
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 
 
 @pytest.fixture(scope="session")
@@ -25,3 +33,17 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     )
     assert built.returncode == 0, built.stderr
     return out
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[Any]:
+    """A Chromium, where there is one and something that drives it."""
+    playwright = pytest.importorskip(
+        "playwright.sync_api", reason='the browser is driven by: pip install -e ".[browser]"'
+    )
+    if CHROMIUM is None:
+        pytest.skip("there is no chromium on this machine")
+    with playwright.sync_playwright() as driver:
+        browser = driver.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+        yield browser
+        browser.close()

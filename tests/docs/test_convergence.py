@@ -4,9 +4,6 @@ from __future__ import annotations
 
 import json
 import re
-import shutil
-import sys
-from collections.abc import Iterator
 from dataclasses import replace
 from html import unescape
 from math import log
@@ -27,12 +24,10 @@ from course.errors import CourseError
 
 pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')
 pytest.importorskip("latex2mathml", reason='the site needs: pip install -e ".[docs]"')
-sys.path.append(str(PROJECT / "docs"))
 
 from sitebuild import convergence, convergence_plot, convergence_ticks, peer_times
 
 STYLES = PROJECT / "docs" / "_static" / "plots.css"
-CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 OWN = sorted(
     path.stem
     for path in (PROJECT / "docs" / "data").glob("*.json")
@@ -418,19 +413,6 @@ def test_every_page_that_estimates_has_its_plots(site: Path) -> None:
 def test_the_documents_show_every_module(site: Path, name: str) -> None:
     groups = [group for each in (BENCHED | FURTHER_BENCHED).values() for group in each.groups]
     assert _text(site, name).count('<figure class="convergence">') == len(groups)
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    playwright = pytest.importorskip(
-        "playwright.sync_api", reason='the browser is driven by: pip install -e ".[browser]"'
-    )
-    if CHROMIUM is None:
-        pytest.skip("there is no chromium on this machine")
-    with playwright.sync_playwright() as driver:
-        browser = driver.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
-        yield browser
-        browser.close()
 
 
 def _open(browser: Any, site: Path, **options: Any) -> Any:

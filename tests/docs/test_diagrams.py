@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import re
-import shutil
-import sys
 from collections import Counter
 from importlib import import_module
 from typing import Any
@@ -17,7 +15,6 @@ from course.effects import COURSE, PROJECT
 
 pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')
 pytest.importorskip("latex2mathml", reason='the site needs: pip install -e ".[docs]"')
-sys.path.append(str(PROJECT / "docs"))
 
 from sitebuild.diagrams import (
     adaptive_sampling,
@@ -36,7 +33,6 @@ from sitebuild.diagrams.view import View
 from course.errors import CourseError
 
 STYLES = (PROJECT / "docs" / "_static" / "diagrams.css").read_text(encoding="utf-8")
-CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 
 NAMES = [
     f"{module}/{name}"
@@ -147,12 +143,8 @@ def test_what_is_drawn_is_in_the_drawing(name: str) -> None:
             )
 
 
-@pytest.mark.skipif(CHROMIUM is None, reason="there is no chromium on this machine")
-def test_a_browser_finds_all_words_large_enough_inside_and_apart() -> None:
+def test_a_browser_finds_all_words_large_enough_inside_and_apart(browser: Any) -> None:
     """As the pages show them at 390 pixels, whose column of text is 358 wide."""
-    playwright = pytest.importorskip(
-        "playwright.sync_api", reason='the browser is driven by: pip install -e ".[browser]"'
-    )
     figures = "".join(diagram(None, name) for name in NAMES)  # type: ignore[arg-type]
     body = "width:358px;margin:0;font-family:Helvetica,Arial,sans-serif"
     script = """() => [...document.querySelectorAll('svg')].map(svg => ({
@@ -164,12 +156,10 @@ def test_a_browser_finds_all_words_large_enough_inside_and_apart() -> None:
             const box = text.getBBox();
             return [box.x, box.y, box.x + box.width, box.y + box.height];
         })}))"""
-    with playwright.sync_playwright() as driver:
-        browser = driver.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
-        page = browser.new_page(viewport={"width": 390, "height": 800})
-        page.set_content(f'<style>{STYLES}</style><body style="{body}">{figures}')
-        found: list[dict[str, Any]] = page.evaluate(script)
-        browser.close()
+    page = browser.new_page(viewport={"width": 390, "height": 800})
+    page.set_content(f'<style>{STYLES}</style><body style="{body}">{figures}')
+    found: list[dict[str, Any]] = page.evaluate(script)
+    page.close()
     assert len(found) == sum(len(figure(name).panels) for name in NAMES)
     for svg in found:
         assert min(svg["sizes"], default=11) * svg["scale"] >= 11, svg["name"]

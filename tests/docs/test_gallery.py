@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import shutil
 import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -14,7 +13,6 @@ from PIL import Image
 from course.effects import PROJECT
 
 pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')
-sys.path.append(str(PROJECT / "docs"))
 
 from sitebuild import kept, other_shots, parts, pictures
 from sitebuild.place import Place

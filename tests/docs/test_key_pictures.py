@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from itertools import pairwise
 from pathlib import Path
 
@@ -10,11 +9,9 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from course.effects import PROJECT
 from course.scene.schema import json_schema
 
 pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')
-sys.path.append(str(PROJECT / "docs"))
 
 from sitebuild import key_pictures
 from sitebuild.key_variants import VARIANTS

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import sys
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -15,7 +14,6 @@ from course.effects import COURSE, PROJECT
 from course.errors import CourseError
 
 pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')
-sys.path.append(str(PROJECT / "docs"))
 
 from sitebuild.mistakes import figures, part
 from sitebuild.mistakes.bullets import bullets, plain

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import base64
 import re
-import sys
 from io import BytesIO
 from pathlib import Path
 from types import SimpleNamespace
@@ -20,7 +19,6 @@ pytest.importorskip("nbformat", reason='notebooks need: pip install -e ".[notebo
 pytest.importorskip("nbclient", reason='notebooks are run by: pip install -e ".[notebook]"')
 pytest.importorskip("ipykernel", reason='notebooks are run by: pip install -e ".[notebook]"')
 pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')
-sys.path.append(str(PROJECT / "docs"))
 
 import nbformat
 from sitebuild import notebook

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import re
-import shutil
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -18,29 +16,14 @@ from course.effects import PROJECT, Effects
 from course.errors import CourseError
 
 pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')
-sys.path.append(str(PROJECT / "docs"))
 
 from sitebuild import pattern_explorer
 from sitebuild.place import Place
 
 MODULES = Effects(PROJECT / "solutions")
 STATIC = PROJECT / "docs" / "_static"
-CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 
 COUNTS = (1, 2, 3, 16, 30, 64, 1000, 1024)
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    if CHROMIUM is None:
-        pytest.skip("there is no chromium on this machine")
-    playwright = pytest.importorskip(
-        "playwright.sync_api", reason='the browser is driven by: pip install -e ".[browser]"'
-    )
-    with playwright.sync_playwright() as driver:
-        browser = driver.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
-        yield browser
-        browser.close()
 
 
 @pytest.fixture(scope="module")

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import shlex
-import shutil
-import sys
 from collections.abc import Iterator
 from io import BytesIO
 from pathlib import Path
@@ -22,7 +20,6 @@ from course.errors import CourseError
 from course.scene.loading import load_description
 
 pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')
-sys.path.append(str(PROJECT / "docs"))
 
 from sitebuild import pictures, series_file, series_pictures
 
@@ -188,22 +185,6 @@ def test_blank_pictures_differ(tmp_path: Path) -> None:
             assert image.size == shadows.size
             greys.add(image.convert("RGB").getpixel((7, 7)))
     assert len(greys) == 24
-
-
-CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    if CHROMIUM is None:
-        pytest.skip("there is no chromium on this machine")
-    playwright = pytest.importorskip(
-        "playwright.sync_api", reason='the browser is driven by: pip install -e ".[browser]"'
-    )
-    with playwright.sync_playwright() as driver:
-        browser = driver.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
-        yield browser
-        browser.close()
 
 
 @pytest.fixture

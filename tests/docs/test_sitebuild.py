@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
 from PIL import Image
 
-from course.effects import PROJECT
-
 pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')
 pytest.importorskip("latex2mathml", reason='the site needs: pip install -e ".[docs]"')
-sys.path.append(str(PROJECT / "docs"))
 
 from sitebuild import docstrings, mathematics, parts, pictures, scene_keys
 

@@ -6,6 +6,7 @@ import numpy as np
 
 from sitebuild.diagrams.canvas import Canvas, moved
 from sitebuild.diagrams.figure import Figure, Panel
+from sitebuild.diagrams.texels import draw_texels, draw_weights, first_of_four
 from sitebuild.diagrams.view import View
 from solutions import cube_map
 
@@ -134,31 +135,18 @@ def steps() -> Figure:
     square.label((-1, 1), "$1$", "w", 4)
 
     texels = Canvas(172, 172, (0, size, size, 0), 17)
-    texels.rectangle((0, 0), (size, size))
-    texels.grid((0, 0), (size, size), size, size)
-    centres = np.arange(size) + 0.5
-    texels.dot(np.stack(np.meshgrid(centres, centres)).reshape(2, -1), "ink", 1.8)
-    texels.dot(place, "accent", 3.6)
+    draw_texels(texels, size, place)
     for x, words in ((0.5, "½"), (1.5, "1½"), (2.5, "2½"), (3.5, "3½")):
         texels.label((x, 0), words, "n", 3)
 
-    low = np.floor(place - 0.5)
-    share = place - 0.5 - low
+    low = first_of_four(place)
     near = Canvas(172, 172, (low[0] - 0.1, low[0] + 2.1, low[1] + 2.1, low[1] - 0.1), 4)
-    # The weights are areas: what of a square as large as a texel lies on each of the four.
-    near.rectangle(place - 0.5, place + 0.5, "wash accent")
-    near.rectangle(low, low + 2)
-    near.grid(low, low + 2, 2, 2)
+    draw_weights(near, place)
     near.dot(
         np.stack(np.meshgrid(moved(low[0], 0.5, 1.5), moved(low[1], 0.5, 1.5))).reshape(2, -1),
         "ink",
         2,
     )
-    near.dot(place, "accent", 3.6)
-    for j in (0, 1):
-        for i in (0, 1):
-            weight = abs(1 - i - share[0]) * abs(1 - j - share[1])
-            near.label(moved(low, 0.3 + 1.4 * i, 0.16 + 1.68 * j), f"{weight:.2f}", "c")
     return Figure(
         f"One direction, {tuple(float(d) for d in DIRECTION)}, on a face of 4 by 4 texels.",
         (

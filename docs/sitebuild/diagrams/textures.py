@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from sitebuild.diagrams.canvas import Canvas, moved
+from sitebuild.diagrams.canvas import Canvas
 from sitebuild.diagrams.figure import Figure, Panel
+from sitebuild.diagrams.texels import draw_texels, draw_weights, first_of_four
 from sitebuild.diagrams.view import View
 from solutions import textures
 
@@ -115,24 +116,12 @@ def steps() -> Figure:
     whole.label((0, kept[1]), f"{kept[1]:.2f}", "w", 4)
 
     grid = Canvas(172, 150, (0, size, size, 0), 8)
-    low = np.floor(place - 0.5)
+    low = first_of_four(place)
     grid.rectangle(low, low + 2, "wash")
-    grid.rectangle((0, 0), (size, size))
-    grid.grid((0, 0), (size, size), size, size)
-    centres = np.arange(size) + 0.5
-    grid.dot(np.stack(np.meshgrid(centres, centres)).reshape(2, -1), "ink", 1.8)
-    grid.dot(place, "accent", 3.6)
+    draw_texels(grid, size, place)
 
     mix = Canvas(172, 150, (low[0], low[0] + 2, low[1] + 2, low[1]), 8)
-    share = place - 0.5 - low
-    mix.rectangle(place - 0.5, place + 0.5, "wash accent")
-    mix.rectangle(low, low + 2)
-    mix.grid(low, low + 2, 2, 2)
-    mix.dot(place, "accent", 3.6)
-    for j in (0, 1):
-        for i in (0, 1):
-            weight = abs(1 - i - share[0]) * abs(1 - j - share[1])
-            mix.label(moved(low, 0.3 + 1.4 * i, 0.16 + 1.68 * j), f"{weight:.2f}", "c")
+    draw_weights(mix, place)
     return Figure(
         f"One lookup in a picture of 4 by 4 texels that repeats, at $u$ = {uv[0]:.2f} and $v$ = {uv[1]:.2f}.",
         (

@@ -22,6 +22,7 @@ from course.benchmarking.sources import engine_hash
 from course.effects import PROJECT
 from course.errors import CourseError
 from course.imaging.atomic import replacing
+from sitebuild import webp
 from sitebuild.mistakes.catalog import look
 from sitebuild.mistakes.look import SIZE
 from sitebuild.mistakes.submissions import functions, solution, submission
@@ -160,8 +161,7 @@ def _drawn(figure: Figure, image: Path, note: Path) -> None:
 
 def _write(drawn: Image.Image, said: str, image: Path, note: Path) -> None:
     plotted = drawn.size != SIZE
-    with replacing(image) as temporary:
-        drawn.convert("RGB").save(temporary, "WEBP", quality=QUALITY, lossless=plotted)
+    webp.save(drawn.convert("RGB"), image, QUALITY, lossless=plotted)
     with replacing(note) as temporary:
         temporary.write_text(said, encoding="utf-8")
 
@@ -175,7 +175,4 @@ def _lost(why: str) -> Image.Image:
 
 def blank(figure: Figure, folder: Path) -> Path:
     """Make a grey picture of the same size, for builds that must not wait."""
-    folder.mkdir(parents=True, exist_ok=True)
-    path = folder / figure.file
-    Image.new("RGB", SIZE, (128, 128, 128)).save(path, "WEBP")
-    return path
+    return webp.save_blank(folder / figure.file, SIZE)

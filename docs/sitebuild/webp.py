@@ -1,0 +1,40 @@
+"""Pictures as the site has them: WebP files, whole or not there."""
+
+from __future__ import annotations
+
+from io import BytesIO
+from pathlib import Path
+
+from PIL import Image
+
+from course import Picture
+from course.imaging.atomic import replacing
+
+GREY = (128, 128, 128)
+
+
+def on_screen(rendered: Picture) -> Image.Image:
+    """A render as screens show it.
+
+    Raises
+    ------
+    KeyboardInterrupt
+        It was interrupted, so it is not whole.
+    """
+    if rendered.interrupted:
+        raise KeyboardInterrupt
+    return Image.open(BytesIO(rendered._repr_png_())).convert("RGB")
+
+
+def save(image: Image.Image, path: Path, quality: int, *, lossless: bool = False) -> None:
+    """Write a picture; its folder is made where it is not there."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with replacing(path) as temporary:
+        image.save(temporary, "WEBP", quality=quality, lossless=lossless)
+
+
+def save_blank(path: Path, size: tuple[int, int]) -> Path:
+    """Write a grey picture, for builds that must not wait."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    Image.new("RGB", size, GREY).save(path, "WEBP")
+    return path
