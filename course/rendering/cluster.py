@@ -10,35 +10,25 @@ A worker that is lost costs nothing but time: the scheduler hands its work to an
 
 from __future__ import annotations
 
-import asyncio
 import threading
-from collections.abc import Iterable, Iterator
-from concurrent.futures import CancelledError, ThreadPoolExecutor
-from contextlib import suppress
+from collections.abc import Iterable
 from importlib import import_module
 from itertools import islice
-from queue import Empty, SimpleQueue
+from math import inf
+from queue import SimpleQueue
 from time import monotonic
 from typing import Any
 
 from course.core.types import Floats32
 from course.errors import CourseError
+from course.rendering.connection import Connection, arrived
 from course.rendering.kept_scenes import KeptScenes, Order, edition
 from course.rendering.parcel import Parcel, pack
 from course.rendering.passes import Work
-from course.rendering.pool import TICK, InOrder, Run, Runner, Sink, Tick
+from course.rendering.pool import InOrder, Run, Runner, Sink, Tick
 from course.scene.scene import Scene
 from course.scene.world import Settings
 from course.transport.counters import Counters
-
-PATIENCE = 10
-"""Seconds in which a scheduler must answer, and a worker be there."""
-
-ALONE = 60
-"""Seconds without any worker after which a render is given up: a lost one may be started again meanwhile."""
-
-LOOK = 1.0
-"""Seconds between two looks at which workers there are."""
 
 PIECE = 0.3
 """Seconds of work in a task: a hundred times what it costs to hand it over, and little to wait for in the end."""
@@ -68,10 +58,6 @@ class Cluster(Runner):
     address : of the scheduler, such as tcp://127.0.0.1:8786
     packets : whether workers shall use compiled loops where they have them
 
-    Attributes
-    ----------
-    threads : the most that all workers had together
-
     Raises
     ------
     CourseError
@@ -82,28 +68,28 @@ class Cluster(Runner):
         self, address: str, scene: Scene, settings: Settings, film: Sink, packets: bool
     ) -> None:
         super().__init__()
-        self._address = address
         self._film = film
         self._order = Order(settings, packets, edition())
         try:
             parcel = pack(scene)
         except OSError as error:
             raise CourseError(f"{scene.path}: a file that it names has gone: {error}") from error
-        self._distributed, self._client = connect(address)
-        self.threads = 0
+        self._connection = Connection(address)
         self._seconds_a_ray = 0.0
-        self._workers = 0
-        self._looked = self._seen = monotonic()
         try:
-            self._look()
             # A task, not scattered data: that would be lost with the workers that hold it.
             with import_module("dask").config.set(
                 {"distributed.admin.large-graph-warning-threshold": "1TB"}
             ):
-                self._parcel = self._client.submit(_same, parcel, pure=False)
+                self._parcel = self._connection.client.submit(_same, parcel, pure=False)
         except BaseException:
             self.close()
             raise
+
+    @property
+    def threads(self) -> int:
+        """The most that all workers had together."""
+        return self._connection.most_threads
 
     def prepare(self, _began: float) -> float:
         """Wait until the workers have the scene; a time limit counts from then [``time.monotonic()``].
@@ -114,9 +100,10 @@ class Cluster(Runner):
             As by ``run``.
         """
         try:
-            self._fetch([self._submit([], worker) for worker in self._client.nthreads()])
+            workers = self._connection.client.nthreads()
+            self._connection.gather([self._submit([], worker) for worker in workers])
         except OSError as error:
-            raise self._gone() from error
+            raise self._connection.gone() from error
         return monotonic()
 
     def run(
@@ -149,7 +136,7 @@ class Cluster(Runner):
 
     def close(self) -> None:
         """Leave the cluster, and nothing on it."""
-        self._client.close(timeout=2)
+        self._connection.close()
 
     def _serve(self, run: _ClusterRun) -> None:
         """Hand out the work of a run and take in what comes back."""
@@ -157,8 +144,8 @@ class Cluster(Runner):
         ended: SimpleQueue[Any] = SimpleQueue()
         try:
             while not run.stop:
-                late = 0.0 if run.deadline is None else monotonic() - run.deadline
-                while late <= 0 and len(pending) < AHEAD * max(self._workers, 1):
+                late = run.late
+                while late <= 0 and len(pending) < AHEAD * max(self._connection.threads, 1):
                     if not (piece := run.rest.take(self._seconds_a_ray)):
                         break
                     future = self._submit(piece)
@@ -167,49 +154,27 @@ class Cluster(Runner):
                 if not pending or late > GRACE:
                     run.whole = run.rest.exhausted and not pending
                     break
-                ready = [pending.pop(future.key) for future in _arrived(ended)]
-                found = self._fetch([future for future, _ in ready])
+                ready = [pending.pop(future.key) for future in arrived(ended)]
+                found = self._connection.gather([future for future, _ in ready], run.ends)
+                if len(found) < len(ready):
+                    break
                 for (_, piece), (results, counters) in zip(ready, found, strict=True):
                     if not run.stop:
                         self._take_in(run.film, piece, results, counters)
-                self._look()
+                self._connection.look()
         except BaseException as error:  # noqa: BLE001 - handed to the thread that waits
-            run.error = error if self._client.status == "running" else self._gone()
+            lost = self._connection.client.status != "running"
+            run.error = self._connection.gone() if lost else error
         finally:
-            self._cancel([future for future, _ in pending.values()])
+            self._connection.cancel([future for future, _ in pending.values()])
             run.finished.set()
 
     def _submit(self, piece: list[Work], worker: str | None = None) -> Any:
         where = {} if worker is None else {"workers": [worker], "allow_other_workers": True}
         # Not pure: what an earlier render left on the cluster is not for this one.
-        return self._client.submit(
+        return self._connection.client.submit(
             render_piece, self._parcel, self._order, piece, pure=False, retries=RETRIES, **where
         )
-
-    def _fetch(self, futures: list[Any]) -> list[tuple[list[Result], Counters]]:
-        """What has been done, or the trouble that was met; waits where something isn't done yet."""
-        try:
-            for future in futures:
-                error = future.exception()
-                if error is not None:
-                    raise self._told(error)
-            # Where a worker is lost with what it has done, this waits for another to do it again.
-            results: list[tuple[list[Result], Counters]] = self._client.gather(futures)
-        except CancelledError as cancelled:
-            raise self._gone() from cancelled
-        return results
-
-    def _told(self, error: BaseException) -> BaseException:
-        """What to raise for what a worker raised, or for the loss of several."""
-        if isinstance(error, self._distributed.scheduler.KilledWorker):
-            return CourseError(
-                f"{self._address}: workers were lost again and again over the same tiles; "
-                "perhaps they have too little memory"
-            )
-        return error
-
-    def _gone(self) -> CourseError:
-        return CourseError(f"{self._address}: the scheduler has gone before the picture was ready")
 
     def _take_in(
         self, film: InOrder, piece: list[Work], results: list[Result], counters: Counters
@@ -223,67 +188,6 @@ class Cluster(Runner):
         for item, (pixels, weight) in zip(piece, results, strict=True):
             film.add(item, pixels, weight)
         self.counters.lap("film")
-
-    def _look(self) -> None:
-        """See now and then which workers there are; they may come and go."""
-        if self._client.status != "running":
-            raise self._gone()
-        now = monotonic()
-        if self._workers and now < self._looked + LOOK:
-            return
-        self._looked = now
-        try:
-            self._workers = sum(self._client.nthreads().values())
-        except OSError as error:
-            raise self._gone() from error
-        if self._workers:
-            self._seen = now
-            self.threads = max(self.threads, self._workers)
-        elif now > self._seen + ALONE:
-            raise CourseError(f"{self._address}: all workers have gone, for {ALONE} s now")
-
-    def _cancel(self, futures: list[Any]) -> None:
-        # Where the scheduler has gone, the work has gone with it.
-        if futures and self._client.status == "running":
-            with suppress(OSError):
-                self._client.cancel(futures, force=True)
-
-
-def connect(address: str) -> tuple[Any, Any]:
-    """The module ``distributed``, and a client of the scheduler at an address.
-
-    Raises
-    ------
-    CourseError
-        ``distributed`` isn't installed, no scheduler answers, or it has no workers.
-    """
-    try:
-        distributed = import_module("distributed")
-    except ImportError as error:
-        raise CourseError(
-            'the engine dask needs more: pip install "penumbra-course[dask]"'
-        ) from error
-    try:
-        # Where somebody else listens, a client would wait for ever. The thread is for notebooks, which have a loop.
-        with ThreadPoolExecutor(1) as thread:
-            thread.submit(asyncio.run, _ask(distributed, address)).result()
-        client = distributed.Client(address, timeout=PATIENCE, set_as_default=False)
-    except (OSError, ValueError) as error:
-        raise CourseError(
-            f"{address}: no dask scheduler answered within {PATIENCE} s: {error}".removesuffix(": ")
-        ) from error
-    try:
-        client.wait_for_workers(1, timeout=PATIENCE)
-    except (OSError, TimeoutError) as error:
-        client.close(timeout=2)
-        raise CourseError(f"{address}: the scheduler has no workers; start some") from error
-    return distributed, client
-
-
-async def _ask(distributed: Any, address: str) -> None:
-    """Raise OSError, TimeoutError among them, or ValueError where no scheduler answers."""
-    async with asyncio.timeout(PATIENCE), distributed.rpc(address, timeout=PATIENCE) as scheduler:
-        await scheduler.identity()
 
 
 def render_piece(parcel: Parcel, order: Order, piece: list[Work]) -> tuple[list[Result], Counters]:
@@ -301,24 +205,23 @@ def _same(parcel: Parcel) -> Parcel:
     return parcel
 
 
-def _arrived(ended: SimpleQueue[Any]) -> Iterator[Any]:
-    """All that have ended by now; where there is none, wait a moment for one."""
-    try:
-        yield ended.get(timeout=TICK)
-        while True:
-            yield ended.get_nowait()
-    except Empty:
-        return
-
-
 class _ClusterRun(Run):
     """Work that is handed out until it is exhausted or the time is up."""
 
     def __init__(self, work: Iterable[Work], film: Sink, deadline: float | None) -> None:
         super().__init__(film)
         self.rest = _Rest(work)
-        self.deadline = deadline
+        self._deadline = deadline
         self.whole = False
+
+    def ends(self) -> bool:
+        """Whether nothing is to be awaited any longer."""
+        return self.stop or self.late > GRACE
+
+    @property
+    def late(self) -> float:
+        """Seconds since the deadline; negative before it, and where there is none."""
+        return -inf if self._deadline is None else monotonic() - self._deadline
 
 
 class _Rest:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import json
-import os
 import shutil
 import signal
 import socket
@@ -28,71 +26,17 @@ from course.imaging.files import save
 from course.imaging.film import Film
 from course.imaging.tiles import Tile
 from course.rendering import cluster as cluster_module
+from course.rendering import connection as connection_module
 from course.rendering import kept_scenes
 from course.rendering.cluster import PIECE, _Rest
 from course.rendering.kept_scenes import KeptScenes, Order, edition
 from course.rendering.parcel import pack, unpack
 from course.rendering.passes import Work
 from course.rendering.pool import InOrder
+from tests.dask_cluster import Cluster
 
 EveryStage = Callable[..., Scene]
 ROOT = Path(__file__).parents[2]
-START = 60
-"""Seconds in which a busy machine has started what a test needs."""
-
-
-class Cluster:
-    """A scheduler and its workers."""
-
-    def __init__(self, folder: Path) -> None:
-        self._folder = folder
-        self._file = folder / "scheduler.json"
-        self.processes: list[subprocess.Popen[bytes]] = []
-        self.scheduler = self._start("scheduler", "--port", "0", "--dashboard-address", ":0")
-        try:
-            # Its last character is there when the others are.
-            wait_until(lambda: self._file.exists() and self._file.read_text().rstrip()[-1:] == "}")
-        except BaseException:
-            self.close()
-            raise
-        self.address: str = json.loads(self._file.read_text())["address"]
-
-    def add_worker(self) -> subprocess.Popen[bytes]:
-        return self._start(
-            *("worker", "--nthreads", "1", "--no-nanny", "--no-dashboard"),
-            *("--local-directory", str(self._folder), "--memory-limit", "0"),
-        )
-
-    def wait_for_workers(self, count: int) -> None:
-        import distributed
-
-        with distributed.Client(self.address, set_as_default=False) as client:
-            client.wait_for_workers(count, timeout=START)
-
-    def close(self) -> None:
-        for process in self.processes:
-            process.kill()
-            process.wait()
-
-    def _start(self, kind: str, *options: str) -> subprocess.Popen[bytes]:
-        command = [sys.executable, "-m", f"distributed.cli.dask_{kind}", "--host", "127.0.0.1"]
-        with (self._folder / f"{kind}-{len(self.processes)}.log").open("wb") as log:
-            process = subprocess.Popen(
-                [*command, "--scheduler-file", str(self._file), *options],
-                cwd=self._folder,
-                env={**os.environ, "PYTHONPATH": str(ROOT)},
-                stdout=log,
-                stderr=log,
-            )
-        self.processes.append(process)
-        return process
-
-
-def wait_until(true: Callable[[], bool]) -> None:
-    end = time.monotonic() + START
-    while not true():
-        assert time.monotonic() < end, "it takes too long"
-        time.sleep(0.02)
 
 
 @pytest.fixture(scope="module")
@@ -223,33 +167,106 @@ def test_a_worker_lost_half_way_loses_nothing(
     assert_same(render(scene, spp=192), there)
 
 
+@pytest.fixture
+def lone(tmp_path: Path) -> Iterator[Cluster]:
+    """A scheduler with a single worker, which may be killed."""
+    pytest.importorskip("distributed", reason='the engine dask is an extra: pip install ".[dask]"')
+    started = Cluster(tmp_path)
+    try:
+        started.add_worker()
+        started.wait_for_workers(1)
+        yield started
+    finally:
+        started.close()
+
+
 @pytest.mark.parametrize(
     ("which", "told"),
     [("scheduler", "the scheduler has gone"), ("worker", "all workers have gone")],
 )
 def test_a_cluster_that_goes_is_told(
     every_stage: EveryStage,
-    tmp_path: Path,
+    lone: Cluster,
     monkeypatch: pytest.MonkeyPatch,
     which: str,
     told: str,
 ) -> None:
-    pytest.importorskip("distributed", reason='the engine dask is an extra: pip install ".[dask]"')
-    monkeypatch.setattr(cluster_module, "ALONE", 0.3)
-    scene = every_stage()
-    lone = Cluster(tmp_path)
+    monkeypatch.setattr(connection_module, "ALONE", 0.3)
+    goes = lone.scheduler if which == "scheduler" else lone.processes[-1]
 
     def progress(done: float, _covered: bool) -> None:
         if done > 0:
-            (lone.scheduler if which == "scheduler" else worker).kill()
+            goes.kill()
 
-    try:
-        worker = lone.add_worker()
-        lone.wait_for_workers(1)
-        with pytest.raises(CourseError, match=told):
-            render(scene, spp=65536, progress=progress, address=lone.address)
-    finally:
-        lone.close()
+    with pytest.raises(CourseError, match=told):
+        render(every_stage(), spp=65536, progress=progress, address=lone.address)
+
+
+class Loss:
+    """A worker dies when it has told that it is done with something, and nobody has got that yet."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch, worker: subprocess.Popen[bytes]) -> None:
+        self.worker = worker
+        self.covered = self.happened = False
+        self._arrived = cluster_module.arrived
+        monkeypatch.setattr(cluster_module, "arrived", self._lost)
+
+    def progress(self, _done: float, covered: bool) -> None:
+        """Of a render; nothing is lost until every pixel has something."""
+        self.covered |= covered
+
+    def _lost(self, ended: Any) -> list[Any]:
+        arrived = [*self._arrived(ended)]
+        if arrived and self.covered and not self.happened:
+            self.worker.kill()
+            self.worker.wait()
+            self.happened = True
+        return arrived
+
+
+def test_the_last_worker_goes_with_what_it_has_done(
+    every_stage: EveryStage, lone: Cluster, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(connection_module, "ALONE", 0.3)
+    loss = Loss(monkeypatch, lone.processes[-1])
+    with pytest.raises(CourseError, match="all workers have gone"):
+        render(every_stage(), spp=65536, progress=loss.progress, address=lone.address)
+    assert loss.happened
+
+
+@pytest.mark.parametrize("ends", ["time limit", "Ctrl-C"])
+def test_what_is_lost_is_not_awaited_when_the_render_is_to_end(
+    every_stage: EveryStage, lone: Cluster, monkeypatch: pytest.MonkeyPatch, ends: str
+) -> None:
+    loss = Loss(monkeypatch, lone.processes[-1])
+
+    def progress(done: float, covered: bool) -> None:
+        loss.progress(done, covered)
+        if loss.happened and ends == "Ctrl-C":
+            signal.raise_signal(signal.SIGINT)
+
+    picture = render(
+        every_stage(),
+        spp=65536,
+        time_limit=3 if ends == "time limit" else None,
+        progress=progress,
+        address=lone.address,
+    )
+    assert loss.happened
+    assert not picture.complete
+    assert picture.film.samples.min() >= 1
+
+
+def test_another_worker_does_again_what_was_lost(
+    every_stage: EveryStage, lone: Cluster, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    lone.add_worker()
+    lone.wait_for_workers(2)
+    loss = Loss(monkeypatch, lone.processes[-1])
+    scene = every_stage()
+    there = render(scene, spp=1024, progress=loss.progress, address=lone.address)
+    assert loss.happened
+    assert_same(render(scene, spp=1024), there)
 
 
 def test_what_a_function_raises_on_a_worker_is_raised_here(
@@ -272,8 +289,8 @@ def test_an_address_where_nobody_answers_is_told(
     every_stage: EveryStage, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     pytest.importorskip("distributed", reason='the engine dask is an extra: pip install ".[dask]"')
-    assert cluster_module.PATIENCE == 10
-    monkeypatch.setattr(cluster_module, "PATIENCE", 0.5)
+    assert connection_module.PATIENCE == 10
+    monkeypatch.setattr(connection_module, "PATIENCE", 0.5)
     scene = every_stage()
     with socket.socket() as deaf:
         deaf.bind(("127.0.0.1", 0))

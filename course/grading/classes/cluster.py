@@ -7,10 +7,11 @@ with the same item as its setting ``distributed.scheduler.allowed-failures`` say
 from __future__ import annotations
 
 from collections.abc import Callable, Generator, Sequence
+from queue import SimpleQueue
 from typing import Any, TypeVar
 
 from course.grading.classes.outcome import Outcome, told
-from course.rendering.cluster import connect
+from course.rendering.connection import Connection, arrived
 
 Item = TypeVar("Item")
 Shared = TypeVar("Shared")
@@ -36,9 +37,11 @@ def on_cluster(
     Raises
     ------
     CourseError
-        ``distributed`` isn't installed, no scheduler answers, or it has no workers.
+        ``distributed`` isn't installed, no scheduler answers, it has no workers, or it or all of them have gone.
     """
-    distributed, client = connect(address)
+    cluster = Connection(address)
+    client = cluster.client
+    ended: SimpleQueue[Any] = SimpleQueue()
     futures: dict[str, Any] = {}
     try:
         # A task, not scattered data: that would be lost with the workers that hold it.
@@ -49,21 +52,29 @@ def on_cluster(
             future = client.submit(function, item, everywhere, pure=False, retries=1)
             futures[future.key] = future
             by_key[future.key] = item
-        for future in distributed.as_completed(
-            [*futures.values()], loop=client.loop, raise_errors=False
-        ):
-            item = by_key[future.key]
-            del futures[future.key]
-            if future.status == "finished":
-                yield Outcome(item, future.result())
-            elif future.status == "error":
-                yield Outcome(item, None, told(future.exception()))
-            else:
-                yield Outcome(item, None, f"the cluster gave it up ({future.status})")
+            future.add_done_callback(ended.put)
+        while futures:
+            cluster.look()
+            for future in arrived(ended):
+                yield _outcome(cluster, by_key[future.key], future)
+                del futures[future.key]
     finally:
-        if futures:
-            client.cancel([*futures.values()], force=True)
-        client.close(timeout=2)
+        cluster.cancel([*futures.values()])
+        cluster.close()
+
+
+def _outcome(cluster: Connection, item: Item, future: Any) -> Outcome[Item, Any]:
+    if future.cancelled():
+        # If the scheduler has gone, that is to be told.
+        cluster.look()
+        return Outcome(item, None, f"the cluster gave it up ({future.status})")
+    try:
+        (value,) = cluster.gather([future])
+    except Exception as error:
+        if future.status != "error":
+            raise
+        return Outcome(item, None, told(error))
+    return Outcome(item, value)
 
 
 def _same(value: Value) -> Value:

@@ -9,7 +9,7 @@ import sys
 from collections.abc import Iterator
 from importlib.util import find_spec
 from pathlib import Path
-from time import monotonic, sleep
+from time import sleep
 from typing import Any
 
 import pytest
@@ -19,7 +19,8 @@ from course.cli.main import commands
 from course.errors import CourseError
 from course.grading.classes.cluster import on_cluster
 from course.grading.known import known
-from course.rendering import cluster as rendering_cluster
+from course.rendering import connection
+from tests.dask_cluster import Cluster
 
 PROJECT = Path(__file__).parents[3]
 STUB = (PROJECT / "assignments" / "motion_blur.py").read_text("utf-8")
@@ -29,42 +30,17 @@ needs_distributed = pytest.mark.skipif(
 )
 
 
-class Cluster:
-    """A scheduler and two workers, each a process."""
-
-    def __init__(self, folder: Path) -> None:
-        self.processes: list[subprocess.Popen[bytes]] = []
-        self._folder = folder
-        file = folder / "scheduler.json"
-        quiet = ["--no-dashboard", "--scheduler-file", str(file)]
-        self._start("scheduler", "--host", "127.0.0.1", "--port", "0", *quiet)
-        for name in ("one", "two"):
-            self._start("worker", "--nthreads", "1", "--no-nanny", "--name", name, *quiet)
-        deadline = monotonic() + 30
-        while not file.exists() and monotonic() < deadline:
-            sleep(0.05)
-        self.address: str = json.loads(file.read_text())["address"]
-
-    def _start(self, kind: str, *arguments: str) -> None:
-        command = [sys.executable, "-m", f"distributed.cli.dask_{kind}", *arguments]
-        with (self._folder / f"{kind}.txt").open("ab") as log:
-            self.processes.append(
-                subprocess.Popen(command, stdout=log, stderr=log, cwd=self._folder)
-            )
-
-    def close(self) -> None:
-        for process in self.processes:
-            process.kill()
-            process.wait()
-
-
 @pytest.fixture
 def cluster(tmp_path: Path) -> Iterator[Cluster]:
     folder = tmp_path / "cluster"
     folder.mkdir()
     started = Cluster(folder)
-    yield started
-    started.close()
+    try:
+        for _ in range(2):
+            started.add_worker()
+        yield started
+    finally:
+        started.close()
 
 
 def command(folder: Path, out: Path, *arguments: str) -> list[str]:
@@ -126,7 +102,7 @@ def test_a_worker_is_lost_and_no_result(cluster: Cluster, tmp_path: Path) -> Non
 @needs_distributed
 @pytest.mark.parametrize("listens", [False, True], ids=["nobody listens", "silent"])
 def test_a_scheduler_that_does_not_answer(monkeypatch: pytest.MonkeyPatch, listens: bool) -> None:
-    monkeypatch.setattr(rendering_cluster, "PATIENCE", 1)
+    monkeypatch.setattr(connection, "PATIENCE", 1)
     with socket.socket() as deaf:
         deaf.bind(("127.0.0.1", 0))
         if listens:
@@ -135,6 +111,24 @@ def test_a_scheduler_that_does_not_answer(monkeypatch: pytest.MonkeyPatch, liste
         # Whoever waits for a silent one waits for ever.
         with pytest.raises(CourseError, match=f"^{address}: no dask scheduler answered within 1 s"):
             next(on_cluster(max, ["a"], "b", address))
+
+
+@needs_distributed
+@pytest.mark.parametrize(
+    ("which", "message"),
+    [(slice(1), "the scheduler has gone"), (slice(1, None), "all workers have gone")],
+)
+def test_a_cluster_that_goes_is_told(
+    cluster: Cluster, monkeypatch: pytest.MonkeyPatch, which: slice, message: str
+) -> None:
+    monkeypatch.setattr(connection, "ALONE", 0.3)
+    outcomes = on_cluster(max, [f"{number:03}" for number in range(100)], "b", cluster.address)
+    assert next(outcomes).value == "b"
+    for process in cluster.processes[which]:
+        process.kill()
+        process.wait()
+    with pytest.raises(CourseError, match=message):
+        list(outcomes)
 
 
 def test_without_distributed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
