@@ -88,6 +88,11 @@ class Accelerator:
             self._packet_scene = PacketScene(*self._arrays)
         self._packets = self._packet_scene if wanted else None
 
+    @property
+    def compiled(self) -> bool:
+        """Whether compiled loops are used."""
+        return self._packets is not None
+
     def intersect(
         self,
         origin: Floats32,

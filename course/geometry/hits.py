@@ -13,6 +13,9 @@ from course.geometry.embree import Intersections
 from course.geometry.moving import MovingAccelerator
 from course.geometry.surface import Surface
 
+_Places = tuple[Floats32, Floats32, Floats32, Floats32, Floats32, Floats32]
+"""p, ng, ns, step, above, side; see ``Hits``."""
+
 
 @dataclass(frozen=True)
 class Hits:
@@ -32,6 +35,7 @@ class Hits:
     time : (n,) float32, when; None where nothing moves
     side : (n,) float32, 1 where the ray meets the front of the triangle, -1 where it meets the back
     tint : (3, n) float32, what textures say; 1 where there is none, None where none of the hits has one
+    compiled : whether compiled loops are used
     """
 
     ray: Indices | None
@@ -49,6 +53,7 @@ class Hits:
     side: Floats32
     time: Floats32 | None = None
     tint: Floats32 | None = None
+    compiled: bool = False
 
     @property
     def size(self) -> int:
@@ -87,7 +92,24 @@ def find_hits(
         triangle, u, v, t = triangle.take(hit), u.take(hit), v.take(hit), t.take(hit)
         direction = direction.take(hit, axis=1)
         time = None if time is None else time.take(hit)
+    compiled = surface.accelerator.compiled
+    places = _compiled_places if compiled else _places
+    p, ng, ns, step, above, side = places(surface, triangle, u, v, direction)
+    if isinstance(surface.accelerator, MovingAccelerator) and time is not None:
+        surface.accelerator.follow(p, triangle, time)
+        np.add(p, step, out=above)
+    material = surface.material.take(triangle)
+    tint = None if surface.painting is None else surface.painting.tint(triangle, u, v)
+    return Hits(
+        *(ray, triangle, u, v, t, material, direction, p, ng, ns, step, above, side),
+        *(time, tint, compiled),
+    )
 
+
+def _places(
+    surface: Surface, triangle: Numbers, u: Floats32, v: Floats32, direction: Floats32
+) -> _Places:
+    """Points and normals of the hits, where things stand at time 0."""
     normal = gather(surface.normal_offset, triangle)
     ng, offset = normal[:3], normal[3]
 
@@ -100,8 +122,6 @@ def find_hits(
     p += edge
     p += corner[0:3]
     _pull_off_edges(surface, p, triangle, u, v, normal[4])
-    if isinstance(surface.accelerator, MovingAccelerator) and time is not None:
-        surface.accelerator.follow(p, triangle, time)
 
     facing = dot(ng, direction)
     side = np.copysign(np.float32(1), -facing)
@@ -113,12 +133,25 @@ def find_hits(
         ns = _interpolated(gather(surface.corner_normals, triangle), u, v)
         ns *= side
         _turn_to_viewer(ns, direction)
-    material = surface.material.take(triangle)
-    tint = None if surface.painting is None else surface.painting.tint(triangle, u, v)
-    above = p + step
-    return Hits(
-        ray, triangle, u, v, t, material, direction, p, ng, ns, step, above, side, time, tint
-    )
+    return p, ng, ns, step, p + step, side
+
+
+def _compiled_places(
+    surface: Surface, triangle: Numbers, u: Floats32, v: Floats32, direction: Floats32
+) -> _Places:
+    """The same, to the same bits, in one loop."""
+    from course.geometry import hit_kernels
+
+    n = len(triangle)
+    p, ng, step, above = (np.empty((3, n), np.float32) for _ in range(4))
+    ns, corner_normals = np.empty((3, 0), np.float32), np.empty((0, 9), np.float32)
+    if surface.corner_normals is not None:
+        ns, corner_normals = np.empty((3, n), np.float32), surface.corner_normals
+    side = np.empty(n, np.float32)
+    tables = surface.corner_edges, surface.normal_offset, surface.inset, corner_normals
+    found = map(np.ascontiguousarray, (triangle, u, v, direction))
+    hit_kernels.find(*found, *tables, p, ng, ns, step, above, side)
+    return p, ng, ng if surface.corner_normals is None else ns, step, above, side
 
 
 def bulge(surface: Surface, hits: Hits, which: Indices) -> Floats32:

@@ -29,6 +29,10 @@ class Mover:
     last: int
 
 
+NEARLY_ALL = 0.9
+"""The share of rays above which a query of all is cheaper than copies of those that are left."""
+
+
 @dataclass(frozen=True)
 class MovingAccelerator:
     """Static triangles and movers behind the interface of ``Accelerator``.
@@ -47,6 +51,11 @@ class MovingAccelerator:
         """See ``Accelerator.use_packets``."""
         for accelerator in (self.static, *(mover.accelerator for mover in self.movers)):
             accelerator.use_packets(wanted)
+
+    @property
+    def compiled(self) -> bool:
+        """See ``Accelerator.compiled``."""
+        return self.static.compiled or any(mover.accelerator.compiled for mover in self.movers)
 
     def intersect(
         self,
@@ -91,22 +100,26 @@ class MovingAccelerator:
         """Whether the way is free at the rays' times; see ``Accelerator.unoccluded``."""
         assert time is not None
         free = self.static.unoccluded(origin, direction, limit, clock)
+        origin = _each_its_own(origin, direction.shape[1])
         for mover in self.movers:
-            # Only those that nothing has blocked so far are asked again.
+            # Only those that nothing has blocked so far are asked again, unless copies of them would be of nearly all.
             left = np.flatnonzero(free)
             if len(left) == 0:
                 break
-            shifted = self.to_object_space(
-                origin.take(left, axis=1), mover.velocity, time.take(left)
-            )
-            toward = direction.take(left, axis=1)
+            start, toward, when = origin, direction, time
+            if len(left) < NEARLY_ALL * len(free):
+                start, toward = origin.take(left, axis=1), direction.take(left, axis=1)
+                when = time.take(left)
+            else:
+                left = np.arange(len(free))
+            shifted = self.to_object_space(start, mover.velocity, when)
             which = mover.accelerator.entering(
                 shifted, toward, np.full(1, limit, np.float32), clock
             )
             if which is not None:
                 left = left.take(which)
                 shifted, toward = shifted.take(which, axis=1), toward.take(which, axis=1)
-            free[left] = mover.accelerator.unoccluded(shifted, toward, limit, clock)
+            free[left] &= mover.accelerator.unoccluded(shifted, toward, limit, clock)
         return free
 
     def follow(self, points: Floats32, triangle: Numbers, time: Floats32) -> None:

@@ -15,11 +15,12 @@ from numpy.typing import NDArray
 
 from course.core.types import Floats32, Indices, Mask, Media
 from course.geometry.hits import Hits
+from course.geometry.leaving import kept_above
 from course.scene.world import Paths
 from course.transport.gloss import Blur
 from course.transport.paths import OPEN, Draws, Rays
 from course.transport.plan import Lookups, Plan
-from course.transport.ways import beyond, divided, kept_above, mirrored, reflectance, refracted
+from course.transport.ways import beyond, divided, mirrored, reflectance, refracted
 
 DIFFUSE, MIRRORED, REFRACTED = range(3)
 

@@ -8,8 +8,9 @@ import numpy as np
 
 from course.appearance.fresnel import fresnel_and_cos_t, refract
 from course.core.types import Floats32, Indices, Media
-from course.core.vectors import dot, reflect
+from course.core.vectors import dot
 from course.geometry.hits import Hits
+from course.geometry.leaving import kept_above, mirrored_above
 from course.transport.gloss import Blur
 from course.transport.paths import OPEN
 from course.transport.plan import Lookups, Plan
@@ -91,8 +92,7 @@ def mirrored(
     ng : (3, m) geometric normals of those hits
     path : (m,) of those hits
     """
-    direction, ns = hits.direction.take(which, axis=1), hits.ns.take(which, axis=1)
-    way = kept_above(reflect(direction, ns), ng)
+    way = mirrored_above(hits, which, ng)
     return way if blur is None else blur(hits.material.take(which), way, ng, path)
 
 
@@ -120,12 +120,3 @@ def beyond(hits: Hits, which: Indices) -> Media:
     """The medium (m,) behind some of the hits, for rays that go through."""
     material = hits.material.take(which).astype(np.int16)
     return np.where(hits.entering.take(which), material, OPEN)
-
-
-def kept_above(direction: Floats32, ng: Floats32) -> Floats32:
-    """Directions that an interpolated normal has sent to the wrong side of the surface, mirrored out of it."""
-    below = np.minimum(dot(direction, ng), 0)
-    if not below.any():
-        return direction
-    below += below
-    return np.subtract(direction, below * ng)

@@ -1,0 +1,155 @@
+"""Loops over the hits of a batch, compiled by Numba; imported where they are used, and only then.
+
+They do what passes over arrays do elsewhere, in the same order and so to the same bits; but a hit's numbers stay in
+registers on the way, where forty passes carry them to the cache and back.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit, types
+
+_columns = types.float32[:, ::1]
+_row = types.float32[::1]
+_LEAST = np.float32(1e-20)
+_NOTHING, _ONE = np.float32(0), np.float32(1)
+_AHEAD = 64
+"""Hits whose rows are touched before they are worked on: then the processor waits for many of them at once."""
+
+_compiled = {"nogil": True, "cache": True, "error_model": "numpy"}
+
+
+@njit(**_compiled)
+def _touched(triangle, corner_edges, normal_offset, corner_normals):
+    """Read a number of each row, so that it is in the cache; the sum is there so that the reading isn't left out."""
+    total = _NOTHING
+    for k in triangle:
+        total += normal_offset[k, 0] + corner_edges[k, 0] + corner_edges[k, 8]
+        if corner_normals.shape[0]:
+            total += corner_normals[k, 0] + corner_normals[k, 8]
+    return total
+
+
+@njit(**_compiled)
+def _pulled(x, y, z, a, b, c, edges, normal, inset):
+    """A point next to an edge moved inwards, in float64; see ``course.geometry.hits``."""
+    e1x, e1y, e1z = np.float64(edges[3]), np.float64(edges[4]), np.float64(edges[5])
+    e2x, e2y, e2z = np.float64(edges[6]), np.float64(edges[7]), np.float64(edges[8])
+    nx, ny, nz = np.float64(normal[0]), np.float64(normal[1]), np.float64(normal[2])
+    twice_area = (
+        (e1y * e2z - e1z * e2y) * nx + (e1z * e2x - e1x * e2z) * ny + (e1x * e2y - e1y * e2x) * nz
+    )
+    px, py, pz = np.float64(x), np.float64(y), np.float64(z)
+    for side in range(3):
+        if side == 0:
+            ex, ey, ez, lacking = e2x - e1x, e2y - e1y, e2z - e1z, max(inset[0] - c, _NOTHING)
+        elif side == 1:
+            ex, ey, ez, lacking = -e2x, -e2y, -e2z, max(inset[1] - a, _NOTHING)
+        else:
+            ex, ey, ez, lacking = e1x, e1y, e1z, max(inset[2] - b, _NOTHING)
+        far = lacking * twice_area / (ex * ex + ey * ey + ez * ez)
+        px += (ny * ez - nz * ey) * far
+        py += (nz * ex - nx * ez) * far
+        pz += (nx * ey - ny * ex) * far
+    return np.float32(px), np.float32(py), np.float32(pz)
+
+
+@njit(
+    types.float32(
+        *(types.int32[::1], _row, _row, _columns),
+        *(_columns, _columns, _columns, _columns),
+        *(_columns, _columns, _columns, _columns, _columns, _row),
+    ),
+    **_compiled,
+)
+def find(
+    triangle,
+    u,
+    v,
+    direction,
+    corner_edges,
+    normal_offset,
+    inset,
+    corner_normals,
+    p,
+    ng,
+    ns,
+    step,
+    above,
+    side,
+):
+    """Fill what ``Hits`` says of the places; what is returned means nothing.
+
+    Parameters
+    ----------
+    triangle, u, v, direction : (n,) and (3, n)
+    corner_edges, normal_offset, inset, corner_normals : of ``Surface``; the last is (0, 9) where all triangles are flat
+    p, ng, ns, step, above, side : (3, n) and (n,), filled; ``ns`` is (3, 0) where all triangles are flat
+    """
+    smooth = corner_normals.shape[0] > 0
+    total = _NOTHING
+    for i in range(len(triangle)):
+        if i % _AHEAD == 0:
+            total += _touched(triangle[i : i + _AHEAD], corner_edges, normal_offset, corner_normals)
+        k = triangle[i]
+        a, b = u[i], v[i]
+        dx, dy, dz = direction[0, i], direction[1, i], direction[2, i]
+        x = corner_edges[k, 3] * a + corner_edges[k, 6] * b + corner_edges[k, 0]
+        y = corner_edges[k, 4] * a + corner_edges[k, 7] * b + corner_edges[k, 1]
+        z = corner_edges[k, 5] * a + corner_edges[k, 8] * b + corner_edges[k, 2]
+        c = _ONE - a - b
+        if min(a, b, c) < normal_offset[k, 4] and (
+            c < inset[k, 0] or a < inset[k, 1] or b < inset[k, 2]
+        ):
+            x, y, z = _pulled(x, y, z, a, b, c, corner_edges[k], normal_offset[k], inset[k])
+        nx, ny, nz = normal_offset[k, 0], normal_offset[k, 1], normal_offset[k, 2]
+        facing = nx * dx + ny * dy + nz * dz
+        way = np.float32(math.copysign(_ONE, -facing))
+        nx, ny, nz = nx * way, ny * way, nz * way
+        offset = normal_offset[k, 3]
+        sx, sy, sz = nx * offset, ny * offset, nz * offset
+        p[0, i], p[1, i], p[2, i] = x, y, z
+        ng[0, i], ng[1, i], ng[2, i] = nx, ny, nz
+        step[0, i], step[1, i], step[2, i] = sx, sy, sz
+        above[0, i], above[1, i], above[2, i] = x + sx, y + sy, z + sz
+        side[i] = way
+        if smooth:
+            nx = corner_normals[k, 3] * a + corner_normals[k, 6] * b + corner_normals[k, 0]
+            ny = corner_normals[k, 4] * a + corner_normals[k, 7] * b + corner_normals[k, 1]
+            nz = corner_normals[k, 5] * a + corner_normals[k, 8] * b + corner_normals[k, 2]
+            scale = _ONE / np.sqrt(max(nx * nx + ny * ny + nz * nz, _LEAST))
+            nx, ny, nz = nx * scale * way, ny * scale * way, nz * scale * way
+            away = nx * dx + ny * dy + nz * dz
+            if away > 0:
+                nx, ny, nz = nx - away * dx, ny - away * dy, nz - away * dz
+                scale = _ONE / np.sqrt(max(nx * nx + ny * ny + nz * nz, _LEAST))
+                nx, ny, nz = nx * scale, ny * scale, nz * scale
+            ns[0, i], ns[1, i], ns[2, i] = nx, ny, nz
+    return total
+
+
+@njit(types.void(types.int64[::1], *(_columns,) * 4), **_compiled)
+def mirror(which, direction, ns, ng, way):
+    """Mirrored directions of some hits, none of them into the surface, into ``way`` (3, m).
+
+    Parameters
+    ----------
+    which : (m,) the hits
+    direction, ns : (3, n) of all hits
+    ng : (3, m) of those
+    """
+    for i in range(len(which)):
+        j = which[i]
+        dx, dy, dz = direction[0, j], direction[1, j], direction[2, j]
+        nx, ny, nz = ns[0, j], ns[1, j], ns[2, j]
+        twice = dx * nx + dy * ny + dz * nz
+        twice += twice
+        x, y, z = dx - twice * nx, dy - twice * ny, dz - twice * nz
+        nx, ny, nz = ng[0, i], ng[1, i], ng[2, i]
+        below = x * nx + y * ny + z * nz
+        if below < 0:
+            below += below
+            x, y, z = x - below * nx, y - below * ny, z - below * nz
+        way[0, i], way[1, i], way[2, i] = x, y, z
