@@ -65,10 +65,11 @@ class Hits:
         """(n,) whether the ray comes from outside, the side that the front of the triangle looks to."""
         return np.asarray(self.side > 0)
 
-    @property
-    def below(self) -> Floats32:
-        """(3, n) where refracted rays leave from: the same step to the far side."""
-        return self.p - self.step
+    def below(self, which: Indices) -> Floats32:
+        """(3, m) where refracted rays leave some of the hits from: the same step to the far side."""
+        below: Floats32 = self.p.take(which, axis=1)
+        below -= self.step.take(which, axis=1)
+        return below
 
 
 def find_hits(

@@ -104,7 +104,7 @@ def _refracted(
         return None
     path = which if path is None else path.take(which)
     return Rays(
-        hits.below.take(which, axis=1),
+        hits.below(which),
         refracted(plan, hits, which, boundary.of(which), path, blur),
         _columns(weight, which),
         path,

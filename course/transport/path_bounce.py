@@ -27,6 +27,8 @@ DIFFUSE, MIRRORED, REFRACTED = range(3)
 _LEAST = np.float32(1e-30)
 """Below any throughput that is worth a thought; keeps a division by zero away."""
 
+_ALL, _NONE = np.ones((3, 1), np.float32), np.empty(0, np.float32)
+
 
 @dataclass(frozen=True)
 class PathBounce:
@@ -86,42 +88,44 @@ class PathBounce:
             return None
         if self.plan.absorbs and medium is None:
             medium = np.full(hits.size, OPEN)
-        whole = len(which) == hits.size
-        origin = hits.above if whole else hits.above.take(which, axis=1)
-        if path is None:
+        ways = [which]
+        if kind is not None:
+            # From here on rays that take the same way stand together: their directions are joined, which costs less
+            # than to spread them, and neighbours in Embree's packets have more in common.
+            taken = kind.take(which)
+            ways = [which.compress(taken == way) for way in (DIFFUSE, MIRRORED, REFRACTED)]
+            which = np.concatenate(ways)
+        whole = kind is None and len(which) == hits.size
+        if not whole:
+            after = after.take(which, axis=1)
+            path = which if path is None else path.take(which)
+            medium = None if medium is None else medium.take(which)
+        elif path is None:
             path = which
-        elif not whole:
-            path = path.take(which)
-        if medium is not None:
-            medium = medium.take(which)
         time = None if hits.time is None else hits.time.take(which)
         if kind is None:
+            origin = hits.above if whole else hits.above.take(which, axis=1)
             direction = self._diffuse(hits, None if whole else which, path)
             return Rays(origin, direction, after, path, medium, time), None
-        kind = kind.take(which)
-        direction = np.empty((3, len(which)), np.float32)
-        place = np.flatnonzero(kind == DIFFUSE)
-        if len(place):
-            direction[:, place] = self._diffuse(hits, which.take(place), path.take(place))
-        place = np.flatnonzero(kind == MIRRORED)
-        if len(place):
-            back = which.take(place)
+        scattered, back, through = ways
+        optical = len(scattered)
+        crossing = optical + len(back)
+        origin = np.concatenate(
+            (hits.above.take(which[:crossing], axis=1), hits.below(through)), axis=1
+        )
+        directions = [self._diffuse(hits, scattered, path[:optical])] if optical else []
+        if len(back):
             ng = hits.ng.take(back, axis=1)
-            direction[:, place] = mirrored(hits, back, ng, path.take(place), blur)
-        place = np.flatnonzero(kind == REFRACTED)
-        if len(place):
-            through = which.take(place)
+            directions.append(mirrored(hits, back, ng, path[optical:crossing], blur))
+        if len(through):
             assert other is not None
             assert boundary is not None
             within = boundary.of(np.searchsorted(other, through))
-            direction[:, place] = refracted(
-                self.plan, hits, through, within, path.take(place), blur
-            )
-            origin = origin.copy() if whole else origin
-            origin[:, place] = hits.below.take(through, axis=1)
+            directions.append(refracted(self.plan, hits, through, within, path[crossing:], blur))
             if medium is not None:
-                medium[place] = beyond(hits, through)
-        return Rays(origin, direction, after, path, medium, time), kind != DIFFUSE
+                medium[crossing:] = beyond(hits, through)
+        direction = np.concatenate(directions, axis=1)
+        return Rays(origin, direction, after, path, medium, time), np.arange(len(which)) >= optical
 
     def _scattered(self, hits: Hits, beta: Floats32 | None) -> Floats32:
         """Throughput (3, n) of diffuse reflection."""
@@ -154,8 +158,16 @@ class PathBounce:
         shares : (m,) each, of the light that their boundary reflects and refracts; None where nothing refracts
         u : (n,) in [0, 1)
         """
-        arriving = np.float32(1) if beta is None else beta.take(other, axis=1)
         mirror = reflectance(self.lookups, hits, other)
+        after = np.array(diffuse, np.float32)
+        kind = np.full(hits.size, DIFFUSE, np.int8)
+        if hits.compiled:
+            from course.transport import path_kernels
+
+            arrays = (_ALL if beta is None else beta, mirror, *(shares or (_NONE, _NONE)), u)
+            path_kernels.choose(other, *map(np.ascontiguousarray, arrays), after, kind)
+            return after, kind
+        arriving = np.float32(1) if beta is None else beta.take(other, axis=1)
         ways = [diffuse.take(other, axis=1)]
         if shares is not None:
             ways += [(mirror + shares[0]) * arriving, shares[1] * arriving]
@@ -170,20 +182,18 @@ class PathBounce:
             # Over its probability, odds / reach[-1].
             scale = reach[-1] / np.maximum(odds[number], _LEAST)
             np.copyto(weight, way * scale, where=way_taken == number)
-        after = np.array(diffuse, np.float32)
         after[:, other] = weight
-        kind = np.full(hits.size, DIFFUSE, np.int8)
         kind[other] = way_taken
         return after, kind
 
     def _survivors(self, after: Floats32, u: Floats32 | None) -> tuple[Indices, Floats32]:
-        """Which paths go on, and their throughput."""
+        """Which paths go on, and the throughput (3, n) of all."""
         if self.survival and u is not None and self.paths.russian_roulette is not None:
             survives, after = self.paths.russian_roulette(after, u[-1])
             which = np.flatnonzero(survives)
         else:
             which = np.flatnonzero(after.max(axis=0) > 0)
-        return which, after if len(which) == after.shape[1] else after.take(which, axis=1)
+        return which, after
 
     def _diffuse(self, hits: Hits, which: Indices | None, path: Indices) -> Floats32:
         """Directions in which paths leave some of the hits, or all of them."""
