@@ -1,17 +1,19 @@
 """What division by contrast saves: camera rays at equal error, spread evenly over those through corners.
 
-Rays are counted, not timed. Evenly spread are k x k cell centres in every pixel, and Sobol points; their errors against
-a converged picture say how many rays they would need for the error that division leaves. Once for the scene as it is,
-whose wires pass between corners unseen, and once without its wires. The figures are
-`out/bench/adaptive_sampling_NAME.svg`.
+Rays are counted, and renders are timed beside them, in turn. Evenly spread are k x k cell centres in every pixel, and
+Sobol points; their errors against a converged picture say how many rays they would need for the error that division
+leaves. Once for the scene as it is, whose wires pass between corners unseen, and once without its wires. The figures
+are `out/bench/adaptive_sampling_NAME.svg`, their numbers `out/bench/data/adaptive_sampling.json`.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -24,6 +26,7 @@ from course.benchmarking.tables import NONE, Table, digits, print_tables
 from course.benchmarking.variants import load_variant
 from course.core.types import Floats64
 from course.effects import PROJECT
+from course.geometry.packets import available
 
 SCENE = PROJECT / "scenes" / "adaptive_sampling.yaml"
 THREADS = 2
@@ -36,21 +39,23 @@ GOALS = {"wires": {2: 3.0, 3: 2.0}, "edges": {2: 4.0, 3: 5.0}}
 
 @dataclass(frozen=True)
 class Effort:
-    """Size of the pictures, samples of the converged one, and what is compared."""
+    """Size of the pictures, samples of the converged one, what is compared, and how often each render is timed."""
 
     size: tuple[int, int] = (240, 180)
     reference: int = 1024
     depths: tuple[int, ...] = (0, 1, 2, 3, 4, 5)
     thresholds: tuple[float, ...] = (0.4, 0.1, 0.025)
     even: tuple[int, ...] = (1, 4, 16, 64, 256)
+    rounds: int = 5
 
 
 @dataclass(frozen=True)
 class Point:
-    """A picture: camera rays a pixel, and its root-mean-square error."""
+    """A picture: camera rays a pixel, its root-mean-square error, and the median seconds of its renders."""
 
     rays: float
     error: float
+    seconds: float
 
 
 @dataclass(frozen=True)
@@ -104,39 +109,54 @@ def measure_adaptive_sampling() -> list[Figure]:
             label = f"division {title}, depth {depth}: rays, even grid / divided"
             figures.append(Figure(label, gain, gain, gain, goal, at_least=True))
     width, height = Effort().size
-    keep("adaptive_sampling", f"{width} x {height} pixels", plots)
+    about = f"{width} x {height} pixels, each render timed {Effort().rounds} times"
+    keep("adaptive_sampling", about, plots)
     return figures
 
 
 def measure(thin: bool, effort: Effort) -> Measured:
     """Even and divided pictures of the scene, with what is thin or without."""
-    even, reference = _scene(thin, None), None
-    reference = render(
-        even, size=effort.size, spp=effort.reference, sampler="sobol", seed=99, threads=THREADS
-    ).linear.astype(np.float64)
+    even = _scene(thin, None)
+    reference = _render(even, effort, spp=effort.reference, sampler="sobol", seed=99)
+    ideal = reference.linear.astype(np.float64)
+    spread = [(sampler, spp) for sampler in ("regular", "sobol") for spp in effort.even]
+    divided = [(threshold, depth) for threshold in effort.thresholds for depth in effort.depths]
+    renders = [partial(_render, even, effort, spp=spp, sampler=sampler) for sampler, spp in spread]
+    renders += [
+        partial(_render, _scene(thin, {"threshold": threshold, "depth": depth}), effort)
+        for threshold, depth in divided
+    ]
+    # The first of each makes tables and Embree's tree, and isn't timed.
+    pictures = [again() for again in renders]
+    seconds = _median_seconds(renders, effort.rounds)
+    points = [_point(*each, ideal) for each in zip(pictures, seconds, strict=True)]
 
-    def point(picture: Picture) -> Point:
-        error = math.sqrt(float(((picture.linear - reference) ** 2).mean()))
-        return Point(picture.receipt.rays["camera"] / picture.receipt.pixels, error)
-
-    curves = {
-        sampler: [
-            point(render(even, size=effort.size, spp=spp, sampler=sampler, threads=THREADS))
-            for spp in effort.even
-        ]
-        for sampler in ("regular", "sobol")
-    }
+    regular, sobol = points[: len(effort.even)], points[len(effort.even) : len(spread)]
     divisions = []
-    for threshold in effort.thresholds:
-        for depth in effort.depths:
-            scene = _scene(thin, {"threshold": threshold, "depth": depth})
-            picture = render(scene, size=effort.size, threads=THREADS)
-            found = point(picture)
-            told = picture.receipt.subdivision
-            assert told is not None
-            equal = {name: rays_for(found.error, curve) for name, curve in curves.items()}
-            divisions.append(Division(threshold, depth, found, told["saved"], **equal))
-    return Measured(curves["regular"], curves["sobol"], divisions)
+    for (threshold, depth), picture, point in zip(
+        divided, pictures[len(spread) :], points[len(spread) :], strict=True
+    ):
+        told = picture.receipt.subdivision
+        assert told is not None
+        equal = rays_for(point.error, regular), rays_for(point.error, sobol)
+        divisions.append(Division(threshold, depth, point, told["saved"], *equal))
+    return Measured(regular, sobol, divisions)
+
+
+def _render(scene: Scene, effort: Effort, **how: Any) -> Picture:
+    # Always or never: left to itself, a render decides by what was rendered before.
+    return render(scene, size=effort.size, threads=THREADS, compiled=available(), **how)
+
+
+def _median_seconds(renders: Sequence[Callable[[], Picture]], rounds: int) -> list[float]:
+    """Of every render, all in turn within each round."""
+    seconds = [[again().receipt.wall_seconds for again in renders] for _ in range(rounds)]
+    return [float(median) for median in np.median(seconds, axis=0)]
+
+
+def _point(picture: Picture, seconds: float, ideal: Floats64) -> Point:
+    error = math.sqrt(float(((picture.linear - ideal) ** 2).mean()))
+    return Point(picture.receipt.rays["camera"] / picture.receipt.pixels, error, seconds)
 
 
 def _scene(thin: bool, division: dict[str, float] | None) -> Scene:
@@ -185,12 +205,20 @@ def table(found: Measured, title: str) -> Table:
 
 
 def plot(name: str, title: str, found: Measured) -> Plot:
-    """Error over camera rays a pixel, as the documentation's data files keep it."""
+    """Error over camera rays a pixel and over seconds, as the documentation's data files keep it."""
     series = tuple(
-        Series(line.name, line.style, {"samples": tuple(line.x.tolist())}, tuple(line.y.tolist()))
-        for line in _lines(found)
+        Series(
+            name,
+            style,
+            {
+                "samples": tuple(point.rays for point in points),
+                "seconds": tuple(point.seconds for point in points),
+            },
+            tuple(point.error for point in points),
+        )
+        for name, points, style in _named(found)
     )
-    axes = {"samples": "camera rays a pixel"}
+    axes = {"samples": "camera rays a pixel", "seconds": "seconds"}
     return Plot(name, f"division by contrast, the scene {title}", axes, "RMSE", series)
 
 
@@ -210,16 +238,23 @@ def draw(found: Measured, title: str, path: Path) -> Path:
 
 
 def _lines(found: Measured) -> list[Line]:
-    lines = [_line("k x k grid", found.regular, 3), _line("Sobol", found.sobol, 2)]
+    """Error over rays."""
+    return [
+        Line(
+            name,
+            np.array([point.rays for point in points]),
+            np.array([point.error for point in points]),
+            style,
+        )
+        for name, points, style in _named(found)
+    ]
+
+
+def _named(found: Measured) -> list[tuple[str, list[Point], int]]:
+    """Curves with their names and styles: the two that are even, and one for each threshold."""
+    curves = [("k x k grid", found.regular, 3), ("Sobol", found.sobol, 2)]
     thresholds = list(dict.fromkeys(one.threshold for one in found.divisions))
     for style, threshold in zip((0, 1, 4, 5), thresholds, strict=False):
         points = [one.point for one in found.divisions if one.threshold == threshold]
-        lines.append(_line(f"divided over {threshold:g}", points, style))
-    return lines
-
-
-def _line(name: str, points: list[Point], style: int) -> Line:
-    def column(of: Callable[[Point], float]) -> Floats64:
-        return np.array([of(point) for point in points])
-
-    return Line(name, column(lambda point: point.rays), column(lambda point: point.error), style)
+        curves.append((f"divided over {threshold:g}", points, style))
+    return curves

@@ -20,6 +20,7 @@ import numpy as np
 from benchmarks.curve_files import keep
 from benchmarks.drawing import OUT, Line, draw_lines, logarithmic, sheet, slopes, styled, write
 from benchmarks.figures import Figure
+from benchmarks.timing import median_seconds
 from course.benchmarking.plot_data import Plot, Series
 from course.benchmarking.plots import COLORS
 from course.benchmarking.tables import NONE, Table, print_tables
@@ -43,7 +44,12 @@ SHOWN = tuple(4**power for power in range(2, 8))
 LIMIT = 4.5
 """Standard errors; a right ratio is further off in one of 150,000 runs."""
 
+ROUNDS = 64
+"""How often an estimate is timed."""
+
 Numbers = Callable[[Floats64], Floats64]
+Draw = Callable[[int, np.random.Generator], tuple[float, float]]
+"""Takes a number of samples; returns the estimate and its variance."""
 
 
 @dataclass(frozen=True)
@@ -99,6 +105,7 @@ class Measured:
     predicted : variance of one sample; infinite where the integral of f^2 / pdf diverges
     measured, error : variance of one sample and its standard error, over batches
     curve : root-mean-square error of the estimate with SHOWN samples
+    seconds : median time of one such estimate
     """
 
     name: str
@@ -106,6 +113,7 @@ class Measured:
     measured: float
     error: float
     curve: Floats64
+    seconds: tuple[float, ...]
 
     @property
     def off(self) -> float:
@@ -137,7 +145,8 @@ def measure_importance_sampling() -> list[Figure]:
         gain = found[0].measured / best
         name = f"{integrand.title}: variance, uniform / best"
         figures.append(Figure(name, gain, gain, gain, 10, at_least=True))
-    keep("importance_sampling", f"{BATCHES} estimates with each number of samples", plots)
+    about = f"{BATCHES} estimates with each number of samples, and {ROUNDS} timed"
+    keep("importance_sampling", about, plots)
     return figures
 
 
@@ -178,9 +187,11 @@ def combined(integrand: Integrand) -> float:
 
 
 def measure(integrand: Integrand, batches: int, samples: int) -> list[Measured]:
-    """Each way's variance over batches, and its error with few samples and many."""
+    """Each way's variance over batches, its error with few samples and many, and what an estimate takes."""
     rng = np.random.default_rng(1)
     ways = _ways(integrand)
+    timed = {name: partial(_seeded, draw_values) for name, draw_values in ways.items()}
+    seconds = median_seconds(timed, SHOWN, min(batches, ROUNDS))
     expected = predicted(integrand)
     found = []
     for name, draw_values in ways.items():
@@ -193,14 +204,23 @@ def measure(integrand: Integrand, batches: int, samples: int) -> list[Measured]:
             curve.append(math.sqrt(((means - integrand.value) ** 2).mean()))
         error = float(variances.std(ddof=1)) / math.sqrt(batches)
         found.append(
-            Measured(name, expected[name], float(variances.mean()), error, np.array(curve))
+            Measured(
+                name,
+                expected[name],
+                float(variances.mean()),
+                error,
+                np.array(curve),
+                seconds[name],
+            )
         )
     return found
 
 
-def _ways(
-    integrand: Integrand,
-) -> dict[str, Callable[[int, np.random.Generator], tuple[float, float]]]:
+def _seeded(draw_values: Draw, n: int, seed: int) -> tuple[float, float]:
+    return draw_values(n, np.random.default_rng(seed))
+
+
+def _ways(integrand: Integrand) -> dict[str, Draw]:
     """Functions of a number of samples: estimate and its variance."""
     m = integrand.lobe_exponent
     lobe_pdf = partial(phong_lobe_pdf, exponent=m)
@@ -259,17 +279,20 @@ def table(integrand: Integrand, found: list[Measured]) -> Table:
 
 
 def plot(integrand: Integrand, found: list[Measured]) -> Plot:
-    """The errors, measured and predicted, as the documentation's data files keep them."""
-    samples = {"samples": SHOWN}
+    """The errors, measured and predicted, as the documentation's data files keep them.
+
+    A predicted error stands at the seconds that as many samples took.
+    """
+    places = {way.name: {"samples": SHOWN, "seconds": way.seconds} for way in found}
     measured = [
-        Series(way.name, style, samples, tuple(way.curve.tolist()))
+        Series(way.name, style, places[way.name], tuple(way.curve.tolist()))
         for style, way in enumerate(found)
     ]
     expected = [
         Series(
             way.name,
             style,
-            samples,
+            places[way.name],
             tuple(math.sqrt(way.predicted / n) for n in SHOWN),
             predicted=True,
         )
@@ -278,7 +301,8 @@ def plot(integrand: Integrand, found: list[Measured]) -> Plot:
     ]
     title = f"the integral of {integrand.title} over the hemisphere"
     lines = tuple(expected + measured)
-    return Plot(integrand.name, title, {"samples": "samples"}, "RMSE", lines, slope=False)
+    axes = {"samples": "samples", "seconds": "seconds"}
+    return Plot(integrand.name, title, axes, "RMSE", lines, slope=False)
 
 
 # ---------------------------------------------------------------- the figure

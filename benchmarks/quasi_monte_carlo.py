@@ -4,8 +4,8 @@ Three integrals whose values are known: the area of a disk, a smooth function of
 a path takes them: two each for the pixel, the lens and the light. Every point set is drawn anew for each seed, so that
 an error can be told from luck: Hammersley's and Halton's points, and the patterns, are shifted by a random number
 modulo 1 in each dimension; Sobol's are the renderer's own, scrambled. In six dimensions jittered points are stratified
-pair by pair, the pairs in random order. The figures are `out/bench/quasi_monte_carlo_NAME.svg`, their numbers
-`out/bench/data/quasi_monte_carlo.json`.
+pair by pair, the pairs in random order. Times are of one estimate: points and mean. The figures are
+`out/bench/quasi_monte_carlo_NAME.svg`, their numbers `out/bench/data/quasi_monte_carlo.json`.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -20,6 +21,7 @@ import numpy as np
 from benchmarks.curve_files import keep
 from benchmarks.drawing import OUT, Line, draw_lines, logarithmic, sheet, slopes, styled, write
 from benchmarks.figures import Figure
+from benchmarks.timing import median_seconds
 from course.benchmarking.orders import Order, fit_order
 from course.benchmarking.plot_data import Plot, Series
 from course.benchmarking.tables import Table, digits, print_tables
@@ -91,11 +93,12 @@ INTEGRALS = (
 
 @dataclass(frozen=True)
 class Curve:
-    """Squared errors (counts, seeds) of one point set."""
+    """Squared errors (counts, seeds) of one point set, and median seconds (counts,) of one estimate."""
 
     name: str
     mse: Floats64
     order: Order
+    seconds: tuple[float, ...]
 
     @property
     def rmse(self) -> Floats64:
@@ -198,19 +201,24 @@ SETS: dict[str, Points] = {
 
 
 def measure(integral: Integral, counts: tuple[int, ...], seeds: int) -> list[Curve]:
-    """The errors of every point set, and the order that they fall with."""
+    """The errors of every point set, the order that they fall with, and what points and mean take."""
+    ways = {name: partial(_mean, integral, points) for name, points in SETS.items()}
+    seconds = median_seconds(ways, counts, seeds)
     curves = []
-    for name, points in SETS.items():
+    for name, mean in ways.items():
         mse = np.empty((len(counts), seeds))
         for row, n in enumerate(counts):
             for seed in range(seeds):
                 # Other points for each number of them, lest the errors hang together.
-                x = points(n, integral.dims, 1000 * row + seed).astype(np.float64)
-                mse[row, seed] = (integral.f(x).mean() - integral.value) ** 2
+                mse[row, seed] = (mean(n, 1000 * row + seed) - integral.value) ** 2
         order = fit_order(np.array(counts, np.float64), mse)
         assert order is not None
-        curves.append(Curve(name, mse, order))
+        curves.append(Curve(name, mse, order, seconds[name]))
     return curves
+
+
+def _mean(integral: Integral, points: Points, n: int, seed: int) -> float:
+    return float(integral.f(points(n, integral.dims, seed).astype(np.float64)).mean())
 
 
 def table(integral: Integral, curves: list[Curve]) -> Table:
@@ -235,15 +243,14 @@ def plot(integral: Integral, curves: list[Curve]) -> Plot:
         Series(
             curve.name,
             style,
-            {"samples": COUNTS[: len(curve.mse)]},
+            {"samples": COUNTS[: len(curve.mse)], "seconds": curve.seconds},
             tuple(curve.rmse.tolist()),
             order=curve.order.value,
         )
         for style, curve in enumerate(curves)
     )
-    return Plot(
-        integral.name, f"points for {integral.title}", {"samples": "points"}, "RMSE", series
-    )
+    axes = {"samples": "points", "seconds": "seconds"}
+    return Plot(integral.name, f"points for {integral.title}", axes, "RMSE", series)
 
 
 # ---------------------------------------------------------------- the figure

@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +21,7 @@ from benchmarks.curve_files import keep
 from benchmarks.drawing import OUT, sheet, styled, write
 from benchmarks.figures import Figure
 from benchmarks.quasi_monte_carlo import COUNTS, SEEDS, SETS
+from benchmarks.timing import median_seconds
 from course.benchmarking.orders import fit_order
 from course.benchmarking.plot_data import Plot, Series
 from course.benchmarking.plots import COLORS, SOFT
@@ -154,21 +156,31 @@ DISKS = {
 
 
 def errors(counts: tuple[int, ...], seeds: int) -> Plot:
-    """Errors of the mean of x^2 over the unit disk, which is 1/4, as the documentation's data files keep them."""
+    """Errors of the mean of x^2 over the unit disk, which is 1/4, as the documentation's data files keep them.
+
+    Seconds are those of one estimate, points and mean.
+    """
+    ways = {name: partial(_mean, points) for name, points in DISKS.items()}
+    seconds = median_seconds(ways, counts, seeds)
     series = []
-    for style, (name, points) in zip((4, 0, 1, 2), DISKS.items(), strict=True):
+    for style, (name, mean) in zip((4, 0, 1, 2), ways.items(), strict=True):
         mse = np.empty((len(counts), seeds))
         for row, n in enumerate(counts):
             for seed in range(seeds):
                 # Other points for each number of them, lest the errors hang together.
-                x = points(n, 1000 * row + seed)[0].astype(np.float64)
-                mse[row, seed] = ((x**2).mean() - 1 / 4) ** 2
+                mse[row, seed] = (mean(n, 1000 * row + seed) - 1 / 4) ** 2
         order = fit_order(np.array(counts, np.float64), mse)
         assert order is not None
         rmse = tuple(np.sqrt(mse.mean(axis=1)).tolist())
-        series.append(Series(name, style, {"samples": counts}, rmse, order=order.value))
+        places = {"samples": counts, "seconds": seconds[name]}
+        series.append(Series(name, style, places, rmse, order=order.value))
     title = "the mean of x² over the disk"
-    return Plot("disk", title, {"samples": "points"}, "RMSE", tuple(series))
+    axes = {"samples": "points", "seconds": "seconds"}
+    return Plot("disk", title, axes, "RMSE", tuple(series))
+
+
+def _mean(points: Callable[[int, int], Floats32], n: int, seed: int) -> float:
+    return float((points(n, seed)[0].astype(np.float64) ** 2).mean())
 
 
 # ---------------------------------------------------------------- the figure

@@ -18,7 +18,9 @@ from course import load_scene, render
 from course.benchmarking.sources import engine_hash
 from course.effects import PROJECT, Effects
 from sitebuild import webp
-from sitebuild.key_variants import COMMON, VARIANTS, Changes
+from sitebuild.key_headings import link
+from sitebuild.key_variants import COMMON, HEAT_MAPS, VARIANTS, Changes
+from sitebuild.key_words import ELSEWHERE, WORDS
 from sitebuild.place import Place
 
 KEPT = PROJECT / "out" / "docs" / "keys"
@@ -29,22 +31,55 @@ FOLDERS = ("textures/", "environments/")
 SIZE = (200, 133)
 QUALITY = 88
 
+RAYS = "number of rays, the most in white"
+"""Under a heat map."""
+
 
 def key_pictures(place: Place, definition: str, key: str) -> str:
-    """Return the pictures of a key as HTML; nothing where it has none."""
-    variants = VARIANTS.get((definition, key), [])
-    shown = "".join(_figure(place, definition, said, changes) for said, changes in variants)
-    return f'<div class="key-pictures">{shown}</div>' if shown else ""
+    """Return the pictures of a key as HTML, or words in their place as Markdown; nothing where it has neither."""
+    where = definition, key
+    if where in WORDS:
+        return WORDS[where]
+    if where in ELSEWHERE:
+        return f"Pictures: {link(ELSEWHERE[where][0])}."
+    shown = VARIANTS.get(where, [])
+    figures = [
+        _figures(place, definition, said, changes, rays=where in HEAT_MAPS and adaptive(changes))
+        for said, changes in shown
+    ]
+    if where in HEAT_MAPS:
+        return "".join(_row(figure) for figure in figures)
+    return _row("".join(figures)) if figures else ""
 
 
-def _figure(place: Place, definition: str, said: str, changes: Changes) -> str:
-    name, file = _file(place, changes)
+def _row(figures: str) -> str:
+    return f'<div class="key-pictures">{figures}</div>'
+
+
+def _figures(place: Place, definition: str, said: str, changes: Changes, *, rays: bool) -> str:
+    """A picture and, beside it, its rays where they are asked for."""
+    about = _about(definition) + said
+    shown = _figure(place, about, said, changes)
+    if rays:
+        shown += _figure(place, f"{about}: {RAYS}", RAYS, changes, heat=True)
+    return shown
+
+
+def adaptive(changes: Changes) -> bool:
+    """Whether pixels of a picture take different numbers of rays."""
+    film = described(changes)["film"]
+    return any(film.get(key) is not None for key in ("error", "subdivision"))
+
+
+def _figure(
+    place: Place, alternative: str, said: str, changes: Changes, *, heat: bool = False
+) -> str:
+    name, file = _file(place, changes, heat=heat)
     address = place.address(f"_keys/{name}", file)
     width, height = SIZE
-    text = escape(said)
     return (
-        f'<figure><img src="{address}" alt="{escape(_about(definition))}{text}" width="{width}" height="{height}"'
-        f' loading="lazy"><figcaption>{text}</figcaption></figure>'
+        f'<figure><img src="{address}" alt="{escape(alternative)}" width="{width}" height="{height}"'
+        f' loading="lazy"><figcaption>{escape(said)}</figcaption></figure>'
     )
 
 
@@ -52,12 +87,12 @@ def _about(definition: str) -> str:
     return f"{definition.removesuffix('Description')} with "
 
 
-def _file(place: Place, changes: Changes) -> tuple[str, Path]:
+def _file(place: Place, changes: Changes, *, heat: bool) -> tuple[str, Path]:
     """The picture's name on the site, and where it is now."""
     if place.blank:
         path = webp.save_blank(place.made / "key.webp", SIZE)
         return path.name, path
-    path = picture(changes)
+    path = picture(changes, heat=heat)
     return path.name, path
 
 
@@ -74,9 +109,18 @@ def described(changes: Changes) -> dict[str, Any]:
 
 
 def image(
-    changes: Changes, size: tuple[int, int] | None = None, samples: int | None = None
+    changes: Changes,
+    size: tuple[int, int] | None = None,
+    samples: int | None = None,
+    *,
+    heat: bool = False,
 ) -> Image.Image:
-    """Render the common scene with changes; without size and samples, as it says itself."""
+    """Render the common scene with changes; without size and samples, as it says itself.
+
+    Parameters
+    ----------
+    heat : return the heat map of its rays in its place
+    """
     text = json.dumps(described(changes))
     for folder in FOLDERS:
         text = text.replace(f'"{folder}', f'"{(SCENES / folder).as_posix()}/')
@@ -84,16 +128,20 @@ def image(
         file = Path(folder, "key.yaml")
         file.write_text(text, encoding="utf-8")
         made = render(load_scene(file), size=size, spp=samples)
-    return webp.on_screen(made)
+        shown = webp.on_screen(made)
+        if heat:
+            made.save_heat_map(file.with_suffix(".png"))
+            shown = Image.open(file.with_suffix(".png")).convert("RGB")
+    return shown
 
 
-def picture(changes: Changes, kept: Path = KEPT) -> Path:
-    """Render a picture, unless it is kept; return the WebP file."""
-    path = kept / f"{_hash(changes)}.webp"
+def picture(changes: Changes, kept: Path = KEPT, *, heat: bool = False) -> Path:
+    """Render a picture or its heat map, unless it is kept; return the WebP file."""
+    path = kept / f"{_hash(changes)}{'-rays' if heat else ''}.webp"
     if not path.is_file():
         if not kept.is_dir():
             click.echo("rendering the pictures of the keys of scene files", err=True)
-        made = image(changes)
+        made = image(changes, heat=heat)
         if made.size != SIZE:
             # Pixels are meant to be seen.
             made = made.resize(SIZE, Image.Resampling.NEAREST)

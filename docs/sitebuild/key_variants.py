@@ -57,6 +57,31 @@ WINDOW = {
     "edge_v": [0, 0, 3],
     "radiance": 6,
 }
+PLAIN = {"materials.floor": {"color": 0.5}}
+COARSE = {"film.width": 66, "film.height": 44, "sampler.samples": 1, "lights.1.radius": 0, **PLAIN}
+"""Pixels that can be seen, with a ray each, and neither noise nor a pattern in what they show."""
+NOISY = {
+    **PLAIN,
+    **ALONE,
+    "film.width": 66,
+    "film.height": 44,
+    "sampler.samples": 1000,
+    "camera.lens": {"aperture_radius": 0.3, "focus_distance": 5},
+    "lights.1": WINDOW,
+}
+WHOLE = {"left": -0.4, "right": 0.4, "bottom": -0.267, "top": 0.267}
+CORNER = {
+    "camera": {"eye": [0, 40, 0], "look_at": [1, 41, -1], "vertical_fov": 80},
+    "environment": {**SKY, "lights": False, "size": 3},
+}
+"""Seen from high above: a corner of a cube whose pixels are large, and its faces are the sky."""
+STRAIGHT = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]
+SHEARED = [[1, 0.6, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]
+STRETCHED = [[0.5, 0, 0, 0], [0, 1.3, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]
+
+
+def _plane(key: str, *values: float) -> list[tuple[str, Changes]]:
+    return _values(f"camera.image_plane.{key}", *values, on={"camera.image_plane": WHOLE})
 
 
 def _object(shape: str, **keys: Any) -> Changes:
@@ -77,6 +102,8 @@ def _shapes(shape: str, key: str, *values: Any, **keys: Any) -> list[tuple[str, 
 
 def _said(value: Any) -> str:
     """As it is written in a scene file."""
+    if value is None:
+        return "null"
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, dict):
@@ -94,6 +121,16 @@ VARIANTS: dict[tuple[str, str], list[tuple[str, Changes]]] = {
     ("CameraDescription", "vertical_fov"): _values("camera.vertical_fov", 15, 30, 60),
     ("CameraDescription", "handedness"): _values("camera.handedness", "right", "left"),
     ("CameraDescription", "near"): _values("camera.near", 0, 4.3, 4.9),
+    ("CameraDescription", "image_plane"): _values(
+        "camera.image_plane",
+        WHOLE,
+        {"left": -0.1, "right": 0.3, "bottom": -0.2, "top": 0.066},
+    ),
+    ("ImagePlaneDescription", "distance"): _plane("distance", 1, 2),
+    ("ImagePlaneDescription", "left"): _plane("left", -0.4, 0),
+    ("ImagePlaneDescription", "right"): _plane("right", 0.4, 0.1),
+    ("ImagePlaneDescription", "bottom"): _plane("bottom", -0.267, -0.6),
+    ("ImagePlaneDescription", "top"): _plane("top", 0.267, 0),
     ("LensDescription", "aperture_radius"): _values(
         "camera.lens.aperture_radius", 0.03, 0.1, 0.3, on=LENS
     ),
@@ -135,6 +172,16 @@ VARIANTS: dict[tuple[str, str], list[tuple[str, Changes]]] = {
     ("FilmDescription", "sigma"): _values(
         "film.sigma", 0.17, 0.5, on={"film.filter": "gaussian", "film.width": 66, "film.height": 44}
     ),
+    ("FilmDescription", "error"): _values("film.error", 0.1, 0.03, on=NOISY),
+    ("FilmDescription", "subdivision"): _values(
+        "film.subdivision", None, {"threshold": 0.1, "depth": 3}, on=COARSE
+    ),
+    ("SubdivisionDescription", "threshold"): _values(
+        "film.subdivision.threshold", 0.03, 0.3, on={**COARSE, "film.subdivision": {"depth": 3}}
+    ),
+    ("SubdivisionDescription", "depth"): _values(
+        "film.subdivision.depth", 1, 4, on={**COARSE, "film.subdivision": {"threshold": 0.1}}
+    ),
     ("FilmDescription", "white"): _values("film.white", 0.5, 1, 2),
     ("FilmDescription", "encoding"): _values("film.encoding", "srgb", "linear"),
     ("SamplerDescription", "type"): _values(
@@ -174,6 +221,10 @@ VARIANTS: dict[tuple[str, str], list[tuple[str, Changes]]] = {
     ],
     ("LatLongEnvironment", "scale"): _values("environment.scale", 0.5, 2, on=SKYLIT),
     ("LatLongEnvironment", "lights"): _values("environment.lights", False, True, on=SKYLIT),
+    ("LatLongEnvironment", "size"): _values("environment.size", 4, 16, None, on=SKYLIT),
+    ("LatLongEnvironment", "lookup"): _values(
+        "environment.lookup", "seamless", "clamped", on=CORNER
+    ),
     ("MaterialDescription", "color"): _values(
         "materials.ball.color", 0.1, [0.75, 0.25, 0.15], [0.2, 0.6, 0.3]
     ),
@@ -327,6 +378,13 @@ VARIANTS: dict[tuple[str, str], list[tuple[str, Changes]]] = {
         )
         for axis in ([0, 1, 0], [1, 0, 0], [0, 0, 1])
     ],
+    ("Affine", "matrix"): [
+        (
+            f"matrix: {matrix}",
+            {"objects.2.transform": [{"matrix": matrix}, {"translate": [-1.2, top / 2, 0.4]}]},
+        )
+        for matrix, top in ((STRAIGHT, 1), (SHEARED, 1), (STRETCHED, 1.3))
+    ],
     ("Box", "size"): _values("objects.2.size", [1, 1, 1], [0.4, 1.8, 1]),
     ("Sphere", "radius"): _values("objects.1.radius", 0.3, 0.7),
     ("Sphere", "segments"): _values("objects.1.segments", 6, 16, 64),
@@ -354,3 +412,12 @@ VARIANTS: dict[tuple[str, str], list[tuple[str, Changes]]] = {
     ),
 }
 """From a definition of the schema and a key of it to the pictures: what stands under each, and what it changes."""
+
+
+HEAT_MAPS = {
+    ("FilmDescription", "error"),
+    ("FilmDescription", "subdivision"),
+    ("SubdivisionDescription", "threshold"),
+    ("SubdivisionDescription", "depth"),
+}
+"""Keys that say where rays go: beside a picture that is sampled adaptively stands the heat map of its rays."""

@@ -17,6 +17,7 @@ from PIL import Image
 from course.benchmarking.sources import engine_hash
 from course.effects import PROJECT, Effects
 from course.imaging.atomic import replacing
+from sitebuild import webp
 from sitebuild.place import Place
 
 Node = dict[str, Any]
@@ -29,11 +30,18 @@ SCENES = PROJECT / "scenes"
 SECONDS = 300
 """At most, for one cell."""
 
+BLANK = (300, 200)
+"""Pixels of a picture that stands in."""
+
 
 def notebook(place: Place, name: str, words: str = "") -> str:  # noqa: ARG001
     """Show a notebook; its first heading is left to the page."""
     source = NOTEBOOKS / f"{name}.ipynb"
-    shown = source if place.blank else executed(source)
+    if place.blank:
+        shown = source
+    else:
+        shown = executed(source)
+        place.kept.add(shown)
     file = place.address(f"_notebooks/{name}.ipynb", source)
     cells: list[Node] = json.loads(shown.read_text(encoding="utf-8"))["cells"]
     parts = [f'<p><a href="{file}" download>{name}.ipynb</a></p>\n']
@@ -43,7 +51,8 @@ def notebook(place: Place, name: str, words: str = "") -> str:  # noqa: ARG001
             parts.append(text.partition("\n")[2] if number == 0 else text)
         else:
             parts.append(f"```python\n{text}\n```\n")
-            parts += _shown(place, f"{name}-{number}", cell)
+            outputs = _stand_in(cell) if place.blank else cell["outputs"]
+            parts += _shown(place, f"{name}-{number}", cell, outputs)
     return "\n\n".join(parts) + "\n"
 
 
@@ -81,10 +90,23 @@ def _key(source: Path) -> str:
     return hashed.hexdigest()[:16]
 
 
-def _shown(place: Place, name: str, cell: Node) -> Iterator[str]:
+def _stand_in(cell: Node) -> list[Node]:
+    """Outputs of a cell that wasn't run: grey for a picture, a line for what it prints."""
+    outputs: list[Node] = []
+    if "alt" in cell["metadata"]:
+        grey = BytesIO()
+        Image.new("RGB", BLANK, webp.GREY).save(grey, "PNG")
+        png = base64.b64encode(grey.getvalue()).decode()
+        outputs.append({"output_type": "display_data", "data": {"image/png": png}})
+    if "print(" in "".join(cell["source"]):
+        outputs.append({"output_type": "stream", "text": ["not run in this build"]})
+    return outputs
+
+
+def _shown(place: Place, name: str, cell: Node, outputs: list[Node]) -> Iterator[str]:
     """What a cell has printed and shown."""
     pictures = 0
-    for output in cell["outputs"]:
+    for output in outputs:
         if output["output_type"] == "stream":
             yield f"```text\n{''.join(output['text']).rstrip()}\n```\n"
         elif "image/png" in output["data"]:

@@ -17,12 +17,11 @@ from sphinx.environment import BuildEnvironment
 from sphinx.errors import ExtensionError
 
 from course.errors import CourseError
-from sitebuild import key_pictures, pictures
+from sitebuild import kept, pictures
 from sitebuild.command_line import command_line
 from sitebuild.convergence import convergence
 from sitebuild.diagrams.part import diagram
 from sitebuild.functions import functions
-from sitebuild.kept import forget_unused
 from sitebuild.mistakes.part import mistakes
 from sitebuild.notebook import notebook
 from sitebuild.other_shots import metu_shot, radiosity_shot
@@ -78,6 +77,7 @@ class Site:
     def __init__(self, app: Sphinx) -> None:
         self.app = app
         self.files: dict[str, Path] = {}
+        self.kept: set[Path] = set()
 
     def outdated(self, app: Sphinx, env: BuildEnvironment, *_: Iterable[str]) -> list[str]:
         """Name the pages whose generated parts are no longer what they were."""
@@ -106,9 +106,8 @@ class Site:
             file = Path(app.outdir) / target
             file.parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(path, file)
-        if app.config.pictures != "blank":
-            for folder in (pictures.KEPT, key_pictures.KEPT):
-                forget_unused(folder, self.files.values())
+        if app.config.pictures != "blank" and kept.whole(Path(app.srcdir), app.env.found_docs):
+            kept.forget([*self.files.values(), *self.kept])
 
     def expanded(self, page: str, text: str) -> str:
         """Return a page's Markdown with its generated parts."""
@@ -126,6 +125,7 @@ class Site:
             blank=self.app.config.pictures == "blank",
             made=Path(self.app.doctreedir) / "made",
             files=self.files,
+            kept=self.kept,
         )
         return MARK.sub(lambda match: _part(match, place), text)
 

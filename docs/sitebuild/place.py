@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 
@@ -16,12 +16,14 @@ class Place:
     blank : whether the build must not wait for pictures, and shows grey ones
     made : folder of what this build makes and nobody keeps
     files : of the whole site, from address to the file that is copied there
+    kept : files from which pages are made and which aren't copied, such as a notebook that was run
     """
 
     up: str
     blank: bool
     made: Path
     files: dict[str, Path]
+    kept: set[Path] = field(default_factory=set)
 
     def address(self, target: str, file: Path) -> str:
         """Have the file copied to ``target``, as the site sees it; return its address, as the page sees it."""

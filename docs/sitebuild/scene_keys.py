@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import json
-import re
 from collections.abc import Iterator
 from typing import Any
 
 from course.scene.schema import json_schema
+from sitebuild.key_headings import heading, link
 from sitebuild.key_pictures import key_pictures
 from sitebuild.place import Place
 
@@ -30,12 +30,6 @@ def scene_keys(place: Place, name: str = "", words: str = "") -> str:  # noqa: A
     return "\n".join(
         line for name in _in_order(schema) for line in _section(place, name, schema["$defs"][name])
     )
-
-
-def heading(name: str) -> str:
-    """Return the heading under which a definition stands: LensDescription is "Lens"."""
-    words = re.findall(r"[A-Z][a-z]*", name.removesuffix("Description"))
-    return " ".join([words[0], *(word.lower() for word in words[1:])])
 
 
 def _in_order(schema: Node) -> list[str]:
@@ -84,8 +78,7 @@ def _section(place: Place, name: str, node: Node) -> list[str]:
 def _kind(node: Node) -> str:
     """What may stand there, in words; maps of the format are links to their headings."""
     if "$ref" in node:
-        title = heading(node["$ref"].rpartition("/")[2])
-        return f"[{title}](#{title.lower().replace(' ', '-')})"
+        return link(node["$ref"].rpartition("/")[2])
     if "const" in node or "enum" in node:
         values = node.get("enum", [node.get("const")])
         return " or ".join(f"`{value}`" if value is not None else "null" for value in values)

@@ -12,7 +12,7 @@ from benchmarks.adaptive_sampling import Effort, Point, rays_for
 
 
 def test_rays_for_an_error_on_a_power_law() -> None:
-    curve = [Point(n, n**-0.75) for n in (1.0, 4.0, 16.0, 64.0)]
+    curve = [Point(n, n**-0.75, 0.1 * n) for n in (1.0, 4.0, 16.0, 64.0)]
     for rays in (1.0, 3.0, 20.0, 64.0):
         assert rays_for(rays**-0.75, curve) == pytest.approx(rays)
     assert rays_for(2.0, curve) == pytest.approx(1.0)
@@ -21,7 +21,7 @@ def test_rays_for_an_error_on_a_power_law() -> None:
 
 def test_a_small_run_finds_that_division_saves_rays(tmp_path: Path) -> None:
     pytest.importorskip("matplotlib")
-    effort = Effort((60, 45), 256, (0, 2), (0.1,), (1, 4, 16, 64))
+    effort = Effort((60, 45), 256, (0, 2), (0.1,), (1, 4, 16, 64), rounds=1)
     found = adaptive_sampling.measure(False, effort)
     assert [point.rays for point in found.regular] == [1, 4, 16, 64]
     coarse, fine = found.divisions

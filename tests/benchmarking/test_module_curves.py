@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -16,9 +17,11 @@ from benchmarks import (
     quasi_monte_carlo,
     radiosity,
     sampling,
+    timing,
 )
 from course.benchmarking.convergence_data import comparisons
 from course.benchmarking.measuring import Effort
+from course.benchmarking.plot_data import Plot
 
 
 def test_a_warp_carries_evenness_over_and_rejection_does_not() -> None:
@@ -29,9 +32,50 @@ def test_a_warp_carries_evenness_over_and_rejection_does_not() -> None:
         assert orders[name] == pytest.approx(-0.5, abs=0.15)
     assert orders["polar, jittered"] < -0.85
     assert orders["polar, Sobol"] < -1.1
+    assert _along_both_axes(plot)
     # x^2 has the variance 1/16 over the unit disk: its mean square 1/8 less 1/16.
     for series in plot.series[:2]:
         assert series.y[0] == pytest.approx(math.sqrt(1 / 16 / 16), rel=0.4)
+
+
+def _along_both_axes(plot: Plot) -> bool:
+    """Whether every line has a count and a time for each error."""
+    return list(plot.axes) == ["samples", "seconds"] and all(
+        list(series.x) == ["samples", "seconds"]
+        and len(series.x["samples"]) == len(series.x["seconds"]) == len(series.y)
+        and min(series.x["seconds"]) > 0
+        for series in plot.series
+    )
+
+
+def test_point_sets_are_drawn_over_points_and_seconds() -> None:
+    integral = quasi_monte_carlo.INTEGRALS[0]
+    curves = quasi_monte_carlo.measure(integral, quasi_monte_carlo.COUNTS[:3], 4)
+    plot = quasi_monte_carlo.plot(integral, curves)
+    assert _along_both_axes(plot)
+    assert [series.x["seconds"] for series in plot.series] == [curve.seconds for curve in curves]
+
+
+def test_times_are_medians_of_rounds_in_turn(monkeypatch: pytest.MonkeyPatch) -> None:
+    clock = [0.0]
+    calls = []
+
+    def way(name: str, seconds: float) -> Callable[[int, int], None]:
+        def work(count: int, turn: int) -> None:
+            calls.append((name, count, turn))
+            # One round in five meets whatever else the machine does.
+            clock[0] += seconds * count + 100 * (turn == 3)
+
+        return work
+
+    monkeypatch.setattr(timing, "perf_counter", lambda: clock[0])
+    ways = {"one": way("one", 1.0), "two": way("two", 2.0)}
+    found = timing.median_seconds(ways, (4, 16), 5)
+    assert found == {"one": (4.0, 16.0), "two": (8.0, 32.0)}
+    # Each once for what it makes only then, and then in turn.
+    assert calls[:6] == [("one", 4, 0), ("two", 4, 0)] * 2 + [("one", 4, 1), ("two", 4, 1)]
+    assert calls[-2:] == [("one", 16, 4), ("two", 16, 4)]
+    assert len(calls) == 2 + 5 * 4
 
 
 def test_every_sampler_and_every_roulette_is_measured(tmp_path: Path) -> None:
@@ -58,20 +102,28 @@ def test_predicted_errors_are_drawn_beside_the_measured_ones() -> None:
     for series in predicted.values():
         assert np.diff(np.log(series.y)) == pytest.approx(np.full(len(series.y) - 1, -math.log(2)))
     measured = [series for series in plot.series if not series.predicted]
+    assert _along_both_axes(plot)
+    # What was predicted for a number of samples stands at the seconds that as many took.
+    for series in measured:
+        assert series.name not in predicted or predicted[series.name].x == series.x
     assert [series.name for series in measured] == [way.name for way in found]
     assert all(series.y == tuple(way.curve) for series, way in zip(measured, found, strict=True))
 
 
 def test_a_divided_picture_is_a_mark_for_each_depth() -> None:
     point = adaptive_sampling.Point
-    even = [point(1.0, 0.4), point(4.0, 0.2)]
+    even = [point(1.0, 0.4, 0.5), point(4.0, 0.2, 1.5)]
     divisions = [
-        adaptive_sampling.Division(threshold, depth, point(depth + 1.5, 0.1), 0.0, 1.0, 1.0)
+        adaptive_sampling.Division(
+            threshold, depth, point(depth + 1.5, 0.1, depth + 2.0), 0.0, 1.0, 1.0
+        )
         for threshold in (0.4, 0.1)
         for depth in (0, 1, 2)
     ]
     found = adaptive_sampling.Measured(even, even, divisions)
     plot = adaptive_sampling.plot("wires", "with its wires", found)
+    assert _along_both_axes(plot)
+    assert [series.x["seconds"] for series in plot.series] == [(0.5, 1.5)] * 2 + [(2, 3, 4)] * 2
     assert {series.name: series.x["samples"] for series in plot.series} == {
         "k x k grid": (1.0, 4.0),
         "Sobol": (1.0, 4.0),

@@ -22,6 +22,17 @@ PARTS = 4
 """Pages are judged in so many tests, so that they can run beside each other."""
 
 
+OPEN = """() => {
+  for (const each of document.querySelectorAll("details")) each.open = true;
+  for (const slider of document.querySelectorAll("input[type=range]")) {
+    slider.value = Number(slider.value) < Number(slider.max) ? Number(slider.value) + 1 : slider.min;
+    slider.dispatchEvent(new Event("input", { bubbles: true }));
+  }
+  return document.querySelectorAll("details:not([open])").length;
+}"""
+"""Unfold what is folded away, and move each slider by a step."""
+
+
 def _faults(page: Any, rules: dict[str, Any]) -> list[str]:
     found = axe.Axe().run(page, options=rules | {"resultTypes": ["violations"]})
     assert found.response["testEngine"]["name"] == "axe-core"
@@ -47,6 +58,7 @@ def test_axe_finds_nothing(
     assert files
     for file in files:
         page.goto(file.as_uri())
+        assert page.evaluate(OPEN) == 0
         faults = _faults(page, rules)
         assert faults == [], f"{file.name}, {scheme}"
     context.close()
@@ -71,6 +83,17 @@ def test_axe_finds_what_is_wrong(
     page = browser.new_page()
     page.set_content(text)
     assert any(found.startswith(f"{fault}:") for found in _faults(page, rules))
+    page.close()
+
+
+def test_axe_sees_what_was_folded_away(browser: Any) -> None:
+    page = browser.new_page()
+    page.set_content(
+        PALE.replace("<p", "<details><summary>More</summary><p").replace("</p>", "</p></details>")
+    )
+    assert _faults(page, COLOURS) == []
+    page.evaluate(OPEN)
+    assert [fault.split(":")[0] for fault in _faults(page, COLOURS)] == ["color-contrast"]
     page.close()
 
 

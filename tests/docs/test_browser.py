@@ -42,6 +42,50 @@ def test_every_page_opens_without_trouble(
     context.close()
 
 
+PICTURES = """async () => {
+  const faults = [];
+  for (const image of document.images) image.loading = "eager";
+  for (const image of document.images) {
+    await image.decode().catch(() => faults.push(`not loaded: ${image.src}`));
+    if (!image.alt.trim()) faults.push(`no alternative text: ${image.src}`);
+    const [width, height] = ["width", "height"].map((name) => Number(image.getAttribute(name)));
+    const shape = image.naturalWidth / image.naturalHeight;
+    if (Math.abs(width / height - shape) > 0.02) faults.push(`another shape: ${image.src}`);
+  }
+  return [document.images.length, faults];
+}"""
+
+
+def test_every_picture_is_loaded_has_words_and_the_shape_that_is_kept_for_it(
+    browser: Any, site: Path
+) -> None:
+    page = browser.new_page()
+    total = 0
+    for file in sorted(site.rglob("*.html")):
+        page.goto(file.as_uri())
+        number, faults = page.evaluate(PICTURES)
+        assert faults == [], file.name
+        total += number
+    assert total > 500
+    page.close()
+
+
+def test_no_line_begins_with_the_punctuation_of_a_formula(browser: Any, site: Path) -> None:
+    page = browser.new_page()
+    page.goto((site / "modules" / "soft_shadows.html").as_uri())
+    joined = page.locator(".joined")
+    assert joined.count() > 3
+    for width in (300, 390, 500, 800):
+        page.set_viewport_size({"width": width, "height": 800})
+        for box in joined.all():
+            lines = box.evaluate(
+                "(box) => { const range = document.createRange(); range.selectNodeContents(box.lastChild);"
+                " return range.getBoundingClientRect().left - box.firstChild.getBoundingClientRect().right; }"
+            )
+            assert -1 < lines < 3, box.inner_text()
+    page.close()
+
+
 @pytest.fixture
 def pair(browser: Any, site: Path) -> Iterator[Any]:
     """The page of a module with a pair of pictures."""

@@ -57,6 +57,18 @@ CROWDED = Plot(
     "error",
     (Series("one", 0, {"samples": (11_000, 64_000)}, (0.5, 0.4)),),
 )
+HURRIED = [
+    Plot(
+        "hurried",
+        f"from {first:g} to {last:g} seconds",
+        {"seconds": "seconds"},
+        "error",
+        (Series("one", 0, {"seconds": (first, last)}, (0.5, 1e-6)),),
+    )
+    for first, last in ((2e-5, 1e-4), (1.1e-5, 1.9e-5), (9e-6, 1.01e-5), (3e-5, 1.02e-2))
+]
+"""Microseconds have long numbers."""
+
 PLOT = Plot("samplers", "two ways", AXES, "RMSE", (RANDOM, SOBOL), floor=0.002)
 
 
@@ -185,7 +197,7 @@ def _all_plots() -> list[tuple[str, Plot]]:
 
 @pytest.mark.parametrize(
     ("name", "plot"),
-    [*_all_plots(), ("made up", PLOT), ("made up", CROWDED)],
+    [*_all_plots(), *(("made up", plot) for plot in (PLOT, CROWDED, *HURRIED))],
     ids=lambda value: value if isinstance(value, str) else value.name,
 )
 def test_words_stay_within_and_apart(name: str, plot: Plot) -> None:

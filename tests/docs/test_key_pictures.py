@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -13,8 +14,9 @@ from course.scene.schema import json_schema
 
 pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')
 
-from sitebuild import key_pictures
-from sitebuild.key_variants import VARIANTS
+from sitebuild import key_pictures, scene_keys
+from sitebuild.key_variants import HEAT_MAPS, VARIANTS
+from sitebuild.key_words import ELSEWHERE, FLAT, WORDS
 from sitebuild.place import Place
 
 SMALL = (120, 80)
@@ -32,7 +34,7 @@ def _blocks(image: Image.Image) -> np.ndarray:
 
 def test_every_key_is_one_of_the_format() -> None:
     definitions = json_schema()["$defs"]
-    for definition, key in VARIANTS:
+    for definition, key in (*VARIANTS, *WORDS, *ELSEWHERE, *HEAT_MAPS):
         assert key in definitions[definition]["properties"], f"{definition}.{key}"
 
 
@@ -81,4 +83,68 @@ def test_pictures_stand_beside_the_key(tmp_path: Path) -> None:
     html = key_pictures.key_pictures(place, "CameraDescription", "vertical_fov")
     assert html.count("<img") == html.count('loading="lazy"') == 3
     assert 'alt="Camera with vertical_fov: 15"' in html
-    assert key_pictures.key_pictures(place, "SceneDescription", "title") == ""
+    assert key_pictures.key_pictures(place, "SceneDescription", "materials") == ""
+
+
+def test_words_stand_where_there_are_no_pictures() -> None:
+    assert not (WORDS.keys() | ELSEWHERE.keys()) & VARIANTS.keys()
+    assert not WORDS.keys() & ELSEWHERE.keys()
+    assert ELSEWHERE
+    assert set(ELSEWHERE.values()) <= VARIANTS.keys()
+
+
+@pytest.mark.parametrize("shape", FLAT)
+def test_what_shows_nothing_changes_nothing(shape: str) -> None:
+    scene: dict[str, Any] = {
+        "objects.1": {
+            "shape": shape.lower(),
+            "material": "ball",
+            "transform": [
+                {"rotate": {"axis": [1, 0.3, 0], "degrees": 40}},
+                {"translate": [0, 0.9, 0]},
+            ],
+        }
+    }
+    smooth, flat = (
+        np.asarray(key_pictures.image({**scene, "objects.1.shading": shading}, SMALL, 4), int)
+        for shading in ("smooth", "flat")
+    )
+    # One level: normals are rounded in another order.
+    assert np.abs(smooth - flat).max() <= 1
+
+
+def test_words_lead_to_pictures(tmp_path: Path) -> None:
+    place = Place("../", blank=True, made=tmp_path, files={})
+    reference = scene_keys.scene_keys(place)
+    assert key_pictures.key_pictures(place, "SceneDescription", "title") in reference
+    for definition, key in ELSEWHERE:
+        said = key_pictures.key_pictures(place, definition, key)
+        assert said in reference
+        title = said.partition("[")[2].partition("]")[0]
+        assert f"\n## {title}\n" in reference, said
+        assert said.endswith(f"(#{title.lower().replace(' ', '-')}).")
+
+
+def test_rays_are_shown_beside_what_is_sampled_adaptively(tmp_path: Path) -> None:
+    place = Place("../", blank=True, made=tmp_path, files={})
+    for where in HEAT_MAPS:
+        html = key_pictures.key_pictures(place, *where)
+        rays = sum(key_pictures.adaptive(changes) for _, changes in VARIANTS[where])
+        assert html.count(f"<figcaption>{key_pictures.RAYS}") == rays > 0
+        assert html.count("<img") == len(VARIANTS[where]) + rays
+        assert html.count('class="key-pictures"') == len(VARIANTS[where])
+    # Without subdivision every pixel takes the same.
+    assert not key_pictures.adaptive({"film.subdivision": None})
+
+
+def test_a_heat_map_is_kept_beside_its_picture(tmp_path: Path) -> None:
+    changes = VARIANTS["FilmDescription", "subdivision"][1][1]
+    shown, rays = (key_pictures.picture(changes, tmp_path, heat=heat) for heat in (False, True))
+    assert shown != rays
+    with Image.open(shown) as picture, Image.open(rays) as heat:
+        assert picture.size == heat.size == key_pictures.SIZE
+        seen = _blocks(heat.convert("RGB"))
+        assert np.abs(seen - _blocks(picture.convert("RGB"))).max() > APART
+    # Sky alone takes the fewest rays, and edges take many.
+    assert seen[2, 2].max() < 20
+    assert seen.max() > 80

@@ -11,7 +11,7 @@ from PIL import Image
 pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')
 pytest.importorskip("latex2mathml", reason='the site needs: pip install -e ".[docs]"')
 
-from sitebuild import docstrings, mathematics, parts, pictures, scene_keys
+from sitebuild import docstrings, key_headings, mathematics, parts, pictures
 
 SCENE = """\
 title: A ball
@@ -125,8 +125,8 @@ def test_docstrings_keep_their_sections() -> None:
 
 
 def test_headings_of_the_format_are_words() -> None:
-    assert scene_keys.heading("ImagePlaneDescription") == "Image plane"
-    assert scene_keys.heading("Quad") == "Quad"
+    assert key_headings.heading("ImagePlaneDescription") == "Image plane"
+    assert key_headings.heading("Quad") == "Quad"
 
 
 def test_formulas_keep_an_upright_d_and_room_around_functions() -> None:

@@ -1,0 +1,39 @@
+"""What is said of a key of scene files that has no pictures: that it shows nothing, or where its pictures are."""
+
+from __future__ import annotations
+
+NOTHING = "It shows nowhere in the picture."
+
+SHAPES = (
+    *("Quad", "Box", "Sphere", "Disk", "Cylinder", "Cone", "Torus", "TorusKnot"),
+    *("DisplacedSphere", "HeightField", "MeshFile"),
+)
+
+FLAT = ("Quad", "Box", "Disk")
+
+WORDS: dict[tuple[str, str], str] = {
+    ("SceneDescription", "title"): NOTHING,
+    ("IntegratorDescription", "roulette"): "It changes the noise and the time, not what is shown.",
+    **{(shape, "name"): NOTHING for shape in SHAPES},
+    **{(shape, "shading"): "Its faces are flat: both look the same." for shape in FLAT},
+}
+
+ELSEWHERE: dict[tuple[str, str], tuple[str, str]] = {
+    ("CubeEnvironment", "lookup"): ("LatLongEnvironment", "lookup"),
+    ("CubeEnvironment", "scale"): ("LatLongEnvironment", "scale"),
+    ("CubeEnvironment", "lights"): ("LatLongEnvironment", "lights"),
+    ("CubeEnvironment", "seen_by"): ("ConstantEnvironment", "seen_by"),
+    ("LatLongEnvironment", "seen_by"): ("ConstantEnvironment", "seen_by"),
+    ("RectangleLight", "intensity"): ("SphereLight", "intensity"),
+    ("SphereLight", "radiance"): ("RectangleLight", "radiance"),
+    **{
+        (shape, "segments"): ("Sphere", "segments")
+        for shape in ("Disk", "Cylinder", "Cone", "Torus")
+    },
+    **{
+        (shape, "shading"): ("Sphere", "shading")
+        for shape in SHAPES
+        if shape not in {"Sphere", *FLAT}
+    },
+}
+"""From a definition of the schema and a key of it to another of the same meaning that has pictures."""
