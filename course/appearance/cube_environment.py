@@ -38,11 +38,13 @@ class CubeEnvironment:
         """(3, n) radiance from directions (3, n)."""
         return self.lookup(self.faces, direction)
 
-    def sample(self, normal: Floats32, u: Floats32) -> tuple[Floats32, Floats32 | None]:
+    def sample(
+        self, normal: Floats32, u: Floats32, compiled: bool = False
+    ) -> tuple[Floats32, Floats32 | None]:
         """See ConstantEnvironment.sample."""
         if self.product is None:
             return cosine_directions(normal, u), None
-        return self.product.sample(normal, u)
+        return self.product.sample(normal, u, compiled)
 
 
 def texel_directions(size: int, subsamples: int = 1) -> Floats64:

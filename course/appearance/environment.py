@@ -30,13 +30,19 @@ class ConstantEnvironment:
         """(3, 1) radiance from directions (3, n)."""
         return self.color[:, None]
 
-    def sample(self, normal: Floats32, u: Floats32) -> tuple[Floats32, Floats32 | None]:
+    def sample(
+        self,
+        normal: Floats32,
+        u: Floats32,
+        compiled: bool = False,
+    ) -> tuple[Floats32, Floats32 | None]:
         """Directions that light may come from, for the irradiance over pi.
 
         Parameters
         ----------
         normal : (3, n) float32, unit length
         u : (2, n) float32 in [0, 1)
+        compiled : whether compiled loops are used, where there are any
 
         Returns
         -------

@@ -148,19 +148,24 @@ class ProductSampling:
     texel_rows: Tables
     texel_columns: Tables
 
-    def sample(self, normal: Floats32, u: Floats32) -> tuple[Floats32, Floats32]:
+    def sample(
+        self, normal: Floats32, u: Floats32, compiled: bool = False
+    ) -> tuple[Floats32, Floats32]:
         """Directions, and what to multiply their radiance by: cosine / (pi density).
 
         Parameters
         ----------
         normal : (3, n) float32, unit length
         u : (2, n) float32 in [0, 1)
+        compiled : by a compiled loop, to the same bits
 
         Returns
         -------
         direction : (3, n) float32, unit length; a few lie below the horizon
         weight : (n,) float32, not above 0 for those
         """
+        if compiled:
+            return self._sample_compiled(normal, u)
         table = nearest_normal(normal)
         row, v, density = self.rows.draw(table, u[0])
         table *= 6 * CELLS
@@ -199,6 +204,20 @@ class ProductSampling:
         density *= np.float32(math.pi * size * size / 4)
         weight /= density
         direction *= 1 / np.sqrt(squared)
+        return direction, weight
+
+    def _sample_compiled(self, normal: Floats32, u: Floats32) -> tuple[Floats32, Floats32]:
+        from course.appearance import environment_kernels
+
+        direction = np.empty(normal.shape, np.float32)
+        weight = np.empty(normal.shape[1], np.float32)
+        tables = (self.rows, self.columns, self.texel_rows, self.texel_columns)
+        environment_kernels.sample(
+            *map(np.ascontiguousarray, (normal, u)),
+            *(NORMALS, CELLS, _FRAMES32),
+            *(array for table in tables for array in (table.edges, table.guide)),
+            *(direction, weight),
+        )
         return direction, weight
 
 

@@ -14,6 +14,7 @@ What embreex does that one would not expect, and what is done about it here:
 from __future__ import annotations
 
 from dataclasses import dataclass
+from threading import Lock
 from time import perf_counter
 
 import numpy as np
@@ -64,29 +65,39 @@ class Accelerator:
     """
 
     def __init__(self, vertices: Floats32, triangles: Numbers) -> None:
+        self._vertices = np.ascontiguousarray(vertices, np.float32)
+        self._triangles = np.ascontiguousarray(triangles, np.int32)
+        # A hierarchy takes as much memory as all else that is known of the triangles: there is none that isn't asked.
         self._scene: EmbreeScene | None = None
         self._packets: PacketScene | None = None
         self._packet_scene: PacketScene | None = None
-        if len(triangles) == 0:
-            return
-        scene = EmbreeScene(robust=True)
-        # Embree reads the arrays for as long as the scene lives.
-        self._mesh = TriangleMesh(
-            scene,
-            np.ascontiguousarray(vertices, np.float32),
-            np.ascontiguousarray(triangles, np.int32),
-        )
-        # The first query builds the hierarchy; do it now, in one thread.
-        away = np.full((1, 3), 4.0, np.float32)
-        scene.run(away, away, query="OCCLUDED")
-        self._scene = scene
-        self._arrays = vertices, triangles
+        self._build = Lock()
 
     def use_packets(self, wanted: bool) -> None:
-        """Ask for 16 rays at a time from now on, or no longer; see ``course.geometry.packets``."""
-        if wanted and self._packet_scene is None and self._scene is not None:
-            self._packet_scene = PacketScene(*self._arrays)
+        """Ask for 16 rays at a time from now on, or no longer; see ``course.geometry.packets``.
+
+        The hierarchy for that is built, unless there is one.
+        """
+        if len(self._triangles) == 0:
+            return
+        if not wanted:
+            self._single()
+        elif self._packet_scene is None:
+            self._packet_scene = PacketScene(self._vertices, self._triangles)
         self._packets = self._packet_scene if wanted else None
+
+    def _single(self) -> EmbreeScene:
+        """The hierarchy that is asked for one ray after the other."""
+        with self._build:
+            if self._scene is None:
+                scene = EmbreeScene(robust=True)
+                # Embree reads the arrays for as long as the scene lives.
+                self._mesh = TriangleMesh(scene, self._vertices, self._triangles)
+                # The first query builds the hierarchy, and must come from one thread.
+                away = np.full((1, 3), 4.0, np.float32)
+                scene.run(away, away, query="OCCLUDED")
+                self._scene = scene
+        return self._scene
 
     @property
     def compiled(self) -> bool:
@@ -113,7 +124,7 @@ class Accelerator:
         coherent : whether rays that follow each other go much the same way
         """
         n = direction.shape[1]
-        if self._scene is None or n == 0:
+        if len(self._triangles) == 0 or n == 0:
             u, v = np.zeros((2, n), np.float32)
             far = np.full(n, NO_HIT, np.float32)
             return Intersections(np.full(n, -1, np.int32), u, v, far)
@@ -125,10 +136,9 @@ class Accelerator:
             return Intersections(*hits)
         # Embree overwrites the limits.
         limits = None if limit is None else limit.copy()
+        scene = self._single()
         start = perf_counter()
-        found = self._scene.run(
-            _rows(origin, n), direction.T, limits, query="INTERSECT", output=True
-        )
+        found = scene.run(_rows(origin, n), direction.T, limits, query="INTERSECT", output=True)
         clock.seconds += perf_counter() - start
         return Intersections(found["primID"], found["u"], found["v"], found["tfar"])
 
@@ -170,14 +180,16 @@ class Accelerator:
         (N,) bool
         """
         n = direction.shape[1]
-        if self._scene is None or n == 0:
+        if len(self._triangles) == 0 or n == 0:
             return np.ones(n, np.bool_)
-        start = perf_counter()
         if self._packets is not None:
+            start = perf_counter()
             free = self._packets.unoccluded(origin, direction, limit)
             clock.seconds += perf_counter() - start
             return free
-        blocked = self._scene.run(_rows(origin, n), direction.T, limit, query="OCCLUDED")
+        scene = self._single()
+        start = perf_counter()
+        blocked = scene.run(_rows(origin, n), direction.T, limit, query="OCCLUDED")
         clock.seconds += perf_counter() - start
         return blocked < 0  # type: ignore[no-any-return]
 

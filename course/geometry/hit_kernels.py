@@ -105,7 +105,8 @@ def find(
         ):
             x, y, z = _pulled(x, y, z, a, b, c, corner_edges[k], normal_offset[k], inset[k])
         nx, ny, nz = normal_offset[k, 0], normal_offset[k, 1], normal_offset[k, 2]
-        facing = nx * dx + ny * dy + nz * dz
+        # A sum that begins with 0, as NumPy's does, is never -0.
+        facing = _NOTHING + nx * dx + ny * dy + nz * dz
         way = np.float32(math.copysign(_ONE, -facing))
         nx, ny, nz = nx * way, ny * way, nz * way
         offset = normal_offset[k, 3]

@@ -106,7 +106,6 @@ def render(
     Ctrl-C ends the render with a picture whose ``interrupted`` is true. A picture is a function of scene, settings
     and seed alone: the same bits for any number of threads or workers.
     """
-    began = monotonic()
     if address is not None and threads is not None:
         raise CourseError(
             "threads are for renders on this machine; the workers of a cluster have their own"
@@ -116,7 +115,10 @@ def render(
     _check_memory(settings)
     needs = needs_of(scene.loaded, settings, scene.compiled.world)
     packets = _use_compiled(settings, compiled)
-    scene.compiled.world.surface.accelerator.use_packets(packets)
+    if address is None:
+        scene.compiled.world.surface.accelerator.use_packets(packets)
+    # A time limit counts from here, where the hierarchy stands.
+    began = monotonic()
     try:
         tracer = bind(scene, settings)
         film: Film | AdaptiveFilm

@@ -36,7 +36,7 @@ def skylight(
         ns, ng = ns.take(which, axis=1), ng.take(which, axis=1)
         path = which if path is None else path.take(which)
     u = draws("environment", dimension, 2, path)
-    direction, weight = world.environment.sample(ns, u)
+    direction, weight = world.environment.sample(ns, u, hits.compiled)
     outwards = dot(direction, ng) > 0
     if weight is not None:
         outwards &= weight > 0

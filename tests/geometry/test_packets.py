@@ -7,7 +7,7 @@ import gc
 import numpy as np
 import pytest
 
-from course.geometry import packets
+from course.geometry import embree, packets
 from course.geometry.embree import NO_HIT, Accelerator, QueryTime
 
 if not packets.available():
@@ -163,3 +163,31 @@ def test_where_most_rays_enter_all_are_asked(accelerator: Accelerator) -> None:
     assert chosen is not None
     assert 0 < len(chosen) < 500
     assert both(accelerator, False).entering(9 * origin, direction, far, clock) is None
+
+
+def test_only_the_hierarchy_that_is_asked_is_built(monkeypatch: pytest.MonkeyPatch) -> None:
+    built: list[str] = []
+    for name in ("EmbreeScene", "PacketScene"):
+        made = getattr(embree, name)
+        monkeypatch.setattr(
+            embree,
+            name,
+            lambda *arguments, name=name, made=made, **options: (
+                built.append(name),
+                made(*arguments, **options),
+            )[1],
+        )
+    for wanted, name in ((True, "PacketScene"), (False, "EmbreeScene")):
+        built.clear()
+        mine = Accelerator(*soup(10, 3))
+        assert built == []
+        for _ in range(2):
+            mine.use_packets(wanted)
+            assert mine.compiled == wanted
+            mine.intersect(*rays(5, 1), QueryTime())
+            mine.unoccluded(*rays(5, 1), 1.0, QueryTime())
+        assert built == [name]
+    # Whoever asks without having said how asks for single rays.
+    built.clear()
+    Accelerator(*soup(10, 3)).intersect(*rays(5, 1), QueryTime())
+    assert built == ["EmbreeScene"]

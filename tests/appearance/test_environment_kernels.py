@@ -1,0 +1,51 @@
+"""The compiled loop draws the same directions, bit for bit."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from course.appearance.environment_sampling import ProductSampling, product_sampling
+from course.core.types import Floats32
+from course.geometry import packets
+
+if not packets.available():
+    pytest.skip("Numba is not installed (pip install .[fast])", allow_module_level=True)
+
+
+def drawn_by(size: int) -> ProductSampling:
+    """A sky whose brightness differs by a factor of a million, with a black face."""
+    rng = np.random.default_rng(size)
+    faces = np.exp(rng.uniform(-7, 7, (6, size, size, 3))).astype(np.float32)
+    faces[3] = 0
+    product = product_sampling(faces, seamless=True)
+    assert product is not None
+    return product
+
+
+def normals(n: int) -> Floats32:
+    """Of all directions, along all axes and diagonals, and one that has cancelled to nothing."""
+    rng = np.random.default_rng(5)
+    some = rng.normal(size=(3, n))
+    grid = np.stack(np.meshgrid(*[[-1.0, -0.0, 1.0]] * 3)).reshape(3, -1)
+    some[:, : grid.shape[1]] = grid
+    length = np.linalg.norm(some, axis=0)
+    return (some / np.where(length > 0, length, 1)).astype(np.float32)
+
+
+# With 16 texels a cell is a texel; with 64 it is divided.
+@pytest.mark.parametrize("size", [16, 64])
+def test_directions_and_weights(size: int) -> None:
+    product = drawn_by(size)
+    n = 20_000
+    u = np.random.default_rng(6).random((2, n), np.float32)
+    u[:, -4:] = [[0, 0, 1 - 2.0**-24, 1 - 2.0**-24], [0, 1 - 2.0**-24, 0, 1 - 2.0**-24]]
+    for columns in (slice(None), slice(0, 0), slice(None, None, 3)):
+        some, numbers = normals(n)[:, columns], u[:, columns]
+        passes, loop = product.sample(some, numbers), product.sample(some, numbers, compiled=True)
+        for mine, theirs in zip(passes, loop, strict=True):
+            assert (mine.shape, mine.dtype) == (theirs.shape, theirs.dtype)
+            assert mine.tobytes() == theirs.tobytes()
+    direction, weight = product.sample(normals(n), u, compiled=True)
+    assert len(np.unique(direction.round(2), axis=1).T) > 1000
+    assert (weight > 0).mean() > 0.9
