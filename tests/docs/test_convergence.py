@@ -279,6 +279,17 @@ def test_what_was_not_measured_is_told(name: str, words: str, told: str) -> None
 
 
 @pytest.mark.usefixtures("data")
+@pytest.mark.parametrize(
+    "name", ["sampling", "importance_sampling", "quasi_monte_carlo", "adaptive_sampling"]
+)
+def test_modules_that_count_samples_measure_seconds_too(name: str) -> None:
+    plots = [plot for record in convergence.records(name) for plot in record.plots]
+    assert plots
+    for plot in plots:
+        assert "seconds" in plot.axes
+        assert all(second > 0 for series in plot.series for second in series.x["seconds"])
+
+
 def test_the_table_has_the_same_numbers() -> None:
     html = convergence.convergence(PLACE, "glossy", "samplers")
     rows = re.findall(r"<tr><th scope=\"row\">(.*?)</th>(.*?)</tr>", html)
