@@ -1,0 +1,74 @@
+"""Embree is told that neighbouring rays are coherent where they are, and nowhere else."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from course import Scene, render
+from course.geometry.embree import Accelerator
+from course.geometry.moving import MovingAccelerator
+
+MakeScene = Callable[..., Scene]
+LENS = {"lens": {"aperture_radius": 0.1, "focus_distance": 4}}
+SHUTTER = {"shutter": {"open": 0, "close": 1}}
+MOVER = {"shape": "sphere", "radius": 0.2, "segments": 8, "motion": {"velocity": [1, 0, 0]}}
+
+
+@pytest.mark.parametrize(
+    ("camera", "material", "integrator", "more", "expected"),
+    [
+        ({}, {}, {}, [], [True, True, False, False]),
+        (LENS, {}, {}, [], [False] * 4),
+        ({}, {"gloss": {"lobe": "phong", "exponent": 90}}, {}, [], [True, False, False, False]),
+        (SHUTTER, {}, {}, [MOVER], [True, False, False, False]),
+        ({}, {}, {"type": "path", "roulette": None}, [], [True, False, False, False]),
+    ],
+    ids=["mirrors", "lens", "lobe", "motion", "paths"],
+)
+def test_camera_rays_and_their_mirror_images(
+    make_scene: MakeScene,
+    monkeypatch: pytest.MonkeyPatch,
+    camera: Any,
+    material: Any,
+    integrator: Any,
+    more: Any,
+    expected: list[bool],
+) -> None:
+    told: list[bool] = []
+    for kind in (Accelerator, MovingAccelerator):
+        intersect = kind.intersect
+
+        def noted(
+            self: Any,
+            *arguments: Any,
+            intersect: Any = intersect,
+            coherent: bool = False,
+            **rest: Any,
+        ) -> Any:
+            told.append(coherent)
+            return intersect(self, *arguments, coherent=coherent, **rest)
+
+        monkeypatch.setattr(kind, "intersect", noted)
+    mirror = {"color": 0, "mirror": 0.9} | material
+    wall = {"shape": "quad", "material": "mirror", "width": 99, "depth": 99}
+    scene = make_scene(
+        camera={"eye": [0, 1, 3], "look_at": [0, 0.5, 0]} | camera,
+        film={"width": 8, "height": 6},
+        sampler={"samples": 4},
+        integrator={"max_depth": 3} | integrator,
+        materials={"mirror": mirror},
+        objects=[
+            wall,
+            wall | {"transform": [{"translate": [0, 2, 0]}]},
+            *(each | {"material": "mirror"} for each in more),
+        ],
+    )
+    render(scene, threads=1)
+    if more:
+        # Each query goes on to the things that stand still and to those that move, and says the same.
+        assert len(told) == 12
+        told = told[::3]
+    assert told == expected
