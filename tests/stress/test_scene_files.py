@@ -25,7 +25,7 @@ from course.imaging.files import save
 from course.scene.description.lights import Light
 from course.scene.description.objects import Object
 from tests.stress.descriptions import FACES, FILES, descriptions
-from tests.stress.examples import examples
+from tests.stress.examples import LONG, examples
 
 MESHES = {
     "sliver.obj": "v 0 0 0\nv 1 1e-9 0\nv 2 0 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n",
@@ -100,9 +100,12 @@ def test_random_scenes_render_finite_or_are_refused_by_their_line(folder: Path) 
     # Most are rendered and show something, and everything occurs; or this would say little.
     assert found.count("seen") + found.count("black") > len(found) / 2
     assert found.count("seen") > len(found) / 3
-    assert {kind.__struct_config__.tag for kind in (*get_args(Object), *get_args(Light))} <= drawn
-    assert {"gloss", "dielectric", "mirror", "lens", "shutter", "camera motion"} <= drawn
-    assert {"constant", "cube", "lat_long", "sobol", "random", "jittered", "regular"} <= drawn
+    everything = {kind.__struct_config__.tag for kind in (*get_args(Object), *get_args(Light))}
+    everything |= {"gloss", "dielectric", "mirror", "lens", "shutter", "camera motion"}
+    everything |= {"constant", "cube", "lat_long", "sobol", "random", "jittered", "regular"}
+    # Hypothesis lets the modules that happen to be loaded have a say in what it draws, and the rarest kinds are in one
+    # description of twenty: sixty of them may well do without one or the other.
+    assert len(everything - drawn) <= (0 if LONG else len(everything) // 4)
 
 
 def kinds(description: dict[str, Any]) -> Iterator[str]:
