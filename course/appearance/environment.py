@@ -31,10 +31,7 @@ class ConstantEnvironment:
         return self.color[:, None]
 
     def sample(
-        self,
-        normal: Floats32,
-        u: Floats32,
-        compiled: bool = False,
+        self, normal: Floats32, u: Floats32, compiled: bool = False
     ) -> tuple[Floats32, Floats32 | None]:
         """Directions that light may come from, for the irradiance over pi.
 

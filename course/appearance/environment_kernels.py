@@ -10,14 +10,13 @@ import math
 import numpy as np
 from numba import njit, types
 
-_columns = types.float32[:, ::1]
+from course.geometry.kernels import COLUMNS, OPTIONS, ROW
+
 _guide = types.int32[:, ::1]
 _f32 = np.float32
 
-_compiled = {"nogil": True, "cache": True, "error_model": "numpy"}
 
-
-@njit(**_compiled)
+@njit(**OPTIONS)
 def _drawn(edges, guide, table, u):
     """One outcome of a table of ``Tables``, what is left of its number, and its probability."""
     part = int(u * _f32(guide.shape[1]))
@@ -31,7 +30,7 @@ def _drawn(edges, guide, table, u):
     return position - first, (u - low) / probability, probability
 
 
-@njit(**_compiled)
+@njit(**OPTIONS)
 def _nearest(x, y, z, normals):
     """Number of the table for a normal; see ``nearest_normal``."""
     half = _f32(normals / 2)
@@ -45,11 +44,11 @@ def _nearest(x, y, z, normals):
 
 @njit(
     types.void(
-        *(_columns, _columns, types.int64, types.int64, types.float32[:, ::1]),
-        *(_columns, _guide) * 4,
-        *(_columns, types.float32[::1]),
+        *(COLUMNS, COLUMNS, types.int64, types.int64, COLUMNS),
+        *(COLUMNS, _guide) * 4,
+        *(COLUMNS, ROW),
     ),
-    **_compiled,
+    **OPTIONS,
 )
 def sample(
     normal,

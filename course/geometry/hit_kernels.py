@@ -11,17 +11,15 @@ import math
 import numpy as np
 from numba import njit, types
 
-_columns = types.float32[:, ::1]
-_row = types.float32[::1]
+from course.geometry.kernels import COLUMNS, OPTIONS, ROW
+
 _LEAST = np.float32(1e-20)
 _NOTHING, _ONE = np.float32(0), np.float32(1)
 _AHEAD = 64
 """Hits whose rows are touched before they are worked on: then the processor waits for many of them at once."""
 
-_compiled = {"nogil": True, "cache": True, "error_model": "numpy"}
 
-
-@njit(**_compiled)
+@njit(**OPTIONS)
 def _touched(triangle, corner_edges, normal_offset, corner_normals):
     """Read a number of each row, so that it is in the cache; the sum is there so that the reading isn't left out."""
     total = _NOTHING
@@ -32,7 +30,7 @@ def _touched(triangle, corner_edges, normal_offset, corner_normals):
     return total
 
 
-@njit(**_compiled)
+@njit(**OPTIONS)
 def _pulled(x, y, z, a, b, c, edges, normal, inset):
     """A point next to an edge moved inwards, in float64; see ``course.geometry.hits``."""
     e1x, e1y, e1z = np.float64(edges[3]), np.float64(edges[4]), np.float64(edges[5])
@@ -58,11 +56,11 @@ def _pulled(x, y, z, a, b, c, edges, normal, inset):
 
 @njit(
     types.float32(
-        *(types.int32[::1], _row, _row, _columns),
-        *(_columns, _columns, _columns, _columns),
-        *(_columns, _columns, _columns, _columns, _columns, _row),
+        *(types.int32[::1], ROW, ROW, COLUMNS),
+        *(COLUMNS, COLUMNS, COLUMNS, COLUMNS),
+        *(COLUMNS, COLUMNS, COLUMNS, COLUMNS, COLUMNS, ROW),
     ),
-    **_compiled,
+    **OPTIONS,
 )
 def find(
     triangle,
@@ -131,7 +129,7 @@ def find(
     return total
 
 
-@njit(types.void(types.int64[::1], *(_columns,) * 4), **_compiled)
+@njit(types.void(types.int64[::1], *(COLUMNS,) * 4), **OPTIONS)
 def mirror(which, direction, ns, ng, way):
     """Mirrored directions of some hits, none of them into the surface, into ``way`` (3, m).
 

@@ -11,6 +11,8 @@ from __future__ import annotations
 import numpy as np
 from numba import njit, types
 
+from course.geometry.kernels import COLUMNS, OPTIONS, ROW
+
 WIDTH = 16
 _TFAR, _MASK, _ID, _FLAGS = 8, 9, 10, 11
 _RAY_ROWS = 12
@@ -21,11 +23,9 @@ _ALL_ROWS = 24
 _query = types.void(*[types.uintp] * 4)
 _intersect16 = types.ExternalFunction("rtcIntersect16", _query)
 _occluded16 = types.ExternalFunction("rtcOccluded16", _query)
-_columns = types.float32[:, ::1]
-_compiled = {"nogil": True, "cache": True}
 
 
-@njit(**_compiled)
+@njit(**OPTIONS)
 def _aligned(rows):
     """Memory for rows of 16 floats at an address that 64 divides, as Embree wants it."""
     memory = np.empty((rows + 1) * WIDTH, np.float32)
@@ -33,7 +33,7 @@ def _aligned(rows):
     return memory[start : start + rows * WIDTH].reshape(rows, WIDTH)
 
 
-@njit(**_compiled)
+@njit(**OPTIONS)
 def _fill(packet, whole, origin, direction, first, count):
     """Copy rays into a packet; ``whole`` is the same memory as integers."""
     shared = origin.shape[1] == 1
@@ -50,7 +50,7 @@ def _fill(packet, whole, origin, direction, first, count):
         whole[_FLAGS, i] = 0
 
 
-@njit(**_compiled)
+@njit(**OPTIONS)
 def _arguments(hint):
     """RTCIntersectArguments: flags, features (all of them), then context and callbacks (none)."""
     arguments = np.zeros(16, np.uint32)
@@ -62,14 +62,14 @@ def _arguments(hint):
 @njit(
     types.void(
         types.uintp,
-        _columns,
-        _columns,
-        types.float32[::1],
+        COLUMNS,
+        COLUMNS,
+        ROW,
         types.int64,
         types.int32[::1],
-        _columns,
+        COLUMNS,
     ),
-    **_compiled,
+    **OPTIONS,
 )
 def intersect(scene, origin, direction, limit, hint, triangle, uvt):
     """Nearest hits into ``triangle`` (N,) and ``uvt`` (3, N); see ``PacketScene.intersect``."""
@@ -96,7 +96,7 @@ def intersect(scene, origin, direction, limit, hint, triangle, uvt):
             uvt[2, j] = packet[_TFAR, i]
 
 
-@njit(types.void(types.uintp, _columns, _columns, types.float32, types.boolean[::1]), **_compiled)
+@njit(types.void(types.uintp, COLUMNS, COLUMNS, types.float32, types.boolean[::1]), **OPTIONS)
 def unoccluded(scene, origin, direction, limit, free):
     """Whether the ways are free, into ``free`` (N,); see ``PacketScene.unoccluded``."""
     n = direction.shape[1]
@@ -122,9 +122,8 @@ _LESS, _MORE = np.float32(1 - 1e-6), np.float32(1 + 1e-6)
 
 
 @njit(
-    types.int64(_columns, _columns, types.float32[::1], types.float32[:, ::1], types.int64[::1]),
-    error_model="numpy",
-    **_compiled,
+    types.int64(COLUMNS, COLUMNS, ROW, COLUMNS, types.int64[::1]),
+    **OPTIONS,
 )
 def entering(origin, direction, limit, box, which):
     """Which rays may meet a box, into the first places of ``which`` (N,), and how many; see ``PacketScene.entering``.

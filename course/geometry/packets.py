@@ -4,8 +4,9 @@ embreex sends one ray after the other. The library that it brings along can also
 the way down the hierarchy and the width of the processor. Numba compiles the loop that fills the packets; the answers
 are the same, bit for bit, but for rays that meet an edge between two triangles at one and the same distance.
 
-This is the one file that calls Embree without embreex; the loops are in ``packet_kernels``, which like ``hit_kernels``
-imports Numba (``pip install .[fast]``). Where either is missing, ``available`` says so and everything works without.
+This is the one file that calls Embree without embreex; the loops are in ``packet_kernels``. Like all files of that
+ending it imports Numba (``pip install .[fast]``). Where either is missing, ``available`` says so and everything works
+without.
 """
 
 from __future__ import annotations

@@ -24,7 +24,7 @@ from course.transport.ways import beyond, divided, mirrored, reflectance, refrac
 
 DIFFUSE, MIRRORED, REFRACTED = range(3)
 
-_LEAST = np.float32(1e-30)
+LEAST = np.float32(1e-30)
 """Below any throughput that is worth a thought; keeps a division by zero away."""
 
 _ALL, _NONE = np.ones((3, 1), np.float32), np.empty(0, np.float32)
@@ -180,7 +180,7 @@ class PathBounce:
         weight = np.zeros(ways[0].shape, np.float32)
         for number, way in enumerate(ways):
             # Over its probability, odds / reach[-1].
-            scale = reach[-1] / np.maximum(odds[number], _LEAST)
+            scale = reach[-1] / np.maximum(odds[number], LEAST)
             np.copyto(weight, way * scale, where=way_taken == number)
         after[:, other] = weight
         kind[other] = way_taken

@@ -5,17 +5,15 @@ from __future__ import annotations
 import numpy as np
 from numba import njit, types
 
-_columns = types.float32[:, ::1]
-_row = types.float32[::1]
-_LEAST = np.float32(1e-30)
+from course.geometry.kernels import COLUMNS, OPTIONS, ROW
+from course.transport.path_bounce import DIFFUSE, LEAST, MIRRORED, REFRACTED
+
 _NOTHING = np.float32(0)
 
 
 @njit(
-    types.void(types.int64[::1], *(_columns,) * 2, *(_row,) * 3, _columns, types.int8[::1]),
-    nogil=True,
-    cache=True,
-    error_model="numpy",
+    types.void(types.int64[::1], *(COLUMNS,) * 2, *(ROW,) * 3, COLUMNS, types.int8[::1]),
+    **OPTIONS,
 )
 def choose(other, beta, mirror, reflected, refracted, u, after, kind):
     """Choose among the ways of some hits as ``PathBounce`` does, in place.
@@ -28,7 +26,7 @@ def choose(other, beta, mirror, reflected, refracted, u, after, kind):
     reflected, refracted : (m,) shares of the light at a boundary; (0,) where nothing refracts
     u : (n,) in [0, 1)
     after : (3, n) throughput of diffuse reflection, replaced by that of the way that is chosen
-    kind : (n,) 0 diffuse, 1 mirrored, 2 refracted
+    kind : (n,) DIFFUSE, MIRRORED or REFRACTED
     """
     boundaries = len(reflected) > 0
     for i in range(len(other)):
@@ -45,17 +43,17 @@ def choose(other, beta, mirror, reflected, refracted, u, after, kind):
         total = reach + through_most
         level = u[j] * total
         if level < diffuse:
-            kind[j] = 0
-            scale = total / max(diffuse, _LEAST)
+            kind[j] = DIFFUSE
+            scale = total / max(diffuse, LEAST)
             for c in range(3):
                 after[c, j] *= scale
         elif level < reach or not boundaries:
-            kind[j] = 1
-            scale = total / max(back, _LEAST)
+            kind[j] = MIRRORED
+            scale = total / max(back, LEAST)
             for c in range(3):
                 after[c, j] = (mirror[c, one] + more) * beta[c, k] * scale
         else:
-            kind[j] = 2
-            scale = total / max(through_most, _LEAST)
+            kind[j] = REFRACTED
+            scale = total / max(through_most, LEAST)
             for c in range(3):
                 after[c, j] = through * beta[c, k] * scale

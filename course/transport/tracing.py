@@ -267,15 +267,9 @@ class Tracer:
         through = np.where(~hits.entering & dielectric, hits.material.astype(np.int16), OPEN)
         if medium is not None:
             through = np.where(through < 0, medium, through)
-        inside = through >= 0
-        which = np.flatnonzero(inside)
+        which = np.flatnonzero(through >= 0)
         if len(which) == 0:
             return throughput
-        if 2 * len(which) > hits.size:
-            # To work on all is cheaper than to pick most of them; the others have travelled no way in glass.
-            length = hits.t * inside
-            factor: Floats32 = np.exp(-self.lookups.absorption(np.maximum(through, 0)) * length)
-            return factor if throughput is None else throughput * factor
         length = hits.t.take(which)
         left = np.exp(-self.lookups.absorption(through.take(which)) * length)
         result = np.ones((3, hits.size), np.float32) if throughput is None else throughput.copy()

@@ -40,26 +40,23 @@ def on_cluster(
         ``distributed`` isn't installed, no scheduler answers, it has no workers, or it or all of them have gone.
     """
     cluster = Connection(address)
-    client = cluster.client
     ended: SimpleQueue[Any] = SimpleQueue()
-    futures: dict[str, Any] = {}
+    pending: dict[str, tuple[Any, Item]] = {}
     try:
         # A task, not scattered data: that would be lost with the workers that hold it.
-        everywhere = client.submit(_same, shared, pure=False)
-        by_key: dict[str, Item] = {}
+        everywhere = cluster.client.submit(_same, shared, pure=False)
         for item in items:
             # Not pure: answers that an earlier run left on the cluster are not for this one.
-            future = client.submit(function, item, everywhere, pure=False, retries=1)
-            futures[future.key] = future
-            by_key[future.key] = item
+            future = cluster.client.submit(function, item, everywhere, pure=False, retries=1)
+            pending[future.key] = future, item
             future.add_done_callback(ended.put)
-        while futures:
+        while pending:
             cluster.look()
-            for future in arrived(ended):
-                yield _outcome(cluster, by_key[future.key], future)
-                del futures[future.key]
+            for ready in arrived(ended):
+                future, item = pending.pop(ready.key)
+                yield _outcome(cluster, item, future)
     finally:
-        cluster.cancel([*futures.values()])
+        cluster.cancel([future for future, _ in pending.values()])
         cluster.close()
 
 

@@ -1,0 +1,14 @@
+"""What the loops that Numba compiles have in common; imported by files named ``..._kernels`` alone."""
+
+from __future__ import annotations
+
+from numba import types
+
+COLUMNS = types.float32[:, ::1]
+"""(k, N) float32, C-contiguous."""
+
+ROW = types.float32[::1]
+"""(N,) float32, contiguous."""
+
+OPTIONS = {"nogil": True, "cache": True, "error_model": "numpy"}
+"""Without the interpreter lock, kept on disk, and with divisions by zero as NumPy has them."""
