@@ -75,14 +75,19 @@ class MaterialTable:
 
 
 class Lookup:
-    """Gathers properties for hits; where all materials agree, a single column serves all hits."""
+    """Gathers properties for hits; where all materials agree, a single column serves all hits.
+
+    Attributes
+    ----------
+    rows : (3, M) or (M,) float32, the properties of M materials
+    """
 
     def __init__(self, rows: Floats32) -> None:
-        self._rows = np.ascontiguousarray(rows)
+        self.rows = np.ascontiguousarray(rows)
         self._same = bool((rows == rows[..., :1]).all())
 
     def __call__(self, material: Materials) -> Floats32:
         """(3, n) or (3, 1) for rows of three, (n,) or (1,) for single rows."""
         if self._same:
-            return self._rows[..., :1]
-        return self._rows.take(material, axis=-1)
+            return self.rows[..., :1]
+        return self.rows.take(material, axis=-1)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from course.appearance.lights import Light
+from course.appearance.lights import Light, Sample
 from course.core.types import Floats32, Indices, Mask
 from course.core.vectors import dot
 from course.geometry.hits import Hits, bulge
@@ -20,6 +20,8 @@ from course.transport.sky import skylight
 
 _ROUNDING = 1e-4
 """Added to a sine before it is compared with a cosine, both in float32."""
+
+_ALL = np.empty(0, np.bool_)
 
 
 def direct_light(
@@ -82,13 +84,35 @@ def _irradiance(
     if light.velocity is not None and world.motion is not None and hits.time is not None:
         # A light that has moved by d looks from p as one that stands still does from p - d.
         points = points - world.motion.functions.displacement(light.velocity, hits.time)
-    sample = light.sample(points, u)
+    sample = light.sample(points, u, hits.compiled)
+    shaded = None if plan.all_shade else world.materials.shaded
+    find = _facing_by_loop if hits.compiled else _facing
+    faced = find(hits, sample, shaded)
+    if faced is None:
+        return None
+    which, strength, cosine, origin, to_light, inverse_length = faced
+    strength *= _sees(world, light, hits, which, cosine, origin, to_light, counters)
+    return which, strength, to_light, inverse_length
+
+
+_Facing = tuple[Indices, Floats32, Floats32, Floats32, Floats32, Floats32]
+"""Which hits show light if nothing is in the way, how much, the cosines there, and where their shadow rays start and
+go: strength and cosine (m,), origin (3, m), to_light and inverse_length as ``Sample`` has them."""
+
+
+def _facing(hits: Hits, sample: Sample, shaded: Mask | None) -> _Facing | None:
+    """The hits that face the light and are faced by it; None if there are none.
+
+    Parameters
+    ----------
+    shaded : (M,) which materials show light, None for all
+    """
     strength = dot(hits.ns, sample.to_light)
     strength *= sample.inverse_length
     cosine = strength
     strength = cosine * sample.factor
-    if not plan.all_shade:
-        strength *= world.materials.shaded.take(hits.material)
+    if shaded is not None:
+        strength *= shaded.take(hits.material)
     which = np.flatnonzero(strength > 0)
     if len(which) == 0:
         return None
@@ -99,8 +123,37 @@ def _irradiance(
         if to_light.shape[1] > 1:
             to_light = to_light.take(which, axis=1)
             inverse_length = inverse_length.take(which)
-    strength *= _sees(world, light, hits, which, cosine, origin, to_light, counters)
-    return which, strength, to_light, inverse_length
+    return which, strength, cosine, origin, to_light, inverse_length
+
+
+def _facing_by_loop(hits: Hits, sample: Sample, shaded: Mask | None) -> _Facing | None:
+    """The same, to the same bits, in two loops."""
+    from course.transport import direct_kernels
+
+    n = hits.size
+    which = np.empty(n, np.int64)
+    strength, cosine = np.empty(n, np.float32), np.empty(n, np.float32)
+    to_light, inverse_length = map(np.ascontiguousarray, (sample.to_light, sample.inverse_length))
+    found = direct_kernels.facing(
+        *map(np.ascontiguousarray, (hits.ns, hits.material)),
+        *(to_light, inverse_length, np.ascontiguousarray(sample.factor)),
+        *(_ALL if shaded is None else shaded, which, strength, cosine),
+    )
+    if found == 0:
+        return None
+    origin = hits.above
+    if found < n:
+        which, strength, cosine = which[:found], strength[:found], cosine[:found]
+        origin = np.empty((3, found), np.float32)
+        there, near = np.empty((3, 0), np.float32), inverse_length[:0]
+        if to_light.shape[1] > 1:
+            there, near = np.empty((3, found), np.float32), np.empty(found, np.float32)
+        direct_kernels.gather(
+            which, np.ascontiguousarray(hits.above), to_light, inverse_length, origin, there, near
+        )
+        if to_light.shape[1] > 1:
+            to_light, inverse_length = there, near
+    return which, strength, cosine, origin, to_light, inverse_length
 
 
 def _sees(

@@ -162,10 +162,10 @@ class PathBounce:
         after = np.array(diffuse, np.float32)
         kind = np.full(hits.size, DIFFUSE, np.int8)
         if hits.compiled:
-            from course.transport import path_kernels
+            from course.transport import way_kernels
 
             arrays = (_ALL if beta is None else beta, mirror, *(shares or (_NONE, _NONE)), u)
-            path_kernels.choose(other, *map(np.ascontiguousarray, arrays), after, kind)
+            way_kernels.choose(other, *map(np.ascontiguousarray, arrays), after, kind)
             return after, kind
         arriving = np.float32(1) if beta is None else beta.take(other, axis=1)
         ways = [diffuse.take(other, axis=1)]

@@ -65,6 +65,8 @@ def divided(
     reflected, refracted : (n,) shares of the light, 0 where the material is opaque
     boundary : as ``refracted`` wants it
     """
+    if hits.compiled and plan.refraction_dimension is None:
+        return _divided_by_loop(lookups, hits, which)
     material, entering, direction, ns = hits.material, hits.entering, hits.direction, hits.ns
     if which is not None:
         material, entering = material.take(which), entering.take(which)
@@ -80,6 +82,23 @@ def divided(
     if plan.refraction_dimension is not None and blur is not None:
         bent = bend(blur.lobes, material, direction, ns, cos_i, eta, share)
     return share * glass, (1 - share) * glass, Boundary(cos_i, cos_t, eta, bent)
+
+
+def _divided_by_loop(
+    lookups: Lookups, hits: Hits, which: Indices | None
+) -> tuple[Floats32, Floats32, Boundary]:
+    """``divided`` to the same bits, where no glass is rough."""
+    from course.transport import way_kernels
+
+    if which is None:
+        which = np.arange(hits.size)
+    n = len(which)
+    reflected, passed, cos_i, cos_t, eta = (np.empty(n, np.float32) for _ in range(5))
+    arrays = hits.material, hits.side, hits.direction, hits.ns, lookups.refraction_index.rows
+    way_kernels.divide(
+        which, *map(np.ascontiguousarray, arrays), reflected, passed, cos_i, cos_t, eta
+    )
+    return reflected, passed, Boundary(cos_i, cos_t, eta, None)
 
 
 def mirrored(
@@ -105,6 +124,13 @@ def refracted(
     ----------
     boundary, path : of those hits
     """
+    if hits.compiled and plan.refraction_dimension is None:
+        from course.transport import way_kernels
+
+        way = np.empty((3, len(which)), np.float32)
+        arrays = hits.direction, hits.ns, hits.ng, boundary.cos_i, boundary.cos_t, boundary.eta
+        way_kernels.refract(which, *map(np.ascontiguousarray, arrays), way)
+        return way
     direction, ns = hits.direction.take(which, axis=1), hits.ns.take(which, axis=1)
     ng = hits.ng.take(which, axis=1)
     way = refract(direction, ns, boundary.cos_i, boundary.cos_t, boundary.eta)

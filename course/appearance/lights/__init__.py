@@ -7,7 +7,7 @@ Each compiled light has
 - ``width``: how many numbers one sample takes (0 for lights without extent),
 - ``velocity`` (3,) float32 or None: how it moves,
 - ``limit``: how far along ``to_light`` a blocker counts, and
-- ``sample(points, u) -> Sample``.
+- ``sample(points, u, compiled) -> Sample``, by compiled loops where there are any and they are wanted.
 """
 
 from __future__ import annotations

@@ -23,6 +23,6 @@ class DirectionalLight:
     velocity: Floats32 | None = None
     limit: float = 1e30
 
-    def sample(self, points: Floats32, u: Floats32 | None) -> Sample:
+    def sample(self, points: Floats32, u: Floats32 | None, compiled: bool = False) -> Sample:
         """See ``course.appearance.lights``."""
         return Sample(self.towards[:, None], _ONE, _ONE)

@@ -5,13 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from course.appearance.lights.sample import (
-    TO_A_POINT,
-    TO_A_SURFACE,
-    Sample,
-    emitted_cosine,
-    inverse_square,
-)
+from course.appearance.lights.sample import TO_A_POINT, TO_A_SURFACE, Sample, towards
 from course.core.types import Floats32
 
 PointOnRectangle = Callable[[Floats32, Floats32, Floats32, Floats32], Floats32]
@@ -48,11 +42,8 @@ class RectangleLight:
         """How far along ``to_light`` a blocker counts."""
         return TO_A_SURFACE if self.normal is not None and self.visible else TO_A_POINT
 
-    def sample(self, points: Floats32, u: Floats32 | None) -> Sample:
+    def sample(self, points: Floats32, u: Floats32 | None, compiled: bool = False) -> Sample:
         """See ``course.appearance.lights``."""
         assert u is not None
-        to_light = self.point_on_rectangle(self.corner, self.edge_u, self.edge_v, u) - points
-        inverse_length, factor = inverse_square(to_light)
-        if self.normal is not None:
-            factor *= emitted_cosine(self.normal, to_light, inverse_length, self.two_sided)
-        return Sample(to_light, inverse_length, factor)
+        on_light = self.point_on_rectangle(self.corner, self.edge_u, self.edge_v, u)
+        return towards(on_light, points, self.normal, self.two_sided, compiled)

@@ -7,7 +7,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from course.appearance.lights.sample import TO_A_POINT, TO_A_SURFACE, Sample, inverse_square
+from course.appearance.lights.sample import (
+    TO_A_POINT,
+    TO_A_SURFACE,
+    Sample,
+    inverse_square,
+    towards,
+)
 from course.core.types import Floats32
 from course.core.vectors import dot
 
@@ -41,7 +47,7 @@ class SphereLight:
         """How far along ``to_light`` a blocker counts."""
         return TO_A_POINT if not self.emitter else TO_A_SURFACE
 
-    def sample(self, points: Floats32, u: Floats32 | None) -> Sample:
+    def sample(self, points: Floats32, u: Floats32 | None, compiled: bool = False) -> Sample:
         """See ``course.appearance.lights``."""
         assert u is not None
         if self.emitter:
@@ -50,8 +56,7 @@ class SphereLight:
             on_light = self.place(self.center, self.radius, np.ascontiguousarray(points), u)
         else:
             on_light = self.place(self.center, self.radius, u)
-        to_light = on_light - points
-        return Sample(to_light, *inverse_square(to_light))
+        return towards(on_light, points, compiled=compiled)
 
     def _sample_emitter(self, points: Floats32, u: Floats32) -> Sample:
         # About the origin, and moved afterwards: a radius of a few float32 steps of the centre keeps its normals.

@@ -36,7 +36,7 @@ class VisibleSphereLight:
     velocity: Floats32 | None = None
     limit: float = TO_A_SURFACE
 
-    def sample(self, points: Floats32, u: Floats32 | None) -> Sample:
+    def sample(self, points: Floats32, u: Floats32 | None, compiled: bool = False) -> Sample:
         """See ``course.appearance.lights``."""
         assert u is not None
         axis = self.center[:, None] - points

@@ -1,0 +1,64 @@
+"""Which hits a light may reach, compiled by Numba; imported by ``course.transport.direct``, when it is used."""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit, types
+
+from course.geometry.kernels import COLUMNS, OPTIONS, ROW
+
+_NOTHING = np.float32(0)
+
+
+@njit(
+    types.int64(
+        *(COLUMNS, types.uint16[::1], COLUMNS, ROW, ROW, types.boolean[::1]),
+        *(types.int64[::1], ROW, ROW),
+    ),
+    **OPTIONS,
+)
+def facing(ns, material, to_light, inverse_length, factor, shaded, which, strength, cosine):
+    """How many hits face the light and are faced by it.
+
+    Parameters
+    ----------
+    ns, material : (3, n) and (n,) of all hits
+    to_light, inverse_length, factor : of a ``Sample``, each for n hits or one for all
+    shaded : (M,) which materials show light, or (0,) for all
+    which, strength, cosine : (n,), filled from the beginning with as many as there are
+    """
+    found = 0
+    for i in range(len(material)):
+        k = 0 if to_light.shape[1] == 1 else i
+        angle = (
+            _NOTHING
+            + ns[0, i] * to_light[0, k]
+            + ns[1, i] * to_light[1, k]
+            + ns[2, i] * to_light[2, k]
+        )
+        angle *= inverse_length[k]
+        light = angle * factor[k]
+        if light > 0 and (len(shaded) == 0 or shaded[material[i]]):
+            which[found], strength[found], cosine[found] = i, light, angle
+            found += 1
+    return found
+
+
+@njit(types.void(types.int64[::1], COLUMNS, COLUMNS, ROW, COLUMNS, COLUMNS, ROW), **OPTIONS)
+def gather(which, above, to_light, inverse_length, origin, there, near):
+    """Where shadow rays of some hits start and go; the latter is left out if all hits share it.
+
+    Parameters
+    ----------
+    which : (m,) the hits
+    above, to_light, inverse_length : (3, n) and (n,) of all hits
+    origin, there, near : (3, m) and (m,), filled; (3, m), (3, 0) and (0,) if all hits share the light's direction
+    """
+    for i in range(len(which)):
+        j = which[i]
+        for c in range(3):
+            origin[c, i] = above[c, j]
+        if len(near):
+            for c in range(3):
+                there[c, i] = to_light[c, j]
+            near[i] = inverse_length[j]
