@@ -110,8 +110,9 @@ def russian_roulette(beta, u):
     ### BEGIN SOLUTION
     q = np.minimum(beta.max(axis=0), 1)
     survives = u < q
-    dtype = np.result_type(beta, u)
-    return survives, np.divide(beta, q, out=np.zeros(beta.shape, dtype), where=survives)
+    # Infinity leaves nothing, and no division by 0 is done for paths that have nothing.
+    rest = beta / np.where(survives, q, np.inf)
+    return survives, rest.astype(np.result_type(beta, u), copy=False)
     ### END SOLUTION
 
 

@@ -11,6 +11,7 @@ A dielectric has no ambient and diffuse terms, unless the scene asks for them: w
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -48,27 +49,27 @@ class MaterialTable:
     plain: Mask | None = None
     lamps: Mask | None = None
 
-    @property
+    @cached_property
     def shaded(self) -> Mask:
         """(M,) which materials light from point-like sources makes visible."""
         return np.asarray((self.diffuse.max(0) > 0) | (self.specular.max(0) > 0))
 
-    @property
+    @cached_property
     def shining(self) -> Floats32:
         """(3, M) emission of the surfaces of lights, 0 elsewhere."""
         return np.zeros_like(self.emission) if self.lamps is None else self.emission * self.lamps
 
-    @property
+    @cached_property
     def glowing(self) -> Floats32:
         """(3, M) emission of all other surfaces, which they send out from both sides."""
         return self.emission - self.shining
 
-    @property
+    @cached_property
     def diffuses(self) -> Mask:
         """(M,) which materials have a diffuse term."""
         return np.asarray(self.diffuse.max(0) > 0)
 
-    @property
+    @cached_property
     def refracts(self) -> Mask:
         """(M,) which materials are dielectrics."""
         return np.asarray(self.refraction_index > 0)

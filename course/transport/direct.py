@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from course.appearance.lights import Light, Sample
+from course.appearance.materials import Lookup
 from course.core.types import Floats32, Indices, Mask
 from course.core.vectors import dot
 from course.geometry.hits import Hits, bulge
@@ -49,14 +50,14 @@ def direct_light(
         if lit is None:
             continue
         which, irradiance, to_light, inverse_length = lit
-        diffuse = _accumulated(diffuse, hits.size, which, irradiance, light.color)
+        diffuse = _accumulated(diffuse, hits, which, irradiance, light.color)
         if plan.specular:
             highlight = _highlight(hits, lookups, which, to_light, inverse_length)
             highlight *= irradiance
             if world.materials.plain is not None:
                 plain = world.materials.plain.take(hits.material.take(which))
                 highlight /= _cosine(hits, which, to_light, inverse_length, plain)
-            specular = _accumulated(specular, hits.size, which, highlight, light.color)
+            specular = _accumulated(specular, hits, which, highlight, light.color)
     if plan.sky_dimension is not None:
         dimension = plan.sky_dimension + depth * plan.bounce_stride
         arriving = skylight(world, hits, path, dimension, draws)
@@ -64,7 +65,7 @@ def direct_light(
             diffuse = arriving if diffuse is None else np.add(diffuse, arriving, out=diffuse)
     if diffuse is None:
         return None
-    diffuse *= lookups.diffuse(hits.material)
+    _scale(diffuse, hits, lookups.diffuse)
     if hits.tint is not None:
         diffuse *= hits.tint
     if specular is not None:
@@ -186,9 +187,8 @@ def _sees(
         return accelerator.unoccluded(origin, to_light, light.limit, counters.embree, time)
     # The shading normal is within an angle of sine `bend` of the facet's: no other hits can face a light that their
     # facets turn away from.
-    turned = np.flatnonzero(cosine <= world.surface.bend + _ROUNDING)
-    ng = hits.ng.take(which.take(turned), axis=1)
-    turned = turned[dot(ng, to_light.take(turned, axis=1)) <= 0]
+    find = _turned_by_loop if hits.compiled else _turned
+    turned = find(hits, which, cosine, to_light, np.float32(world.surface.bend + _ROUNDING))
     height = bulge(world.surface, hits, which.take(turned))
     raised = np.flatnonzero(height)
     if len(raised) == 0:
@@ -210,6 +210,32 @@ def _sees(
     to_light[:, turned] = way
     free[turned] &= way_up
     return free
+
+
+def _turned(
+    hits: Hits, which: Indices, cosine: Floats32, to_light: Floats32, most: np.float32
+) -> Indices:
+    """Which of some hits have facets that turn away from the light.
+
+    Parameters
+    ----------
+    which, cosine, to_light : as ``_sees`` has them
+    most : the cosine up to which that may be
+    """
+    near = np.flatnonzero(cosine <= most)
+    ng = hits.ng.take(which.take(near), axis=1)
+    return near[dot(ng, to_light.take(near, axis=1)) <= 0]
+
+
+def _turned_by_loop(
+    hits: Hits, which: Indices, cosine: Floats32, to_light: Floats32, most: np.float32
+) -> Indices:
+    """The same, in one loop."""
+    from course.transport import direct_kernels
+
+    turned = np.empty(len(which), np.int64)
+    arrays = which, cosine, hits.ng, to_light
+    return turned[: direct_kernels.turned(*map(np.ascontiguousarray, arrays), most, turned)]
 
 
 def _highlight(
@@ -241,11 +267,18 @@ def _cosine(
 
 
 def _accumulated(
-    total: Floats32 | None, size: int, which: Indices, values: Floats32, color: Floats32
+    total: Floats32 | None, hits: Hits, which: Indices, values: Floats32, color: Floats32
 ) -> Floats32:
-    """Add values of the chosen hits, times a colour, to (3, size)."""
-    if len(which) < size:
-        spread = np.zeros(size, np.float32)
+    """Add values of the chosen hits, times a colour, to (3, n) of all hits."""
+    if hits.compiled:
+        from course.transport import direct_kernels
+
+        if total is None:
+            total = np.zeros((3, hits.size), np.float32)
+        direct_kernels.spread(which, *map(np.ascontiguousarray, (values, color)), total)
+        return total
+    if len(which) < hits.size:
+        spread = np.zeros(hits.size, np.float32)
         spread[which] = values
         values = spread
     added: Floats32 = values * color[:, None]
@@ -253,3 +286,13 @@ def _accumulated(
         return added
     total += added
     return total
+
+
+def _scale(total: Floats32, hits: Hits, lookup: Lookup) -> None:
+    """Multiply (3, n) of all hits by a property of their materials, in place."""
+    if hits.compiled:
+        from course.transport import direct_kernels
+
+        direct_kernels.scale(total, np.ascontiguousarray(hits.material), lookup.rows)
+        return
+    total *= lookup(hits.material)

@@ -62,3 +62,53 @@ def gather(which, above, to_light, inverse_length, origin, there, near):
             for c in range(3):
                 there[c, i] = to_light[c, j]
             near[i] = inverse_length[j]
+
+
+@njit(
+    types.int64(types.int64[::1], ROW, COLUMNS, COLUMNS, types.float32, types.int64[::1]), **OPTIONS
+)
+def turned(which, cosine, ng, to_light, most, found):
+    """How many of some hits have facets that turn away from the light.
+
+    Parameters
+    ----------
+    which, cosine, to_light : (m,) and (3, m) of those hits
+    ng : (3, n) of all hits
+    most : the cosine up to which that may be
+    found : (m,) filled from the beginning with the numbers of those hits
+    """
+    count = 0
+    for i in range(len(which)):
+        if cosine[i] <= most:
+            j = which[i]
+            if (
+                ng[0, j] * to_light[0, i] + ng[1, j] * to_light[1, i] + ng[2, j] * to_light[2, i]
+                <= 0
+            ):
+                found[count] = i
+                count += 1
+    return count
+
+
+@njit(types.void(types.int64[::1], ROW, ROW, COLUMNS), **OPTIONS)
+def spread(which, values, color, total):
+    """Add values (m,) of some hits, times a colour (3,), to ``total`` (3, n) of all hits."""
+    for c in range(3):
+        for i in range(len(which)):
+            total[c, which[i]] += values[i] * color[c]
+
+
+@njit(types.void(COLUMNS, types.uint16[::1], COLUMNS), **OPTIONS)
+def scale(total, material, rows):
+    """Multiply (3, n) of all hits by a property (3, M) of their materials, in place."""
+    for c in range(3):
+        for i in range(len(material)):
+            total[c, i] *= rows[c, material[i]]
+
+
+@njit(types.void(types.float32[:, :], types.int64[::1], COLUMNS, COLUMNS), **OPTIONS)
+def add(film, path, radiance, throughput):
+    """Add radiance (3, n), times its throughput (3, n), to the paths (n,) that it belongs to."""
+    for i in range(len(path)):
+        for c in range(3):
+            film[c, path[i]] += radiance[c, i] * throughput[c, i]

@@ -83,36 +83,27 @@ class PathBounce:
             if self.plan.refracts:
                 *shares, boundary = divided(self.plan, self.lookups, hits, other, blur)
             after, kind = self._chosen(hits, beta, after, other, shares, u[0])
-        which, after = self._survivors(after, u)
+        goes_on, after = self._survivors(after, u)
+        # From here on rays that take the same way stand together: their directions are joined, which costs less than
+        # to spread them, and neighbours in Embree's packets have more in common.
+        which, optical, crossing = _ordered(goes_on, kind, hits.compiled)
         if len(which) == 0:
             return None
         if self.plan.absorbs and medium is None:
             medium = np.full(hits.size, OPEN)
-        ways = [which]
-        if kind is not None:
-            # From here on rays that take the same way stand together: their directions are joined, which costs less
-            # than to spread them, and neighbours in Embree's packets have more in common.
-            taken = kind.take(which)
-            ways = [which.compress(taken == way) for way in (DIFFUSE, MIRRORED, REFRACTED)]
-            which = np.concatenate(ways)
         whole = kind is None and len(which) == hits.size
+        origin = hits.above
         if not whole:
-            after = after.take(which, axis=1)
+            origin, after = _left(hits, which, crossing, after)
             path = which if path is None else path.take(which)
             medium = None if medium is None else medium.take(which)
         elif path is None:
             path = which
         time = None if hits.time is None else hits.time.take(which)
         if kind is None:
-            origin = hits.above if whole else hits.above.take(which, axis=1)
             direction = self._diffuse(hits, None if whole else which, path)
             return Rays(origin, direction, after, path, medium, time), None
-        scattered, back, through = ways
-        optical = len(scattered)
-        crossing = optical + len(back)
-        origin = np.concatenate(
-            (hits.above.take(which[:crossing], axis=1), hits.below(through)), axis=1
-        )
+        scattered, back, through = which[:optical], which[optical:crossing], which[crossing:]
         directions = [self._diffuse(hits, scattered, path[:optical])] if optical else []
         if len(back):
             ng = hits.ng.take(back, axis=1)
@@ -186,14 +177,11 @@ class PathBounce:
         kind[other] = way_taken
         return after, kind
 
-    def _survivors(self, after: Floats32, u: Floats32 | None) -> tuple[Indices, Floats32]:
-        """Which paths go on, and the throughput (3, n) of all."""
+    def _survivors(self, after: Floats32, u: Floats32 | None) -> tuple[Mask, Floats32]:
+        """Which paths go on (n,), and the throughput (3, n) of all."""
         if self.survival and u is not None and self.paths.russian_roulette is not None:
-            survives, after = self.paths.russian_roulette(after, u[-1])
-            which = np.flatnonzero(survives)
-        else:
-            which = np.flatnonzero(after.max(axis=0) > 0)
-        return which, after
+            return self.paths.russian_roulette(after, u[-1])
+        return after.max(axis=0) > 0, after
 
     def _diffuse(self, hits: Hits, which: Indices | None, path: Indices) -> Floats32:
         """Directions in which paths leave some of the hits, or all of them."""
@@ -207,3 +195,56 @@ class PathBounce:
         if hits.ns is hits.ng:
             return direction
         return kept_above(direction, ng if which is None else ng.take(which, axis=1))
+
+
+def _ordered(
+    goes_on: Mask, kind: NDArray[np.int8] | None, compiled: bool
+) -> tuple[Indices, int, int]:
+    """The hits that paths go on from, by the way that they take from there.
+
+    Parameters
+    ----------
+    goes_on : (n,) whether a path goes on
+    kind : (n,) its way; None where all are scattered
+
+    Returns
+    -------
+    which : (m,) first those that are scattered, then those mirrored, then those refracted
+    scattered : how many are
+    above : how many are scattered or mirrored
+    """
+    if kind is None:
+        which = np.flatnonzero(goes_on)
+        return which, len(which), len(which)
+    if compiled:
+        from course.transport import way_kernels
+
+        which, counts = np.empty(len(kind), np.int64), np.empty(3, np.int64)
+        total = way_kernels.sort(np.ascontiguousarray(goes_on), kind, which, counts)
+        return which[:total], int(counts[0]), int(counts[0] + counts[1])
+    which = np.flatnonzero(goes_on)
+    taken = kind.take(which)
+    ways = [which.compress(taken == way) for way in (DIFFUSE, MIRRORED, REFRACTED)]
+    return np.concatenate(ways), len(ways[0]), len(ways[0]) + len(ways[1])
+
+
+def _left(hits: Hits, which: Indices, crossing: int, after: Floats32) -> tuple[Floats32, Floats32]:
+    """Where the rays that leave some of the hits start, and their throughput, (3, m) each.
+
+    Parameters
+    ----------
+    which : (m,) the hits
+    crossing : from which of them on rays leave on the far side
+    after : (3, n) throughput after all hits
+    """
+    if hits.compiled:
+        from course.transport import way_kernels
+
+        origin, throughput = np.empty((2, 3, len(which)), np.float32)
+        arrays = hits.above, hits.p, hits.step, after
+        way_kernels.leave(which, crossing, *map(np.ascontiguousarray, arrays), origin, throughput)
+        return origin, throughput
+    origin = hits.above.take(which[:crossing], axis=1)
+    if crossing < len(which):
+        origin = np.concatenate((origin, hits.below(which[crossing:])), axis=1)
+    return origin, after.take(which, axis=1)

@@ -63,22 +63,44 @@ class Rays:
 
 @dataclass(frozen=True)
 class Draws:
-    """Draws the numbers of a block's paths, those that are asked for and no others."""
+    """Draws the numbers of a block's paths, those that are asked for and no others.
+
+    Attributes
+    ----------
+    compiled : whether compiled loops are used
+    """
 
     sampler: Sampler
     block: Block
     counters: Counters
     cancelled: Callable[[], bool]
+    compiled: bool = False
 
     def __call__(self, name: str, dimension: int, width: int, path: Indices | None) -> Floats32:
         """(width, n) numbers for the given paths, or for all paths of the block."""
         if path is None:
             u = self.sampler.draw(self.block, dimension, width)
         elif isinstance(self.sampler, SobolSampler):
-            u = self.sampler.draw_some(self.block, dimension, width, path)
+            if self.compiled and dimension % 2 + width <= 2:
+                u = self._by_loop(dimension, width, path)
+            else:
+                u = self.sampler.draw_some(self.block, dimension, width, path)
         else:
             u = self.sampler.draw(self.block, dimension, width).take(path, axis=1)
         self.counters.drew(name, u.size)
+        return u
+
+    def _by_loop(self, dimension: int, width: int, path: Indices) -> Floats32:
+        """What ``SobolSampler.draw_some`` draws, to the same bits."""
+        from course.transport import draw_kernels
+
+        assert isinstance(self.sampler, SobolSampler)
+        points, salts = self.sampler.pair(self.block, dimension // 2)
+        u = np.empty((width, len(path)), np.float32)
+        draw_kernels.draw(
+            *(np.ascontiguousarray(self.block.pixels), self.block.samples),
+            *(np.ascontiguousarray(path), points, np.array(salts, np.uint64), dimension % 2, u),
+        )
         return u
 
 

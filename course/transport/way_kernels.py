@@ -91,7 +91,7 @@ def divide(which, material, side, direction, ns, index, reflected, refracted, co
             + direction[1, j] * ns[1, j]
             + direction[2, j] * ns[2, j]
         )
-        cosine = min(cosine if cosine > 0 else _NOTHING, _ONE)
+        cosine = min(_NOTHING if cosine < 0 else cosine, _ONE)
         sine = np.sqrt((_ONE - cosine) * (_ONE + cosine)) * eta
         squared = (_ONE - sine) * (_ONE + sine)
         bent, share = _NOTHING, _ONE
@@ -127,3 +127,57 @@ def refract(which, direction, ns, ng, cos_i, cos_t, ratio, way):
             back += back
             x, y, z = x - back * nx, y - back * ny, z - back * nz
         way[0, i], way[1, i], way[2, i] = x, y, z
+
+
+@njit(
+    types.int64(types.boolean[::1], types.int8[::1], types.int64[::1], types.int64[::1]), **OPTIONS
+)
+def sort(goes_on, kind, which, counts):
+    """Put the hits whose paths go on in the order of their ways.
+
+    Parameters
+    ----------
+    goes_on, kind : (n,) of all hits
+    which : (n,) filled from the beginning with those that go on
+    counts : (3,) filled with how many take each way
+
+    Returns
+    -------
+    how many go on
+    """
+    counts[:] = 0
+    for i in range(len(kind)):
+        if goes_on[i]:
+            counts[kind[i]] += 1
+    diffuse, mirrored, refracted = 0, counts[0], counts[0] + counts[1]
+    for i in range(len(kind)):
+        if not goes_on[i]:
+            continue
+        if kind[i] == DIFFUSE:
+            which[diffuse] = i
+            diffuse += 1
+        elif kind[i] == MIRRORED:
+            which[mirrored] = i
+            mirrored += 1
+        else:
+            which[refracted] = i
+            refracted += 1
+    return refracted
+
+
+@njit(types.void(types.int64[::1], types.int64, *(COLUMNS,) * 6), **OPTIONS)
+def leave(which, above_until, above, p, step, after, origin, throughput):
+    """Where the rays that go on start, and what they carry.
+
+    Parameters
+    ----------
+    which : (m,) the hits that they leave
+    above_until : how many of them leave on the side that the light came from; the others go through
+    above, p, step, after : (3, n) of all hits
+    origin, throughput : (3, m), filled
+    """
+    for i in range(len(which)):
+        j = which[i]
+        for c in range(3):
+            origin[c, i] = above[c, j] if i < above_until else p[c, j] - step[c, j]
+            throughput[c, i] = after[c, j]

@@ -36,6 +36,6 @@ def towards(on_light, points, normal, two_sided, to_light, inverse_length, facto
         inverse = np.sqrt(share)
         if emitter:
             cosine = -inverse * (normal[0] * x + normal[1] * y + normal[2] * z)
-            share *= abs(cosine) if two_sided else max(cosine, _NOTHING)
+            share *= abs(cosine) if two_sided else (cosine if cosine > 0 else _NOTHING)
         to_light[0, i], to_light[1, i], to_light[2, i] = x, y, z
         inverse_length[i], factor[i] = inverse, share

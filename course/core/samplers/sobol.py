@@ -69,9 +69,8 @@ class SobolSampler:
         first, pair = dimension % 2, dimension // 2
         if 2 * len(path) > block.size or first + width > 2:
             return self.draw(block, dimension, width).take(path, axis=1)
-        rows = _points(block.first, block.samples)[2 * pair if pair < _JOINED_PAIRS else 0 :]
+        rows, salts = self.pair(block, pair)
         pixel, sample = block.places(path)
-        salts = _salts(self._seed, range(pair, pair + 1))
         # Hashed once for each path or for each pixel, whichever there are fewer of.
         if len(path) < len(block.pixels):
             hashes = hash_words(block.pixels.take(pixel), *salts)
@@ -85,6 +84,17 @@ class SobolSampler:
         words >>= np.uint32(8)
         u: Floats32 = np.multiply(words, _TO_UNIT, dtype=np.float32)
         return u
+
+    def pair(self, block: Block, pair: int) -> tuple[Words, tuple[int, ...]]:
+        """The points of a pair of dimensions, and what chooses among them.
+
+        Returns
+        -------
+        points : (2 or more, orders, samples) uint32; the pair's are the first two rows
+        salts : with which a pixel's number is hashed for its order and for either scramble
+        """
+        rows = _points(block.first, block.samples)[2 * pair if pair < _JOINED_PAIRS else 0 :]
+        return rows, _salts(self._seed, range(pair, pair + 1))
 
 
 def _pairs(dimension: int, width: int) -> range:

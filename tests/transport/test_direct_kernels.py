@@ -1,0 +1,176 @@
+"""Compiled loops over lights and hits give what the passes over arrays give, bit for bit."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from course.appearance.lights.sample import Sample, towards
+from course.appearance.materials import Lookup
+from course.core.samplers import Block
+from course.core.samplers.sobol import SobolSampler
+from course.geometry import packets, shapes
+from course.geometry.embree import Intersections
+from course.geometry.hits import Hits, find_hits
+from course.geometry.surface import Part, build_surface
+from course.transport.counters import Counters
+from course.transport.direct import (
+    _accumulated,
+    _facing,
+    _facing_by_loop,
+    _scale,
+    _turned,
+    _turned_by_loop,
+)
+from course.transport.paths import Draws
+from course.transport.tracing import add_radiance
+
+if not packets.available():
+    pytest.skip("Numba is not installed (pip install .[fast])", allow_module_level=True)
+
+N = 5000
+
+
+def same(mine: Any, theirs: Any) -> None:
+    assert (mine.shape, mine.dtype) == (theirs.shape, theirs.dtype)
+    assert mine.tobytes() == theirs.tobytes()
+
+
+@pytest.fixture(scope="module")
+def hits() -> Hits:
+    """On a coarse sphere, whose normals are far from those of its facets; of four materials."""
+    surface = build_surface([Part(shapes.sphere(0.9, 12), 3)])
+    rng = np.random.default_rng(4)
+    triangle = rng.integers(surface.size, size=N).astype(np.int32)
+    u, v = rng.random((2, N), np.float32) * np.float32(0.5)
+    direction = rng.normal(size=(3, N))
+    direction /= np.linalg.norm(direction, axis=0)
+    surface.accelerator.use_packets(False)
+    found = Intersections(triangle, u, v, np.ones(N, np.float32))
+    hits = find_hits(surface, found, direction.astype(np.float32))
+    return replace(hits, material=rng.integers(4, size=N).astype(np.uint16))
+
+
+@pytest.mark.parametrize("of_its_own", [True, False], ids=["a point each", "one point"])
+@pytest.mark.parametrize(
+    ("normal", "two_sided"), [(None, False), ([0, -0.6, 0.8], False), ([0, -0.6, 0.8], True)]
+)
+def test_what_arrives(hits: Hits, of_its_own: bool, normal: Any, two_sided: bool) -> None:
+    rng = np.random.default_rng(6)
+    on_light = rng.normal(size=(3, N if of_its_own else 1)).astype(np.float32)
+    if of_its_own:
+        # As close as can be: no light is infinitely bright.
+        on_light[:, :20] = np.nextafter(hits.above[:, :20], np.float32(9))
+    normal = None if normal is None else np.array(normal, np.float32)
+    passes, loop = (
+        towards(on_light, hits.above, normal, two_sided, compiled) for compiled in (False, True)
+    )
+    for name in ("to_light", "inverse_length", "factor"):
+        same(getattr(passes, name), getattr(loop, name))
+    assert np.isfinite(loop.factor).all()
+    if of_its_own:
+        assert (loop.factor[:20] > 1e10).all() or normal is not None
+        assert ((loop.factor == 0).sum() > N / 5) == (normal is not None and not two_sided)
+
+
+@pytest.mark.parametrize("shape", [N, 1], ids=["a direction each", "one direction"])
+@pytest.mark.parametrize("shaded", [None, [True, False, True, True], [False] * 4])
+def test_which_hits_face_the_light(hits: Hits, shape: int, shaded: Any) -> None:
+    rng = np.random.default_rng(7)
+    to_light = rng.normal(size=(3, shape)).astype(np.float32)
+    sample = Sample(
+        to_light,
+        1 / np.linalg.norm(to_light, axis=0).astype(np.float32),
+        np.maximum(rng.normal(size=shape).astype(np.float32), np.float32(0 if shape > 1 else 1)),
+    )
+    shaded = None if shaded is None else np.array(shaded)
+    passes, loop = _facing(hits, sample, shaded), _facing_by_loop(hits, sample, shaded)
+    if shaded is not None and not shaded.any():
+        assert passes is None
+        assert loop is None
+        return
+    assert passes is not None
+    assert loop is not None
+    for mine, theirs in zip(passes, loop, strict=True):
+        same(mine, theirs)
+    assert 500 < len(loop[0]) < N
+
+
+def test_all_hits_face_the_light(hits: Hits) -> None:
+    """Then nothing is gathered."""
+    sample = Sample(hits.ns, np.ones(N, np.float32), np.ones(N, np.float32))
+    passes, loop = _facing(hits, sample, None), _facing_by_loop(hits, sample, None)
+    assert passes is not None
+    assert loop is not None
+    assert len(loop[0]) == N
+    assert loop[3] is hits.above
+    for mine, theirs in zip(passes, loop, strict=True):
+        same(mine, theirs)
+
+
+def test_which_facets_turn_away(hits: Hits) -> None:
+    rng = np.random.default_rng(8)
+    which = np.flatnonzero(rng.random(N) < 0.7)
+    to_light = rng.normal(size=(3, len(which))).astype(np.float32)
+    cosine = (hits.ns[:, which] * to_light).sum(axis=0)
+    passes, loop = (
+        find(hits, which, cosine, to_light, np.float32(0.3)) for find in (_turned, _turned_by_loop)
+    )
+    same(passes, loop)
+    assert 100 < len(loop) < len(which)
+
+
+def test_lights_add_up(hits: Hits) -> None:
+    rng = np.random.default_rng(9)
+    totals: list[Any] = [None, None]
+    for share in (0.3, 1.0, 0.5):
+        which = np.flatnonzero(rng.random(N) < share)
+        values, color = rng.random(len(which), np.float32), rng.random(3, np.float32)
+        for number, compiled in enumerate((False, True)):
+            mine = replace(hits, compiled=compiled)
+            totals[number] = _accumulated(totals[number], mine, which, values, color)
+        same(*totals)
+    assert (totals[1] > 0).any()
+
+
+@pytest.mark.parametrize("alike", [False, True], ids=["four colours", "one colour"])
+def test_colours_of_materials(hits: Hits, alike: bool) -> None:
+    rng = np.random.default_rng(12)
+    colors = rng.random((3, 4), np.float32)
+    if alike:
+        colors[:] = colors[:, :1]
+    totals = rng.random((1, 3, N), np.float32).repeat(2, axis=0)
+    for total, compiled in zip(totals, (False, True), strict=True):
+        _scale(total, replace(hits, compiled=compiled), Lookup(colors))
+    same(*totals)
+
+
+def test_radiance_is_added_to_the_film() -> None:
+    """Several rays of a path, into a stretch of a larger film."""
+    rng = np.random.default_rng(10)
+    path = rng.integers(600, size=N)
+    radiance, throughput = rng.random((2, 3, N), np.float32)
+    films = np.zeros((2, 3, 1000), np.float32)
+    for film, compiled in zip(films, (False, True), strict=True):
+        add_radiance(film[:, 200:800], path, radiance.copy(), throughput, compiled)
+    same(*films)
+    assert np.allclose(films[1].sum(axis=1), (radiance * throughput).sum(axis=1), rtol=1e-4)
+    assert not films[1][:, :200].any()
+    assert not films[1][:, 800:].any()
+
+
+@pytest.mark.parametrize("samples", [16, 12, 1])
+@pytest.mark.parametrize(("dimension", "width"), [(0, 2), (3, 1), (6, 2), (6, 1), (9, 1), (4, 4)])
+def test_the_same_numbers_are_drawn(samples: int, dimension: int, width: int) -> None:
+    rng = np.random.default_rng(11)
+    block = Block(rng.permutation(90000)[:800].astype(np.uint32), 3 * samples, samples, 5)
+    drawn = []
+    path = rng.permutation(block.size)[: block.size // 3]
+    for compiled in (False, True):
+        draws = Draws(SobolSampler(7), block, Counters(), lambda: False, compiled)
+        drawn.append(draws("light", dimension, width, path))
+    same(*drawn)
+    same(drawn[1], SobolSampler(7).draw(block, dimension, width).take(path, axis=1))
