@@ -68,7 +68,8 @@ class Tracer:
         """
         counters.start()
         block = Block(tile.pixel_numbers(self.settings.width), first, samples, tile.number)
-        draws = Draws(self.sampler, block, counters, cancelled)
+        compiled = self.world.surface.accelerator.compiled
+        draws = Draws(self.sampler, block, counters, cancelled, compiled)
         offsets = draws("pixel", 0, PIXEL_WIDTH, None).reshape(2, tile.size, samples)
         counters.lap("sampler")
         x, y = tile.corners()
@@ -128,9 +129,7 @@ class Tracer:
             return None
         radiance = self._shade(hits, path, depth, draws)
         if radiance is not None:
-            if throughput is not None:
-                radiance *= throughput
-            add_radiance(film, path, radiance)
+            add_radiance(film, path, radiance, throughput, hits.compiled)
         counters.lap("shade")
         if depth == self.plan.max_depth:
             return None
@@ -246,11 +245,12 @@ class Tracer:
         if len(which) == 0:
             return
         radiance = self.world.environment.radiance(rays.direction.take(which, axis=1))
-        if rays.throughput is not None:
-            radiance = radiance * rays.throughput.take(which, axis=1)
-        elif radiance.shape[1] == 1:
+        if radiance.shape[1] == 1:
             radiance = np.repeat(radiance, len(which), axis=1)
-        add_radiance(film, which if rays.path is None else rays.path.take(which), radiance)
+        throughput = None if rays.throughput is None else rays.throughput.take(which, axis=1)
+        compiled = self.world.surface.accelerator.compiled
+        path = which if rays.path is None else rays.path.take(which)
+        add_radiance(film, path, radiance, throughput, compiled)
 
     def _absorbed(
         self,
@@ -309,8 +309,28 @@ def _of_hits(rays: Rays, hits: Hits) -> tuple[Floats32 | None, Indices | None, M
     )
 
 
-def add_radiance(film: Floats32, path: Indices | None, radiance: Floats32) -> None:
-    """Add radiance (3, n) to the paths it belongs to; several rays may belong to one path."""
+def add_radiance(
+    film: Floats32,
+    path: Indices | None,
+    radiance: Floats32,
+    throughput: Floats32 | None = None,
+    compiled: bool = False,
+) -> None:
+    """Add radiance (3, n) to the paths that it belongs to; several rays may belong to one path.
+
+    Parameters
+    ----------
+    throughput : (3, n), or None for 1
+    compiled : by a compiled loop, to the same bits
+    """
+    if path is not None and throughput is not None and compiled:
+        from course.transport import direct_kernels
+
+        arrays = path, radiance, throughput
+        direct_kernels.add(film, *map(np.ascontiguousarray, arrays))
+        return
+    if throughput is not None:
+        radiance = radiance * throughput
     if path is None:
         film += radiance
         return
