@@ -261,6 +261,10 @@ def _parameter(gloss: d.Gloss | None) -> float:
 
 
 def _light(light: d.Light) -> dict[str, Any]:
+    if isinstance(light, d.ObjectLight):
+        raise NotExportableError(
+            "an object that is a light is not exported: it shines from both sides, Mitsuba's from one"
+        )
     if not isinstance(light, d.DirectionalLight | d.AmbientLight) and any(light.motion.velocity):
         raise NotExportableError("lights that move are not exported")
     match light:

@@ -1,31 +1,43 @@
-"""Radiosity of a Cornell box of 10,000 patches: time and error over the shots, and pictures of the first ones.
+"""Radiosity of a Cornell box: time and error over the shots, iterations and shots in pictures, and path tracing.
 
 The error is the light that is still missing, as a share of all light, against a solution that went on for ten times
 nearer to its limit. Beside it stands the bound that the solution itself gives. `out/bench/radiosity.json` and
-`out/bench/data/radiosity.json` hold the curve, and `out/bench/radiosity.png` shows the box after 1, 32 and 320 shots.
+`out/bench/data/radiosity.json` hold the curve, and `out/bench/radiosity.png` shows the box after 0, 1, 32 and 320
+iterations of gathering, and under them after 1, 32 and 320 shots. Then the last solution is compared with a picture
+of traced paths, channel by channel: by its mean, and by the means of squares of pixels.
 """
 
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from time import perf_counter
+from typing import Any
 
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
 from benchmarks.curve_files import keep
 from benchmarks.figures import Figure
-from course import load_scene
+from course import Scene, load_scene, render
 from course.benchmarking.plot_data import Plot, Series
-from course.core.types import Floats32
+from course.core.types import Floats32, Floats64
 from course.effects import PROJECT
 from course.imaging.srgb import linear_to_srgb8
 from course.radiosity.functions import Functions
-from course.radiosity.patches import make_patches
+from course.radiosity.hemicubes import Views, make_hemicube
+from course.radiosity.patches import Patches, make_patches
 from course.radiosity.radiosity import PATCHES, TOLERANCE, as_solution
-from course.radiosity.solving import Shooting, with_ambient
+from course.radiosity.solution import Solution
+from course.radiosity.solving import (
+    GATHERED,
+    Shooting,
+    Solved,
+    form_factors,
+    with_ambient,
+)
 from course.radiosity.viewing import look, own_view
 
 OUT = Path("out/bench")
@@ -34,6 +46,26 @@ SHOWN = (1, 32, 320)
 CHECKED = (*SHOWN, 1000, 3200, 10_000, 32_000)
 GOAL = 60.0
 """Seconds to 1% of convergence."""
+
+ITERATIONS = (0, 1, 2, 5, 10, 32, 320)
+LIMIT = 400
+"""Iterations whose radiosities are the limit: long before, none of their float32 bits changes any more."""
+
+CELLS = 36
+"""Along the top of these solutions' hemicubes: twice as many move no digit that is told of them."""
+
+PIXELS = 64
+"""Along the sides of the pictures that are compared with traced paths."""
+
+PATHS = 4096
+"""For each of these pixels."""
+
+SQUARE = 8
+LAMP = 2.0
+"""Radiance over which a pixel shows the lamp, whose edge is as sharp as the pixels are."""
+
+Cell = tuple[str, Floats32]
+"""A picture's name, and the picture."""
 
 SIDE = 320
 GAP = 8
@@ -51,10 +83,28 @@ class Point:
     unshot: Floats32
 
 
+@dataclass(frozen=True)
+class Difference:
+    """How far a picture of a solution is from one of traced paths, in the worst channel.
+
+    Attributes
+    ----------
+    mean : difference of the means of the squares that don't show the lamp, as a share of the paths' mean
+    rms : root mean square of the squares' differences, as a share of the same
+    """
+
+    mean: float
+    rms: float
+
+
 def measure_radiosity() -> list[Figure]:
-    """Seconds to convergence, and the error that is left there."""
+    """Seconds to convergence, the error that is left there, and how far traced paths are."""
     scene = load_scene(SCENE)
     functions = Functions(scene.effects)
+    few = make_patches(scene, GATHERED)
+    iterations = iterate(few, functions)
+    for steps, solved in iterations.items():
+        print(f"{steps:>7} iterations, {few.size:,} patches  missing {solved.left:.2g}")
     started = perf_counter()
     patches = make_patches(scene, PATCHES)
     shooting = Shooting(patches, functions)
@@ -74,24 +124,19 @@ def measure_radiosity() -> list[Figure]:
                     shooting.unshot.copy(),
                 )
             )
-    solved = shooting.solved
     shooting.run(TOLERANCE / 10)
-    areas = np.concatenate([patches.triangles.areas()] * 2)
-    light = shooting.radiosity @ areas
 
     # Where light comes to in the end; the insides of the blocks stay dark.
-    reached = shooting.radiosity.any(axis=0)
+    reached = np.asarray(shooting.radiosity.any(axis=0))
     guessed = [with_ambient(patches, p.radiosity, p.unshot, reached) for p in points]
-
-    def missing(radiosity: Floats32) -> float:
-        return float(np.abs((shooting.radiosity - radiosity) @ areas / light).max())
+    final = shooting.radiosity
 
     rows = [
         {
             "shots": p.shots,
             "seconds": round(p.seconds, 3),
-            "missing": missing(p.radiosity),
-            "missing_with_ambient": missing(guess),
+            "missing": missing(patches, p.radiosity, final),
+            "missing_with_ambient": missing(patches, guess, final),
             "bound": p.bound,
         }
         for p, guess in zip(points, guessed, strict=True)
@@ -103,16 +148,14 @@ def measure_radiosity() -> list[Figure]:
         )
     (OUT / "radiosity.json").write_text(json.dumps(rows, indent=2))
     keep("radiosity", f"{patches.size:,} patches", [plot(rows)])
-    first = [number for number, p in enumerate(points) if p.shots in SHOWN]
-    pictures = [
-        [
-            look(as_solution(scene, patches, replace(solved, radiosity=radiosity)), own, SIDE, SIDE)
-            for radiosity in row
-        ]
-        for own in [own_view(as_solution(scene, patches, solved))]
-        for row in ([points[n].radiosity for n in first], [guessed[n] for n in first])
+    shots = [
+        (Solved(p.radiosity, None, p.shots, p.bound, 0), guess)
+        for p, guess in zip(points, guessed, strict=True)
+        if p.shots in SHOWN
     ]
-    _write(pictures, [f"{points[n].shots} shot{'s' * (points[n].shots > 1)}" for n in first])
+    pictures = [iteration_cells(scene, few, iterations), *shot_cells(scene, patches, shots)]
+    print(f"written to {draw_sheet(pictures, OUT / 'radiosity.png')}")
+    off = beside_paths(as_solution(scene, patches, shooting.solved), trace(scene, PATHS))
     last = points[-1]
     return [
         Figure(
@@ -124,12 +167,83 @@ def measure_radiosity() -> list[Figure]:
         ),
         Figure(
             "radiosity: light missing then, % of all",
-            100 * missing(last.radiosity),
-            100 * missing(last.radiosity),
+            100 * missing(patches, last.radiosity, final),
+            100 * missing(patches, last.radiosity, final),
             100 * last.bound,
             100 * TOLERANCE,
         ),
+        *(
+            Figure(f"radiosity, beside path tracing: {name}, %", percent, percent, percent, goal)
+            for name, percent, goal in (
+                ("means differ by", 100 * off.mean, 1.0),
+                ("squares differ by, RMS", 100 * off.rms, 2.0),
+            )
+        ),
     ]
+
+
+# ---------------------------------------------------------------- iterations
+
+
+def iterate(
+    patches: Patches,
+    functions: Functions,
+    steps: Sequence[int] = ITERATIONS,
+    cells: int = CELLS,
+) -> dict[int, Solved]:
+    """What gathering has after so many iterations; ``left`` is the light that is still missing then.
+
+    Parameters
+    ----------
+    cells : along the top of the hemicubes
+    """
+    factors = form_factors(Views(patches), make_hemicube(cells, functions), 2 * patches.size)
+    emission = patches.both(patches.emission, patches.back_emission)
+    reflectance = patches.both(patches.reflectance)
+    found, radiosity = {0: emission}, emission
+    for number in range(1, LIMIT + 1):
+        radiosity = functions.gather(radiosity, emission, reflectance, factors)
+        if number in steps:
+            found[number] = radiosity
+    return {
+        number: Solved(found[number], None, number, missing(patches, found[number], radiosity), 0)
+        for number in steps
+    }
+
+
+def missing(patches: Patches, radiosity: Floats32, final: Floats32) -> float:
+    """Light that is missing from the final radiosities, as a share of all light; of the worst channel."""
+    areas = np.concatenate([patches.triangles.areas()] * 2)
+    return float(np.abs((final - radiosity) @ areas / (final @ areas)).max())
+
+
+# ---------------------------------------------------------------- path tracing
+
+
+def trace(scene: Scene, paths: int) -> Floats64:
+    """(3, PIXELS, PIXELS) picture of the scene by that many paths a pixel."""
+    picture = render(scene, size=(PIXELS, PIXELS), spp=paths, seed=7).linear
+    return np.moveaxis(picture, -1, 0).astype(np.float64)
+
+
+def beside_paths(solution: Solution, paths: Floats64) -> Difference:
+    """Compare the solution, seen by the scene's own camera, with the picture of `trace`."""
+    mine = look(solution, own_view(solution), PIXELS, PIXELS)
+    lit = _squares(paths.max(axis=0) >= LAMP).any(axis=(-3, -1))
+    theirs, ours = (_squares(picture).mean(axis=(-3, -1))[:, ~lit] for picture in (paths, mine))
+    level = theirs.mean(axis=1)
+    off = np.abs(ours.mean(axis=1) / level - 1)
+    rms = np.sqrt(((ours - theirs) ** 2).mean(axis=1)) / level
+    return Difference(float(off.max()), float(rms.max()))
+
+
+def _squares(picture: Any) -> Any:
+    """(..., n, SQUARE, n, SQUARE): the pixels, by the squares that they are in."""
+    count = PIXELS // SQUARE
+    return picture.reshape(*picture.shape[:-2], count, SQUARE, count, SQUARE)
+
+
+# ---------------------------------------------------------------- the curve and the sheet
 
 
 def plot(rows: list[dict[str, float]]) -> Plot:
@@ -149,17 +263,52 @@ def plot(rows: list[dict[str, float]]) -> Plot:
     return Plot("shots", title, axes, "share of all light", series, slope=False)
 
 
-def _write(rows: list[list[Floats32]], names: list[str]) -> None:
-    """Pictures side by side, each under its name."""
-    labels = [names, [f"{name}, with the ambient term" for name in names]]
-    width = len(names) * (SIDE + GAP) + GAP
-    page = Image.new("RGB", (width, len(rows) * (SIDE + CAPTION) + GAP), "white")
+def iteration_cells(
+    scene: Scene, patches: Patches, iterations: Mapping[int, Solved]
+) -> list[Cell | None]:
+    """The lamp alone, and what gathering has after the numbers of iterations that are shown."""
+    return [
+        (_named(steps, "iteration", patches), _look(scene, patches, iterations[steps]))
+        for steps in (0, *SHOWN)
+    ]
+
+
+def shot_cells(
+    scene: Scene, patches: Patches, shots: Sequence[tuple[Solved, Floats32]]
+) -> list[list[Cell | None]]:
+    """Two rows, without the ambient term and with it; the first place of each is empty, under the lamp alone."""
+    rows: list[list[Cell | None]] = [[None], [None]]
+    for solved, guess in shots:
+        name = _named(solved.steps, "shot", patches)
+        with_guess = replace(solved, radiosity=guess)
+        rows[0].append((name, _look(scene, patches, solved)))
+        rows[1].append((f"{name}, ambient term", _look(scene, patches, with_guess)))
+    return rows
+
+
+def draw_sheet(rows: Sequence[Sequence[Cell | None]], path: Path) -> Path:
+    """Draw pictures of one size in rows, each under its name; None leaves a place empty."""
+    (side,) = {picture.shape[-1] for row in rows for _, picture in filter(None, row)}
+    width = max(map(len, rows)) * (side + GAP) + GAP
+    page = Image.new("RGB", (width, len(rows) * (side + CAPTION) + GAP), "white")
     draw, font = ImageDraw.Draw(page), ImageFont.load_default(size=16)
     for y, row in enumerate(rows):
-        for x, picture in enumerate(row):
-            left, top = GAP + x * (SIDE + GAP), y * (SIDE + CAPTION)
-            draw.text((left, top + 8), labels[y][x], "black", font)
-            page.paste(Image.fromarray(linear_to_srgb8(picture)), (left, top + CAPTION))
-    path = OUT / "radiosity.png"
+        for x, cell in enumerate(row):
+            if cell is not None:
+                name, picture = cell
+                left, top = GAP + x * (side + GAP), y * (side + CAPTION)
+                draw.text((left, top + 8), name, "black", font)
+                page.paste(Image.fromarray(linear_to_srgb8(picture)), (left, top + CAPTION))
+    path.parent.mkdir(parents=True, exist_ok=True)
     page.save(path)
-    print(f"written to {path}")
+    return path
+
+
+def _look(scene: Scene, patches: Patches, solved: Solved) -> Floats32:
+    solution = as_solution(scene, patches, solved)
+    return look(solution, own_view(solution), SIDE, SIDE)
+
+
+def _named(steps: int, what: str, patches: Patches) -> str:
+    """1 shot, 10,000 patches."""
+    return f"{steps} {what}{'s' * (steps != 1)}, {patches.size:,} patches"

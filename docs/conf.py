@@ -38,6 +38,7 @@ html_css_files = [
     "diagrams.css",
     "plots.css",
     "series.css",
+    "picture_grid.css",
     "pattern_explorer.css",
     "mistakes.css",
 ]

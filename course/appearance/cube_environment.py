@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from course.appearance.environment_hemispheres import HemisphereSampling
 from course.appearance.environment_sampling import FRAMES, ProductSampling
 from course.core.hemisphere import cosine_directions
 from course.core.types import Floats32, Floats64
@@ -27,7 +28,7 @@ class CubeEnvironment:
     faces: Floats32
     lookup: Callable[[Floats32, Floats32], Floats32]
     lights: bool
-    product: ProductSampling | None = None
+    product: ProductSampling | HemisphereSampling | None = None
 
     @property
     def black(self) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from course.appearance.environment_hemispheres import HemisphereSampling
 from course.core.hemisphere import cosine_directions
 from course.core.types import Floats32
 
@@ -16,10 +17,12 @@ class ConstantEnvironment:
     ----------
     color : (3,) float32 [W/(m^2 sr)]
     lights : whether it lights diffuse surfaces
+    chosen : draws the directions that light comes from; None where the renderer's own cosine does
     """
 
     color: Floats32
     lights: bool = False
+    chosen: HemisphereSampling | None = None
 
     @property
     def black(self) -> bool:
@@ -47,4 +50,6 @@ class ConstantEnvironment:
         weight : (n,) float32, cosine over pi times density, not above 0 below the horizon; None where it is 1
             everywhere
         """
+        if self.chosen is not None:
+            return self.chosen.sample(normal, u)
         return cosine_directions(normal, u), None

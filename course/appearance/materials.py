@@ -6,6 +6,7 @@ returns, with the irradiance E = I cos / d^2:
     L = color (ambient La + diffuse E / pi) + specular (n . h)^exponent E / pi
 
 A dielectric has no ambient and diffuse terms, unless the scene asks for them: what it doesn't reflect goes through it.
+Its inside shows none of the terms.
 """
 
 from __future__ import annotations
@@ -53,6 +54,13 @@ class MaterialTable:
     def shaded(self) -> Mask:
         """(M,) which materials light from point-like sources makes visible."""
         return np.asarray((self.diffuse.max(0) > 0) | (self.specular.max(0) > 0))
+
+    @cached_property
+    def shaded_sides(self) -> Mask:
+        """(1 or 2, M) the same from the front, and from the back where that differs: the inside of glass shows none."""
+        back = self.shaded & ~self.refracts
+        sides = [self.shaded] if (back == self.shaded).all() else [self.shaded, back]
+        return np.stack(sides)
 
     @cached_property
     def shining(self) -> Floats32:

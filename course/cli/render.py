@@ -18,7 +18,16 @@ from course.imaging.atomic import check_writable, write_text
 if TYPE_CHECKING:
     from course.scene.metu.converting import Converted
 
-SAMPLERS = ("sobol", "random", "jittered", "regular")
+SAMPLERS = (
+    "sobol",
+    "random",
+    "jittered",
+    "regular",
+    "halton",
+    "hammersley",
+    "chained",
+    "xorshift",
+)
 
 
 @click.command()
@@ -69,7 +78,8 @@ SAMPLERS = ("sobol", "random", "jittered", "regular")
 @click.option(
     "--heat-map",
     type=click.Path(path_type=Path),
-    help="Write where the samples went, as a picture.",
+    help="Write where the samples went, as a picture; with `acceleration: {type: hierarchy}`, how many boxes the ray"
+    " through the middle of each pixel is tested with.",
 )
 @click.option(
     "--receipt",
@@ -186,9 +196,13 @@ def _render_one(
         click.echo(f"interrupted: what there is was written to {partial}", err=True)
         raise click.exceptions.Exit(options.INTERRUPTED)
     picture.save(out)
-    if heat_map is not None:
-        picture.save_heat_map(heat_map)
     receipt = picture.receipt.to_dict()
+    if heat_map is not None and "tests" in receipt:
+        from course.rendering.box_tests import save_box_tests
+
+        save_box_tests(world, picture.settings, heat_map)
+    elif heat_map is not None:
+        picture.save_heat_map(heat_map)
     if receipt_path is not None:
         write_text(receipt_path, json.dumps(receipt, indent=2, allow_nan=False) + "\n")
     print_sections(str(out), receipt_sections(receipt))

@@ -75,6 +75,7 @@ def receipt_sections(receipt: Mapping[str, Any]) -> list[Section]:
         ("rays", [*_counts(rays), *_total(rays, wall)]),
         ("samples", _samples(receipt)),
         ("subdivision", _corners(receipt)),
+        ("tests", _tests(receipt)),
         ("numbers", _counts(receipt["numbers"])),
         (
             "effects",
@@ -105,6 +106,15 @@ def _corners(receipt: Mapping[str, Any]) -> list[tuple[str, str]]:
             f"{divided['corners']:,} of {divided['lattice']:,}, {divided['saved']:.0%} saved",
         ),
         ("shared", f"{divided['shared']:,} times"),
+    ]
+
+
+def _tests(receipt: Mapping[str, Any]) -> list[tuple[str, str]]:
+    """Of a hierarchy, by all its rays."""
+    rays = max(sum(receipt["rays"].values()), 1)
+    return [
+        (kind, f"{number:,}, {number / rays:.1f} a ray")
+        for kind, number in receipt.get("tests", {}).items()
     ]
 
 

@@ -19,7 +19,7 @@ def cosine_directions(normal: Floats32, u: Floats32) -> Floats32:
     """
     phi = np.float32(2 * np.pi) * u[1]
     radius = np.sqrt(u[0])
-    return _turned(normal, radius * np.cos(phi), radius * np.sin(phi), np.sqrt(1 - u[0]))
+    return turned(normal, radius * np.cos(phi), radius * np.sin(phi), np.sqrt(1 - u[0]))
 
 
 def cone_directions(axis: Floats32, opening: Floats32, u: Floats32) -> tuple[Floats32, Floats32]:
@@ -41,11 +41,17 @@ def cone_directions(axis: Floats32, opening: Floats32, u: Floats32) -> tuple[Flo
     fallen = opening * u[0]
     squared_sine = fallen * (2 - fallen)
     sine = np.sqrt(squared_sine)
-    return _turned(axis, sine * np.cos(phi), sine * np.sin(phi), 1 - fallen), squared_sine
+    return turned(axis, sine * np.cos(phi), sine * np.sin(phi), 1 - fallen), squared_sine
 
 
-def _turned(axis: Floats32, p: Floats32, q: Floats32, height: Floats32) -> Floats32:
-    """Vectors with these coordinates, the last along the axis (3, N); tangents without a branch (Duff et al. 2017)."""
+def turned(axis: Floats32, p: Floats32, q: Floats32, height: Floats32) -> Floats32:
+    """Vectors with these coordinates, the last along the axis (3, N); tangents without a branch (Duff et al. 2017).
+
+    Parameters
+    ----------
+    axis : (3, N) float32, unit length
+    p, q, height : (N,) float32
+    """
     x, y, z = axis
     sign = np.copysign(np.float32(1), z)
     a = -1 / (sign + z)

@@ -33,9 +33,11 @@ WORTH_CHOOSING = 0.75
 
 @dataclass
 class QueryTime:
-    """Seconds spent inside Embree; each thread holds one of its own."""
+    """Seconds spent inside Embree, or what a hierarchy in its place has tested; each thread holds one of its own."""
 
     seconds: float = 0.0
+    box_tests: int = 0
+    triangle_tests: int = 0
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import warnings
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +18,7 @@ from course.geometry.mesh import Mesh
 from course.geometry.mesh_formats import FORMATS as PLAIN_FORMATS
 from course.geometry.mesh_formats import Part
 from course.geometry.mesh_glb import parse_glb
-from course.geometry.smooth_normals import smooth_normals
+from course.geometry.smooth_normals import area_normals, smooth_normals
 from course.geometry.transforms import apply
 from course.geometry.welding import same
 
@@ -28,17 +28,24 @@ FORMATS = {**PLAIN_FORMATS, ".glb": parse_glb}
 FARTHEST = 1e150
 
 
-def read_mesh(path: Path) -> Mesh:
+Weights = Literal["angle", "area"]
+"""By what the faces around a vertex count in its normal."""
+
+
+def read_mesh(path: Path, weights: Weights = "angle") -> Mesh:
     """Read a mesh file; several geometries in it become one mesh, in the file's own frame.
 
     Normals and uv are the file's where it has them. Without normals, triangles that share a vertex
     are smooth; vertices that only lie at the same place, as in every STL file, are smooth up to a
-    crease of 40 degrees (`smooth_normals`). Triangles without area are let through.
+    crease of 40 degrees (`smooth_normals`), unless faces weigh by their areas (`area_normals`).
+    Triangles without area are let through.
 
     Parameters
     ----------
     path : Path
         Ends in .ply, .obj, .stl or .glb, in capitals or not. No other file is read.
+    weights : "angle" or "area"
+        By what faces count in normals that the file doesn't have.
 
     Raises
     ------
@@ -68,7 +75,7 @@ def read_mesh(path: Path) -> Mesh:
     meshes = []
     for number, part in enumerate(parts):
         name = str(path) if len(parts) == 1 else f"{path}: geometry {number}"
-        mesh = _checked(name, part)
+        mesh = _checked(name, part, weights)
         try:
             meshes.append(apply(mesh, part.transform))
         except ValueError as error:
@@ -131,7 +138,7 @@ def _reason(error: Exception) -> str:
     return f"{type(error).__name__} {text}".rstrip()
 
 
-def _checked(name: str, part: Part) -> Mesh:
+def _checked(name: str, part: Part, weights: Weights) -> Mesh:
     """Return the mesh of `part`, in its own frame; GeometryError for what can't be used."""
     vertices = np.array(part.vertices, np.float64)
     if vertices.ndim != 2 or vertices.shape[1] != 3:
@@ -154,22 +161,25 @@ def _checked(name: str, part: Part) -> Mesh:
     return Mesh(
         vertices=vertices,
         triangles=triangles,
-        normals=_normals(name, part, vertices),
+        normals=_normals(name, part, vertices, weights),
         uv=_uv(name, part, len(vertices)),
     )
 
 
-def _normals(name: str, part: Part, vertices: NDArray[np.float64]) -> NDArray[np.float64]:
+def _normals(
+    name: str, part: Part, vertices: NDArray[np.float64], weights: Weights
+) -> NDArray[np.float64]:
     """Return unit normals: the file's, and computed ones where it has none or they are zero."""
+    compute = area_normals if weights == "area" else smooth_normals
     if part.normals is None:
-        return smooth_normals(vertices, part.triangles)
+        return compute(vertices, part.triangles)
     normals = np.array(part.normals, np.float64)
     if normals.shape != vertices.shape:
         raise GeometryError(f"{name}: {len(normals)} normals for {len(vertices)} vertices")
     _check_finite(name, "normal", normals)
     largest = np.max(np.abs(normals), axis=1, keepdims=True)
     if not np.all(largest > 0.0):
-        computed = smooth_normals(vertices, part.triangles)
+        computed = compute(vertices, part.triangles)
         normals = np.where(largest > 0.0, normals, computed)
         largest = np.max(np.abs(normals), axis=1, keepdims=True)
     normals /= largest

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from course.geometry.ply_polygons import fanned
 from course.geometry.welding import same
 
 Array = NDArray[Any]
@@ -47,7 +48,7 @@ def parse_ply(data: bytes) -> list[Part]:
     """Return the mesh of a PLY file, its polygons cut into fans, with uv by vertex or by corner."""
     from trimesh.exchange.ply import load_ply
 
-    parsed = load_ply(BytesIO(data), fix_texture=False, skip_materials=True)
+    parsed = load_ply(BytesIO(fanned(data)), fix_texture=False, skip_materials=True)
     raw = parsed["metadata"]["_ply_raw"]
     for name, element in raw.items():
         _check_element(name, element)

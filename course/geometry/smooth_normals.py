@@ -1,8 +1,8 @@
-"""Vertex normals for meshes that come without: means of face normals, weighted by the angle.
+"""Vertex normals for meshes that come without: means of face normals, weighted by the angle or by the area.
 
-Triangles that share a vertex are smooth there. Vertices that only lie at the same place (the three
-corners of each triangle in an STL file, the two sides of a texture seam) lend each other their
-normals where these are within the crease angle, and stay a hard edge where they aren't.
+Triangles that share a vertex are smooth there. Where faces weigh by their angles, vertices that only lie at the same
+place (the three corners of each triangle in an STL file, the two sides of a texture seam) lend each other their
+normals too where these are within the crease angle, and stay a hard edge where they aren't.
 """
 
 from __future__ import annotations
@@ -52,6 +52,33 @@ def smooth_normals(
     own = _unit(sums)
     normals = _unit(_lend(vertices, own, sums, math.cos(math.radians(crease_degrees))))
     return _filled(normals, own, faces, triangles)
+
+
+def area_normals(
+    vertices: NDArray[np.float64], triangles: NDArray[np.integer]
+) -> NDArray[np.float64]:
+    """Return unit normals (V, 3), finite for every finite mesh: sums of cross(p1 - p0, p2 - p0), made unit.
+
+    A face counts by its area, and only where it has the vertex itself: vertices at one place lend each other nothing.
+    Where no face has an area the normal is +y; where the faces cancel out, that of one of them.
+
+    Parameters
+    ----------
+    vertices : (V, 3) float64
+    triangles : (T, 3) integer
+        Indices in range.
+    """
+    p = vertices[triangles]
+    # In units of the longest edge, so that no product leaves float64's range.
+    longest = np.abs(p[:, 1:] - p[:, :1]).max(initial=0.0) or 1.0
+    e1, e2 = (np.asarray((p[:, k] - p[:, 0]) / longest) for k in (1, 2))
+    crossed = np.cross(e1, e2)
+    sums = np.zeros((len(vertices), 3))
+    for axis in range(3):
+        weights = np.repeat(crossed[:, axis], 3)
+        sums[:, axis] = np.bincount(triangles.ravel(), weights, minlength=len(vertices))
+    normals = _unit(sums)
+    return _filled(normals, normals, _unit(crossed), triangles)
 
 
 def _faces_and_angles(

@@ -27,10 +27,14 @@ import numpy as np
 from course.core.types import Floats, Floats32, Materials, Numbers
 from course.core.vectors import cross, dot
 from course.geometry.embree import Accelerator
+from course.geometry.hierarchy import HierarchyAccelerator, HierarchyFunctions
 from course.geometry.mesh import Mesh
 from course.geometry.motion_functions import MotionFunctions
 from course.geometry.moving import Mover, MovingAccelerator
 from course.geometry.painting import Paint, Painting, make_painting
+
+AnyAccelerator = Accelerator | MovingAccelerator | HierarchyAccelerator
+"""What may answer the rays of a scene."""
 
 OFFSET = 2.0**-19
 """Rays leave a surface from a point this far above it, as a share of the largest coordinate of its triangle.
@@ -80,10 +84,11 @@ class Surface:
     normal_offset : (T, 5) float32, ng (unit), the distance by which rays leave the surface, and the largest inset
     inset : (T, 3) float32, the barycentrics w, u, v below which a point counts as next to an edge
     corner_normals : (T, 9) float32, n0, n1 - n0, n2 - n0; or None when every triangle is flat
-    bulge : (T, 3) float32, k01 / 2, k02 / 2, k12 / 2; or None when every triangle is flat
+    bulge : (T, 3) float32, k01 / 2, k02 / 2, k12 / 2; or None when every triangle is flat, or is to count as flat
+        for shadow rays
     bend : sine of the largest angle between a triangle and a normal at its corners, 0 when every triangle is flat
     material : (T,) uint16 material numbers
-    accelerator : the same triangles in Embree
+    accelerator : the same triangles in Embree, or in a hierarchy
     painting : the textures, None where there are none
     """
 
@@ -94,7 +99,7 @@ class Surface:
     bulge: Floats32 | None
     bend: float
     material: Materials
-    accelerator: Accelerator | MovingAccelerator
+    accelerator: AnyAccelerator
     painting: Painting | None = None
 
     @property
@@ -103,11 +108,17 @@ class Surface:
         return len(self.corner_edges)
 
 
-def build_surface(parts: list[Part], motion: MotionFunctions | None = None) -> Surface:
+def build_surface(
+    parts: list[Part],
+    motion: MotionFunctions | None = None,
+    bulges: bool = True,
+    hierarchy: HierarchyFunctions | None = None,
+) -> Surface:
     """Gather the triangles of all parts, whose coordinates lie in about [-1, 1].
 
     Triangles that have no area in float32 are left out: no ray can hit them. ``motion`` is needed where a part has a
-    velocity; parts that move alike share a hierarchy, and come after those that stand still.
+    velocity; parts that move alike share a hierarchy, and come after those that stand still. Without ``bulges`` shadow
+    rays start from the triangles themselves. ``hierarchy`` takes the place of Embree, where nothing moves.
     """
     still = (0.0, 0.0, 0.0)
     parts = sorted(parts, key=lambda part: (part.velocity != still, part.velocity))
@@ -118,19 +129,27 @@ def build_surface(parts: list[Part], motion: MotionFunctions | None = None) -> S
     groups: dict[tuple[float, float, float], list[_Tables]] = {still: []}
     for table in tables:
         groups.setdefault(table.velocity, []).append(table)
-    static = _accelerator(groups.pop(still))
-    accelerator: Accelerator | MovingAccelerator = static
-    if groups:
+    static = groups.pop(still)
+    accelerator: AnyAccelerator
+    if hierarchy is not None:
+        assert not groups
+        accelerator = HierarchyAccelerator(*_joined(static), hierarchy)
+    elif groups:
         assert motion is not None
         accelerator = MovingAccelerator(
-            static, tuple(_movers(groups, tables)), motion.to_object_space, motion.displacement
+            _accelerator(static),
+            tuple(_movers(groups, tables)),
+            motion.to_object_space,
+            motion.displacement,
         )
+    else:
+        accelerator = _accelerator(static)
     return Surface(
         corner_edges=np.concatenate([table.corner_edges for table in tables]),
         normal_offset=np.concatenate([table.normal_offset for table in tables]),
         inset=np.concatenate([table.inset for table in tables]),
         corner_normals=np.concatenate([t.corner_normals for t in tables]) if smooth else None,
-        bulge=np.concatenate([table.bulge for table in tables]) if smooth else None,
+        bulge=np.concatenate([t.bulge for t in tables]) if smooth and bulges else None,
         bend=max(table.bend for table in tables),
         material=np.concatenate([table.material for table in tables]),
         accelerator=accelerator,
@@ -139,14 +158,17 @@ def build_surface(parts: list[Part], motion: MotionFunctions | None = None) -> S
 
 
 def _accelerator(tables: list[_Tables]) -> Accelerator:
+    return Accelerator(*_joined(tables))
+
+
+def _joined(tables: list[_Tables]) -> tuple[Floats32, Numbers]:
+    """Vertices (V, 3) and triangles (T, 3) of several parts."""
     if not tables:
-        return Accelerator(np.zeros((0, 3), np.float32), np.zeros((0, 3), np.int32))
+        return np.zeros((0, 3), np.float32), np.zeros((0, 3), np.int32)
     first = np.cumsum([0, *(len(table.vertices) for table in tables)])[:-1]
     triangles = [table.triangles + start for table, start in zip(tables, first, strict=True)]
-    return Accelerator(
-        np.concatenate([table.vertices for table in tables]),
-        np.concatenate(triangles).astype(np.int32),
-    )
+    vertices = np.concatenate([table.vertices for table in tables])
+    return vertices, np.concatenate(triangles).astype(np.int32)
 
 
 def _movers(

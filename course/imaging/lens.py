@@ -24,7 +24,8 @@ class Lens:
     aperture_radius, focus_distance : in the unit of the compiled scene
     shape : "disk", "square" or "polygon"
     blades : corners of the polygon
-    point_on_disk, lens_rays : the functions of the thin_lens module
+    point_on_disk : the function that places points on a disk, None for another shape
+    lens_rays : the function of the thin_lens module
     """
 
     aperture_radius: float

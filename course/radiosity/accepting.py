@@ -68,7 +68,8 @@ def _check_light(light: d.Light, path: KeyPath, loaded: Loaded) -> None:
                 (*path, "visible"), "true: a lamp is a patch as other surfaces are"
             )
         _check_still(light.motion, (*path, "motion"), loaded)
-    else:
+    # An object that is a light sends out what its material does, and that is in the patches already.
+    elif not isinstance(light, d.ObjectLight):
         raise loaded.document.unexpected((*path, "type"), LAMPS)
 
 

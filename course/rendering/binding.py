@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from course.core.samplers import make_sampler
+from course.core.samplers import FUNCTIONS, make_sampler
 from course.imaging.reconstruction import Reconstruction
 from course.rendering.corners import CornerSampler
 from course.scene.compiling import compile_camera
@@ -14,9 +14,7 @@ from course.transport.tracing import Tracer, make_tracer
 def bind(scene: Scene, settings: Settings) -> Tracer:
     """Bind a scene to its settings and to the functions that place and weigh its samples."""
     effects = scene.effects
-    place = None
-    if settings.sampler != "sobol":
-        place = effects.function("supersampling", settings.sampler)
+    functions = [effects.function(*function) for function in FUNCTIONS[settings.sampler]]
     film = scene.loaded.description.film
     reconstruction = Reconstruction(
         effects.function("supersampling", "resolve") if settings.samples > 1 else None,
@@ -26,7 +24,7 @@ def bind(scene: Scene, settings: Settings) -> Tracer:
         film.sigma,
     )
     compiled = scene.compiled
-    sampler = make_sampler(settings.sampler, settings.seed, place)
+    sampler = make_sampler(settings.sampler, settings.seed, *functions)
     if settings.subdivision is not None:
         sampler = CornerSampler(settings.seed)
     kind = Tracer

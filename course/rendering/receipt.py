@@ -28,6 +28,7 @@ class Receipt:
     seed, version : what to repeat it with
     subdivision : where pixels are divided by contrast: "corners" that got rays, corners of cells that were "shared",
         corners of the smallest cells ("lattice"), and the part of those that was "saved"; else None
+    tests : where a hierarchy takes the place of Embree: "boxes" and "triangles" that rays were tested with; else None
     """
 
     rays: dict[str, int]
@@ -43,10 +44,12 @@ class Receipt:
     seed: int
     version: str
     subdivision: dict[str, float] | None = None
+    tests: dict[str, int] | None = None
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain data, as written by ``course render --receipt``; without a subdivision where there was none."""
+        """Plain data, as written by ``course render --receipt``; without what there was none of."""
         told = asdict(self)
-        if self.subdivision is None:
-            del told["subdivision"]
+        for part in ("subdivision", "tests"):
+            if told[part] is None:
+                del told[part]
         return told

@@ -77,7 +77,7 @@ def render(
     ----------
     spp : samples a pixel
     size : (width, height) [pixels]
-    sampler : "sobol", "random", "jittered" or "regular"
+    sampler : "sobol", "random", "jittered", "regular", "halton", "hammersley", "chained" or "xorshift"
     seed : chooses the random numbers
     threads : how many; the picture doesn't depend on it
     time_limit : seconds; the best picture in that time, with as many samples as fit (at most ``spp`` if that is given)
@@ -182,7 +182,7 @@ def _settings(
     if (
         (time_limit is not None or error is not None)
         and spp is None
-        and (sampler or settings.sampler) in ("sobol", "random")
+        and (sampler or settings.sampler) in ("sobol", "random", "halton", "xorshift")
     ):
         spp = MOST_SAMPLES
     width, height = size or (settings.width, settings.height)
@@ -236,10 +236,15 @@ def _check_adaptive(settings: Settings) -> None:
         return
     if not (isfinite(settings.error) and settings.error > 0):
         raise CourseError(f"an error of {settings.error}: expected a finite radiance > 0")
-    if settings.sampler not in ("sobol", "random"):
+    if settings.sampler == "halton":
+        raise CourseError(
+            "the halton sampler moves all points of a pixel together, so they don't tell their error; "
+            "use sobol, random or xorshift"
+        )
+    if settings.sampler not in ("sobol", "random", "xorshift"):
         raise CourseError(
             f"the {settings.sampler} sampler places all its samples at once, so it can't go on where the error is; "
-            "use sobol or random"
+            "use sobol, random or xorshift"
         )
     if settings.samples < FIRST:
         raise CourseError(
@@ -428,6 +433,12 @@ def _numbers(settings: Settings, counters: Counters) -> dict[str, int]:
     return numbers
 
 
+def _tests(scene: Scene, counters: Counters) -> dict[str, int] | None:
+    if scene.loaded.description.acceleration.type == "embree":
+        return None
+    return {"boxes": counters.embree.box_tests, "triangles": counters.embree.triangle_tests}
+
+
 def _receipt(
     scene: Scene,
     settings: Settings,
@@ -465,4 +476,5 @@ def _receipt(
         pixels=settings.width * settings.height,
         seed=settings.seed,
         version=__version__,
+        tests=_tests(scene, counters),
     )

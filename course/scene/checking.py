@@ -194,6 +194,8 @@ def _accepts(kind: inspect.Type, value: Any) -> bool:
                 and len(value) >= (kind.min_length or 0)
                 and re.search(kind.pattern or "", value) is not None
             )
+        case inspect.BoolType():
+            return isinstance(value, bool)
         case inspect.NoneType():
             return value is None
     return False

@@ -13,6 +13,7 @@ from course.geometry.mesh import Mesh
 from course.geometry.surface import Part, build_surface
 from course.imaging.camera import Camera, make_camera, make_window_camera
 from course.scene import description as d
+from course.scene.acceleration_compiling import compile_acceleration
 from course.scene.brightness import in_range
 from course.scene.description.values import rgb
 from course.scene.emitters import emitter_parts
@@ -20,11 +21,12 @@ from course.scene.environment_compiling import compile_environment
 from course.scene.frame import Frame, bounds_of, frame_of
 from course.scene.instancing import object_mesh
 from course.scene.lens_compiling import compile_lens
-from course.scene.light_compiling import compile_lights
+from course.scene.light_compiling import Lit, compile_lights
 from course.scene.loading import Loaded
 from course.scene.lobe_compiling import compile_lobes
 from course.scene.material_table import compile_materials
 from course.scene.motion_compiling import check_sweeps, compile_motion
+from course.scene.object_lights import material_columns
 from course.scene.path_compiling import compile_paths
 from course.scene.reach import in_reach
 from course.scene.roughness_compiling import reflecting, with_rough_glass
@@ -73,34 +75,37 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
         boxes += [bounds[-1] + start, bounds[-1] + start + shutter.sweep(thing.motion)]
     frame = frame_of(boxes)
     check_sweeps(loaded, frame, shutter)
-    # Materials that no object has are as good as not there.
-    used = {
-        name: scene.materials[name]
-        for name in dict.fromkeys(thing.material for thing in scene.objects)
-    }
-    names = list(used)
+    columns = material_columns(scene)
+    used = {str(number): scene.materials[name] for number, name in enumerate(columns.names)}
     painter = _painter(used, loaded, effects, files)
     parts = [
         Part(
             frame.mesh(mesh),
-            names.index(thing.material),
+            columns.of_objects[number],
             shutter.velocity(thing.motion, frame),
             None if painter is None else painter.paint(number, mesh),
         )
         for number, (mesh, thing) in enumerate(zip(meshes, scene.objects, strict=True))
     ]
-    for name, material in used.items():
+    for name, material in zip(columns.names, used.values(), strict=True):
         in_range(rgb(material.emission), loaded, ("materials", name, "emission"), "the emission")
-    emitters, emission = emitter_parts(loaded, frame, shutter, first_material=len(names))
+    emitters, emission = emitter_parts(loaded, frame, shutter, first_material=len(used))
     materials = compile_materials(used, emission, frame)
-    lights, skipped = compile_lights(loaded, frame, shutter, effects, materials)
     motion = compile_motion(loaded, frame, shutter, effects, materials)
+    surface = build_surface(
+        parts + emitters,
+        motion.functions if motion else None,
+        bulges=scene.integrator.terminator == "round",
+        hierarchy=compile_acceleration(loaded, shutter, effects),
+    )
+    objects = Lit(surface, columns.of_lights)
+    lights, skipped = compile_lights(loaded, frame, shutter, effects, materials, objects)
     ambient = np.zeros(3)
     for light in scene.lights:
         if isinstance(light, d.AmbientLight):
             ambient += rgb(light.radiance)
     world = World(
-        surface=build_surface(parts + emitters, motion.functions if motion else None),
+        surface=surface,
         materials=materials,
         lights=lights,
         skipped_lights=skipped,
@@ -109,8 +114,9 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
         lobes=_lobes(used, effects, scene.integrator),
         lens=compile_lens(loaded, frame, effects),
         motion=motion,
-        paths=compile_paths(scene.integrator, effects, materials),
+        paths=compile_paths(scene.integrator, effects, materials, columns.of_lights.values()),
         backdrop=scene.environment.seen_by == "camera",
+        keeps=scene.integrator.into_surface == "keep",
     )
     return Compiled(world, frame, tuple(len(mesh.triangles) for mesh in meshes), tuple(bounds))
 

@@ -19,6 +19,7 @@ from course.scene.description.scene import SceneDescription
 from course.scene.description.transforms import Affine, Rotate, Scale, Transform
 from course.scene.description.values import Vector, rgb
 from course.scene.document import Document, KeyPath, suggest
+from course.scene.object_lights import check_object_lights
 
 # Below these sines two directions are held to be one: a picture turned by a rounding error, or a
 # light without area.
@@ -59,6 +60,7 @@ def check_consistency(description: SceneDescription, document: Document) -> None
         _check_light(light, ("lights", index), document)
     for index, thing in enumerate(description.objects):
         _check_object(thing, ("objects", index), description, document)
+    check_object_lights(description, document)
 
 
 def nearest_squares(samples: int) -> tuple[int, ...]:

@@ -10,7 +10,8 @@ from course.appearance.cube_environment import (
     cube_from_lat_long,
 )
 from course.appearance.environment import ConstantEnvironment
-from course.appearance.environment_sampling import product_sampling
+from course.appearance.environment_hemispheres import HemisphereSampling
+from course.appearance.environment_sampling import ProductSampling, product_sampling
 from course.core.types import Floats32
 from course.effects import Effects
 from course.errors import SceneError
@@ -24,6 +25,16 @@ from course.scene.material_table import base_color, has_body
 LOOKUPS = {"seamless": "lookup_seamless", "clamped": "lookup"}
 """The cube_map function for each value of ``lookup``."""
 
+HEMISPHERES = {
+    "uniform": ("uniform_hemisphere", "phong_lobe_pdf"),
+    "cosine": ("cosine_hemisphere", "cosine_hemisphere_pdf"),
+    "power": (
+        *("uniform_hemisphere", "phong_lobe_pdf", "cosine_hemisphere", "cosine_hemisphere_pdf"),
+        "power_heuristic",
+    ),
+}
+"""The importance_sampling functions for each value of ``sampling``, but for ``automatic``."""
+
 
 def compile_environment(loaded: Loaded, effects: Effects) -> ConstantEnvironment | CubeEnvironment:
     """Read the pictures, if there are any, and make a cube of them.
@@ -36,7 +47,8 @@ def compile_environment(loaded: Loaded, effects: Effects) -> ConstantEnvironment
     environment = loaded.description.environment
     if isinstance(environment, d.ConstantEnvironment):
         radiance = in_range(rgb(environment.radiance), loaded, ("environment",), "radiance")
-        return ConstantEnvironment(radiance, environment.lights)
+        chosen = _hemispheres(loaded, effects) if radiance.any() else None
+        return ConstantEnvironment(radiance, environment.lights, chosen)
     if isinstance(environment, d.CubeEnvironment):
         faces = _faces(environment, loaded)
     else:
@@ -58,10 +70,33 @@ def compile_environment(loaded: Loaded, effects: Effects) -> ConstantEnvironment
     faces = np.multiply(faces, scale, out=np.empty_like(faces), casting="same_kind")
     faces = np.ascontiguousarray(faces, np.float32)
     lookup = effects.function("cube_map", LOOKUPS[environment.lookup])
-    product = None
-    if environment.lights and faces.any() and _anything_diffuse(loaded):
+    product: ProductSampling | HemisphereSampling | None = _hemispheres(loaded, effects)
+    if product is None and environment.lights and faces.any() and _anything_diffuse(loaded):
         product = product_sampling(faces, seamless=environment.lookup == "seamless")
     return CubeEnvironment(faces, lookup, environment.lights, product)
+
+
+def hemisphere_functions(loaded: Loaded) -> list[str]:
+    """Names of the importance_sampling functions that are called."""
+    environment = loaded.description.environment
+    if not environment.lights or environment.sampling == "automatic":
+        return []
+    return list(HEMISPHERES[environment.sampling]) if _anything_diffuse(loaded) else []
+
+
+def _hemispheres(loaded: Loaded, effects: Effects) -> HemisphereSampling | None:
+    """None where no function of the importance_sampling module is called; it is not even imported then."""
+    called = {
+        name: effects.function("importance_sampling", name) for name in hemisphere_functions(loaded)
+    }
+    ways = []
+    if "uniform_hemisphere" in called:
+        lobe = called["phong_lobe_pdf"]
+        # The hemisphere is the lobe of exponent 0.
+        ways.append((called["uniform_hemisphere"], lambda cosine: lobe(cosine, 0.0)))
+    if "cosine_hemisphere" in called:
+        ways.append((called["cosine_hemisphere"], called["cosine_hemisphere_pdf"]))
+    return HemisphereSampling(tuple(ways), called.get("power_heuristic")) if ways else None
 
 
 def _anything_diffuse(loaded: Loaded) -> bool:

@@ -112,6 +112,8 @@ def _describe(kind: inspect.Type) -> str:
             return "a text that is not empty" if kind.min_length else "a text"
         case inspect.LiteralType():
             return either(sorted(map(str, kind.values)))
+        case inspect.BoolType():
+            return "true or false"
         case inspect.NoneType():
             return "null"
         case inspect.TupleType() | inspect.VarTupleType():

@@ -25,7 +25,7 @@ def object_mesh(
 
     Parameters
     ----------
-    files : mesh files that have been read already, by their names in the scene; this one is added
+    files : mesh files that have been read already, by their normals and names in the scene; this one is added
 
     Raises
     ------
@@ -52,9 +52,10 @@ def _local_mesh(thing: d.Object, folder: Path, files: dict[str, Mesh]) -> Mesh:
         # trimesh behind it is heavy; a scene of named shapes never imports it.
         from course.geometry.mesh_files import read_mesh
 
-        if thing.file not in files:
-            files[thing.file] = read_mesh(folder / thing.file)
-        return files[thing.file]
+        read = f"{thing.normals} {thing.file}"
+        if read not in files:
+            files[read] = read_mesh(folder / thing.file, thing.normals)
+        return files[read]
     match thing:
         case d.Quad():
             return shapes.quad(thing.width, thing.depth)

@@ -4,11 +4,20 @@ from __future__ import annotations
 
 import numpy as np
 
+from course.core.types import Floats32
 from course.effects import Effects
-from course.imaging.lens import Lens
+from course.imaging.lens import Lens, PointOnDisk
+from course.scene.description.camera import LensDescription
 from course.scene.frame import Frame
 from course.scene.loading import Loaded
 from course.scene.reach import in_reach
+
+DISKS = {
+    "point": ("thin_lens", "point_on_disk"),
+    "polar": ("sampling", "disk_by_polar"),
+    "rejection": ("sampling", "disk_by_rejection"),
+}
+"""The module and name of the function that each value of ``samples`` asks for."""
 
 
 def compile_lens(loaded: Loaded, frame: Frame, effects: Effects) -> Lens | None:
@@ -34,6 +43,8 @@ def compile_lens(loaded: Loaded, frame: Frame, effects: Effects) -> Lens | None:
         distance = float(to_focus @ (view / largest) / np.linalg.norm(view / largest))
     if not distance > 0:
         raise document.unexpected((*path, key), "a plane in front of the camera")
+    if lens.shape != "disk" and lens.samples != "point":
+        raise document.unexpected((*path, "samples"), f"point for a {lens.shape}")
     if lens.aperture_radius == 0:
         return None
     radius, focus = lens.aperture_radius / frame.scale, distance / frame.scale
@@ -44,8 +55,22 @@ def compile_lens(loaded: Loaded, frame: Frame, effects: Effects) -> Lens | None:
         focus_distance=focus,
         shape=lens.shape,
         blades=lens.blades,
-        point_on_disk=effects.function("thin_lens", "point_on_disk")
-        if lens.shape == "disk"
-        else None,
+        point_on_disk=_points(lens, effects) if lens.shape == "disk" else None,
         lens_rays=effects.function("thin_lens", "lens_rays"),
     )
+
+
+def _points(lens: LensDescription, effects: Effects) -> PointOnDisk:
+    function = effects.function(*DISKS[lens.samples])
+    if lens.samples != "rejection":
+        return function
+
+    def by_rejection(u: Floats32) -> Floats32:
+        from numpy.random import PCG64, Generator, SeedSequence
+
+        # It draws as many numbers as it needs. The paths' own only choose the generator, so a picture can be repeated.
+        words = np.ascontiguousarray(u[:, :64]).view(np.uint32).ravel().tolist()
+        points: Floats32 = function(u.shape[1], Generator(PCG64(SeedSequence(words))))
+        return points
+
+    return by_rejection

@@ -10,15 +10,18 @@ import numpy as np
 from course.appearance.lights import (
     DirectionalLight,
     Light,
+    MeshLight,
     PointLight,
     RectangleLight,
     SphereLight,
     VisibleSphereLight,
 )
+from course.appearance.lights.mesh import areas, shares
 from course.appearance.materials import MaterialTable
 from course.core.types import Floats32, Floats64
 from course.effects import Effects
 from course.errors import EffectError
+from course.geometry.surface import Surface
 from course.scene import description as d
 from course.scene.brightness import in_range
 from course.scene.description.values import rgb
@@ -29,8 +32,27 @@ from course.scene.reach import in_reach
 from course.scene.shutter import Shutter
 
 
+@dataclass(frozen=True)
+class Lit:
+    """Objects that are lights, as rays hit them.
+
+    Attributes
+    ----------
+    surface : all triangles
+    materials : the number of the material that each light's object has for itself, by the number of the light
+    """
+
+    surface: Surface
+    materials: dict[int, int]
+
+
 def compile_lights(
-    loaded: Loaded, frame: Frame, shutter: Shutter, effects: Effects, materials: MaterialTable
+    loaded: Loaded,
+    frame: Frame,
+    shutter: Shutter,
+    effects: Effects,
+    materials: MaterialTable,
+    objects: Lit,
 ) -> tuple[tuple[Light, ...], dict[str, str]]:
     """Lights that light something, and name -> reason for those that don't.
 
@@ -46,7 +68,11 @@ def compile_lights(
         if reason:
             skipped[name] = reason
             continue
-        lights += _Compiler(name, ("lights", number), loaded, frame, shutter, effects)(light)
+        compiler = _Compiler(name, ("lights", number), loaded, frame, shutter, effects)
+        if isinstance(light, d.ObjectLight):
+            lights.append(compiler.of_object(light, objects.surface, objects.materials[number]))
+        else:
+            lights += compiler(light)
     return tuple(lights), skipped
 
 
@@ -61,7 +87,9 @@ class _Compiler:
     shutter: Shutter
     effects: Effects
 
-    def __call__(self, light: d.Light) -> list[Light]:
+    def __call__(
+        self, light: d.PointLight | d.DirectionalLight | d.RectangleLight | d.SphereLight
+    ) -> list[Light]:
         match light:
             case d.PointLight():
                 power = rgb(light.intensity) / self.frame.scale / self.frame.scale
@@ -77,8 +105,29 @@ class _Compiler:
                 return self._rectangle(light)
             case d.SphereLight():
                 return [self._sphere(light)]
-            case d.AmbientLight():
-                return []
+
+    def of_object(self, light: d.ObjectLight, surface: Surface, material: int) -> MeshLight:
+        """A light of the triangles that have a material."""
+        which = np.flatnonzero(surface.material == material)
+        corner_edges = surface.corner_edges[which]
+        area = areas(corner_edges)
+        if not area.sum() > 0:
+            raise self.loaded.document.error(
+                (*self.path, "object"),
+                f'the object "{light.object}" has no area to shine from: expected triangles with an area,'
+                " in a scene that isn't 10^7 times as large",
+            )
+        scene = self.loaded.description
+        thing = next(thing for thing in scene.objects if thing.name == light.object)
+        radiance = rgb(scene.materials[thing.material].emission)
+        return MeshLight(
+            self.name,
+            shares(area),
+            corner_edges,
+            np.ascontiguousarray(surface.normal_offset[which, :4]),
+            self._color(radiance * area.sum()),
+            velocity=self._velocity(thing),
+        )
 
     def _rectangle(self, light: d.RectangleLight) -> list[Light]:
         edge_u, edge_v = self.frame.vector(light.edge_u), self.frame.vector(light.edge_v)
@@ -166,10 +215,12 @@ class _Compiler:
         position = self.frame.position(np.array(x) + self.shutter.start(motion))
         return in_reach(position, self.loaded, self.path, "the light's distance")
 
-    def _velocity(self, light: d.PointLight | d.RectangleLight | d.SphereLight) -> Floats32 | None:
-        if not self.shutter.moves(light.motion):
+    def _velocity(
+        self, mover: d.PointLight | d.RectangleLight | d.SphereLight | d.Object
+    ) -> Floats32 | None:
+        if not self.shutter.moves(mover.motion):
             return None
-        return np.array(self.shutter.velocity(light.motion, self.frame), np.float32)
+        return np.array(self.shutter.velocity(mover.motion, self.frame), np.float32)
 
 
 METHODS = {

@@ -13,7 +13,9 @@ def given(*colors: float | tuple[float, ...] | None) -> float | tuple[float, ...
     return next(color for color in colors if color is not None)
 
 
-def power(light: d.Light) -> Floats64:
+def power(
+    light: d.AmbientLight | d.PointLight | d.DirectionalLight | d.RectangleLight | d.SphereLight,
+) -> Floats64:
     """(3,) float64 strength in the light's own unit."""
     match light:
         case d.PointLight():
@@ -28,7 +30,8 @@ def power(light: d.Light) -> Floats64:
 
 def why_dark(light: d.Light, materials: MaterialTable) -> str:
     """The reason why a light needs no samples; empty if it needs them."""
-    if not power(light).any():
+    # An object without emission is refused as a light.
+    if not isinstance(light, d.ObjectLight) and not power(light).any():
         return "it has no power"
     if not materials.shaded.any():
         return "no material has a diffuse or specular term"

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from course.appearance.lobes import Lobe
+from course.core.types import Floats32
 from course.effects import Effects
 from course.scene import description as d
 from course.scene.description.values import rgb
@@ -33,6 +34,11 @@ def lobe_function(material: d.MaterialDescription, cutoff: float) -> str | None:
     return None
 
 
+def as_it_is(direction: Floats32, *_: object) -> Floats32:
+    """A direction that stays what it is."""
+    return direction
+
+
 def compile_lobes(
     materials: Mapping[str, d.MaterialDescription],
     effects: Effects,
@@ -51,13 +57,8 @@ def compile_lobes(
                 width = 3
             case d.PhongLobe(exponent=parameter):
                 width = 2
-        lobes.append(
-            Lobe(
-                number,
-                width,
-                parameter,
-                effects.function("glossy", name),
-                effects.function("glossy", "keep_above"),
-            )
-        )
+        keep_above = as_it_is
+        if integrator.into_surface == "mirror":
+            keep_above = effects.function("glossy", "keep_above")
+        lobes.append(Lobe(number, width, parameter, effects.function("glossy", name), keep_above))
     return tuple(lobes)

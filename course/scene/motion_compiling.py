@@ -29,7 +29,8 @@ def movers(
         if shutter.moves(thing.motion):
             found.append(("objects", number, "motion"))
     for number, light in enumerate(scene.lights):
-        if isinstance(light, d.AmbientLight | d.DirectionalLight):
+        # What moves of an object that is a light is the object.
+        if isinstance(light, d.AmbientLight | d.DirectionalLight | d.ObjectLight):
             continue
         surface = not isinstance(light, d.PointLight) and light.radiance is not None
         surface = surface and not (isinstance(light, d.RectangleLight) and not light.visible)
@@ -46,7 +47,7 @@ def check_sweeps(loaded: Loaded, frame: Frame, shutter: Shutter) -> None:
     moved: list[tuple[tuple[str | int, ...], d.MotionDescription]] = [
         (("lights", number), light.motion)
         for number, light in enumerate(lights)
-        if not isinstance(light, d.AmbientLight | d.DirectionalLight)
+        if not isinstance(light, d.AmbientLight | d.DirectionalLight | d.ObjectLight)
     ]
     for path, motion in [(("camera",), camera.motion), *moved]:
         in_reach(

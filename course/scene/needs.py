@@ -5,9 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import get_args
 
+from course.core.samplers import FUNCTIONS
 from course.scene import description as d
+from course.scene.acceleration_compiling import FUNCTIONS as HIERARCHY
 from course.scene.document import KeyPath
-from course.scene.environment_compiling import LOOKUPS
+from course.scene.environment_compiling import LOOKUPS, hemisphere_functions
+from course.scene.lens_compiling import DISKS
 from course.scene.light_compiling import light_function
 from course.scene.light_power import power, why_dark
 from course.scene.loading import Loaded
@@ -39,9 +42,9 @@ class Need:
 def needs_of(loaded: Loaded, settings: Settings, world: World) -> list[Need]:
     """Every function that rendering with these settings calls, in the order of the pipeline."""
     scene = loaded.description
-    needs = []
-    if settings.sampler != "sobol":
-        needs.append(Need(f"supersampling.{settings.sampler}", ("sampler", "type")))
+    needs = [
+        Need(".".join(function), ("sampler", "type")) for function in FUNCTIONS[settings.sampler]
+    ]
     if scene.film.filter == "gaussian":
         needs.append(Need("supersampling.gaussian_weights", ("film", "filter")))
     if settings.samples > 1:
@@ -63,7 +66,9 @@ def needs_of(loaded: Loaded, settings: Settings, world: World) -> list[Need]:
             lobe = lobe_function(reflecting(material), settings.cutoff)
             if lobe:
                 asked_by = ("materials", name, "gloss")
-                needs += [Need(f"glossy.{lobe}", asked_by), Need("glossy.keep_above", asked_by)]
+                needs.append(Need(f"glossy.{lobe}", asked_by))
+                if scene.integrator.into_surface == "mirror":
+                    needs.append(Need("glossy.keep_above", asked_by))
             if is_rough(material):
                 needs += [
                     Need(
@@ -71,6 +76,8 @@ def needs_of(loaded: Loaded, settings: Settings, world: World) -> list[Need]:
                     )
                     for f in ROUGH_GLASS
                 ]
+    if scene.acceleration.type == "hierarchy":
+        needs += [Need(f"bounding_volumes.{f}", ("acceleration", "type")) for f in HIERARCHY]
     needs += _of_textures(scene)
     needs += [
         Need(f"path_tracing.{name}", ("integrator", "type"))
@@ -80,11 +87,17 @@ def needs_of(loaded: Loaded, settings: Settings, world: World) -> list[Need]:
     if lens is not None and lens.aperture_radius > 0:
         asked_by = ("camera", "lens", "aperture_radius")
         if lens.shape == "disk":
-            needs.append(Need("thin_lens.point_on_disk", asked_by))
+            samples = ("camera", "lens", "samples") if lens.samples != "point" else asked_by
+            needs.append(Need(".".join(DISKS[lens.samples]), samples))
         needs.append(Need("thin_lens.lens_rays", asked_by))
     if not (isinstance(scene.environment, d.ConstantEnvironment) or world.environment.black):
         lookup = LOOKUPS[scene.environment.lookup]
         needs.append(Need(f"cube_map.{lookup}", ("environment", "type")))
+    if not world.environment.black:
+        needs += [
+            Need(f"importance_sampling.{name}", ("environment", "sampling"))
+            for name in hemisphere_functions(loaded)
+        ]
     moving = movers(loaded, shutter_of(loaded), world.materials)
     if moving:
         needs.append(Need("motion_blur.shutter_times", moving[0]))
@@ -106,14 +119,16 @@ def _of_textures(scene: d.SceneDescription) -> list[Need]:
 
 
 _REASONS = {
-    "supersampling": "one Sobol sample a pixel needs no pattern and no mean",
-    "soft_shadows": "no light that has a size lights anything",
+    "supersampling": "one sample a pixel needs no mean, and this sampler none of its patterns",
+    "soft_shadows": "no light takes points on a rectangle or in a ball",
     "glossy": "no mirror is glossy",
     "thin_lens": "the aperture is 0",
     "motion_blur": "nothing moves while the shutter is open",
     "cube_map": "the environment is no picture, or a black one",
     "blurred_transparency": "no glass is rough",
     "textures": "no surface shows a texture",
+    "bounding_volumes": "Embree answers the rays",
+    "importance_sampling": "no directions towards an environment are chosen by its functions",
 }
 
 

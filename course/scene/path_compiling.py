@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 
 from course.appearance.materials import MaterialTable
@@ -26,19 +28,27 @@ def compile_paths(
     integrator: d.IntegratorDescription,
     effects: Effects,
     materials: MaterialTable,
+    objects: Iterable[int],
 ) -> Paths | None:
-    """The functions of the path_tracing module; None where the integrator is another."""
+    """The functions of the path_tracing module; None where the integrator is another.
+
+    Parameters
+    ----------
+    objects : materials of the objects that are lights
+    """
     if integrator.type != "path":
         return None
     functions = {
         name: effects.function("path_tracing", name)
         for name in path_functions(integrator, integrator.max_depth, materials)
     }
+    none = np.zeros(materials.emission.shape[1], np.bool_)
+    lit = none.copy()
+    lit[list(objects)] = True
     return Paths(
         integrator.roulette,
-        np.zeros(materials.emission.shape[1], np.bool_)
-        if materials.lamps is None
-        else materials.lamps,
+        none if materials.lamps is None else materials.lamps,
+        lit,
         functions.get("diffuse_bounce"),
         functions.get("throughput"),
         functions.get("russian_roulette"),

@@ -9,9 +9,9 @@ import msgspec
 
 from course.appearance.lobes import Lobe
 from course.appearance.rough_glass import RoughGlass
-from course.core.types import Floats32
 from course.effects import Effects
 from course.scene import description as d
+from course.scene.lobe_compiling import as_it_is
 
 FUNCTIONS = ("refract", "fresnel", "jitter_refraction")
 """What rough glass calls of the blurred_transparency module."""
@@ -43,7 +43,7 @@ def with_rough_glass(
         refract, fresnel, jitter = (
             effects.function("blurred_transparency", name) for name in FUNCTIONS
         )
-        mirrored = found.get(number, Lobe(number, 0, 0.0, _as_it_is, _as_it_is))
+        mirrored = found.get(number, Lobe(number, 0, 0.0, as_it_is, as_it_is))
         found[number] = RoughGlass(
             **{field.name: getattr(mirrored, field.name) for field in fields(mirrored)},
             roughness=material.dielectric.roughness,
@@ -52,7 +52,3 @@ def with_rough_glass(
             fresnel=fresnel,
         )
     return tuple(found[number] for number in sorted(found))
-
-
-def _as_it_is(direction: Floats32, *_: object) -> Floats32:
-    return direction

@@ -40,7 +40,7 @@ class Painter:
 
     Parameters
     ----------
-    files : mesh files that have been read, by their names in the scene
+    files : mesh files that have been read, by their normals and names in the scene
     """
 
     def __init__(self, loaded: Loaded, effects: Effects, files: dict[str, Mesh]) -> None:

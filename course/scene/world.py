@@ -39,11 +39,13 @@ class Paths:
     ----------
     roulette : bounces that a path makes before Russian roulette may end it, None for never
     lamps : (M,) which materials are surfaces of lights, which direct light samples at every diffuse hit
+    objects : (M,) which materials are those of objects that are lights, sampled as well, which shine from both sides
     diffuse_bounce, throughput, russian_roulette : of the path_tracing module, None where they are not called
     """
 
     roulette: int | None
     lamps: Mask
+    objects: Mask
     diffuse_bounce: Callable[[Floats32, Floats32], Floats32] | None
     throughput: Callable[[Floats32, Floats32], Floats32] | None
     russian_roulette: Callable[[Floats32, Floats32], tuple[Mask, Floats32]] | None
@@ -66,6 +68,7 @@ class World:
     motion : None where nothing moves while the shutter is open
     paths : None for the distribution ray tracer
     backdrop : whether only camera rays see the environment
+    keeps : whether directions into the surface are kept
     """
 
     surface: Surface
@@ -79,6 +82,7 @@ class World:
     motion: Motion | None = None
     paths: Paths | None = None
     backdrop: bool = False
+    keeps: bool = False
 
 
 @dataclass(frozen=True)

@@ -19,7 +19,7 @@ class Counters:
     rays : kind -> rays cast
     numbers : dimension -> numbers drawn
     seconds : stage -> seconds
-    embree : seconds inside Embree
+    embree : seconds inside Embree, and the tests of a hierarchy in its place
     """
 
     rays: dict[str, int] = field(default_factory=lambda: dict.fromkeys(RAY_KINDS, 0))
@@ -50,3 +50,5 @@ class Counters:
         for stage, seconds in other.seconds.items():
             self.seconds[stage] = self.seconds.get(stage, 0.0) + seconds
         self.embree.seconds += other.embree.seconds
+        self.embree.box_tests += other.embree.box_tests
+        self.embree.triangle_tests += other.embree.triangle_tests

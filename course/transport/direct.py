@@ -22,7 +22,7 @@ from course.transport.sky import skylight
 _ROUNDING = 1e-4
 """Added to a sine before it is compared with a cosine, both in float32."""
 
-_ALL = np.empty(0, np.bool_)
+_ALL = np.empty((0, 0), np.bool_)
 
 
 def direct_light(
@@ -86,7 +86,9 @@ def _irradiance(
         # A light that has moved by d looks from p as one that stands still does from p - d.
         points = points - world.motion.functions.displacement(light.velocity, hits.time)
     sample = light.sample(points, u, hits.compiled)
-    shaded = None if plan.all_shade else world.materials.shaded
+    shaded = None
+    if not plan.all_shade or plan.dark_insides:
+        shaded = world.materials.shaded_sides
     find = _facing_by_loop if hits.compiled else _facing
     faced = find(hits, sample, shaded)
     if faced is None:
@@ -106,14 +108,17 @@ def _facing(hits: Hits, sample: Sample, shaded: Mask | None) -> _Facing | None:
 
     Parameters
     ----------
-    shaded : (M,) which materials show light, None for all
+    shaded : (1 or 2, M) which materials show light, from the back too where there are two rows; None for all
     """
     strength = dot(hits.ns, sample.to_light)
     strength *= sample.inverse_length
     cosine = strength
     strength = cosine * sample.factor
     if shaded is not None:
-        strength *= shaded.take(hits.material)
+        sides = [shaded[0].take(hits.material)]
+        if len(shaded) > 1:
+            sides.append(shaded[1].take(hits.material))
+        strength *= sides[0] if len(sides) == 1 else np.where(hits.entering, *sides)
     which = np.flatnonzero(strength > 0)
     if len(which) == 0:
         return None
@@ -136,7 +141,7 @@ def _facing_by_loop(hits: Hits, sample: Sample, shaded: Mask | None) -> _Facing 
     strength, cosine = np.empty(n, np.float32), np.empty(n, np.float32)
     to_light, inverse_length = map(np.ascontiguousarray, (sample.to_light, sample.inverse_length))
     found = direct_kernels.facing(
-        *map(np.ascontiguousarray, (hits.ns, hits.material)),
+        *map(np.ascontiguousarray, (hits.ns, hits.material, hits.side)),
         *(to_light, inverse_length, np.ascontiguousarray(sample.factor)),
         *(_ALL if shaded is None else shaded, which, strength, cosine),
     )

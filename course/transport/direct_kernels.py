@@ -12,19 +12,19 @@ _NOTHING = np.float32(0)
 
 @njit(
     types.int64(
-        *(COLUMNS, types.uint16[::1], COLUMNS, ROW, ROW, types.boolean[::1]),
+        *(COLUMNS, types.uint16[::1], ROW, COLUMNS, ROW, ROW, types.boolean[:, ::1]),
         *(types.int64[::1], ROW, ROW),
     ),
     **OPTIONS,
 )
-def facing(ns, material, to_light, inverse_length, factor, shaded, which, strength, cosine):
+def facing(ns, material, side, to_light, inverse_length, factor, shaded, which, strength, cosine):
     """How many hits face the light and are faced by it.
 
     Parameters
     ----------
-    ns, material : (3, n) and (n,) of all hits
+    ns, material, side : (3, n) and (n,) of all hits
     to_light, inverse_length, factor : of a ``Sample``, each for n hits or one for all
-    shaded : (M,) which materials show light, or (0,) for all
+    shaded : (1 or 2, M) which materials show light, from the back too where there are two rows; (0, 0) for all
     which, strength, cosine : (n,), filled from the beginning with as many as there are
     """
     found = 0
@@ -38,7 +38,8 @@ def facing(ns, material, to_light, inverse_length, factor, shaded, which, streng
         )
         angle *= inverse_length[k]
         light = angle * factor[k]
-        if light > 0 and (len(shaded) == 0 or shaded[material[i]]):
+        row = 1 if len(shaded) > 1 and not side[i] > 0 else 0
+        if light > 0 and (len(shaded) == 0 or shaded[row, material[i]]):
             which[found], strength[found], cosine[found] = i, light, angle
             found += 1
     return found

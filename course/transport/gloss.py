@@ -19,16 +19,18 @@ class Blur:
     ----------
     lobes : of the glossy materials, and of rough glass
     dimension : the first dimension of this bounce's gloss
+    keeps : whether directions into the surface are kept
     """
 
     lobes: tuple[Lobe, ...]
     dimension: int
     draws: Draws
+    keeps: bool = False
 
     def __call__(
         self, material: Materials, mirrored: Floats32, ng: Floats32, path: Indices
     ) -> Floats32:
-        """Directions (3, n) of reflected rays, those of glossy materials jittered and kept above the surface.
+        """Directions (3, n) of reflected rays, those of glossy materials jittered; above the surface, unless ``keeps``.
 
         Parameters
         ----------

@@ -18,6 +18,7 @@ from course.geometry.hits import Hits
 from course.geometry.leaving import kept_above
 from course.scene.world import Paths
 from course.transport.gloss import Blur
+from course.transport.insides import insides
 from course.transport.paths import OPEN, Draws, Rays
 from course.transport.plan import Lookups, Plan
 from course.transport.ways import beyond, divided, mirrored, reflectance, refracted
@@ -129,6 +130,10 @@ class PathBounce:
             albedo = np.repeat(albedo, hits.size, axis=1)
         if hits.tint is not None:
             albedo = albedo * hits.tint
+        inside = insides(self.plan, self.lookups, hits)
+        if len(inside):
+            albedo = albedo.copy()
+            albedo[:, inside] = 0
         return self.paths.throughput(beta, albedo)
 
     def _chosen(

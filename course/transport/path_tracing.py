@@ -3,7 +3,8 @@
 Kajiya, "The rendering equation", 1986. Light reaches a diffuse surface in two ways: from lamps and the environment,
 for which direct light casts its shadow rays at every hit, and from other surfaces, for which the path goes on. A ray
 that has left a diffuse surface and runs into a lamp, or out into the environment, has found what a shadow ray has
-already counted, so it adds nothing; after a mirror or glass, where no shadow rays are cast, it does.
+already counted, so it adds nothing; after a mirror or glass, where no shadow rays are cast, it does. Lamps are lights
+with a surface, from its front, and objects that are lights, from both sides.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ from course.imaging.tiles import RAYS
 from course.scene.world import Paths
 from course.transport.counters import Counters
 from course.transport.direct import direct_light
+from course.transport.insides import insides
 from course.transport.path_bounce import PathBounce
 from course.transport.paths import Draws, Rays, joined
 from course.transport.tracing import CancelledError, Tracer, add_radiance
@@ -82,15 +84,24 @@ class PathTracer(Tracer):
     @cached_property
     def _glow(self) -> Glow | None:
         """Light that surfaces give off and that no shadow ray looks for: it counts whenever a path meets it."""
-        m = self.world.materials
-        # Ambient light is the same at every point of a surface: what the surface gives off by itself.
-        rows = m.ambient * self.world.ambient[:, None] + m.emission * ~self._paths.lamps
-        return _glow(rows)
+        looked_for = self._paths.lamps | self._paths.objects
+        return _glow(self.world.materials.emission * ~looked_for)
+
+    @cached_property
+    def _ambient(self) -> Glow | None:
+        """Ambient light, the same at every point of a surface: as if the surface gave it off."""
+        return _glow(self.world.materials.ambient * self.world.ambient[:, None])
 
     @cached_property
     def _lamps(self) -> Glow | None:
-        """Light that shadow rays look for."""
+        """Light that shadow rays look for, of the fronts of lights."""
         rows = self.world.materials.emission * self._paths.lamps
+        return _glow(rows)
+
+    @cached_property
+    def _objects(self) -> Glow | None:
+        """Light that shadow rays look for, of both sides of objects."""
+        rows = self.world.materials.emission * self._paths.objects
         return _glow(rows)
 
     def _trace(self, camera_rays: Rays, paths: int, draws: Draws, counters: Counters) -> Floats32:
@@ -158,9 +169,7 @@ class PathTracer(Tracer):
             return None
         radiance = self._light(hits, sees, path, depth, draws)
         if radiance is not None:
-            if throughput is not None:
-                radiance *= throughput
-            add_radiance(film, path, radiance)
+            add_radiance(film, path, radiance, throughput, hits.compiled)
         counters.lap("shade")
         if depth == self.plan.max_depth:
             return None
@@ -187,14 +196,27 @@ class PathTracer(Tracer):
         radiance = None
         if self.plan.shades:
             radiance = direct_light(self.world, self.plan, self.lookups, hits, path, depth, draws)
+        inside = insides(self.plan, self.lookups, hits)
+        outside = None
+        if len(inside):
+            outside = np.ones(hits.size, np.bool_)
+            outside[inside] = False
+            if radiance is not None:
+                radiance[:, inside] = 0
+        if self._ambient is not None:
+            radiance = _added(radiance, hits, self._ambient, outside)
         if self._glow is not None:
             radiance = _added(radiance, hits, self._glow, None)
         if hits.tint is not None and self.plan.has_ambient:
             # A texture colours the ambient term, and no other light that a surface gives off.
             change = self.lookups.ambient(hits.material) * (hits.tint - 1)
+            if outside is not None:
+                change *= outside
             radiance = change if radiance is None else np.add(radiance, change, out=radiance)
         if self._lamps is not None and sees is not None:
-            radiance = _added(radiance, hits, self._lamps, sees)
+            radiance = _added(radiance, hits, self._lamps, sees & hits.entering)
+        if self._objects is not None and sees is not None:
+            radiance = _added(radiance, hits, self._objects, sees)
         return radiance
 
 
@@ -202,12 +224,11 @@ def _glow(radiance: Floats32) -> Glow | None:
     return Glow(radiance, np.asarray(radiance.any(axis=0))) if radiance.any() else None
 
 
-def _added(radiance: Floats32 | None, hits: Hits, glow: Glow, sees: Mask | None) -> Floats32 | None:
-    """Radiance (3, n) or None for 0, and what the surfaces that glow add to it, seen from their front if ``sees``."""
+def _added(radiance: Floats32 | None, hits: Hits, glow: Glow, seen: Mask | None) -> Floats32 | None:
+    """Radiance (3, n) or None for 0, and what the surfaces that glow add to it, where they are seen or at all hits."""
     glows = glow.which.take(hits.material)
-    if sees is not None:
-        glows &= sees
-        glows &= hits.entering
+    if seen is not None:
+        glows &= seen
     which = np.flatnonzero(glows)
     if len(which) == 0:
         return radiance

@@ -26,6 +26,7 @@ class Plan:
     emits : some surface is a light that rays can see
     specular : some material has a highlight
     mirrors, refracts, absorbs : some reachable material does
+    dark_insides : some dielectric shows light on its outside, which its inside does not
     sees_environment : the environment isn't black
     max_depth : bounces that can happen in this scene
     light_dimensions : for each light, its first dimension at depth 0; None if it needs no numbers
@@ -46,6 +47,7 @@ class Plan:
     mirrors: bool
     refracts: bool
     absorbs: bool
+    dark_insides: bool
     sees_environment: bool
     max_depth: int
     lens_dimension: int | None
@@ -116,6 +118,9 @@ def make_plan(world: World, settings: Settings) -> Plan:
         mirrors=mirrors,
         refracts=refracts,
         absorbs=refracts and bool(m.absorption.any()),
+        dark_insides=bool(
+            (m.refracts & (m.shaded | (m.ambient * world.ambient[:, None]).any(0))).any()
+        ),
         sees_environment=not world.environment.black,
         max_depth=settings.max_depth if mirrors or refracts or scatters else 0,
         lens_dimension=lens_dimension,

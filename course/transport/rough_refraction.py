@@ -58,7 +58,7 @@ def scatter(
     path: Indices,
     direction: Floats32,
 ) -> None:
-    """Jitter the directions of rays that go on through rough glass, and keep them on the far side.
+    """Jitter the directions of rays that go on through rough glass, to the far side unless they are kept.
 
     Parameters
     ----------
@@ -71,8 +71,12 @@ def scatter(
         u = blur.draws("refraction", dimension, WIDTH, path.take(which))
         normal = ng.take(which, axis=1)
         through = bent.take(which, axis=1)
-        # An interpolated normal may refract a ray back to where it came from; mirror it to the far side.
-        through -= 2 * np.maximum(dot(through, normal), 0) * normal
+        if blur.keeps:
+            # Jitter never turns a direction back: seen from where it comes from, all of it is on the far side.
+            normal = -through
+        else:
+            # An interpolated normal may refract a ray back to where it came from; mirror it to the far side.
+            through -= 2 * np.maximum(dot(through, normal), 0) * normal
         direction[:, which] = glass.jitter_refraction(through, normal, glass.roughness, u)
 
 

@@ -28,9 +28,14 @@ def skylight(
     dimension : the first of the two dimensions of this bounce's sky
     """
     which, ns, ng = np.arange(hits.size), hits.ns, hits.ng
-    diffuses = world.materials.diffuses
-    if not diffuses.all():
-        which = np.flatnonzero(diffuses.take(hits.material))
+    diffuses, refracts = world.materials.diffuses, world.materials.refracts
+    glass = bool((diffuses & refracts).any())
+    if glass or not diffuses.all():
+        shows = diffuses.take(hits.material)
+        if glass:
+            # The inside of glass shows no light from outside.
+            shows &= hits.entering | ~refracts.take(hits.material)
+        which = np.flatnonzero(shows)
         if len(which) == 0:
             return None
         ns, ng = ns.take(which, axis=1), ng.take(which, axis=1)

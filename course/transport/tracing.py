@@ -20,6 +20,7 @@ from course.transport.bounce import bounced
 from course.transport.counters import Counters
 from course.transport.direct import direct_light
 from course.transport.gloss import Blur
+from course.transport.insides import insides
 from course.transport.paths import OPEN, Draws, Rays, together
 from course.transport.plan import PIXEL_WIDTH, Lookups, Plan, make_lookups, make_plan
 
@@ -214,10 +215,10 @@ class Tracer:
             mine[stuck] = theirs
 
     def _blur(self, depth: int, draws: Draws) -> Blur | None:
-        if not self.world.lobes:
+        if not (self.world.lobes or self.world.keeps):
             return None
         dimension = self.plan.gloss_dimension + depth * self.plan.bounce_stride
-        return Blur(self.world.lobes, dimension, draws)
+        return Blur(self.world.lobes, dimension, draws, self.world.keeps)
 
     def _shade(self, hits: Hits, path: Indices | None, depth: int, draws: Draws) -> Floats32 | None:
         """Radiance (3, n) that leaves the hits towards the viewer without another bounce."""
@@ -238,6 +239,13 @@ class Tracer:
             elif term.shape[1] == 1:
                 term = np.repeat(term, hits.size, axis=1)
             radiance = term if radiance is None else np.add(radiance, term, out=radiance)
+        inside = insides(self.plan, self.lookups, hits)
+        if radiance is not None and len(inside):
+            # Nothing but what it sends out by itself.
+            glow = self.world.materials.glowing.take(hits.material.take(inside), axis=1)
+            radiance[:, inside] = (
+                glow if hits.tint is None else glow * hits.tint.take(inside, axis=1)
+            )
         return radiance
 
     def _add_environment(self, film: Floats32, rays: Rays, missed: Mask) -> None:

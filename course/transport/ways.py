@@ -111,7 +111,7 @@ def mirrored(
     ng : (3, m) geometric normals of those hits
     path : (m,) of those hits
     """
-    way = mirrored_above(hits, which, ng)
+    way = mirrored_above(hits, which, ng, blur is not None and blur.keeps)
     return way if blur is None else blur(hits.material.take(which), way, ng, path)
 
 
@@ -124,7 +124,8 @@ def refracted(
     ----------
     boundary, path : of those hits
     """
-    if hits.compiled and plan.refraction_dimension is None:
+    keeps = blur is not None and blur.keeps
+    if hits.compiled and plan.refraction_dimension is None and not keeps:
         from course.transport import way_kernels
 
         way = np.empty((3, len(which)), np.float32)
@@ -134,7 +135,8 @@ def refracted(
     direction, ns = hits.direction.take(which, axis=1), hits.ns.take(which, axis=1)
     ng = hits.ng.take(which, axis=1)
     way = refract(direction, ns, boundary.cos_i, boundary.cos_t, boundary.eta)
-    way = kept_above(way, -ng)
+    if not keeps:
+        way = kept_above(way, -ng)
     if boundary.bent is not None and blur is not None and plan.refraction_dimension is not None:
         # As far into this depth's dimensions as the gloss is.
         dimension = plan.refraction_dimension + blur.dimension - plan.gloss_dimension

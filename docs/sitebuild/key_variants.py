@@ -50,6 +50,11 @@ LENS = {"camera.lens": {"aperture_radius": 0.15, "focus_distance": 5}, "sampler.
 MOVING = {"objects.1.motion": {"velocity": [1.2, 0, 0]}, "sampler.samples": 64}
 SKY = {"type": "lat_long", "image": "environments/sky.exr", "lights": True}
 SKYLIT = {"lights": [], "environment": SKY, **POLISHED}
+OVERCAST = {
+    "lights": [],
+    "environment": {"type": "constant", "radiance": 0.8, "lights": True},
+    "sampler": {"type": "random", "samples": 4},
+}
 WINDOW = {
     "type": "rectangle",
     "corner": [-2.1, 0.3, -2],
@@ -57,6 +62,16 @@ WINDOW = {
     "edge_v": [0, 0, 3],
     "radiance": 6,
 }
+LANTERNS = {
+    **ALONE,
+    "sampler.samples": 64,
+    "environment.radiance": 0,
+    "objects.1.name": "ball",
+    "objects.3.name": "cone",
+    "materials.ball.emission": [1.6, 0.5, 0.3],
+    "materials.near.emission": [4, 2.6, 0.6],
+}
+"""Two that glow, and either lights the others where it is one of the lights."""
 PLAIN = {"materials.floor": {"color": 0.5}}
 COARSE = {"film.width": 66, "film.height": 44, "sampler.samples": 1, "lights.1.radius": 0, **PLAIN}
 """Pixels that can be seen, with a ray each, and neither noise nor a pattern in what they show."""
@@ -190,6 +205,10 @@ VARIANTS: dict[tuple[str, str], list[tuple[str, Changes]]] = {
         "random",
         "jittered",
         "sobol",
+        "halton",
+        "hammersley",
+        "chained",
+        "xorshift",
         on={"sampler.samples": 4, "lights.1.radius": 1.2},
     ),
     ("SamplerDescription", "samples"): _values(
@@ -199,12 +218,29 @@ VARIANTS: dict[tuple[str, str], list[tuple[str, Changes]]] = {
         "integrator.type", "distribution", "path", on={**ALONE, "sampler.samples": 64}
     ),
     ("IntegratorDescription", "max_depth"): _values("integrator.max_depth", 0, 1, 5, on=GLASS),
+    ("IntegratorDescription", "into_surface"): _values(
+        "integrator.into_surface",
+        "mirror",
+        "keep",
+        on={
+            **POLISHED,
+            **SHINY,
+            "materials.ball.gloss": {"lobe": "phong", "exponent": 0},
+            "integrator.max_depth": 1,
+        },
+    ),
+    ("IntegratorDescription", "terminator"): _values(
+        "integrator.terminator", "round", "facets", on={**ALONE, "objects.1.segments": 12}
+    ),
     ("ConstantEnvironment", "radiance"): _values("environment.radiance", 0.05, [0.3, 0.38, 0.5]),
     ("ConstantEnvironment", "lights"): _values(
         "environment.lights", False, True, on={"lights": []}
     ),
     ("ConstantEnvironment", "seen_by"): _values(
         "environment.seen_by", "all", "camera", on=POLISHED
+    ),
+    ("ConstantEnvironment", "sampling"): _values(
+        "environment.sampling", "uniform", "cosine", "power", on=OVERCAST
     ),
     ("CubeEnvironment", "cross"): [
         (
@@ -342,6 +378,10 @@ VARIANTS: dict[tuple[str, str], list[tuple[str, Changes]]] = {
             {**ALONE, "sampler.samples": 1, "lights.1": {**WINDOW, "samples": value}},
         )
         for value in ("point", "grid 4")
+    ],
+    ("ObjectLight", "object"): [
+        (f"object: {name}", {**LANTERNS, "lights.1": {"type": "object", "object": name}})
+        for name in ("ball", "cone")
     ],
     ("SphereLight", "radius"): _values("lights.1.radius", 0.1, 1, 2.5),
     ("SphereLight", "intensity"): _values("lights.1.intensity", 20, 60, [60, 40, 15]),

@@ -14,6 +14,19 @@ FLAT = ("Quad", "Box", "Disk")
 WORDS: dict[tuple[str, str], str] = {
     ("SceneDescription", "title"): NOTHING,
     ("IntegratorDescription", "roulette"): "It changes the noise and the time, not what is shown.",
+    (
+        "MeshFile",
+        "normals",
+    ): "It shows in coarse meshes alone, whose triangles differ much in size.",
+    ("AccelerationDescription", "type"): "Both find the same triangles: the picture is the same.",
+    (
+        "AccelerationDescription",
+        "leaf_size",
+    ): "It changes the tests and the time, not what is shown.",
+    (
+        "LensDescription",
+        "samples",
+    ): "All fill the disk evenly: noise and time change, not what is shown.",
     **{(shape, "name"): NOTHING for shape in SHAPES},
     **{(shape, "shading"): "Its faces are flat: both look the same." for shape in FLAT},
 }
@@ -22,7 +35,9 @@ ELSEWHERE: dict[tuple[str, str], tuple[str, str]] = {
     ("CubeEnvironment", "lookup"): ("LatLongEnvironment", "lookup"),
     ("CubeEnvironment", "scale"): ("LatLongEnvironment", "scale"),
     ("CubeEnvironment", "lights"): ("LatLongEnvironment", "lights"),
+    ("CubeEnvironment", "sampling"): ("ConstantEnvironment", "sampling"),
     ("CubeEnvironment", "seen_by"): ("ConstantEnvironment", "seen_by"),
+    ("LatLongEnvironment", "sampling"): ("ConstantEnvironment", "sampling"),
     ("LatLongEnvironment", "seen_by"): ("ConstantEnvironment", "seen_by"),
     ("RectangleLight", "intensity"): ("SphereLight", "intensity"),
     ("SphereLight", "radiance"): ("RectangleLight", "radiance"),

@@ -95,14 +95,14 @@ def _shown(
         file = webp.save_blank(place.made / f"{flat}.webp", size)
         text = "not rendered in this build"
     else:
-        file, text = _kept(scene, command, make)
+        file, text = kept_picture(scene, command, make)
     address = place.address(f"_pictures/{flat}.webp", file)
     image = f'<img src="{address}" alt="{escape(title)}" width="{size[0]}" height="{size[1]}" loading="lazy">'
     target = f"_scenes/{flat}{scene.suffix}"
     return laid_out(title, image, command, text, scene, place.address(target, scene))
 
 
-def _kept(scene: Path, command: str, make: Callable[[], Made]) -> tuple[Path, str]:
+def kept_picture(scene: Path, command: str, make: Callable[[], Made]) -> tuple[Path, str]:
     """Make the picture, unless it is kept with what was said about it."""
     files = [scene, *sorted(scene.parent.glob("*.ply"))]
     hashes = [sha256(path.read_bytes()).hexdigest() for path in files]

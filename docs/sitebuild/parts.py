@@ -28,8 +28,10 @@ from sitebuild.other_shots import metu_shot, radiosity_shot
 from sitebuild.pattern_explorer import pattern_explorer
 from sitebuild.peer_times import peer_times
 from sitebuild.place import Place
+from sitebuild.radiosity_pictures import radiosity_flight, radiosity_steps
 from sitebuild.scene_keys import scene_keys
 from sitebuild.series import series
+from sitebuild.series_grid import series_grid
 from sitebuild.shots import before_after, picture, shot
 from sitebuild.signatures import linked
 
@@ -50,9 +52,12 @@ PARTS: dict[str, Part] = {
     "pattern_explorer": pattern_explorer,
     "peer_times": peer_times,
     "picture": picture,
+    "radiosity_flight": radiosity_flight,
     "radiosity_shot": radiosity_shot,
+    "radiosity_steps": radiosity_steps,
     "scene_keys": scene_keys,
     "series": series,
+    "series_grid": series_grid,
     "shot": shot,
 }
 

@@ -106,7 +106,7 @@ def test_what_a_cluster_needs_and_does_not_take_is_told_before_the_work(
         "--size 65537x1",
         "--size -1x5",
         "--size 1e2x5",
-        "--sampler halton",
+        "--sampler latin",
         "--seed -1",
         "--seed 4294967296",
         "--threads 0",

@@ -308,7 +308,7 @@ class Page:
             # A ball of each is seen.
             balls = [{**MINIMAL["objects"][0], "material": name} for name in found["materials"]]
             scene["materials"] = MINIMAL["materials"] | found["materials"]
-            scene["objects"] = [*MINIMAL["objects"], *balls]
+            scene["objects"] = [*found.get("objects", MINIMAL["objects"]), *balls]
         self._render(yaml.safe_dump(scene), Path("scenes", "part.yaml"))
         if self.name in REPLACED and isinstance(found, list):
             file, there = REPLACED[self.name]

@@ -104,7 +104,8 @@ def test_every_command_is_one_that_the_program_takes(name: str) -> None:
 def test_every_series_is_on_a_page() -> None:
     pages = [path.read_text(encoding="utf-8") for path in (PROJECT / "docs").rglob("*.md")]
     for name in SERIES:
-        assert any(f"<!-- site: series {name} -->" in page for page in pages), name
+        marks = [f"<!-- site: {kind} {name} -->" for kind in ("series", "series_grid")]
+        assert any(mark in page for page in pages for mark in marks), name
 
 
 def test_words_say_the_values() -> None:

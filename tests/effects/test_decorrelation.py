@@ -22,9 +22,10 @@ import pytest
 from numpy.typing import NDArray
 
 from course import Scene
-from course.core.samplers import Block, make_sampler
+from course.core.samplers import FUNCTIONS, Block, make_sampler
 from course.core.samplers.sobol import SobolSampler
 from course.core.types import Indices
+from course.effects import Effects
 from course.rendering.binding import bind
 from course.rendering.passes import passes
 from course.transport.counters import Counters
@@ -96,12 +97,10 @@ def measures(
     drawn: list[tuple[int, int]], name: str, samples: int, seed: int
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """For all pairs of dimensions: the measure of the module's head, and the correlation's mean over the pixels."""
-    place = None
-    if name != "sobol":
-        from course.effects import Effects
-
-        place = Effects().function("supersampling", name)
-    sampler = make_sampler(name, seed, place)
+    effects = Effects()
+    sampler = make_sampler(
+        name, seed, *(effects.function(*function) for function in FUNCTIONS[name])
+    )
     block = Block(np.arange(PIXELS, dtype=np.uint32), 0, samples, 0)
     u = np.concatenate([sampler.draw(block, *numbers) for numbers in drawn]).astype(np.float64)
     z = u.reshape(len(u), PIXELS, samples)
@@ -113,7 +112,7 @@ def measures(
 
 
 @pytest.mark.parametrize("samples", [16, 64])
-@pytest.mark.parametrize("name", ["sobol", "jittered", "random"])
+@pytest.mark.parametrize("name", ["sobol", "jittered", "random", "chained", "xorshift"])
 def test_no_two_dimensions_of_a_path_go_together_within_a_pixel(
     drawn: list[tuple[int, int]], name: str, samples: int
 ) -> None:
@@ -122,7 +121,7 @@ def test_no_two_dimensions_of_a_path_go_together_within_a_pixel(
 
 
 @pytest.mark.parametrize("samples", [16, 64])
-@pytest.mark.parametrize("name", ["sobol", "jittered", "random"])
+@pytest.mark.parametrize("name", ["sobol", "jittered", "random", "chained", "xorshift"])
 def test_no_two_dimensions_of_a_path_go_together_over_the_picture(
     drawn: list[tuple[int, int]], name: str, samples: int
 ) -> None:

@@ -488,17 +488,57 @@ def test_missing_file_and_folder_are_told_apart(tmp_path: Path) -> None:
         read_mesh(folder)
 
 
-def test_binary_ply_of_mixed_polygons_is_refused_not_misread(tmp_path: Path) -> None:
+PENTAGON_AND_MORE = [[0, 3, 4], [0, 1, 2, 3], [0, 1, 2, 3, 4], [2, 3]]
+"""Polygons of four lengths; the last one has no area."""
+
+
+def polygon_ply(order: str, faces: list[list[int]], extra: bool = False) -> bytes:
+    """A PLY file of five points, ascii or binary; with `extra` properties around the lists, and an element behind."""
+    around = ["property uchar flag\n", "property short mark\n"] if extra else ["", ""]
     header = (
-        "ply\nformat binary_little_endian 1.0\nelement vertex 4\n"
+        f"ply\nformat {order} 1.0\nelement vertex 5\n"
         "property float x\nproperty float y\nproperty float z\n"
-        "element face 2\nproperty list uchar int vertex_indices\nend_header\n"
+        f"element face {len(faces)}\n{around[0]}property list ushort int vertex_indices\n{around[1]}"
+        + ("element rest 2\nproperty int number\n" if extra else "")
+        + "end_header\n"
     )
-    points = np.zeros((4, 3), "<f4").tobytes()
-    quad_and_triangle = struct.pack("<B4iB3i", 4, 0, 1, 2, 3, 3, 0, 1, 2)
-    # Padded to the length of two quads, so that only the counts tell.
-    data = header.encode() + points + quad_and_triangle + b"\0" * 4
-    with pytest.raises(GeometryError, match="differ in length"):
+    points = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [-1, 0.5, 0]])
+    if order == "ascii":
+        rows = [*points.tolist(), *([len(face), *face] for face in faces)]
+        return (header + "".join(" ".join(map(str, row)) + "\n" for row in rows)).encode()
+    sign = "<" if "little" in order else ">"
+    data = points.astype(f"{sign}f4").tobytes()
+    for face in faces:
+        data += b"\7" if extra else b""
+        data += struct.pack(f"{sign}H{len(face)}i", len(face), *face) + (b"\7\7" if extra else b"")
+    return header.encode() + data + (b"\0" * 8 if extra else b"")
+
+
+@pytest.mark.parametrize("extra", [False, True])
+@pytest.mark.parametrize("order", ["binary_little_endian", "binary_big_endian"])
+def test_binary_ply_of_mixed_polygons_is_cut_into_fans(
+    tmp_path: Path, order: str, extra: bool
+) -> None:
+    mesh = read_mesh(saved(tmp_path, "mixed.ply", polygon_ply(order, PENTAGON_AND_MORE, extra)))
+    fans = [[0, 3, 4], [0, 1, 2], [0, 2, 3], [0, 1, 2], [0, 2, 3], [0, 3, 4]]
+    assert mesh.triangles.tolist() == fans
+    assert mesh.vertices[4].tolist() == [-1, 0.5, 0]
+
+
+def test_ascii_ply_of_mixed_polygons_has_the_same_triangles(tmp_path: Path) -> None:
+    mesh = read_mesh(saved(tmp_path, "mixed.ply", polygon_ply("ascii", PENTAGON_AND_MORE[:2])))
+    assert {frozenset(corners) for corners in mesh.triangles.tolist()} == {
+        frozenset(corners) for corners in ([0, 3, 4], [0, 1, 2], [0, 2, 3])
+    }
+
+
+@pytest.mark.parametrize("change", [lambda data: data + b"\0" * 4, lambda data: data[:-4]])
+def test_mixed_polygons_of_another_length_than_the_file_are_refused(
+    tmp_path: Path, change: Callable[[bytes], bytes]
+) -> None:
+    """Padded, it has the length of two quads."""
+    data = change(polygon_ply("binary_little_endian", [[0, 1, 2, 3], [0, 1, 2]]))
+    with pytest.raises(GeometryError, match=r"unexpected length|differ in length"):
         read_mesh(saved(tmp_path, "mixed.ply", data))
 
 

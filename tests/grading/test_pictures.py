@@ -168,3 +168,19 @@ def test_a_bias_of_one_percent_is_found_under_noise_of_ten() -> None:
     check_bias([picture(0) for _ in range(4)], expected)
     with pytest.raises(Failure, match="block 0 across, 0 down"):
         check_bias([picture(0.12) for _ in range(4)], expected)
+
+
+@pytest.mark.parametrize(
+    ("module", "function"),
+    [("blurred_transparency", "jitter_refraction"), ("path_tracing", "diffuse_bounce")],
+)
+def test_what_comes_before_is_replayed_for_every_picture_of_a_bias(
+    module: str, function: str
+) -> None:
+    """Right whatever the functions before it do, and four different pictures."""
+    (check,) = (c for c in PICTURES[module] if c.function == function and c.kind == "bias")
+    others = {name: _raises for name in COURSE[module] if name != function}
+    assert judged(module, check, solution(module, **others)).status is Status.PASSED
+    tape = prepared(reference(module), 0)(module, check)
+    before = {"blurred_transparency": "tape/refract/{}/0", "path_tracing": "tape/throughput/{}"}
+    assert {before[module].format(number) for number in range(4)} <= set(tape)

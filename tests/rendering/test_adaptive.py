@@ -729,12 +729,18 @@ def test_an_error_that_cannot_be_is_refused(make_scene: MakeScene, error: float)
         render(make_scene(), error=error, spp=64)
 
 
-@pytest.mark.parametrize("sampler", ["jittered", "regular"])
+@pytest.mark.parametrize("sampler", ["jittered", "regular", "hammersley", "chained"])
 def test_points_that_are_placed_all_at_once_cannot_go_on(
     make_scene: MakeScene, sampler: str
 ) -> None:
-    with pytest.raises(CourseError, match=f"the {sampler} sampler .* use sobol or random"):
+    remedy = "all its samples at once.* use sobol, random or xorshift"
+    with pytest.raises(CourseError, match=f"the {sampler} sampler places {remedy}"):
         render(make_scene(), error=0.1, sampler=sampler, spp=64)
+
+
+def test_points_that_move_together_do_not_tell_their_error(make_scene: MakeScene) -> None:
+    with pytest.raises(CourseError, match=r"the halton sampler .* together.* use sobol, random or"):
+        render(make_scene(), error=0.1, sampler="halton", spp=64)
 
 
 def test_there_must_be_samples_for_a_first_round(make_scene: MakeScene) -> None:

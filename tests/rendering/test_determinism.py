@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from course import Picture, Scene, render
+from course.core.samplers import FUNCTIONS
 from course.errors import CourseError
 from course.imaging.film import Film
 from course.imaging.tiles import Tile
@@ -20,7 +21,7 @@ from course.rendering.passes import Work, passes
 from course.rendering.pool import Pool
 from course.transport.counters import Counters
 
-SAMPLERS = ("sobol", "random", "jittered", "regular")
+SAMPLERS = tuple(FUNCTIONS)
 FILTERS = ("box", "gaussian")
 EveryStage = Callable[..., Scene]
 
@@ -40,7 +41,7 @@ def test_any_number_of_threads_gives_the_same_bits(
     every_stage: EveryStage, sampler: str, filter_: str
 ) -> None:
     scene = every_stage(film=film_of(filter_))
-    samples = {"sobol": 24, "random": 24, "jittered": 16, "regular": 16}[sampler]
+    samples = 16 if sampler in ("jittered", "regular") else 24
     one = render(scene, sampler=sampler, spp=samples, threads=1)
     assert np.isfinite(one.linear).all()
     assert one.linear.std() > 0

@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 from course import Scene, __version__, render
+from course.core.samplers import FUNCTIONS
 
 MakeScene = Callable[..., Scene]
 EveryStage = Callable[..., Scene]
@@ -189,7 +190,7 @@ def test_rays_below_the_cutoff_are_not_cast(make_scene: MakeScene) -> None:
         assert cost(scene)["rays"]["reflection"] == cast
 
 
-@pytest.mark.parametrize("sampler", ["sobol", "random", "jittered", "regular"])
+@pytest.mark.parametrize("sampler", FUNCTIONS)
 @pytest.mark.parametrize("filter_", ["box", "gaussian"])
 @pytest.mark.parametrize("samples", [1, 4])
 def test_exactly_the_needed_functions_are_called(
@@ -198,14 +199,15 @@ def test_exactly_the_needed_functions_are_called(
     film = {"width": 32, "height": 32, "filter": filter_}
     scene = make_scene(objects=[WALL], film=film)
     effects = cost(scene, sampler=sampler, spp=samples)["effects"]
-    expected = set() if sampler == "sobol" else {f"supersampling.{sampler}"}
+    expected = {".".join(function) for function in FUNCTIONS[sampler]}
     if filter_ == "gaussian":
         expected.add("supersampling.gaussian_weights")
     if samples > 1:
         expected.add("supersampling.resolve")
     assert set(effects["called"]) == expected
-    assert ("supersampling" in effects["skipped"]) == (not expected)
-    assert scene.effects.imported == (("supersampling",) if expected else ())
+    modules = {function.partition(".")[0] for function in expected}
+    assert ("supersampling" in effects["skipped"]) == ("supersampling" not in modules)
+    assert set(scene.effects.imported) == modules
 
 
 def test_a_continued_render_counts_only_its_own_rays(make_scene: MakeScene) -> None:

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from course import Scene, render
+from course.core.samplers import FUNCTIONS
 from course.rendering import pool, rendering
 
 MakeScene = Callable[..., Scene]
@@ -45,7 +46,7 @@ def scene(make_scene: MakeScene) -> Scene:
     )
 
 
-@pytest.mark.parametrize("sampler", ["sobol", "random", "jittered", "regular"])
+@pytest.mark.parametrize("sampler", FUNCTIONS)
 def test_with_time_to_spare_the_picture_is_the_one_without_a_limit(
     scene: Scene, sampler: str
 ) -> None:

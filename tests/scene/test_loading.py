@@ -102,8 +102,8 @@ def test_a_shared_value_may_be_given_by_alias_and_merge(
         ),
         (
             "diffuse: 0.9",
-            "diffuse: 1.5",
-            "13: materials.red.diffuse is 1.5: expected a number from 0 to 1",
+            "diffuse: -1.5",
+            "13: materials.red.diffuse is -1.5: expected a number from 0 to 1000000",
         ),
         (
             "mirror: {mirror: 0.9}",
@@ -313,7 +313,7 @@ def test_a_map_that_nobody_expects_is_shown_by_example(
             "",
             (
                 "19: lights[1]: type is missing: expected ambient, point, directional, "
-                "rectangle or sphere"
+                "rectangle, sphere or object"
             ),
         ),
         (
@@ -356,8 +356,8 @@ def test_a_missing_camera_is_named_at_the_first_line(refusal: Callable[[str], st
             "type: point",
             "type: pint",
             (
-                '19: lights[1].type is "pint": expected ambient, point, directional, rectangle '
-                "or sphere; did you mean point?"
+                '19: lights[1].type is "pint": expected ambient, point, directional, rectangle, '
+                "sphere or object; did you mean point?"
             ),
         ),
         (
@@ -367,8 +367,11 @@ def test_a_missing_camera_is_named_at_the_first_line(refusal: Callable[[str], st
         ),
         (
             "type: jittered",
-            "type: halton",
-            '9: sampler.type is "halton": expected jittered, random, regular or sobol',
+            "type: faure",
+            (
+                '9: sampler.type is "faure": expected chained, halton, hammersley, jittered, random, '
+                "regular, sobol or xorshift"
+            ),
         ),
     ],
 )

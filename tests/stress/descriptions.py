@@ -184,6 +184,17 @@ def _repaired(description: dict[str, Any]) -> dict[str, Any]:
                     light.pop(key, None)
             elif light.get("two_sided"):
                 light["visible"] = False
+    for number, light in enumerate(description["lights"]):
+        if light["type"] == "object":
+            # Seldom, with more lights than objects, two of them name one, which is refused.
+            which = number % len(description["objects"])
+            thing = description["objects"][which]
+            light["object"] = thing["name"] = f"lamp {which}"
+            description["materials"][thing["material"]].setdefault("emission", 2.0)
+    things = [*description["objects"], *description["lights"]]
+    if any(any(thing.get("motion", {}).get("velocity", [])) for thing in things):
+        # A hierarchy holds what stands still.
+        description.pop("acceleration", None)
     for material in description["materials"].values():
         if material.get("dielectric") is not None and material.get("conductor") is not None:
             material.pop("conductor")

@@ -77,7 +77,10 @@ def test_what_arrives(hits: Hits, of_its_own: bool, normal: Any, two_sided: bool
 
 
 @pytest.mark.parametrize("shape", [N, 1], ids=["a direction each", "one direction"])
-@pytest.mark.parametrize("shaded", [None, [True, False, True, True], [False] * 4])
+@pytest.mark.parametrize(
+    "shaded",
+    [None, [[True, False, True, True]], [[False] * 4], [[True] * 4, [True, False, False, True]]],
+)
 def test_which_hits_face_the_light(hits: Hits, shape: int, shaded: Any) -> None:
     rng = np.random.default_rng(7)
     to_light = rng.normal(size=(3, shape)).astype(np.float32)

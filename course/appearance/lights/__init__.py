@@ -13,17 +13,21 @@ Each compiled light has
 from __future__ import annotations
 
 from course.appearance.lights.directional import DirectionalLight
+from course.appearance.lights.mesh import MeshLight
 from course.appearance.lights.point import PointLight
 from course.appearance.lights.rectangle import RectangleLight
 from course.appearance.lights.sample import Sample
 from course.appearance.lights.sphere import SphereLight
 from course.appearance.lights.visible_sphere import VisibleSphereLight
 
-Light = PointLight | DirectionalLight | RectangleLight | SphereLight | VisibleSphereLight
+Light = (
+    PointLight | DirectionalLight | RectangleLight | SphereLight | VisibleSphereLight | MeshLight
+)
 
 __all__ = [
     "DirectionalLight",
     "Light",
+    "MeshLight",
     "PointLight",
     "RectangleLight",
     "Sample",

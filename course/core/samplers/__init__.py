@@ -7,18 +7,32 @@ A sampler has a ``name``, says whether its points may be extended from n to 2n s
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Protocol
+from typing import Any, Protocol
 
 from course.core.samplers.block import Block
+from course.core.samplers.low_discrepancy import ChainedSampler, HaltonSampler, HammersleySampler
 from course.core.samplers.sobol import SobolSampler
 from course.core.samplers.stratified import (
     JitteredSampler,
     RandomSampler,
     RegularSampler,
 )
+from course.core.samplers.xorshift import XorshiftSampler
 from course.core.types import Floats32
 
-__all__ = ["Block", "Sampler", "make_sampler"]
+__all__ = ["FUNCTIONS", "Block", "Sampler", "make_sampler"]
+
+FUNCTIONS: dict[str, tuple[tuple[str, str], ...]] = {
+    "sobol": (),
+    "random": (("supersampling", "random"),),
+    "jittered": (("supersampling", "jittered"),),
+    "regular": (("supersampling", "regular"),),
+    "halton": (("quasi_monte_carlo", "halton"),),
+    "hammersley": (("quasi_monte_carlo", "hammersley"),),
+    "chained": (("quasi_monte_carlo", "hammersley"), ("quasi_monte_carlo", "chain")),
+    "xorshift": (("sampling", "xorshift32"),),
+}
+"""Every sampler, and the module and name of each function that its numbers come from."""
 
 
 class Sampler(Protocol):
@@ -32,17 +46,24 @@ class Sampler(Protocol):
         ...
 
 
-def make_sampler(name: str, seed: int, place: Callable[..., Floats32] | None) -> Sampler:
+def make_sampler(
+    name: str, seed: int, place: Callable[..., Any] | None = None, *further: Callable[..., Any]
+) -> Sampler:
     """The sampler of that name.
 
     Parameters
     ----------
-    place : the function of the supersampling module that has the sampler's name; ``sobol`` needs none
+    place, further : the functions that FUNCTIONS has for it, in that order; None for ``sobol``, which needs none
     """
     if place is None:
         return SobolSampler(seed)
-    if name == "random":
-        return RandomSampler(seed, place)
-    if name == "jittered":
-        return JitteredSampler(seed, place)
-    return RegularSampler(seed, place)
+    kinds: dict[str, Callable[..., Sampler]] = {
+        "random": RandomSampler,
+        "jittered": JitteredSampler,
+        "regular": RegularSampler,
+        "halton": HaltonSampler,
+        "hammersley": HammersleySampler,
+        "chained": ChainedSampler,
+        "xorshift": XorshiftSampler,
+    }
+    return kinds[name](seed, place, *further)

@@ -75,6 +75,42 @@ def _lens(rng: np.random.Generator) -> tuple[Any, ...]:
     return np.zeros(3, np.float32), *_AXES, directions, _units(rng, 2) * np.float32(0.1), 4.0
 
 
+def _down(rng: np.random.Generator) -> tuple[Array, Array]:
+    """Directions of travel, and normals that they come from the outside of."""
+    directions, normals = _directions(rng), _directions(rng)
+    below = (directions * normals).sum(axis=0) > 0
+    directions[:, below] *= -1
+    return directions, normals
+
+
+def _cosines(rng: np.random.Generator) -> Array:
+    cosines: Array = _units(rng, 1)[0]
+    return cosines
+
+
+def _through(rng: np.random.Generator) -> tuple[Any, ...]:
+    """Directions beyond the boundary, as ``jitter_refraction`` takes them."""
+    return *_down(rng), 0.2, _units(rng, 2)
+
+
+def _cells(rng: np.random.Generator) -> tuple[Array, ...]:
+    low, size = _units(rng, 2), _units(rng, 2)
+    return low[0], low[1], low[0] + size[0], low[1] + size[1]
+
+
+def _patterns(rng: np.random.Generator) -> tuple[Any, ...]:
+    patterns = tuple(rng.random((2, 64), np.float32) for _ in range(4))
+    return patterns, rng.integers(0, 64, N), rng
+
+
+def _numbers(rng: np.random.Generator) -> Array:
+    return rng.integers(0, 1 << 20, N)
+
+
+_P1, _P2, _P3 = (np.array(p, np.float32) for p in ((0, 0, 0), (2, 0, 0), (0, 0, 1)))
+_UV = tuple(np.array(p, np.float32) for p in ((0, 0), (1, 0), (0, 1)))
+
+
 SPEEDS: dict[str, tuple[Check, ...]] = {
     "supersampling": (
         _speed("regular", lambda _: (4, N // 16)),
@@ -117,5 +153,47 @@ SPEEDS: dict[str, tuple[Check, ...]] = {
         _speed("lookup", lambda rng: (_faces(rng), _directions(rng))),
         _speed("lookup_seamless", lambda rng: (_faces(rng), _directions(rng))),
     ),
+    "sampling": (
+        _speed("disk_by_rejection", lambda rng: (N, rng)),
+        _speed("disk_by_polar", _u(2)),
+        _speed("ball_by_rejection", lambda rng: (N, rng)),
+        _speed("ball_by_polar", _u(3)),
+        _speed("sphere_by_polar", _u(2)),
+        _speed("xorshift32", lambda rng: (rng.integers(1, 1 << 32, N, np.uint32),)),
+    ),
+    "importance_sampling": (
+        _speed("uniform_hemisphere", _u(2)),
+        _speed("cosine_hemisphere", _u(2)),
+        _speed("cosine_hemisphere_pdf", lambda rng: (_cosines(rng),)),
+        _speed("phong_lobe_pdf", lambda rng: (_cosines(rng), 20.0)),
+        _speed("estimate", lambda rng: (_units(rng, 3), 1 + _cosines(rng))),
+        _speed("power_heuristic", lambda rng: (_cosines(rng), 1 + _cosines(rng))),
+    ),
+    "blurred_transparency": (
+        _speed("refract", lambda rng: (*_down(rng), 1 / 1.5)),
+        _speed("jitter_refraction", _through),
+        _speed("fresnel", lambda rng: (_cosines(rng), 1 / 1.5)),
+    ),
+    "adaptive_sampling": (
+        _speed("needs_subdivision", lambda rng: (_units(rng, 12).reshape(3, 4, N), 0.5)),
+        _speed("subdivide", _cells),
+    ),
+    "textures": (
+        _speed("rectangle_uv", lambda rng: (_units(rng, 3), _P1, _P2, _P3)),
+        _speed("sphere_uv", lambda rng: (_directions(rng), _P1)),
+        _speed("triangle_uv", lambda rng: (_units(rng, 3), *_UV)),
+        _speed("texture_lookup", lambda rng: (_faces(rng)[0], 4 * _units(rng, 2))),
+    ),
+    "quasi_monte_carlo": (
+        _speed("radical_inverse", lambda rng: (3, _numbers(rng))),
+        _speed("halton", lambda rng: (_numbers(rng), 4)),
+        _speed("hammersley", lambda _: (N, 4)),
+        _speed("chain", _patterns),
+    ),
+    "path_tracing": (
+        _speed("diffuse_bounce", lambda rng: (_directions(rng), _units(rng, 2))),
+        _speed("throughput", lambda rng: (_units(rng, 3), _units(rng, 3))),
+        _speed("russian_roulette", lambda rng: (_units(rng, 3), _cosines(rng))),
+    ),
 }
-"""By module."""
+"""By module; the functions that walk trees or make whole matrices, `traverse` and its kin, have none."""

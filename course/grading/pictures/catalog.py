@@ -113,5 +113,40 @@ PICTURES: dict[str, tuple[Check, ...]] = {
             noisy=False,
         ),
     ),
+    "textures": tuple(
+        check
+        for function, shape in (
+            ("rectangle_uv", "quad"),
+            ("sphere_uv", "sphere"),
+            ("triangle_uv", "mesh"),
+        )
+        for check in picture_checks(
+            "textures",
+            function,
+            lambda rng, shape=shape: scenes.painted(rng, shape),  # type: ignore[misc]
+            noisy=False,
+        )
+    ),
+    "path_tracing": picture_checks("path_tracing", "diffuse_bounce", scenes.glowing, noisy=True),
+    "blurred_transparency": (
+        *picture_checks(
+            "blurred_transparency",
+            "refract",
+            lambda rng: scenes.under_water(rng, "below"),
+            noisy=False,
+        ),
+        *picture_checks(
+            "blurred_transparency",
+            "jitter_refraction",
+            lambda rng: scenes.under_water(rng, "above", 64),
+            noisy=True,
+        ),
+        *picture_checks(
+            "blurred_transparency",
+            "fresnel",
+            lambda rng: scenes.under_water(rng, "flat"),
+            noisy=False,
+        ),
+    ),
 }
 """By module, in the order in which they run after the module's other checks."""

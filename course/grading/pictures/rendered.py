@@ -48,6 +48,10 @@ def loaded(description: scenes.Scene, find: Find, rng: np.random.Generator) -> S
         path.write_text(yaml.safe_dump(description), encoding="utf-8")
         if "cross" in description.get("environment", {}):
             Image.fromarray(scenes.cross(rng)).save(path.with_name("cross.png"))
+        if any("texture" in material for material in description["materials"].values()):
+            Image.fromarray(scenes.paint(rng)).save(path.with_name(scenes.PAINT))
+        if any("file" in thing for thing in description["objects"]):
+            path.with_name(scenes.SHEET).write_text(scenes.sheet(rng), encoding="utf-8")
         return load_scene(path, _Found(find, path.parent))
 
 
@@ -96,23 +100,30 @@ def picture_checks(
         return (looks,)
 
     def drawing(
-        description: scenes.Scene, caller: Caller, rng: np.random.Generator
+        description: scenes.Scene, stage: Stage, rng: np.random.Generator
     ) -> Callable[..., Array]:
         """Draws the same scene with any seed."""
-        scene = loaded(description, Stage(module, caller, function).function, rng)
-        return partial(rendered, scene, spp=BIAS_SAMPLES)
+        return partial(rendered, loaded(description, stage.function, rng), spp=BIAS_SAMPLES)
 
     def prepare_bias(caller: Caller, rng: np.random.Generator) -> dict[str, Array]:
         description = make(rng)
         first = int(rng.integers(1 << 20))
-        draw = drawing(description, caller, rng)
+        tape: dict[str, Array] = {}
+        draw = drawing(description, Stage(module, caller, function, recording=tape), rng)
+        # The student's pictures, for the tape alone; there is none where nothing comes before the function.
+        for number in range(BIAS_PICTURES):
+            draw(seed=first + number)
+            if not tape:
+                break
+        kept = {f"tape/{name}": array for name, array in tape.items()}
         seeds = range(first + BIAS_PICTURES, first + BIAS_PICTURES + BIAS_REFERENCES)
-        return {"blocks": np.stack([block_means(draw(seed=seed)) for seed in seeds])}
+        return {"blocks": np.stack([block_means(draw(seed=seed)) for seed in seeds])} | kept
 
     def run_bias(trial: Trial) -> None:
         description = make(trial.rng)
         first = int(trial.rng.integers(1 << 20))
-        draw = drawing(description, trial.caller, trial.rng)
+        stage = Stage(module, trial.caller, function, tape=_tape(trial.references))
+        draw = drawing(description, stage, trial.rng)
         check_bias(
             [draw(seed=first + number) for number in range(BIAS_PICTURES)],
             trial.references["blocks"],

@@ -182,6 +182,125 @@ def surroundings(rng: np.random.Generator, lookup: str) -> Scene:
     )
 
 
+SHEET = "sheet.obj"
+PAINT = "paint.png"
+
+
+def painted(rng: np.random.Generator, shape: str) -> Scene:
+    """One textured thing that fills most of the picture; the caller makes the files beside the scene."""
+    turn = [
+        {"rotate": {"axis": [0, 1, 0], "degrees": float(rng.uniform(-180, 180))}},
+        {"rotate": {"axis": [1, 0, 0], "degrees": float(rng.uniform(40, 70))}},
+        {"rotate": {"axis": [0, 0, 1], "degrees": float(rng.uniform(-30, 30))}},
+    ]
+    kinds: dict[str, dict[str, Any]] = {
+        "quad": {"shape": "quad", "width": float(rng.uniform(4, 5)), "depth": 3.2},
+        "sphere": {"shape": "sphere", "radius": 1.7, "segments": 128},
+        "mesh": {"shape": "mesh", "file": SHEET, "shading": "flat"},
+    }
+    return _scene(
+        camera={"eye": [0, 0.6, 7], "look_at": [0, 0, 0], "vertical_fov": 30},
+        sampler={"samples": 16},
+        materials={"painted": {"color": 1, "ambient": 1, "texture": {"image": PAINT}}},
+        lights=[{"type": "ambient", "radiance": 1}],
+        objects=[kinds[shape] | {"material": "painted", "transform": turn}],
+    )
+
+
+def sheet(rng: np.random.Generator) -> str:
+    """A crumpled sheet of 4 by 3 pieces, as OBJ; each is turned by itself and shows another part of a picture."""
+    x, y = np.meshgrid(np.linspace(-2, 2, 5), np.linspace(-1.6, 1.6, 4))
+    corners = np.stack((x, rng.uniform(-0.2, 0.2, x.shape), -y), axis=-1).reshape(-1, 3)
+    lines = ["v {:.6f} {:.6f} {:.6f}".format(*corner) for corner in corners]
+    around = np.array([[0, 0], [1, 0], [1, 1], [0, 1]]) / 3
+    for piece in range(12):
+        places = np.roll(around, int(rng.integers(4)), axis=0) + rng.random(2)
+        lines += ["vt {:.6f} {:.6f}".format(*place) for place in places]
+        row, column = divmod(piece, 4)
+        first, place = 5 * row + column + 1, 4 * piece + 1
+        four = zip((first, first + 1, first + 6, first + 5), range(place, place + 4), strict=True)
+        lines.append("f " + " ".join(f"{corner}/{number}" for corner, number in four))
+    return "\n".join(lines) + "\n"
+
+
+def paint(rng: np.random.Generator) -> np.ndarray[Any, np.dtype[np.uint8]]:
+    """A picture (6, 8, 3) of texels of all colours."""
+    return rng.integers(30, 255, (6, 8, 3)).astype(np.uint8)
+
+
+VIEWS: dict[str, tuple[list[float], list[float], int]] = {
+    "above": ([0, 1.9, 4.6], [0, -0.2, 0], 40),
+    "flat": ([0, 0.7, 5], [0, -0.1, 0], 36),
+    "below": ([0, -2.2, 2.6], [0, 0.3, 0.3], 60),
+}
+"""Of the water: eye, where to, and vertical field of view."""
+
+
+def under_water(rng: np.random.Generator, view: str, samples: int = 16) -> Scene:
+    """Bright posts on either side of a frosted surface, which mirrors if it is seen flat, and from below farther out.
+
+    One surface alone: no ray meets the glass twice, so what a function is asked doesn't depend on another's result.
+    """
+    colors = rng.uniform(0.1, 1, (6, 3))
+    eye, look_at, fov = VIEWS[view]
+    posts = [
+        _box(
+            f"post {i}",
+            [0.5, 1.2, 0.5],
+            [-2.2 + 0.9 * i + float(rng.uniform(-0.2, 0.2)), side * 0.9, -0.9 + 0.5 * (i % 3)],
+        )
+        for i in range(6)
+        for side in (-1, 1)
+    ]
+    return _scene(
+        camera={"eye": eye, "look_at": look_at, "vertical_fov": fov},
+        sampler={"samples": samples},
+        materials={
+            "water": {
+                "color": 0,
+                "dielectric": {
+                    "refraction_index": float(rng.uniform(1.3, 1.5)),
+                    "roughness": float(rng.uniform(0.3, 0.5)),
+                },
+            },
+            **{f"post {i}": _color(c) | {"ambient": 1} for i, c in enumerate(colors)},
+        },
+        environment={"type": "constant", "radiance": [0.15, 0.2, 0.3]},
+        lights=[{"type": "ambient", "radiance": 1}],
+        objects=[{"shape": "quad", "material": "water", "width": 60, "depth": 60}, *posts],
+    )
+
+
+def glowing(rng: np.random.Generator) -> Scene:
+    """Matt balls on a matt floor in a room whose walls glow; paths go on once, and meet a wall or something dark."""
+    walls: dict[str, tuple[list[float], list[float]]] = {
+        "left": ([0.1, 8, 14], [-5, 4, 1]),
+        "right": ([0.1, 8, 14], [5, 4, 1]),
+        "back": ([10, 8, 0.1], [0, 4, -5]),
+        "front": ([10, 8, 0.1], [0, 4, 8]),
+        "top": ([10, 0.1, 14], [0, 8, 1]),
+    }
+    glow = rng.uniform(0.3, 1, (len(walls), 3))
+    return _scene(
+        camera={"eye": [0, 3.2, 5], "look_at": [0, 0.6, 0], "vertical_fov": 34},
+        sampler={"samples": 64},
+        integrator={"type": "path", "max_depth": 1, "roulette": None},
+        materials={
+            "matt": {"color": [0.9, 0.8, 0.7]},
+            **{
+                name: {"color": 0, "emission": [float(v) for v in color]}
+                for name, color in zip(walls, glow, strict=True)
+            },
+        },
+        objects=[
+            {"shape": "quad", "material": "matt", "width": 10, "depth": 14},
+            _ball("matt", 0.8, [float(rng.uniform(-0.5, 0)), 0.8, 0]),
+            _ball("matt", 0.5, [1, 0.5, float(rng.uniform(0.4, 0.9))]),
+            *(_box(name, size, at) for name, (size, at) in walls.items()),
+        ],
+    )
+
+
 def everything(rng: np.random.Generator) -> Scene:
     """Every effect at once: lens, shutter, ball light, glossy floor, cube map and a Gaussian filter."""
     colors = rng.uniform(0.2, 0.9, (3, 3))

@@ -28,6 +28,10 @@ def _on_light(*arguments: Any) -> tuple[Shape, ...]:
     return ((3, arguments[-1].shape[1]),)
 
 
+def _places(points: Array, *_: Any) -> tuple[Shape, ...]:
+    return ((2, points.shape[1]),)
+
+
 SHAPES: dict[str, Callable[..., tuple[Shape, ...]]] = {
     "supersampling.regular": _points,
     "supersampling.random": _points,
@@ -48,14 +52,24 @@ SHAPES: dict[str, Callable[..., tuple[Shape, ...]]] = {
     "motion_blur.shutter_times": lambda open_, close, u: (u.shape,),  # noqa: ARG005 - the module's arguments
     "motion_blur.displacement": lambda _, time: ((3, len(time)),),
     "motion_blur.to_object_space": _like_first,
+    "path_tracing.diffuse_bounce": _like_first,
+    "textures.rectangle_uv": _places,
+    "textures.sphere_uv": _places,
+    "textures.triangle_uv": _places,
+    "blurred_transparency.refract": lambda d, *_: (d.shape, d.shape[1:]),
+    "blurred_transparency.jitter_refraction": _like_first,
+    "blurred_transparency.fresnel": _like_first,
     "cube_map.lookup": lambda _, direction: (direction.shape,),
     "cube_map.lookup_seamless": lambda _, direction: (direction.shape,),
 }
 """What each function that the engine calls returns for its arguments."""
 
+MASKS = {"blurred_transparency.refract": (1,)}
+"""Which of a function's results says yes or no."""
+
 
 def usable(function: str, value: Any, arguments: tuple[Any, ...]) -> Any:
-    """A student's value as the engine may use it: its own copy, in float32, no number larger than LARGEST.
+    """A student's value as the engine may use it: its own copy, in float32, no number larger than LARGEST; or bool.
 
     A wrong dtype costs where it is checked; here it is made harmless.
 
@@ -77,7 +91,13 @@ def usable(function: str, value: Any, arguments: tuple[Any, ...]) -> Any:
             )
         if not np.isfinite(part).all():
             raise StudentError("bad value", f"{function} returned numbers that are not finite")
-    arrays = tuple(np.clip(part, -LARGEST, LARGEST).astype(np.float32, order="C") for part in parts)
+    masks = MASKS.get(function, ())
+    arrays = tuple(
+        part.astype(bool, order="C")
+        if number in masks
+        else np.clip(part, -LARGEST, LARGEST).astype(np.float32, order="C")
+        for number, part in enumerate(parts)
+    )
     return arrays if isinstance(value, tuple) else arrays[0]
 
 

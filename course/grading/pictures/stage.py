@@ -37,9 +37,28 @@ def _seen(origins: Array, velocity: Array, time: Array) -> Array:
     return origins - _gone(velocity, time)
 
 
+def _pattern(_: Array, uv: Array) -> Array:
+    """Colours that repeat as a picture would, smooth everywhere."""
+    waves = np.array([[1, 0], [0, 1], [2, 1]], uv.dtype) @ uv
+    return (0.5 + 0.4 * np.cos(2 * np.pi * waves)).astype(uv.dtype)
+
+
+def _a_tenth(cosines: Array, _: Array) -> Array:
+    """So much is reflected at any angle."""
+    return np.full_like(cosines, 0.1)
+
+
+def _clear(directions: Array, *_: Any) -> Array:
+    """Glass that isn't frosted."""
+    return directions
+
+
 STAND_INS: dict[str, Callable[..., Array]] = {
     "supersampling.resolve": _mean,
     "glossy.keep_above": _as_it_is,
+    "textures.texture_lookup": _pattern,
+    "blurred_transparency.fresnel": _a_tenth,
+    "blurred_transparency.jitter_refraction": _clear,
     "motion_blur.displacement": _gone,
     "motion_blur.to_object_space": _seen,
 }
@@ -54,7 +73,8 @@ class Stage:
     module : whose functions ``caller`` has
     caller : the student's, or the reference's
     only : the one function that the picture is about
-    tape : recorded results of functions that come before it, ``NAME/NUMBER`` -> array
+    tape : recorded results of functions that come before it, ``NAME/NUMBER`` -> array, and ``NAME/NUMBER/PART`` where a
+        result is a tuple
     recording : where to put results of the others instead, when the caller is the reference
     """
 
@@ -83,13 +103,21 @@ class Stage:
             return lambda *arguments: self._record(name, self._caller.call(name, *arguments))
         return lambda *_: self._replay(name)
 
-    def _record(self, name: str, value: Array) -> Array:
+    def _record(self, name: str, value: Any) -> Any:
         assert self._recording is not None
-        self._recording[f"{name}/{self._next(name)}"] = value
+        call = f"{name}/{self._next(name)}"
+        if isinstance(value, tuple):
+            self._recording |= {f"{call}/{number}": part for number, part in enumerate(value)}
+            return tuple(part.copy() for part in value)
+        self._recording[call] = value
         return value.copy()
 
-    def _replay(self, name: str) -> Array:
-        return self._tape[f"{name}/{self._next(name)}"].copy()
+    def _replay(self, name: str) -> Any:
+        call = f"{name}/{self._next(name)}"
+        if call in self._tape:
+            return self._tape[call].copy()
+        parts = sum(recorded.startswith(f"{call}/") for recorded in self._tape)
+        return tuple(self._tape[f"{call}/{number}"].copy() for number in range(parts))
 
     def _next(self, name: str) -> int:
         number = self._played.get(name, 0)

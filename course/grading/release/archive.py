@@ -21,7 +21,19 @@ from course.imaging.atomic import replacing
 
 FOLDERS = {
     "course": {".py", ".typed", ".json", ".jinja"},
-    "scenes": {".yaml", ".webp", ".png", ".exr", ".ply", ".obj", ".stl", ".glb", ".md"},
+    "scenes": {
+        ".yaml",
+        ".xml",
+        ".json",
+        ".webp",
+        ".png",
+        ".exr",
+        ".ply",
+        ".obj",
+        ".stl",
+        ".glb",
+        ".md",
+    },
 }
 """Folders that students get, and the kinds of file in them."""
 

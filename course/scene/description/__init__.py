@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from course.scene.description.acceleration import AccelerationDescription
 from course.scene.description.camera import (
     CameraDescription,
     ImagePlaneDescription,
@@ -23,6 +24,7 @@ from course.scene.description.lights import (
     DirectionalLight,
     Light,
     LightDescription,
+    ObjectLight,
     PointLight,
     RectangleLight,
     SphereLight,
@@ -57,6 +59,7 @@ from course.scene.description.transforms import (
 from course.scene.description.values import Color, Reflectance, Vector, rgb
 
 __all__ = [
+    "AccelerationDescription",
     "Affine",
     "AmbientLight",
     "BallLobe",
@@ -88,6 +91,7 @@ __all__ = [
     "MotionDescription",
     "Object",
     "ObjectDescription",
+    "ObjectLight",
     "PhongLobe",
     "PlaneLobe",
     "PointLight",

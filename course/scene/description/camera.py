@@ -21,6 +21,13 @@ class LensDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_
         about("Shape of the aperture: a disk, the square around it, or a regular polygon in it."),
     ] = "disk"
     blades: Annotated[int, about("Corners of the polygon.", ge=3, le=32)] = 6
+    samples: Annotated[
+        Literal["point", "polar", "rejection"],
+        about(
+            "What places points on a disk: `point_on_disk` of the module thin_lens, or `disk_by_polar` or "
+            "`disk_by_rejection` of the module sampling. The last one draws numbers of its own."
+        ),
+    ] = "point"
     focus_distance: Annotated[
         float | None, about("Distance of the plane in focus, along the view.", "world unit")
     ] = None

@@ -11,6 +11,13 @@ from course.scene.description.values import Color, about
 _Lights: TypeAlias = Annotated[
     bool, about("Whether it also lights diffuse surfaces, by one shadow ray for each sample.")
 ]
+_Sampling: TypeAlias = Annotated[
+    Literal["automatic", "uniform", "cosine", "power"],
+    about(
+        "How directions towards its light are chosen: `automatic`, by the cosine and the picture's brightness; or by"
+        " the module importance_sampling, `uniform`, by the `cosine`, or half and half with the `power` heuristic."
+    ),
+]
 _SeenBy: TypeAlias = Annotated[
     Literal["all", "camera"],
     about("Which rays see it: all of them, or only those from the camera, like a backdrop."),
@@ -33,6 +40,7 @@ class ConstantEnvironment(EnvironmentDescription, frozen=True, kw_only=True, tag
 
     radiance: Annotated[Color, about("Radiance of the background.", "W/(m^2 sr)")] = 0.0
     lights: _Lights = False
+    sampling: _Sampling = "automatic"
     seen_by: _SeenBy = "all"
 
 
@@ -49,6 +57,7 @@ class CubeEnvironment(EnvironmentDescription, frozen=True, kw_only=True, tag="cu
     scale: _Scale = 1.0
     lookup: _Lookup = "seamless"
     lights: _Lights = False
+    sampling: _Sampling = "automatic"
     seen_by: _SeenBy = "all"
 
 
@@ -66,6 +75,7 @@ class LatLongEnvironment(EnvironmentDescription, frozen=True, kw_only=True, tag=
     scale: _Scale = 1.0
     lookup: _Lookup = "seamless"
     lights: _Lights = False
+    sampling: _Sampling = "automatic"
     seen_by: _SeenBy = "all"
 
 

@@ -35,3 +35,17 @@ class IntegratorDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_un
         _Bounces | None,
         about("Bounces that a path makes before Russian roulette may end it; null for never."),
     ] = 1
+    into_surface: Annotated[
+        Literal["mirror", "keep"],
+        about(
+            "What becomes of mirrored, glossy and refracted directions that point to the wrong side of their surface:"
+            " mirrored to the right one, or kept, and the ray meets the surface again."
+        ),
+    ] = "mirror"
+    terminator: Annotated[
+        Literal["round", "facets"],
+        about(
+            "Where shadow rays of smooth meshes start: where the round surface would be, or at the flat triangle, whose"
+            " neighbours cast shadows on it."
+        ),
+    ] = "round"

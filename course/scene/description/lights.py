@@ -88,4 +88,18 @@ class SphereLight(LightDescription, frozen=True, kw_only=True, tag="sphere"):
     motion: _Motion = MotionDescription()
 
 
-Light: TypeAlias = AmbientLight | PointLight | DirectionalLight | RectangleLight | SphereLight
+class ObjectLight(LightDescription, frozen=True, kw_only=True, tag="object"):
+    """An object whose material has emission, which then lights others: shadow rays look for it at every hit."""
+
+    object: Annotated[
+        str,
+        about(
+            "Name of one of the objects; its shape, its motion and its material's emission are the light's.",
+            min_length=1,
+        ),
+    ]
+
+
+Light: TypeAlias = (
+    AmbientLight | PointLight | DirectionalLight | RectangleLight | SphereLight | ObjectLight
+)

@@ -74,8 +74,12 @@ class MaterialDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unkn
             "left out, it is 0.8 of what the mirror leaves: 0.8 (1 - mirror) in each channel."
         ),
     ] = None
-    ambient: Annotated[float, about("Factor of the ambient term.", ge=0, le=1)] = 1.0
-    diffuse: Annotated[float, about("Factor of the diffuse term.", ge=0, le=1)] = 1.0
+    ambient: Annotated[
+        float, about("Factor of the ambient term; above 1 it makes light.", ge=0, le=1e6)
+    ] = 1.0
+    diffuse: Annotated[
+        float, about("Factor of the diffuse term; above 1 it may make light.", ge=0, le=1e6)
+    ] = 1.0
     ambient_color: Annotated[
         Reflectance | None, about("Colour of the ambient term, where it is another than color.")
     ] = None
@@ -92,7 +96,8 @@ class MaterialDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unkn
         Color,
         about(
             "What the surface sends out by itself, the same from both sides and in all directions. It counts wherever"
-            " a ray meets it; no shadow ray looks for it, so only path tracing and radiosity light others by it.",
+            " a ray meets it. No shadow ray looks for it, so only path tracing and radiosity light others by it, unless"
+            " the object is one of the lights, by type: object.",
             "W/(m^2 sr)",
         ),
     ] = 0.0

@@ -20,7 +20,7 @@ class ObjectDescription(
     """The keys that all shapes share."""
 
     material: Annotated[str, about("Name of one of the materials.", min_length=1)]
-    name: Annotated[str, about("Name for messages and tables.")] = ""
+    name: Annotated[str, about("Name for messages, tables and lights of type object.")] = ""
     shading: Annotated[
         Literal["smooth", "flat"], about("Interpolated normals, or one for each triangle.")
     ] = "smooth"
@@ -131,6 +131,13 @@ class MeshFile(ObjectDescription, frozen=True, kw_only=True, tag="mesh"):
     """A mesh from a PLY, OBJ, STL or GLB file."""
 
     file: Annotated[str, about("Path of the file, relative to the scene file.", min_length=1)]
+    normals: Annotated[
+        Literal["angle", "area"],
+        about(
+            "By what the faces around a vertex count in its normal, where the file has none: `angle`, and vertices at"
+            " one place are smooth up to 40 degrees; `area`, and only those that faces share are smooth."
+        ),
+    ] = "angle"
 
 
 Object: TypeAlias = (

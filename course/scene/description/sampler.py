@@ -13,6 +13,9 @@ class SamplerDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unkno
     """The pattern of samples; `regular` and `jittered` need a square number of them."""
 
     type: Annotated[
-        Literal["sobol", "random", "jittered", "regular"], about("Pattern of the samples.")
+        Literal[
+            "sobol", "random", "jittered", "regular", "halton", "hammersley", "chained", "xorshift"
+        ],
+        about("Pattern of the samples."),
     ] = "sobol"
     samples: Annotated[int, about("Samples a pixel.", "1/pixel", ge=1, le=65536)] = 16

@@ -6,6 +6,7 @@ from typing import Annotated
 
 import msgspec
 
+from course.scene.description.acceleration import AccelerationDescription
 from course.scene.description.camera import CameraDescription
 from course.scene.description.environment import ConstantEnvironment, Environment
 from course.scene.description.film import FilmDescription
@@ -32,6 +33,9 @@ class SceneDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
     integrator: Annotated[IntegratorDescription, about("How far light is followed.")] = (
         IntegratorDescription()
     )
+    acceleration: Annotated[
+        AccelerationDescription, about("What finds the triangles that rays hit.")
+    ] = AccelerationDescription()
     environment: Annotated[Environment, about("What a ray sees that hits nothing.")] = (
         ConstantEnvironment()
     )

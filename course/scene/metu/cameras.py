@@ -14,6 +14,7 @@ from course.scene.consistency import sine
 from course.scene.document import show
 from course.scene.metu.element import Element
 from course.scene.metu.notes import Notes
+from course.scene.metu.transformations import matrix_of, point
 
 PARALLEL = 1e-6
 """Sine below which up and gaze count as parallel."""
@@ -37,12 +38,14 @@ class MetuCamera:
     sampler: dict[str, Any]
 
 
-def read_cameras(scene: Element, notes: Notes) -> list[MetuCamera]:
+def read_cameras(
+    scene: Element, steps: dict[str, dict[str, Any]], notes: Notes
+) -> list[MetuCamera]:
     """All cameras of a scene; SceneError where there is none."""
     parent = scene.child("Cameras", "one Camera or more")
     cameras: list[MetuCamera] = []
     for element in parent.all("Camera"):
-        camera = _camera(element, notes)
+        camera = _camera(element, steps, notes)
         if any(camera.name == other.name for other in cameras):
             raise element.error(f"its id is given twice: expected another than {camera.name}")
         if any(camera.image == other.image for other in cameras):
@@ -55,7 +58,7 @@ def read_cameras(scene: Element, notes: Notes) -> list[MetuCamera]:
     return cameras
 
 
-def _camera(element: Element, notes: Notes) -> MetuCamera:
+def _camera(element: Element, steps: dict[str, dict[str, Any]], notes: Notes) -> MetuCamera:
     name = element.id()
     size = element.child("ImageResolution", "such as 800 600")
     width, height = size.numbers(2, "800 600")
@@ -65,13 +68,18 @@ def _camera(element: Element, notes: Notes) -> MetuCamera:
     gaze = _gaze(element, position)
     up_element = element.child("Up", "such as 0 1 0")
     up = np.array(up_element.vector())
+    # Its directions may change in length; how wide it sees, and from how far, stays what it was.
+    matrix = matrix_of(element, steps)
+    position, gaze, up = point(matrix, position), matrix[:3, :3] @ gaze, matrix[:3, :3] @ up
+    # As long as the position is far, so that their sum keeps its digits.
+    gaze *= max(1.0, float(np.abs(position).max())) / float(np.abs(gaze).max())
     if not up.any() or sine(gaze, up) < PARALLEL:
         raise up_element.unexpected("a direction that is not 0 0 0 and not parallel to the gaze")
     camera = {
         "eye": position.tolist(),
         "look_at": (position + gaze).tolist(),
         "up": up.tolist(),
-        **_window(element),
+        **_window(element, notes),
         **_lens(element),
     }
     handedness = element.attribute("handedness") or "right"
@@ -85,30 +93,40 @@ def _camera(element: Element, notes: Notes) -> MetuCamera:
 
 def _gaze(element: Element, position: Floats64) -> Floats64:
     # A gaze point is where it looks, a gaze the way there, of any length.
-    where = element.maybe("GazePoint") if element.attributes.get("type") == "lookAt" else None
-    if where is not None:
+    where = element.maybe("GazePoint")
+    if where is not None and (_looks_at(element) or element.maybe("Gaze") is None):
         gaze = np.array(where.vector()) - position
     else:
         where = element.child("Gaze", "such as 0 0 -1")
         gaze = np.array(where.vector())
     if not gaze.any():
         raise where.unexpected("a direction that is not 0 0 0, or another point than Position")
-    # As long as the position is far, so that their sum keeps its digits.
-    scale = max(1.0, float(np.abs(position).max())) / float(np.abs(gaze).max())
-    return np.asarray(gaze * scale)
+    return np.asarray(gaze)
 
 
-def _window(element: Element) -> dict[str, Any]:
+def _looks_at(element: Element) -> bool:
+    """Whether it is a lookAt camera: by its type, or by a field of view in place of a near plane."""
     kind = element.attribute("type")
     if kind not in (None, "", "simple", "lookAt"):
         raise element.error(f"type is {kind!r}: expected lookAt or none")
+    if kind:
+        return kind == "lookAt"
+    tags = {child.tag for child in element.children}
+    return "FovY" in tags and "NearPlane" not in tags
+
+
+def _window(element: Element, notes: Notes) -> dict[str, Any]:
+    looks_at = _looks_at(element)
     distance = element.child("NearDistance", "such as 1").number(0, above=True)
-    if kind == "lookAt":
+    if looks_at:
         angle = element.child("FovY", "such as 60")
         if not 0 < (degrees := angle.number(0, above=True)) < 180:
             raise angle.unexpected("a number of degrees between 0 and 180")
         return {"vertical_fov": degrees, "near": distance}
     where = element.child("NearPlane", "left right bottom top, such as -1 1 -1 1")
+    if len(where.words()) == 5:
+        notes.add(where, "has 5 numbers: the first 4 are taken")
+        where.text = " ".join(where.words()[:4])
     left, right, bottom, top = where.numbers(4, "-1 1 -1 1")
     if not (left < right and bottom < top):
         raise where.unexpected("left < right and bottom < top, in this order, such as -1 1 -1 1")
@@ -133,9 +151,10 @@ def _lens(element: Element) -> dict[str, Any]:
 
 def _sampler(element: Element, notes: Notes) -> dict[str, Any]:
     found = element.maybe("NumSamples")
-    if found is None:
+    count = 1 if found is None else found.whole(1)
+    if found is None or count == 1:
+        # A grid of one is the middle of the pixel, without any jitter.
         return {"type": "regular", "samples": 1}
-    count = found.whole(1)
     root = min(math.isqrt(count), 256)
     if root * root != count:
         notes.add(

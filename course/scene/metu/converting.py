@@ -25,6 +25,9 @@ from course.scene.metu.transformations import read_steps
 CUTOFF: Final = 1e-6
 """Bounced rays with less throughput are dropped; a METU scene drops none, but nobody sees these."""
 
+DEPTH: Final = 6
+"""Bounces that are followed where a scene doesn't say how many."""
+
 DEEPEST: Final = 1024
 """Bounces that the engine follows."""
 
@@ -69,8 +72,10 @@ def convert(source: Path, target: Path) -> tuple[list[Converted], list[str]]:
     """
     scene = read_elements(source)
     notes = Notes()
-    cameras = read_cameras(scene, notes)
-    common = _common(scene, source, target, notes)
+    steps = read_steps(scene)
+    cameras = read_cameras(scene, steps, notes)
+    eyes = [camera.camera["eye"] for camera in cameras]
+    common = _common(scene, source, target, steps, eyes, notes)
     notes.add_left_over(scene)
     names = _file_names(cameras, target)
     converted = []
@@ -101,8 +106,16 @@ def retold(error: SceneError, source: Path, path: Path) -> SceneError:
     return SceneError(f"{source}: as a scene of this course: {told}")
 
 
-def _common(scene: Element, source: Path, target: Path, notes: Notes) -> dict[str, Any]:
+def _common(
+    scene: Element,
+    source: Path,
+    target: Path,
+    steps: dict[str, dict[str, Any]],
+    eyes: list[list[float]],
+    notes: Notes,
+) -> dict[str, Any]:
     """What all cameras see."""
+    _pass_over_empty(scene)
     # The engine leaves surfaces by an offset of its own, which suits scenes of any size.
     for name in ("ShadowRayEpsilon", "IntersectionTestEpsilon"):
         found = scene.maybe(name)
@@ -113,27 +126,44 @@ def _common(scene: Element, source: Path, target: Path, notes: Notes) -> dict[st
     objects = Objects(
         read_vertices(scene),
         set(materials),
-        read_steps(scene),
+        steps,
         source.parent,
         target.parent,
         f"{target.stem}.meshes",
+        notes,
+        eyes,
     )
     radiance = [0.0, 0.0, 0.0] if background is None else list(background.color())
     return {
-        "integrator": {"max_depth": _depth(scene, notes), "cutoff": CUTOFF},
+        "integrator": {
+            "max_depth": _depth(scene, notes),
+            "cutoff": CUTOFF,
+            # What is below a surface meets it again, and facets shade each other.
+            "into_surface": "keep",
+            "terminator": "facets",
+        },
         "environment": {"type": "constant", "radiance": radiance, "seen_by": "camera"},
         "materials": {material_name(number): keys for number, keys in materials.items()},
-        "lights": read_lights(scene),
+        "lights": read_lights(scene, steps),
         "objects": objects.read(scene),
     }
 
 
 def _depth(scene: Element, notes: Notes) -> int:
     element = scene.maybe("MaxRecursionDepth")
-    depth = 0 if element is None else element.whole(0)
+    depth = DEPTH if element is None else element.whole(0)
     if element is not None and depth > DEEPEST:
         notes.add(element, f"is {depth}: {DEEPEST} bounces are followed")
     return min(depth, DEEPEST)
+
+
+def _pass_over_empty(scene: Element) -> None:
+    """Tables that other scenes have, and that stand here without anything in them, are no loss."""
+    for tag in ("TexCoordData", "NormalData", "Textures"):
+        if all(
+            not (each.text.strip() or each.children) for each in scene.children if each.tag == tag
+        ):
+            scene.all(tag)
 
 
 def _file_names(cameras: list[MetuCamera], target: Path) -> list[str]:

@@ -13,32 +13,40 @@ import numpy as np
 
 from course.core.types import Floats64
 from course.scene.metu.element import Element
+from course.scene.metu.transformations import matrix_of, point
+from course.scene.metu.transformations import normal as transformed_normal
 
 
-def read_lights(scene: Element) -> list[dict[str, Any]]:
-    """The lights of a scene."""
+def read_lights(scene: Element, steps: dict[str, dict[str, Any]]) -> list[dict[str, Any]]:
+    """The lights of a scene.
+
+    Parameters
+    ----------
+    steps : of `Transformations`, by letter and id
+    """
     parent = scene.maybe("Lights")
     if parent is None:
         return []
     return [
         *({"type": "ambient", "radiance": list(e.color())} for e in parent.all("AmbientLight")),
-        *map(_point, parent.all("PointLight")),
-        *map(_area, parent.all("AreaLight")),
+        *(_point(e, matrix_of(e, steps)) for e in parent.all("PointLight")),
+        *(_area(e, matrix_of(e, steps)) for e in parent.all("AreaLight")),
     ]
 
 
-def _point(element: Element) -> dict[str, Any]:
+def _point(element: Element, matrix: Floats64) -> dict[str, Any]:
     element.attribute("id")
+    position = np.array(element.child("Position", "such as 0 5 0").vector())
     return {
         "type": "point",
-        "position": list(element.child("Position", "such as 0 5 0").vector()),
+        "position": point(matrix, position).tolist(),
         "intensity": _times_pi(element.child("Intensity", "such as 1000 1000 1000")),
     }
 
 
-def _area(element: Element) -> dict[str, Any]:
+def _area(element: Element, matrix: Floats64) -> dict[str, Any]:
     element.attribute("id")
-    center = np.array(element.child("Position", "such as 0 5 0").vector())
+    position = np.array(element.child("Position", "such as 0 5 0").vector())
     where = element.child("Normal", "such as 0 -1 0")
     normal = np.array(where.vector())
     if not normal.any():
@@ -48,7 +56,9 @@ def _area(element: Element) -> dict[str, Any]:
     radiance = element.maybe("Radiance") or element.child(
         "Intensity", "or Radiance, such as 10 10 10"
     )
-    u, v = tangents(normal)
+    center = point(matrix, position)
+    # Its size is in the world: no step changes it.
+    u, v = tangents(transformed_normal(matrix, normal))
     return {
         "type": "rectangle",
         "corner": (center - (u + v) * (size / 2)).tolist(),

@@ -9,6 +9,14 @@ from course.scene.metu.notes import Notes
 
 TYPES = ("mirror", "conductor", "dielectric")
 
+COUNTS_WITH = {
+    "MirrorReflectance": ("mirror", "conductor"),
+    "RefractionIndex": ("conductor", "dielectric"),
+    "AbsorptionIndex": ("conductor",),
+    "AbsorptionCoefficient": ("dielectric",),
+}
+"""The types that an element is read for."""
+
 
 def material_name(number: str) -> str:
     """How a material is called in the project's own scene files."""
@@ -30,13 +38,8 @@ def _material(element: Element, notes: Notes) -> dict[str, Any]:
     kind = element.attribute("type")
     if kind and kind not in TYPES:
         raise element.error(f"type is {kind!r}: expected {', '.join(TYPES)} or none")
-    ambient, diffuse = (
-        _color(element, "AmbientReflectance", 1),
-        _color(element, "DiffuseReflectance", 1),
-    )
-    material: dict[str, Any] = {"color": diffuse}
-    if ambient != diffuse:
-        material["ambient_color"] = ambient
+    ambient, diffuse = (_color(element, f"{name}Reflectance") for name in ("Ambient", "Diffuse"))
+    material = _body(ambient, diffuse)
     specular = _color(element, "SpecularReflectance")
     exponent = element.maybe("PhongExponent")
     power = 1.0 if exponent is None else exponent.number(0)
@@ -59,10 +62,10 @@ def _material(element: Element, notes: Notes) -> dict[str, Any]:
         }
         if any(diffuse) or any(ambient):
             material["dielectric"]["shaded"] = True
-    if kind not in ("mirror", "conductor"):
-        mirror = element.maybe("MirrorReflectance")
-        if mirror is not None and any(mirror.color()):
-            notes.add(mirror, "counts only with type mirror or conductor, and was left out")
+    for tag, kinds in COUNTS_WITH.items():
+        idle = None if kind in kinds else element.maybe(tag)
+        if idle is not None and idle.many("numbers, such as 0.5").any():
+            notes.add(idle, f"counts only with type {' or '.join(kinds)}, and was left out")
     roughness = element.maybe("Roughness")
     if roughness is not None and roughness.number(0):
         if kind:
@@ -72,6 +75,16 @@ def _material(element: Element, notes: Notes) -> dict[str, Any]:
         else:
             notes.add(roughness, "counts only with a type, and was left out")
     return material
+
+
+def _body(ambient: list[float], diffuse: list[float]) -> dict[str, Any]:
+    """Colours, which end at 1, and factors where a reflectance doesn't."""
+    by, of = max(1.0, *diffuse), max(1.0, *ambient)
+    material: dict[str, Any] = {"color": [value / by for value in diffuse]}
+    if ambient != diffuse:
+        material["ambient_color"] = [value / of for value in ambient]
+    factors = {"diffuse": by, "ambient": of}
+    return material | {key: factor for key, factor in factors.items() if factor > 1}
 
 
 def _color(element: Element, tag: str, most: float = float("inf")) -> list[float]:

@@ -8,11 +8,11 @@ import numpy as np
 
 from course.core.types import Floats64, Indices
 from course.geometry.mesh import Mesh
-from course.geometry.smooth_normals import smooth_normals
+from course.geometry.smooth_normals import area_normals
+from course.scene.document import show
 from course.scene.metu.element import Element
 
-NO_CREASE = 0.0
-"""Degrees: vertices are smooth where triangles share them by number, not where they only lie at one place."""
+LONGEST_HEADER = 1 << 16  # bytes
 
 
 def read_vertices(scene: Element) -> Floats64:
@@ -20,12 +20,13 @@ def read_vertices(scene: Element) -> Floats64:
     element = scene.maybe("VertexData")
     if element is None:
         return np.zeros((0, 3))
-    if element.attributes.get("type", "xyz") == "xyz":
-        element.attribute("type")
+    axes = element.attribute("type") or "xyz"
+    if sorted(axes) != ["x", "y", "z"]:
+        raise element.error(f"type is {show(axes)}: expected the order of x, y and z, such as xyz")
     values = element.many("x, y and z of each vertex")
     if len(values) % 3:
         raise element.error(f"has {len(values)} numbers: expected three for each vertex")
-    return values.reshape(-1, 3)
+    return values.reshape(-1, 3)[:, [axes.index(axis) for axis in "xyz"]]
 
 
 def inline_mesh(faces: Element, vertices: Floats64, smooth: bool) -> Mesh:
@@ -35,7 +36,7 @@ def inline_mesh(faces: Element, vertices: Floats64, smooth: bool) -> Mesh:
     used, triangles = np.unique(corners, return_inverse=True)
     triangles = triangles.reshape(-1, 3)
     own = vertices[used]
-    return Mesh(own, triangles, smooth_normals(own, triangles, NO_CREASE) if smooth else None)
+    return Mesh(own, triangles, area_normals(own, triangles) if smooth else None)
 
 
 def vertex_offset(faces: Element) -> int:
@@ -73,3 +74,11 @@ def mesh_file(faces: Element, name: str, folder: Path) -> Path:
     if path.suffix.lower() != ".ply":
         raise faces.error(f"plyFile is {name}: expected a file that ends in .ply")
     return path
+
+
+def has_normals(path: Path) -> bool:
+    """Whether a PLY file has normals of its own."""
+    with path.open("rb") as stream:
+        header = stream.read(LONGEST_HEADER).partition(b"end_header")[0]
+    names = {line.split()[-1] for line in header.splitlines() if line.startswith(b"property ")}
+    return {b"nx", b"ny", b"nz"} <= names

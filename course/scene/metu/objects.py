@@ -1,4 +1,4 @@
-"""`Objects`: meshes, instances of them, spheres and triangles.
+"""`Objects`: meshes, instances of them, spheres, triangles and planes.
 
 An instance takes its mesh from another object; the engine has no instances, so each becomes an object with the same
 mesh file, which is read once.
@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import os
 from dataclasses import dataclass, field
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -16,22 +17,32 @@ import numpy as np
 
 from course.core.types import Floats64, Indices
 from course.geometry.mesh import Mesh
+from course.geometry.mesh_files import read_mesh
 from course.scene.document import show, suggest
 from course.scene.metu.element import Element
 from course.scene.metu.materials import material_name
 from course.scene.metu.meshes import (
     check_indices,
     corners_of,
+    has_normals,
     inline_mesh,
     mesh_file,
+    vertex_offset,
 )
+from course.scene.metu.notes import Notes
+from course.scene.metu.planes import corners_of_all, plane_mesh
 from course.scene.metu.ply_files import write_ply
-from course.scene.metu.transformations import transform_of
+from course.scene.metu.transformations import matrix_of, matrix_of_steps, transform_of
+from course.scene.metu.transformations import normal as transformed_normal
+from course.scene.metu.transformations import point as moved
 
 SEGMENTS = ((8, 512), (32, 256), (128, 128))
 """Spheres a scene may have at most for so many flat pieces around each: a million triangles, or two, in all."""
 
 FEWEST_SEGMENTS = 64
+
+INHERITED = ("shape", "file", "shading", "normals", "material")
+"""What an instance has from its base; how that moves is its own affair."""
 
 
 @dataclass
@@ -46,6 +57,8 @@ class Objects:
     source : folder of the METU scene, from which its mesh files are named
     target : folder of the converted scene
     meshes : name of the folder beside it for meshes that the scene holds itself
+    notes : what there is to say about them
+    eyes : where the cameras stand
     """
 
     vertices: Floats64
@@ -54,6 +67,8 @@ class Objects:
     source: Path
     target: Path
     meshes: str
+    notes: Notes
+    eyes: list[list[float]]
     _bases: dict[str, dict[str, Any]] = field(default_factory=dict)
 
     def read(self, scene: Element) -> list[dict[str, Any]]:
@@ -65,20 +80,35 @@ class Objects:
         segments = next((s for most, s in SEGMENTS if len(spheres) <= most), FEWEST_SEGMENTS)
         things += [self._sphere(element, segments) for element in spheres]
         things += self._triangles(parent.all("Triangle"))
+        things += self._planes(parent.all("Plane"), things)
         return [{key: value for key, value in thing.items() if value != []} for thing in things]
 
     def _mesh(self, element: Element) -> dict[str, Any]:
         number = element.id()
         if number in self._bases:
             raise element.error(f"its id is given twice: expected another than {number}")
-        mode = element.attribute("shadingMode") or "flat"
+        given = element.attribute("shadingMode")
+        mode = given or "flat"
         if mode not in ("flat", "smooth"):
             raise element.error(f"shadingMode is {show(mode)}: expected flat or smooth")
         faces = element.child("Faces", "triples of vertex numbers, or a plyFile")
+        if faces.attributes.get("type") == "triangle":
+            faces.attribute("type")
         file = faces.attribute("plyFile")
+        normals = {}
         if file:
-            faces.attribute("vertexOffset")
-            path = self._named(mesh_file(faces, file, self.source))
+            offset = vertex_offset(faces)
+            if offset:
+                self.notes.add(
+                    faces,
+                    f"has vertexOffset {offset}, which counts only for vertex numbers in the scene itself:"
+                    " a PLY file has its own vertices",
+                )
+            found = mesh_file(faces, file, self.source)
+            if not given and has_normals(found):
+                mode = "smooth"
+            normals = {"normals": "area"} if mode == "smooth" else {}
+            path = self._named(found)
         else:
             mesh = inline_mesh(faces, self.vertices, mode == "smooth")
             path = self._written(mesh, f"mesh-{len(self._bases) + 1}")
@@ -87,6 +117,7 @@ class Objects:
             "name": f"mesh {number}",
             "file": path,
             "shading": mode,
+            **normals,
             **self._common(element),
         }
         self._bases[number] = thing
@@ -113,11 +144,9 @@ class Objects:
 
     def _instance(self, element: Element, base: dict[str, Any]) -> dict[str, Any]:
         number = element.id()
-        inherited = {key: base[key] for key in ("shape", "file", "shading", "material")}
+        inherited = {key: base[key] for key in INHERITED if key in base}
         thing = inherited | {"name": f"instance {number}"}
         thing |= self._common(element, element.maybe("Material") is None)
-        if "motion" in base and element.maybe("MotionBlur") is None:
-            thing["motion"] = base["motion"]
         if not element.flag("resetTransform"):
             thing["transform"] = base["transform"] + thing["transform"]
         # Meshes and instances are counted apart in some files; then a mesh keeps its number.
@@ -127,11 +156,7 @@ class Objects:
     def _sphere(self, element: Element, segments: int) -> dict[str, Any]:
         element.attribute("id")
         center = element.child("Center", "the number of a vertex")
-        vertex = np.array(center.numbers(1, "1"))
-        if vertex[0] != np.floor(vertex[0]):
-            raise center.unexpected("the number of a vertex, such as 1")
-        check_indices(center, vertex, self.vertices)
-        middle = {"translate": self.vertices[int(vertex[0]) - 1].tolist()}
+        middle = {"translate": self._vertex(center).tolist()}
         thing = {
             "shape": "sphere",
             "radius": element.child("Radius", "such as 1").number(0, above=True),
@@ -158,6 +183,51 @@ class Objects:
             path = self._written(mesh, f"triangles-{count}")
             things.append({"shape": "mesh", "file": path, "shading": "flat", **common})
         return things
+
+    def _planes(
+        self, elements: list[Element], others: list[dict[str, Any]]
+    ) -> list[dict[str, Any]]:
+        """Infinite planes; what else there is tells how large they must be."""
+        if not elements:
+            return []
+        eyes = np.array(self.eyes, np.float64).reshape(-1, 3)
+        corners = np.concatenate((self._corners(others), eyes))
+        things = []
+        for count, element in enumerate(elements, start=1):
+            element.attribute("id")
+            point = self._vertex(element.child("Point", "the number of a vertex"))
+            where = element.child("Normal", "such as 0 1 0")
+            if not any(where.vector()):
+                raise where.unexpected("a direction that is not 0 0 0")
+            matrix = matrix_of(element, self.steps)
+            mesh = plane_mesh(
+                moved(matrix, point), transformed_normal(matrix, np.array(where.vector())), corners
+            )
+            path = self._written(mesh, f"plane-{count}")
+            keys = self._common(element) | {"transform": []}
+            things.append({"shape": "mesh", "file": path, "shading": "flat", **keys})
+        return things
+
+    def _corners(self, things: list[dict[str, Any]]) -> Floats64:
+        """Corners (N, 3) of the boxes around all objects."""
+        meshes = []
+        for thing in things:
+            if thing["shape"] == "sphere":
+                box = np.array(list(product((-1, 1), repeat=3))) * thing["radius"]
+            else:
+                box = read_mesh(self.target / thing["file"]).vertices
+            matrix = matrix_of_steps(thing["transform"])
+            meshes.append((box @ matrix[:3, :3].T + matrix[:3, 3], thing))
+        return corners_of_all(meshes)
+
+    def _vertex(self, element: Element) -> Floats64:
+        """The vertex whose number is an element's text, (3,)."""
+        number = np.array(element.numbers(1, "1"))
+        if number[0] != np.floor(number[0]):
+            raise element.unexpected("the number of a vertex, such as 1")
+        check_indices(element, number, self.vertices)
+        found: Floats64 = self.vertices[int(number[0]) - 1]
+        return found
 
     def _common(self, element: Element, inherits_material: bool = False) -> dict[str, Any]:
         """Material, transform and motion of an object."""

@@ -6,6 +6,8 @@ from typing import Any
 
 import numpy as np
 
+from course.core.types import Floats64
+from course.geometry import transforms
 from course.scene.consistency import flattens
 from course.scene.document import suggest
 from course.scene.metu.element import Element
@@ -47,6 +49,40 @@ def transform_of(thing: Element, steps: dict[str, dict[str, Any]]) -> Steps:
             )
         chosen.append(steps[name])
     return chosen
+
+
+def matrix_of(thing: Element, steps: dict[str, dict[str, Any]]) -> Floats64:
+    """All steps of a thing as one matrix, (4, 4) float64, that acts on columns."""
+    return matrix_of_steps(transform_of(thing, steps))
+
+
+def matrix_of_steps(chosen: Steps) -> Floats64:
+    """The same of steps that have been looked up."""
+    return transforms.compose(map(_matrix, chosen))
+
+
+def point(matrix: Floats64, position: Floats64) -> Floats64:
+    """Where a point goes, (3,)."""
+    moved: Floats64 = matrix[:3, :3] @ position + matrix[:3, 3]
+    return moved
+
+
+def normal(matrix: Floats64, direction: Floats64) -> Floats64:
+    """Which way the normal of a surface looks afterwards, (3,) of any length."""
+    linear = matrix[:3, :3] / np.abs(matrix[:3, :3]).max()
+    turned: Floats64 = np.linalg.inv(linear).T @ direction
+    return turned
+
+
+def _matrix(step: dict[str, Any]) -> Floats64:
+    match step:
+        case {"translate": offset}:
+            return transforms.translate(offset)
+        case {"scale": factors}:
+            return transforms.scale(factors)
+        case {"rotate": {"axis": axis, "degrees": degrees}}:
+            return transforms.rotate(axis, degrees)
+    return np.array(step["matrix"], np.float64)
 
 
 def _step(kind: str, element: Element) -> dict[str, Any]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 import subprocess
 import sys
@@ -54,6 +55,28 @@ def test_the_archive_has_nothing_that_could_hide_a_solution(archive: Path) -> No
     assert "penumbra/README.md" in names
     hiding = ("solutions/", "tests/", "__pycache__", ".pyc", ".ipynb", ".whl", ".git", ".venv")
     assert [name for name in names if any(part in name for part in hiding)] == []
+
+
+def test_every_scene_that_is_listed_is_handed_out(archive: Path) -> None:
+    listed = re.findall(r"^\| `([^`]+)` \|", (ROOT / "scenes/README.md").read_text(), re.MULTILINE)
+    assert "metu/showroom.xml" in listed
+    with zipfile.ZipFile(archive) as file:
+        names = {name.removeprefix("penumbra/scenes/") for name in file.namelist()}
+    found = {name for name in listed if name in names or f"gallery/{name}" in names}
+    assert found == {name for name in listed if Path(name).suffix in {".yaml", ".xml", ".json"}}
+
+
+def test_scenes_of_metu_are_handed_out_in_either_form(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    for folder in ("solutions", "course"):
+        shutil.copytree(ROOT / folder, tmp_path / folder)
+    (tmp_path / "scenes").mkdir()
+    for form in ("xml", "json"):
+        (tmp_path / "scenes" / f"box.{form}").write_text(form)
+    monkeypatch.setattr("course.grading.release.archive._references", bytes)
+    contents = archive_contents(tmp_path)
+    assert (contents["scenes/box.xml"], contents["scenes/box.json"]) == (b"xml", b"json")
 
 
 def test_the_same_course_gives_the_same_archive(archive: Path, tmp_path: Path) -> None:

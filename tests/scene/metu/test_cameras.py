@@ -152,7 +152,7 @@ def test_an_aperture_of_0_is_a_pinhole(metu: Metu) -> None:
 
 @pytest.mark.parametrize(
     ("given", "sampler", "samples"),
-    [(None, "regular", 1), ("1", "jittered", 1), ("36", "jittered", 36)],
+    [(None, "regular", 1), ("1", "regular", 1), ("4", "jittered", 4), ("36", "jittered", 36)],
 )
 def test_samples_are_a_jittered_grid_or_the_middle(
     metu: Metu, given: str | None, sampler: str, samples: int

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from course import Scene
+from course.errors import SceneError
 from course.geometry.mesh_files import read_mesh
 from course.scene.instancing import object_mesh
 from tests.scene.metu.conftest import MATT, Metu, Tree, tree
@@ -93,19 +94,19 @@ def test_an_instance_has_a_material_of_its_own_or_its_bases(metu: Metu) -> None:
 
 
 @pytest.mark.parametrize(
-    ("own", "velocity"), [(None, (2, 0, 1)), ("0 3 0", (0, 3, 0)), ("0 0 0", (0, 0, 0))]
+    ("own", "velocity"), [(None, (0, 0, 0)), ("0 3 0", (0, 3, 0)), ("0 0 0", (0, 0, 0))]
 )
 @pytest.mark.parametrize("reset", ["false", "true"])
-def test_an_instance_moves_as_its_base_unless_it_says_how(
+def test_an_instance_moves_only_if_it_says_so_itself(
     metu: Metu, own: str | None, velocity: tuple[float, ...], reset: str
 ) -> None:
-    """Whether its transformation is reset or not: motion is none."""
+    """Whatever its base does, an instance too, and whether its transformation is reset or not."""
     keys = {} if own is None else {"MotionBlur": own}
     scene = one_mesh("t1", MotionBlur="2 0 1")
     moving = instance(2, 1, _resetTransform=reset, **keys)
     scene["Objects"]["MeshInstance"] = [moving, instance(3, 2)]
     things = metu.load(scene).loaded.description.objects
-    assert [thing.motion.velocity for thing in things] == [(2, 0, 1), velocity, velocity]
+    assert [thing.motion.velocity for thing in things] == [(2, 0, 1), velocity, (0, 0, 0)]
 
 
 def test_a_sphere_is_stretched_after_it_is_put_at_its_vertex(metu: Metu) -> None:
@@ -170,17 +171,45 @@ def test_an_offset_is_added_to_vertex_numbers(metu: Metu) -> None:
     )
 
 
+PLY = (
+    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+    "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+    "0 0 0\n4 0 0\n0 5 0\n3 0 1 2\n"
+)
+
+
 def test_a_mesh_file_is_read_from_where_it_lies(metu: Metu, tmp_path: Path) -> None:
     (tmp_path / "ply").mkdir()
-    (tmp_path / "ply" / "one.ply").write_text(
-        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
-        "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
-        "0 0 0\n4 0 0\n0 5 0\n3 0 1 2\n"
-    )
+    (tmp_path / "ply" / "one.ply").write_text(PLY)
     mesh = {"_id": "1", "Material": "1", "Faces": {"_plyFile": "ply/one.ply"}}
     scene = metu.load(tree(vertices="", objects={"Mesh": mesh}))
     np.testing.assert_array_equal(vertices_of(scene, 0), [[0, 0, 0], [4, 0, 0], [0, 5, 0]])
     assert scene.loaded.description.objects[0].file == "ply/one.ply"
+
+
+@pytest.mark.parametrize("offset", ["0", "3"])
+def test_an_offset_beside_a_mesh_file_adds_nothing_and_that_is_said(
+    metu: Metu, tmp_path: Path, offset: str
+) -> None:
+    """The file has three vertices, and three more stand in the scene."""
+    (tmp_path / "one.ply").write_text(PLY)
+    faces = {"_plyFile": "one.ply", "_vertexOffset": offset}
+    mesh = {"_id": "1", "Material": "1", "Faces": faces}
+    scene = metu.load(tree(vertices=TRIANGLE, objects={"Mesh": mesh}))
+    np.testing.assert_array_equal(vertices_of(scene, 0), [[0, 0, 0], [4, 0, 0], [0, 5, 0]])
+    if offset == "0":
+        assert metu.warnings == []
+        return
+    (warning,) = metu.warnings
+    assert "Scene/Objects/Mesh/Faces has vertexOffset 3, which counts only for vertex" in warning
+
+
+def test_an_offset_beside_a_mesh_file_is_a_whole_number(metu: Metu, tmp_path: Path) -> None:
+    (tmp_path / "one.ply").write_text(PLY)
+    faces = {"_plyFile": "one.ply", "_vertexOffset": "three"}
+    mesh = {"_id": "1", "Material": "1", "Faces": faces}
+    with pytest.raises(SceneError, match="vertexOffset is 'three': expected a whole number"):
+        metu.load(tree(vertices=TRIANGLE, objects={"Mesh": mesh}))
 
 
 def test_written_meshes_keep_every_bit(metu: Metu) -> None:

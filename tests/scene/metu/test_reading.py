@@ -11,6 +11,8 @@ import pytest
 
 from course.errors import SceneError
 from course.scene.metu.converting import convert
+from course.scene.metu.element import Element
+from course.scene.metu.notes import Notes
 from tests.scene.metu.conftest import CAMERA, MATT, Metu, Tree, tree, write
 
 Change = Callable[[Tree], Any]
@@ -76,8 +78,8 @@ MISTAKES: list[tuple[Change, str]] = [
         "Material: MirrorReflectance is missing: expected such as 0.9 0.9 0.9",
     ),
     (
-        lambda s: s["Materials"]["Material"][0].update(DiffuseReflectance="2 0 0"),
-        'DiffuseReflectance is "2 0 0": expected 3 numbers from 0 to 1',
+        lambda s: s["Materials"]["Material"][0].update(DiffuseReflectance="-2 0 0"),
+        'DiffuseReflectance is "-2 0 0": expected 3 numbers from 0',
     ),
     (
         lambda s: s["Materials"].update(Material=[MATT, MATT]),
@@ -239,6 +241,37 @@ def test_what_is_not_known_is_named_once_a_kind(metu: Metu) -> None:
     ):
         assert part in warnings
     assert len(metu.warnings) == 6
+
+
+def test_every_kind_is_named_however_many_there_are(metu: Metu) -> None:
+    """The first twenty with their places, the others together, each once and with how many there are of it."""
+    names = [f"Gadget{chr(65 + number)}" for number in range(25)]
+    matt = MATT | {"RefractionIndex": "1.5"}
+    gadgets = dict.fromkeys(names, "1") | {"GadgetZ": ["1", "2", "3"]}
+    metu.load(tree(camera={"NumSamples": "5"}, materials=[matt], **gadgets))
+    # What cameras and materials say comes first, and takes two of the twenty places.
+    told, last = metu.warnings[:20], metu.warnings[20:]
+    assert [name for name in names if any(f"Scene/{name} is not known" in w for w in told)] == (
+        names[:18]
+    )
+    assert all("scene." in warning for warning in told)
+    assert last == [
+        "... and more that is not known, and was left out: "
+        + ", ".join(f"Scene/{name}" for name in names[18:])
+        + ", Scene/GadgetZ[1] (3 times)"
+    ]
+
+
+def test_what_is_told_together_is_told_by_what_it_says() -> None:
+    notes = Notes()
+    for number in range(24):
+        thing = Element("Thing", f"Scene/Thing{chr(65 + number)}", "box.xml:1")
+        notes.add(thing, "is odd" if number % 2 else "is even")
+    assert notes.texts()[19:] == [
+        "box.xml:1: Scene/ThingT is odd",
+        "... and more that is even: Scene/ThingU, Scene/ThingW",
+        "... and more that is odd: Scene/ThingV, Scene/ThingX",
+    ]
 
 
 def test_everything_that_is_known_is_silent(metu: Metu) -> None:

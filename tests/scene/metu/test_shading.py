@@ -167,6 +167,41 @@ def test_without_a_type_nothing_mirrors_and_that_is_said(metu: Metu) -> None:
     assert "Material[2]/MirrorReflectance counts only with type mirror or conductor" in warning
 
 
+@pytest.mark.parametrize(
+    ("kind", "tag", "types"),
+    [
+        ("mirror", "RefractionIndex", "conductor or dielectric"),
+        ("", "RefractionIndex", "conductor or dielectric"),
+        ("mirror", "AbsorptionIndex", "conductor"),
+        ("dielectric", "AbsorptionIndex", "conductor"),
+        ("mirror", "AbsorptionCoefficient", "dielectric"),
+        ("conductor", "AbsorptionCoefficient", "dielectric"),
+        ("dielectric", "MirrorReflectance", "mirror or conductor"),
+    ],
+)
+@pytest.mark.parametrize("given", [True, False])
+def test_what_a_type_has_no_use_for_is_told_with_the_types_that_have(
+    metu: Metu, kind: str, tag: str, types: str, given: bool
+) -> None:
+    """It is known, so nothing says that it isn't; 0 does nothing anywhere, and nothing is said."""
+    needed = {
+        "": {},
+        "mirror": {"MirrorReflectance": "1 1 1"},
+        "conductor": {"MirrorReflectance": "1 1 1", "RefractionIndex": "1", "AbsorptionIndex": "2"},
+        "dielectric": {"RefractionIndex": "1.5"},
+    }[kind]
+    colored = tag in ("MirrorReflectance", "AbsorptionCoefficient")
+    value = "0.5" if given else "0"
+    material = needed | {tag: f"{value} 0 0" if colored else value}
+    metu.load(mirrored(material | ({"_type": kind} if kind else {})))
+    if not given:
+        assert metu.warnings == []
+        return
+    (warning,) = metu.warnings
+    assert f"Material[2]/{tag} counts only with type {types}, and was left out" in warning
+    assert "not known" not in warning
+
+
 @pytest.mark.parametrize(("n", "k"), [(0.37, 2.82), (2.5, 0.0), (0.0, 1.0), (1.1, 7.0)])
 def test_a_conductor_mirrors_its_fresnel_reflectance(metu: Metu, n: float, k: float) -> None:
     metal = {

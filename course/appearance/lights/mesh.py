@@ -1,0 +1,85 @@
+"""An object that emits light: any triangles, a point on one of them for each sample, uniformly by area.
+
+A triangle is chosen with a probability proportional to its area, and then a point on it (Turk, "Generating random
+points in triangles", Graphics Gems, 1990). Together that is uniform over the whole surface. As the emission of a
+material is, its light is sent out from both sides.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from course.appearance.lights.sample import TO_A_POINT, Sample, inverse_square
+from course.core.gathering import gather
+from course.core.types import Floats32, Floats64
+from course.core.vectors import cross, dot
+
+
+@dataclass(frozen=True)
+class MeshLight:
+    """T triangles as rays hit them.
+
+    Attributes
+    ----------
+    shares : (T - 1,) float32, of the area: all up to each triangle but the last, which has the rest
+    corner_edges : (T, 9) float32, p0, e1, e2, see ``course.geometry.surface``
+    normal_offset : (T, 4) float32, the unit normal, and the distance by which rays leave the triangle
+    color : (3,) float32, radiance times area / pi
+    """
+
+    name: str
+    shares: Floats32
+    corner_edges: Floats32
+    normal_offset: Floats32
+    color: Floats32
+    width: int = 3
+    velocity: Floats32 | None = None
+    limit: float = TO_A_POINT
+
+    def sample(self, points: Floats32, u: Floats32 | None, compiled: bool = False) -> Sample:
+        """See ``course.appearance.lights``.
+
+        A shadow ray ends as far above the triangle as others start, not at a share of its way: of a thin box it would
+        see both sides. From a point as near to the triangle's plane as that nothing arrives: it lies on it.
+        """
+        assert u is not None
+        triangle = np.searchsorted(self.shares, u[0], side="right")
+        root = np.sqrt(u[1])
+        corners = gather(self.corner_edges, triangle)
+        to_light = corners[:3]
+        to_light -= points
+        to_light += corners[3:6] * (1 - root)
+        to_light += corners[6:] * (root * u[2])
+        facing = gather(self.normal_offset, triangle)
+        normal, offset = facing[:3], facing[3]
+        height = dot(normal, to_light)
+        normal *= np.copysign(offset, height)
+        to_light -= normal
+        inverse_length, factor = inverse_square(to_light)
+        cosine = np.abs(height) * inverse_length
+        # The end of the way is nearer than the triangle: at most by offset.
+        np.minimum(cosine, 1, out=cosine)
+        cosine *= np.abs(height) > 2 * offset
+        factor *= cosine
+        return Sample(to_light, inverse_length, factor)
+
+
+def areas(corner_edges: Floats32) -> Floats64:
+    """Areas (T,) of triangles (T, 9), see ``MeshLight``."""
+    edges = corner_edges[:, 3:].astype(np.float64).T
+    normal = cross(edges[:3], edges[3:])
+    twice: Floats64 = np.sqrt(dot(normal, normal))
+    return twice / 2
+
+
+def shares(area: Floats64) -> Floats32:
+    """``shares`` (T - 1,) of a ``MeshLight`` of triangles with areas (T,).
+
+    In float32, as the numbers are that they are compared with: a triangle with a share of less than 2^-24 may be chosen
+    more often or never.
+    """
+    sums = np.cumsum(area)
+    shared: Floats32 = (sums[:-1] / sums[-1]).astype(np.float32)
+    return shared

@@ -1,0 +1,53 @@
+"""A picture of the work that a hierarchy was for the rays through the middles of pixels."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from course.core.types import Indices
+from course.geometry.hierarchy import HierarchyAccelerator
+from course.imaging.files import save
+from course.imaging.heat_map import heat_map
+from course.scene.compiling import compile_camera
+from course.scene.scene import Scene
+from course.scene.world import Settings
+
+BATCH = 16384
+"""Rays that are asked at once."""
+
+
+def box_tests(scene: Scene, settings: Settings) -> Indices:
+    """How many boxes each camera ray was tested with, (H, W).
+
+    Lens and motion are left out: a ray a pixel, from the middle of the lens when the shutter opens.
+
+    Parameters
+    ----------
+    scene : one whose rays a hierarchy answers
+    settings : of which the size counts
+    """
+    accelerator = scene.compiled.world.surface.accelerator
+    assert isinstance(accelerator, HierarchyAccelerator)
+    width, height = settings.width, settings.height
+    camera = compile_camera(scene.loaded, scene.compiled.frame, width, height)
+    tests = np.empty(width * height, np.intp)
+    for start in range(0, len(tests), BATCH):
+        batch = np.arange(start, min(start + BATCH, len(tests)))
+        y, x = (place.astype(np.float32) + np.float32(0.5) for place in np.divmod(batch, width))
+        direction = camera.directions(x, y)
+        origin = camera.from_near_plane(camera.origin[:, None], direction)
+        tests[batch] = accelerator.box_tests(origin, direction)
+    return tests.reshape(height, width)
+
+
+def save_box_tests(scene: Scene, settings: Settings, path: Path) -> None:
+    """Write them as a picture: black the fewest, white the most, logarithmic between.
+
+    Raises
+    ------
+    OutputError
+        When the file can't be written; then there is no such file.
+    """
+    save(path, heat_map(np.maximum(box_tests(scene, settings), 1)))

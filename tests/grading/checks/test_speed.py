@@ -1,0 +1,58 @@
+"""Advice on speed: every function is asked with arguments that are legal, and both callers with the same."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from course.effects import COURSE
+from course.grading.checks.check import Check, Trial
+from course.grading.checks.running import generator
+from course.grading.checks.speed import ROUNDS, SPEEDS
+from course.grading.references import reference
+
+CHECKS = [(module, check) for module, checks in SPEEDS.items() for check in checks]
+IDS = [f"{module}.{check.function}" for module, check in CHECKS]
+
+
+class Listening:
+    """Passes calls on, and keeps what was asked and what came."""
+
+    def __init__(self, module: str) -> None:
+        self._reference = reference(module)
+        self.asked: list[tuple[Any, ...]] = []
+        self.came: list[Any] = []
+
+    def call(self, function: str, *arguments: Any, **named: Any) -> Any:
+        value = self._reference.call(function, *arguments, **named)
+        self.asked.append(arguments)
+        self.came.append(value)
+        return value
+
+    def call_and_look(self, function: str, *arguments: Any) -> tuple[Any, list[Any], bool]:
+        return self._reference.call_and_look(function, *arguments)
+
+
+@pytest.mark.parametrize(("module", "check"), CHECKS, ids=IDS)
+def test_the_reference_takes_the_arguments(module: str, check: Check) -> None:
+    trial = Trial(check.function, Listening(module), generator(0, module, check))
+    trial.yardstick = Listening(module)
+    check.run(trial)
+    for caller in (trial.caller, trial.yardstick):
+        assert isinstance(caller, Listening)
+        assert len(caller.came) == ROUNDS
+        value = caller.came[0]
+        for part in value if isinstance(value, tuple) else (value,):
+            assert np.isfinite(part).all()
+    for mine, theirs in zip(trial.caller.asked[0], trial.yardstick.asked[0], strict=True):
+        assert mine is theirs
+
+
+def test_no_function_is_timed_twice_and_none_costs_points() -> None:
+    for module, checks in SPEEDS.items():
+        functions = [check.function for check in checks]
+        assert len(set(functions)) == len(functions)
+        assert set(functions) <= set(COURSE[module])
+        assert not any(check.points for check in checks)
