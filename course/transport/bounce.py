@@ -9,7 +9,15 @@ from course.geometry.hits import Hits
 from course.transport.gloss import Blur
 from course.transport.paths import OPEN, Rays
 from course.transport.plan import Lookups, Plan
-from course.transport.ways import Boundary, beyond, divided, mirrored, reflectance, refracted
+from course.transport.ways import (
+    Boundary,
+    beyond,
+    departures,
+    divided,
+    mirrored,
+    reflectance,
+    refracted,
+)
 
 
 def bounced(
@@ -57,13 +65,16 @@ def _visible(weight: Floats32, size: int, cutoff: float) -> Indices:
     return np.flatnonzero(largest > cutoff)
 
 
-def _columns(weight: Floats32, which: Indices) -> Floats32:
-    """(3, n) throughputs of the chosen columns."""
+def _departures(
+    hits: Hits, which: Indices, crossing: int, weight: Floats32
+) -> tuple[Floats32, Floats32]:
+    """As ``departures``, of weights (3, n), (3, 1) or (n,)."""
+    if weight.ndim == 2 and weight.shape[1] == hits.size:
+        return departures(hits, which, crossing, weight)
+    origin = hits.above.take(which, axis=1) if crossing else hits.below(which)
     if weight.ndim == 1:
-        return np.repeat(weight.take(which)[None], 3, axis=0)
-    if weight.shape[1] == 1:
-        return np.repeat(weight, len(which), axis=1)
-    return weight.take(which, axis=1)
+        return origin, np.repeat(weight.take(which)[None], 3, axis=0)
+    return origin, np.repeat(weight, len(which), axis=1)
 
 
 def _reflected(
@@ -79,10 +90,11 @@ def _reflected(
         return None
     path = which if path is None else path.take(which)
     ng = hits.ng.take(which, axis=1)
+    origin, rest = _departures(hits, which, len(which), weight)
     return Rays(
-        hits.above.take(which, axis=1),
+        origin,
         mirrored(hits, which, ng, path, blur),
-        _columns(weight, which),
+        rest,
         path,
         None if medium is None else medium.take(which),
         None if hits.time is None else hits.time.take(which),
@@ -103,10 +115,11 @@ def _refracted(
     if len(which) == 0:
         return None
     path = which if path is None else path.take(which)
+    origin, rest = _departures(hits, which, 0, weight)
     return Rays(
-        hits.below(which),
+        origin,
         refracted(plan, hits, which, boundary.of(which), path, blur),
-        _columns(weight, which),
+        rest,
         path,
         None if medium is None else beyond(hits, which),
         None if hits.time is None else hits.time.take(which),

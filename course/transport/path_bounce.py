@@ -21,7 +21,7 @@ from course.transport.gloss import Blur
 from course.transport.insides import insides
 from course.transport.paths import OPEN, Draws, Rays
 from course.transport.plan import Lookups, Plan
-from course.transport.ways import beyond, divided, mirrored, reflectance, refracted
+from course.transport.ways import beyond, departures, divided, mirrored, reflectance, refracted
 
 DIFFUSE, MIRRORED, REFRACTED = range(3)
 
@@ -95,7 +95,7 @@ class PathBounce:
         whole = kind is None and len(which) == hits.size
         origin = hits.above
         if not whole:
-            origin, after = _left(hits, which, crossing, after)
+            origin, after = departures(hits, which, crossing, after)
             path = which if path is None else path.take(which)
             medium = None if medium is None else medium.take(which)
         elif path is None:
@@ -231,25 +231,3 @@ def _ordered(
     taken = kind.take(which)
     ways = [which.compress(taken == way) for way in (DIFFUSE, MIRRORED, REFRACTED)]
     return np.concatenate(ways), len(ways[0]), len(ways[0]) + len(ways[1])
-
-
-def _left(hits: Hits, which: Indices, crossing: int, after: Floats32) -> tuple[Floats32, Floats32]:
-    """Where the rays that leave some of the hits start, and their throughput, (3, m) each.
-
-    Parameters
-    ----------
-    which : (m,) the hits
-    crossing : from which of them on rays leave on the far side
-    after : (3, n) throughput after all hits
-    """
-    if hits.compiled:
-        from course.transport import way_kernels
-
-        origin, throughput = np.empty((2, 3, len(which)), np.float32)
-        arrays = hits.above, hits.p, hits.step, after
-        way_kernels.leave(which, crossing, *map(np.ascontiguousarray, arrays), origin, throughput)
-        return origin, throughput
-    origin = hits.above.take(which[:crossing], axis=1)
-    if crossing < len(which):
-        origin = np.concatenate((origin, hits.below(which[crossing:])), axis=1)
-    return origin, after.take(which, axis=1)

@@ -148,3 +148,27 @@ def beyond(hits: Hits, which: Indices) -> Media:
     """The medium (m,) behind some of the hits, for rays that go through."""
     material = hits.material.take(which).astype(np.int16)
     return np.where(hits.entering.take(which), material, OPEN)
+
+
+def departures(
+    hits: Hits, which: Indices, crossing: int, after: Floats32
+) -> tuple[Floats32, Floats32]:
+    """Where the rays that leave some of the hits start, and their throughput, (3, m) each.
+
+    Parameters
+    ----------
+    which : (m,) the hits
+    crossing : from which of them on rays leave on the far side
+    after : (3, n) throughput after all hits
+    """
+    if hits.compiled:
+        from course.transport import way_kernels
+
+        origin, throughput = np.empty((2, 3, len(which)), np.float32)
+        arrays = hits.above, hits.p, hits.step, after
+        way_kernels.leave(which, crossing, *map(np.ascontiguousarray, arrays), origin, throughput)
+        return origin, throughput
+    origin = hits.above.take(which[:crossing], axis=1)
+    if crossing < len(which):
+        origin = np.concatenate((origin, hits.below(which[crossing:])), axis=1)
+    return origin, after.take(which, axis=1)

@@ -21,10 +21,9 @@ from course.transport.path_bounce import (
     MIRRORED,
     REFRACTED,
     PathBounce,
-    _left,
     _ordered,
 )
-from course.transport.ways import divided, refracted
+from course.transport.ways import departures, divided, refracted
 
 if not packets.available():
     pytest.skip("Numba is not installed (pip install .[fast])", allow_module_level=True)
@@ -150,7 +149,7 @@ def test_the_same_places_to_leave_from() -> None:
     which = rng.permutation(hits.size)[:4000]
     for crossing in (0, 1500, 4000):
         passes, loop = (
-            _left(replace(hits, compiled=compiled), which, crossing, after)
+            departures(replace(hits, compiled=compiled), which, crossing, after)
             for compiled in (False, True)
         )
         for one, other in zip(passes, loop, strict=True):
