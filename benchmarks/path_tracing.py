@@ -29,6 +29,7 @@ from course.benchmarking.measuring import Measured, measure
 from course.benchmarking.sources import scene_hash
 from course.benchmarking.variants import load_variant
 from course.effects import PROJECT
+from course.geometry.packets import available
 from course.imaging.srgb import linear_to_srgb8
 
 SCENE = PROJECT / "scenes" / "path_tracing.yaml"
@@ -65,7 +66,7 @@ def measure_path_tracing() -> list[Figure]:
     width, height = measured.size
     about = f"{width} x {height} pixels, {CURVES.seeds} seeds"
     keep("path_tracing", about, comparisons(measured))
-    figures = [_cost()]
+    figures = [_cost(compiled) for compiled in ((False, True) if available() else (False,))]
     if find_spec("mitsuba") is None:
         print("without Mitsuba (pip install .[peers]) there is nothing to agree with")
         return figures
@@ -83,13 +84,14 @@ def measure_path_tracing() -> list[Figure]:
     ]
 
 
-def _cost() -> Figure:
+def _cost(compiled: bool) -> Figure:
     scene = load_variant(SCENE)
     ratios = []
     for seed in range(ROUNDS + 1):
-        receipt = render(scene, spp=16, seed=seed, threads=THREADS, compiled=False).receipt
+        receipt = render(scene, spp=16, seed=seed, threads=THREADS, compiled=compiled).receipt
         ratios.append(THREADS * receipt.wall_seconds / receipt.embree_seconds)
-    return summary("path tracing: whole render / inside Embree", ratios[1:], 1.8)
+    name = "path tracing: whole render / inside Embree" + ", compiled loops" * compiled
+    return summary(name, ratios[1:], 1.8)
 
 
 # ---------------------------------------------------------------- error over time
