@@ -6,15 +6,17 @@ import numpy as np
 
 from course.core.types import Words
 
-_GOLDEN = 0x9E3779B97F4A7C15
+GOLDEN, FIRST, SECOND = 0x9E3779B97F4A7C15, 0xBF58476D1CE4E5B9, 0x94D049BB133111EB
+"""What SplitMix64 adds, and what it multiplies by."""
+
 _MASK64 = (1 << 64) - 1
 
 
 def mix(value: int) -> int:
     """One 64-bit word mixed into another (the finaliser of SplitMix64; Steele, Lea & Flood 2014)."""
-    value = (value + _GOLDEN) & _MASK64
-    value = ((value ^ (value >> 30)) * 0xBF58476D1CE4E5B9) & _MASK64
-    value = ((value ^ (value >> 27)) * 0x94D049BB133111EB) & _MASK64
+    value = (value + GOLDEN) & _MASK64
+    value = ((value ^ (value >> 30)) * FIRST) & _MASK64
+    value = ((value ^ (value >> 27)) * SECOND) & _MASK64
     return value ^ (value >> 31)
 
 
@@ -38,11 +40,11 @@ def hash_words(keys: Words, *salts: int) -> Words:
     -------
     (len(salts), n) uint32
     """
-    state = keys.astype(np.uint64) * np.uint64(_GOLDEN)
+    state = keys.astype(np.uint64) * np.uint64(GOLDEN)
     state = state + np.array([salt & _MASK64 for salt in salts], np.uint64)[:, None]
     state ^= state >> np.uint64(30)
-    state *= np.uint64(0xBF58476D1CE4E5B9)
+    state *= np.uint64(FIRST)
     state ^= state >> np.uint64(27)
-    state *= np.uint64(0x94D049BB133111EB)
+    state *= np.uint64(SECOND)
     state >>= np.uint64(32)
     return state.astype(np.uint32)

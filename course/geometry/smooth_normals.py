@@ -41,14 +41,7 @@ def smooth_normals(
         Vertices at one place whose own normals differ by more keep them apart.
     """
     faces, weights = _faces_and_angles(vertices, triangles)
-    sums = np.zeros((len(vertices), 3))
-    for axis in range(3):
-        for corner in range(3):
-            sums[:, axis] += np.bincount(
-                triangles[:, corner],
-                weights=weights[:, corner] * faces[:, axis],
-                minlength=len(vertices),
-            )
+    sums = _sums(len(vertices), triangles, faces, weights)
     own = _unit(sums)
     normals = _unit(_lend(vertices, own, sums, math.cos(math.radians(crease_degrees))))
     return _filled(normals, own, faces, triangles)
@@ -73,11 +66,7 @@ def area_normals(
     longest = np.abs(p[:, 1:] - p[:, :1]).max(initial=0.0) or 1.0
     e1, e2 = (np.asarray((p[:, k] - p[:, 0]) / longest) for k in (1, 2))
     crossed = np.cross(e1, e2)
-    sums = np.zeros((len(vertices), 3))
-    for axis in range(3):
-        weights = np.repeat(crossed[:, axis], 3)
-        sums[:, axis] = np.bincount(triangles.ravel(), weights, minlength=len(vertices))
-    normals = _unit(sums)
+    normals = _unit(_sums(len(vertices), triangles, crossed, np.ones(triangles.shape)))
     return _filled(normals, normals, _unit(crossed), triangles)
 
 
@@ -94,6 +83,24 @@ def _faces_and_angles(
     # At corner k the edges k and (minus) k - 1 meet; all three pairs span twice the same area.
     cosines = -np.sum(edges * np.roll(edges, 1, axis=1), axis=2)
     return _unit(faces), np.arctan2(areas[:, None], cosines)
+
+
+def _sums(
+    count: int,
+    triangles: NDArray[np.integer],
+    faces: NDArray[np.float64],
+    weights: NDArray[np.float64],
+) -> NDArray[np.float64]:
+    """Return for each of the vertices (count, 3) the sum of its faces (T, 3) by the weights of its corners (T, 3)."""
+    sums = np.zeros((count, 3))
+    for axis in range(3):
+        for corner in range(3):
+            sums[:, axis] += np.bincount(
+                triangles[:, corner],
+                weights=weights[:, corner] * faces[:, axis],
+                minlength=count,
+            )
+    return sums
 
 
 def _lend(

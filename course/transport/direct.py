@@ -86,9 +86,7 @@ def _irradiance(
         # A light that has moved by d looks from p as one that stands still does from p - d.
         points = points - world.motion.functions.displacement(light.velocity, hits.time)
     sample = light.sample(points, u, hits.compiled)
-    shaded = None
-    if not plan.all_shade or plan.dark_insides:
-        shaded = world.materials.shaded_sides
+    shaded = None if plan.all_shade else world.materials.shaded_sides
     find = _facing_by_loop if hits.compiled else _facing
     faced = find(hits, sample, shaded)
     if faced is None:
@@ -115,9 +113,7 @@ def _facing(hits: Hits, sample: Sample, shaded: Mask | None) -> _Facing | None:
     cosine = strength
     strength = cosine * sample.factor
     if shaded is not None:
-        sides = [shaded[0].take(hits.material)]
-        if len(shaded) > 1:
-            sides.append(shaded[1].take(hits.material))
+        sides = [row.take(hits.material) for row in shaded]
         strength *= sides[0] if len(sides) == 1 else np.where(hits.entering, *sides)
     which = np.flatnonzero(strength > 0)
     if len(which) == 0:

@@ -5,14 +5,13 @@ from __future__ import annotations
 import numpy as np
 from numba import njit, types
 
+from course.core.hashing import FIRST, GOLDEN, SECOND
+from course.core.samplers.sobol import TO_UNIT
 from course.geometry.kernels import COLUMNS, OPTIONS
 
-_GOLDEN, _FIRST, _SECOND = (
-    np.uint64(word) for word in (0x9E3779B97F4A7C15, 0xBF58476D1CE4E5B9, 0x94D049BB133111EB)
-)
+_GOLDEN, _FIRST, _SECOND = np.uint64(GOLDEN), np.uint64(FIRST), np.uint64(SECOND)
 _BITS, _MORE_BITS, _HALF = np.uint64(30), np.uint64(27), np.uint64(32)
 _BYTE = np.uint32(8)
-_TO_UNIT = np.float32(2.0**-24)
 
 
 @njit(**OPTIONS)
@@ -57,6 +56,6 @@ def draw(pixels, samples, path, points, salts, first, u):
             if u.shape[0] > 1:
                 other = _hashed(pixels[pixel], salts[2])
         sample = path[i] - pixel * samples
-        u[0, i] = np.float32((points[first, order, sample] ^ scramble) >> _BYTE) * _TO_UNIT
+        u[0, i] = np.float32((points[first, order, sample] ^ scramble) >> _BYTE) * TO_UNIT
         if u.shape[0] > 1:
-            u[1, i] = np.float32((points[1, order, sample] ^ other) >> _BYTE) * _TO_UNIT
+            u[1, i] = np.float32((points[1, order, sample] ^ other) >> _BYTE) * TO_UNIT

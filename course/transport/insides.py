@@ -1,4 +1,4 @@
-"""Hits on the inside of glass: light passes there, and none is shown that lamps, the environment or surfaces send."""
+"""Hits on the inside of glass, which shows no ambient light and scatters none; direct light leaves it out by itself."""
 
 from __future__ import annotations
 

@@ -201,8 +201,6 @@ class PathTracer(Tracer):
         if len(inside):
             outside = np.ones(hits.size, np.bool_)
             outside[inside] = False
-            if radiance is not None:
-                radiance[:, inside] = 0
         if self._ambient is not None:
             radiance = _added(radiance, hits, self._ambient, outside)
         if self._glow is not None:

@@ -21,12 +21,12 @@ class Plan:
     Attributes
     ----------
     shades : any material shows light from the lights
-    all_shade : every material does
+    all_shade : every material does, from both sides
     has_ambient : some surface has a visible ambient term, or glows by itself
     emits : some surface is a light that rays can see
     specular : some material has a highlight
     mirrors, refracts, absorbs : some reachable material does
-    dark_insides : some dielectric shows light on its outside, which its inside does not
+    dark_insides : some dielectric has ambient or diffuse terms, which its inside does not show
     sees_environment : the environment isn't black
     max_depth : bounces that can happen in this scene
     light_dimensions : for each light, its first dimension at depth 0; None if it needs no numbers
@@ -111,7 +111,7 @@ def make_plan(world: World, settings: Settings) -> Plan:
     choice_dimension = None if world.paths is None else dimensions.take(2)
     return Plan(
         shades=sky or (bool(m.shaded.any()) and bool(world.lights)),
-        all_shade=bool(m.shaded.all()),
+        all_shade=bool(m.shaded_sides.all()),
         has_ambient=bool((m.ambient * world.ambient[:, None] + m.glowing).any()),
         emits=bool(m.shining.any()),
         specular=bool(m.specular.any()),
@@ -119,7 +119,7 @@ def make_plan(world: World, settings: Settings) -> Plan:
         refracts=refracts,
         absorbs=refracts and bool(m.absorption.any()),
         dark_insides=bool(
-            (m.refracts & (m.shaded | (m.ambient * world.ambient[:, None]).any(0))).any()
+            (m.refracts & (m.diffuses | (m.ambient * world.ambient[:, None]).any(0))).any()
         ),
         sees_environment=not world.environment.black,
         max_depth=settings.max_depth if mirrors or refracts or scatters else 0,

@@ -232,6 +232,8 @@ class Tracer:
             if not wanted:
                 continue
             term = lookup(hits.material)
+            if lookup is self.lookups.ambient:
+                term = self._outside(term, hits)
             if lookup is self.lookups.emission:
                 term = term * hits.entering
             elif hits.tint is not None:
@@ -239,14 +241,16 @@ class Tracer:
             elif term.shape[1] == 1:
                 term = np.repeat(term, hits.size, axis=1)
             radiance = term if radiance is None else np.add(radiance, term, out=radiance)
-        inside = insides(self.plan, self.lookups, hits)
-        if radiance is not None and len(inside):
-            # Nothing but what it sends out by itself.
-            glow = self.world.materials.glowing.take(hits.material.take(inside), axis=1)
-            radiance[:, inside] = (
-                glow if hits.tint is None else glow * hits.tint.take(inside, axis=1)
-            )
         return radiance
+
+    def _outside(self, term: Floats32, hits: Hits) -> Floats32:
+        """Ambient terms (3, n) or (3, 1), but of the insides of glass what they send out by themselves."""
+        inside = insides(self.plan, self.lookups, hits)
+        if len(inside) == 0:
+            return term
+        term = np.array(np.broadcast_to(term, (3, hits.size)))
+        term[:, inside] = self.world.materials.glowing.take(hits.material.take(inside), axis=1)
+        return term
 
     def _add_environment(self, film: Floats32, rays: Rays, missed: Mask) -> None:
         which = np.flatnonzero(missed)

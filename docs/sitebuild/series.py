@@ -40,12 +40,7 @@ style="--shown: {width}px; --columns: {columns}">
 def _frame(
     place: Place, name: str, chosen: Series, step: tuple[int, ...], first: tuple[int, ...]
 ) -> str:
-    file = f"{name}-{'-'.join(map(str, step))}.webp"
-    if place.blank:
-        path = series_pictures.blank(chosen, step, place.made / "series" / file)
-    else:
-        path = series_pictures.picture(chosen, step)
-    address = place.address(f"_series/{file}", path)
+    address = series_pictures.address(place, name, chosen, step)
     width, height = chosen.size
     kind = "frame first" if step == first else "frame"
     return (

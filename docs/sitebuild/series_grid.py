@@ -25,11 +25,6 @@ def series_grid(place: Place, name: str, words: str = "") -> str:  # noqa: ARG00
 
 
 def _cell(place: Place, name: str, chosen: Series, step: tuple[int, ...]) -> Cell:
-    file = f"{name}-{'-'.join(map(str, step))}.webp"
-    if place.blank:
-        path = series_pictures.blank(chosen, step, place.made / "series" / file)
-    else:
-        path = series_pictures.picture(chosen, step)
-    address = place.address(f"_series/{file}", path)
+    address = series_pictures.address(place, name, chosen, step)
     values = ", ".join(slider.words(at) for slider, at in zip(chosen.sliders, step, strict=True))
     return Cell(address, values, chosen.alternative(step), chosen.size)

@@ -17,6 +17,7 @@ from course.scene.document import spell
 from course.scene.loading import Loaded, load_description
 from course.scene.scene import Scene
 from sitebuild import pictures, webp
+from sitebuild.place import Place
 from sitebuild.series_file import PATTERN, SAMPLES, Series
 
 KEPT = PROJECT / "out" / "docs" / "series"
@@ -49,6 +50,15 @@ def picture(series: Series, step: tuple[int, ...], kept: Path = KEPT) -> Path:
         made = render(_compiled(*state), size=series.size, spp=samples, sampler=settings["sampler"])
         webp.save(webp.on_screen(made), image, QUALITY)
     return image
+
+
+def address(place: Place, name: str, series: Series, step: tuple[int, ...]) -> str:
+    """Hand one step's picture over to the site, or a stand-in; return its address on the page."""
+    file = f"{name}-{'-'.join(map(str, step))}.webp"
+    path = (
+        blank(series, step, place.made / "series" / file) if place.blank else picture(series, step)
+    )
+    return place.address(f"_series/{file}", path)
 
 
 def blank(series: Series, step: tuple[int, ...], path: Path) -> Path:

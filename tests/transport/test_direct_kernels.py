@@ -12,10 +12,8 @@ from course.appearance.lights.sample import Sample, towards
 from course.appearance.materials import Lookup
 from course.core.samplers import Block
 from course.core.samplers.sobol import SobolSampler
-from course.geometry import packets, shapes
-from course.geometry.embree import Intersections
-from course.geometry.hits import Hits, find_hits
-from course.geometry.surface import Part, build_surface
+from course.geometry import packets
+from course.geometry.hits import Hits
 from course.transport.counters import Counters
 from course.transport.direct import (
     _accumulated,
@@ -27,6 +25,7 @@ from course.transport.direct import (
 )
 from course.transport.paths import Draws
 from course.transport.tracing import add_radiance
+from tests.transport.coarse_sphere import hits_on_a_coarse_sphere
 
 if not packets.available():
     pytest.skip("Numba is not installed (pip install .[fast])", allow_module_level=True)
@@ -41,17 +40,7 @@ def same(mine: Any, theirs: Any) -> None:
 
 @pytest.fixture(scope="module")
 def hits() -> Hits:
-    """On a coarse sphere, whose normals are far from those of its facets; of four materials."""
-    surface = build_surface([Part(shapes.sphere(0.9, 12), 3)])
-    rng = np.random.default_rng(4)
-    triangle = rng.integers(surface.size, size=N).astype(np.int32)
-    u, v = rng.random((2, N), np.float32) * np.float32(0.5)
-    direction = rng.normal(size=(3, N))
-    direction /= np.linalg.norm(direction, axis=0)
-    surface.accelerator.use_packets(False)
-    found = Intersections(triangle, u, v, np.ones(N, np.float32))
-    hits = find_hits(surface, found, direction.astype(np.float32))
-    return replace(hits, material=rng.integers(4, size=N).astype(np.uint16))
+    return hits_on_a_coarse_sphere(N, 4, seed=4)
 
 
 @pytest.mark.parametrize("of_its_own", [True, False], ids=["a point each", "one point"])

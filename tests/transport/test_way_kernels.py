@@ -12,10 +12,7 @@ import pytest
 
 from course import Scene, render
 from course.appearance.materials import Lookup
-from course.geometry import packets, shapes
-from course.geometry.embree import Intersections
-from course.geometry.hits import Hits, find_hits
-from course.geometry.surface import Part, build_surface
+from course.geometry import packets
 from course.transport.path_bounce import (
     DIFFUSE,
     MIRRORED,
@@ -24,6 +21,7 @@ from course.transport.path_bounce import (
     _ordered,
 )
 from course.transport.ways import departures, divided, refracted
+from tests.transport.coarse_sphere import hits_on_a_coarse_sphere
 
 if not packets.available():
     pytest.skip("Numba is not installed (pip install .[fast])", allow_module_level=True)
@@ -80,25 +78,10 @@ def test_the_same_way_and_throughput(
         assert (np.count_nonzero(ways == way) > 1000) == some
 
 
-def hits_on_a_coarse_sphere() -> Hits:
-    """From within and from outside, on three materials; some arrive along the surface, and some normals are bent."""
-    surface = build_surface([Part(shapes.sphere(0.9, 12), 3)])
-    n = 6000
-    rng = np.random.default_rng(5)
-    triangle = rng.integers(surface.size, size=n).astype(np.int32)
-    u, v = rng.random((2, n), np.float32) * np.float32(0.5)
-    direction = rng.normal(size=(3, n))
-    direction /= np.linalg.norm(direction, axis=0)
-    surface.accelerator.use_packets(False)
-    found = Intersections(triangle, u, v, np.ones(n, np.float32))
-    hits = find_hits(surface, found, direction.astype(np.float32))
-    return replace(hits, material=rng.integers(3, size=n).astype(np.uint16))
-
-
 @pytest.mark.parametrize("some", [False, True], ids=["all hits", "some hits"])
 def test_the_same_division_and_refracted_directions(some: bool) -> None:
     """Opaque, a dense and a thin medium: total reflection on either side."""
-    hits = hits_on_a_coarse_sphere()
+    hits = hits_on_a_coarse_sphere(6000, 3, seed=5)
     which = np.arange(0, hits.size, 3) if some else None
     index = np.array([0, 1.5, 0.7], np.float32)
     lookups: Any = SimpleNamespace(refraction_index=Lookup(index))
@@ -143,7 +126,7 @@ def test_the_same_order_of_ways() -> None:
 
 
 def test_the_same_places_to_leave_from() -> None:
-    hits = hits_on_a_coarse_sphere()
+    hits = hits_on_a_coarse_sphere(6000, 3, seed=5)
     rng = np.random.default_rng(9)
     after = rng.random((3, hits.size), np.float32)
     which = rng.permutation(hits.size)[:4000]

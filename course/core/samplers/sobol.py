@@ -16,7 +16,7 @@ from course.core.samplers.block import Block
 from course.core.sobol import joined, owen_scrambled, shuffled, sobol_words
 from course.core.types import Floats32, Indices, Words
 
-_TO_UNIT = np.float32(2.0**-24)
+TO_UNIT = np.float32(2.0**-24)
 
 ORDERS = 1024
 """Orders and scrambles of the points; two pairs of a pixel share one by chance of 1 in this many."""
@@ -61,7 +61,7 @@ class SobolSampler:
         first = dimension % 2
         chosen = mixed[first : first + width]
         chosen >>= np.uint32(8)
-        u: Floats32 = np.multiply(chosen, _TO_UNIT, dtype=np.float32)
+        u: Floats32 = np.multiply(chosen, TO_UNIT, dtype=np.float32)
         return u.reshape(width, block.size)
 
     def draw_some(self, block: Block, dimension: int, width: int, path: Indices) -> Floats32:
@@ -82,7 +82,7 @@ class SobolSampler:
         words = rows[first : first + width].reshape(width, -1).take(place, axis=1)
         words ^= hashes[1 + first : 1 + first + width]
         words >>= np.uint32(8)
-        u: Floats32 = np.multiply(words, _TO_UNIT, dtype=np.float32)
+        u: Floats32 = np.multiply(words, TO_UNIT, dtype=np.float32)
         return u
 
     def pair(self, block: Block, pair: int) -> tuple[Words, tuple[int, ...]]:

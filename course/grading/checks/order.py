@@ -185,22 +185,15 @@ def _estimates(trial: Trial) -> None:
         means, variances = np.array(found).T
         errors.append(_deviation(means, 2 * np.pi / 3))
         told.append(float(variances.mean()))
-    order = _fitted(errors)
-    if not abs(order - 0.5) <= ESTIMATED:
-        raise Failure(
-            "the error to fall with N^-0.5",
-            f"N^-{order:.2f}",
-            _at_counts(errors),
-            "Four times the samples, half the error: each sample counts, and all count alike.",
-        )
-    order = _fitted(told)
-    if not abs(order - 1) <= ESTIMATED:
-        raise Failure(
-            "the variance that it tells to fall with 1 / N",
-            f"N^-{order:.2f}",
-            _at_counts(told),
-            "It is the variance of the mean, whose square root is the error.",
-        )
+    alike = "Four times the samples, half the error: each sample counts, and all count alike."
+    mean = "It is the variance of the mean, whose square root is the error."
+    for values, wanted, expected, hint in (
+        (errors, 0.5, "the error to fall with N^-0.5", alike),
+        (told, 1, "the variance that it tells to fall with 1 / N", mean),
+    ):
+        order = _fitted(values)
+        if not abs(order - wanted) <= ESTIMATED:
+            raise Failure(expected, f"N^-{order:.2f}", _at_counts(values), hint)
 
 
 ESTIMATED = 0.25
