@@ -17,12 +17,21 @@ import numpy as np
 import pytest
 
 from course import Scene, render
+from course.geometry import packets
 from course.geometry.mesh import Mesh
 from course.geometry.mesh_files import save_ply
 
 MakeScene = Callable[..., Scene]
 TRACERS = ["distribution", "path"]
-COMPILED = [True, False]
+COMPILED = (
+    False,
+    pytest.param(
+        True,
+        marks=pytest.mark.skipif(
+            not packets.available(), reason="Numba is not installed (pip install .[fast])"
+        ),
+    ),
+)
 WHITE = {"type": "constant", "radiance": 1}
 PLATE = {"shape": "quad", "material": "plate", "width": 200, "depth": 200}
 
