@@ -22,6 +22,7 @@ from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
 
 from course.core.types import Floats32, Indices, Mask, Numbers
+from course.geometry.convex import ConvexObjects, Objects
 from course.geometry.packets import PacketScene
 
 NO_HIT = 1e37
@@ -64,11 +65,15 @@ class Accelerator:
     ----------
     vertices : (V, 3) float32
     triangles : (T, 3) int32
+    convex : the objects that they belong to, where looking at these spares queries
     """
 
-    def __init__(self, vertices: Floats32, triangles: Numbers) -> None:
+    def __init__(
+        self, vertices: Floats32, triangles: Numbers, convex: ConvexObjects | None = None
+    ) -> None:
         self._vertices = np.ascontiguousarray(vertices, np.float32)
         self._triangles = np.ascontiguousarray(triangles, np.int32)
+        self.convex = convex
         # A hierarchy takes as much memory as all else that is known of the triangles: there is none that isn't asked.
         self._scene: EmbreeScene | None = None
         self._packets: PacketScene | None = None
@@ -114,6 +119,7 @@ class Accelerator:
         time: Floats32 | None = None,
         limit: Floats32 | None = None,
         coherent: bool = False,
+        left: Objects | None = None,
     ) -> Intersections:
         """Nearest hit of each ray.
 
@@ -124,6 +130,7 @@ class Accelerator:
         time : of no consequence to triangles that don't move
         limit : (N,) float32, distances beyond which nothing counts
         coherent : whether rays that follow each other go much the same way
+        left : (N,) the convex object that each ray leaves; None where that is not known
         """
         n = direction.shape[1]
         if len(self._triangles) == 0 or n == 0:
@@ -133,7 +140,10 @@ class Accelerator:
         if self._packets is not None:
             start = perf_counter()
             far = np.full(1, NO_HIT, np.float32) if limit is None else limit
-            hits = self._packets.intersect(origin, direction, far, coherent)
+            which = None
+            if left is not None and self.convex is not None:
+                which = self.convex.remaining(origin, direction, far, left)
+            hits = self._packets.intersect(origin, direction, far, coherent, which)
             clock.seconds += perf_counter() - start
             return Intersections(*hits)
         # Embree overwrites the limits.

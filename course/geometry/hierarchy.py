@@ -16,6 +16,7 @@ import numpy as np
 from course.core.types import Floats32, Floats64, Mask, Numbers
 from course.core.vectors import cross, dot
 from course.errors import EffectError
+from course.geometry.convex import ConvexObjects, Objects
 from course.geometry.embree import NO_HIT, Intersections, QueryTime
 
 BUILD, TRAVERSE = "bounding_volumes.build", "bounding_volumes.traverse"
@@ -49,6 +50,9 @@ class HierarchyAccelerator:
     compiled = False
     """Compiled loops are not used: they are Embree's."""
 
+    convex: ConvexObjects | None = None
+    """Nor are convex objects looked at, for that is what such loops do."""
+
     def __init__(
         self, vertices: Floats32, triangles: Numbers, functions: HierarchyFunctions
     ) -> None:
@@ -72,6 +76,7 @@ class HierarchyAccelerator:
         time: Floats32 | None = None,
         limit: Floats32 | None = None,
         coherent: bool = False,
+        left: Objects | None = None,
     ) -> Intersections:
         """Nearest hit of each ray; see ``Accelerator.intersect``.
 

@@ -11,7 +11,7 @@ import math
 import numpy as np
 from numba import njit, types
 
-from course.geometry.kernels import COLUMNS, OPTIONS, ROW
+from course.geometry.kernels import COLUMNS, OBJECTS, OPTIONS, ROW
 
 _LEAST = np.float32(1e-20)
 _NOTHING, _ONE = np.float32(0), np.float32(1)
@@ -152,3 +152,33 @@ def mirror(which, direction, ns, ng, way):
             below += below
             x, y, z = x - below * nx, y - below * ny, z - below * nz
         way[0, i], way[1, i], way[2, i] = x, y, z
+
+
+@njit(
+    types.void(
+        *(types.int64[::1], types.int32[::1], ROW, COLUMNS, COLUMNS),
+        *(types.int32[::1], types.boolean[::1], OBJECTS),
+    ),
+    **OPTIONS,
+)
+def leave(which, triangle, side, ng, direction, first, worth, left):
+    """The convex object that each ray leaves outwards, or -1, into ``left`` (m,).
+
+    Parameters
+    ----------
+    which : (m,) the hits that the rays leave
+    triangle, side, ng : (n,), (n,) and (3, n) of all hits, as ``Hits`` has them
+    direction : (3, m) of the rays
+    first, worth : of ``ConvexObjects``
+    """
+    for i in range(len(which)):
+        j = which[i]
+        # The normal is on the incoming side: a ray that leaves on that side leaves the object if it came from outside.
+        up = direction[0, i] * ng[0, j] + direction[1, i] * ng[1, j] + direction[2, i] * ng[2, j]
+        left[i] = -1
+        if up * side[j] > 0:
+            number = 0
+            for k in range(1, len(worth)):
+                number += triangle[j] >= first[k]
+            if worth[number]:
+                left[i] = number

@@ -9,6 +9,7 @@ import numpy as np
 from course.core.gathering import gather
 from course.core.types import Floats32, Indices, Mask, Materials, Numbers
 from course.core.vectors import cross, dot
+from course.geometry.convex import ConvexObjects, Objects
 from course.geometry.embree import Intersections
 from course.geometry.moving import MovingAccelerator
 from course.geometry.surface import Surface
@@ -36,6 +37,7 @@ class Hits:
     side : (n,) float32, 1 where the ray meets the front of the triangle, -1 where it meets the back
     tint : (3, n) float32, what textures say; 1 where there is none, None where none of the hits has one
     compiled : whether compiled loops are used
+    convex : the scene's convex objects, where it pays to know which of them a ray leaves
     """
 
     ray: Indices | None
@@ -54,6 +56,7 @@ class Hits:
     time: Floats32 | None = None
     tint: Floats32 | None = None
     compiled: bool = False
+    convex: ConvexObjects | None = None
 
     @property
     def size(self) -> int:
@@ -70,6 +73,24 @@ class Hits:
         below: Floats32 = self.p.take(which, axis=1)
         below -= self.step.take(which, axis=1)
         return below
+
+    def leaving(self, which: Indices, direction: Floats32) -> Objects | None:
+        """The convex object that each of some rays leaves for good, (m,), -1 for none; None where nobody asks.
+
+        Parameters
+        ----------
+        which : (m,) the hits that the rays leave
+        direction : (3, m) of the rays
+        """
+        if self.convex is None:
+            return None
+        from course.geometry import hit_kernels
+
+        left = np.empty(len(which), np.int8)
+        arrays = which, self.triangle, self.side, self.ng, direction
+        table = self.convex.first, self.convex.worth
+        hit_kernels.leave(*map(np.ascontiguousarray, arrays), *table, left)
+        return left
 
 
 def find_hits(
@@ -103,7 +124,7 @@ def find_hits(
     tint = None if surface.painting is None else surface.painting.tint(triangle, u, v)
     return Hits(
         *(ray, triangle, u, v, t, material, direction, p, ng, ns, step, above, side),
-        *(time, tint, compiled),
+        *(time, tint, compiled, surface.accelerator.convex if compiled else None),
     )
 
 

@@ -10,5 +10,8 @@ COLUMNS = types.float32[:, ::1]
 ROW = types.float32[::1]
 """(N,) float32, contiguous."""
 
+OBJECTS = types.int8[::1]
+"""(N,) int8, contiguous: numbers of convex objects."""
+
 OPTIONS = {"nogil": True, "cache": True, "error_model": "numpy"}
 """Without the interpreter lock, kept on disk, and with divisions by zero as NumPy has them."""

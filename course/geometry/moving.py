@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from course.core.types import Floats32, Mask, Numbers
+from course.geometry.convex import ConvexObjects, Objects
 from course.geometry.embree import Accelerator, Intersections, QueryTime
 
 ToObjectSpace = Callable[[Floats32, Floats32, Floats32], Floats32]
@@ -47,6 +48,11 @@ class MovingAccelerator:
     to_object_space: ToObjectSpace
     displacement: Displacement
 
+    @property
+    def convex(self) -> ConvexObjects | None:
+        """None: what leaves one object may still meet another where things move."""
+        return None
+
     def use_packets(self, wanted: bool) -> None:
         """See ``Accelerator.use_packets``."""
         for accelerator in (self.static, *(mover.accelerator for mover in self.movers)):
@@ -64,6 +70,7 @@ class MovingAccelerator:
         clock: QueryTime,
         time: Floats32 | None,
         coherent: bool = False,
+        left: Objects | None = None,
     ) -> Intersections:
         """Nearest hits at the rays' times (N,); see ``Accelerator.intersect``."""
         assert time is not None

@@ -34,11 +34,11 @@ def _aligned(rows):
 
 
 @njit(**OPTIONS)
-def _fill(packet, whole, origin, direction, first, count):
+def _fill(packet, whole, origin, direction, which, every, first, count):
     """Copy rays into a packet; ``whole`` is the same memory as integers."""
     shared = origin.shape[1] == 1
     for i in range(count):
-        j = first + i
+        j = first + i if every else which[first + i]
         k = 0 if shared else j
         for axis in range(3):
             packet[axis, i] = origin[axis, k]
@@ -61,39 +61,48 @@ def _arguments(hint):
 
 @njit(
     types.void(
-        types.uintp,
-        COLUMNS,
-        COLUMNS,
-        ROW,
-        types.int64,
-        types.int32[::1],
-        COLUMNS,
+        *(types.uintp, COLUMNS, COLUMNS, ROW, types.int64[::1]),
+        *(types.boolean, types.int64, types.int32[::1], COLUMNS),
     ),
     **OPTIONS,
 )
-def intersect(scene, origin, direction, limit, hint, triangle, uvt):
-    """Nearest hits into ``triangle`` (N,) and ``uvt`` (3, N); see ``PacketScene.intersect``."""
-    n = direction.shape[1]
+def intersect(scene, origin, direction, limit, which, every, hint, triangle, uvt):
+    """Nearest hits into ``triangle`` (N,) and ``uvt`` (3, N); see ``PacketScene.intersect``.
+
+    Parameters
+    ----------
+    which : (n,) the rays that are asked, in ascending order; of no meaning where ``every`` one is
+    """
+    n = direction.shape[1] if every else len(which)
     packet = _aligned(_ALL_ROWS)
     whole = packet.view(np.int32)
     valid = _aligned(1).view(np.int32)
     valid[:] = -1
     arguments = _arguments(hint)
+    if not every:
+        for j in range(direction.shape[1]):
+            triangle[j] = -1
+            uvt[0, j], uvt[1, j] = 0, 0
+            uvt[2, j] = limit[0] if len(limit) == 1 else limit[j]
     for first in range(0, n, WIDTH):
         count = min(WIDTH, n - first)
         valid[0, count:] = 0
-        _fill(packet, whole, origin, direction, first, count)
+        _fill(packet, whole, origin, direction, which, every, first, count)
         for i in range(count):
-            packet[_TFAR, i] = limit[0] if len(limit) == 1 else limit[first + i]
+            j = first + i if every else which[first + i]
+            packet[_TFAR, i] = limit[0] if len(limit) == 1 else limit[j]
             whole[_GEOMETRY, i] = -1
         _intersect16(valid.ctypes.data, scene, packet.ctypes.data, arguments.ctypes.data)
         for i in range(count):
-            j = first + i
+            j = first + i if every else which[first + i]
             hit = whole[_GEOMETRY, i] >= 0
             triangle[j] = whole[_PRIMITIVE, i] if hit else -1
             uvt[0, j] = packet[_U, i] if hit else 0
             uvt[1, j] = packet[_V, i] if hit else 0
             uvt[2, j] = packet[_TFAR, i]
+
+
+_NO_CHOICE = np.empty(0, np.int64)
 
 
 @njit(types.void(types.uintp, COLUMNS, COLUMNS, types.float32, types.boolean[::1]), **OPTIONS)
@@ -108,48 +117,10 @@ def unoccluded(scene, origin, direction, limit, free):
     for first in range(0, n, WIDTH):
         count = min(WIDTH, n - first)
         valid[0, count:] = 0
-        _fill(packet, whole, origin, direction, first, count)
+        _fill(packet, whole, origin, direction, _NO_CHOICE, True, first, count)
         for i in range(count):
             packet[_TFAR, i] = limit
         _occluded16(valid.ctypes.data, scene, packet.ctypes.data, arguments.ctypes.data)
         # Embree sets tfar to minus infinity where something is in the way.
         for i in range(count):
             free[first + i] = packet[_TFAR, i] >= 0
-
-
-_CHUNK = 256
-_LESS, _MORE = np.float32(1 - 1e-6), np.float32(1 + 1e-6)
-
-
-@njit(
-    types.int64(COLUMNS, COLUMNS, ROW, COLUMNS, types.int64[::1]),
-    **OPTIONS,
-)
-def entering(origin, direction, limit, box, which):
-    """Which rays may meet a box, into the first places of ``which`` (N,), and how many; see ``PacketScene.entering``.
-
-    By slabs: a ray is inside the box between the last of the three planes that it enters through and the first of
-    those that it leaves through. Comparisons with the NaN of 0 / 0, of a ray within a plane, are false and say "maybe".
-    """
-    n = direction.shape[1]
-    met = np.empty(_CHUNK, np.bool_)
-    found = 0
-    for first in range(0, n, _CHUNK):
-        count = min(_CHUNK, n - first)
-        for i in range(count):
-            j = first + i
-            near = np.float32(0)
-            far = limit[0] if len(limit) == 1 else limit[j]
-            for axis in range(3):
-                inverse = np.float32(1) / direction[axis, j]
-                a = (box[0, axis] - origin[axis, j]) * inverse
-                b = (box[1, axis] - origin[axis, j]) * inverse
-                low = a if a < b else b
-                high = b if a < b else a
-                near = low if low > near else near
-                far = high if high < far else far
-            met[i] = not near * _LESS > far * _MORE
-        for i in range(count):
-            which[found] = first + i
-            found += met[i]
-    return found

@@ -20,11 +20,13 @@ from typing import Any
 import numpy as np
 
 from course.core.types import Floats32, Indices, Mask, Numbers
+from course.geometry.convex import roomy_box
 
 _TRIANGLES, _INDICES, _VERTICES = 0, 0, 1
 _THREE_UINTS, _THREE_FLOATS = 0x5003, 0x9003
 _ROBUST = 4
 _COHERENT = 1 << 16
+_EVERY = np.empty(0, np.int64)
 
 QUERIES = ("rtcIntersect16", "rtcOccluded16")
 """What the compiled loops call by name."""
@@ -122,8 +124,8 @@ class PacketScene:
         error = library.rtcGetDeviceError(_device())
         if error:
             raise RuntimeError(f"Embree's error {error}")
-        self._intersect, self._unoccluded, self._entering = _kernels()
-        self._box = _roomy_box(vertices)
+        self._intersect, self._unoccluded = _kernels()
+        self._box = roomy_box(vertices)
 
     def __del__(self) -> None:
         """Give the hierarchy's memory back."""
@@ -132,7 +134,12 @@ class PacketScene:
             self._library.rtcReleaseScene(scene)
 
     def intersect(
-        self, origin: Floats32, direction: Floats32, limit: Floats32, coherent: bool
+        self,
+        origin: Floats32,
+        direction: Floats32,
+        limit: Floats32,
+        coherent: bool,
+        which: Indices | None = None,
     ) -> tuple[Numbers, Floats32, Floats32, Floats32]:
         """Nearest hits: triangle (N,) int32, -1 where there is none, and u, v, t (N,) float32.
 
@@ -142,12 +149,15 @@ class PacketScene:
         direction : (3, N) float32
         limit : (N,) or (1,) float32, the distance beyond which nothing counts, and t of what hits nothing
         coherent : whether 16 rays that follow each other go much the same way
+        which : (n,) the rays that are asked, in ascending order, for the others hit nothing; None for all
         """
         n = direction.shape[1]
         triangle = np.empty(n, np.int32)
         uvt = np.empty((3, n), np.float32)
         arrays = map(np.ascontiguousarray, (origin, direction, limit))
-        self._intersect(self._scene, *arrays, _COHERENT if coherent else 0, triangle, uvt)
+        chosen = _EVERY if which is None else which, which is None
+        hint = _COHERENT if coherent else 0
+        self._intersect(self._scene, *arrays, *chosen, hint, triangle, uvt)
         return triangle, *uvt
 
     def unoccluded(self, origin: Floats32, direction: Floats32, limit: float) -> Mask:
@@ -167,20 +177,15 @@ class PacketScene:
         origin, direction : (3, N) float32
         limit : (N,) or (1,) float32
         """
+        from course.geometry import box_kernels
+
         which = np.empty(direction.shape[1], np.int64)
         arrays = map(np.ascontiguousarray, (origin, direction, limit))
-        return which[: self._entering(*arrays, self._box, which)]
-
-
-def _roomy_box(vertices: Floats32) -> Floats32:
-    """Lowest and highest corner (2, 3) of a box around all vertices, with room for the rounding of Embree's hits."""
-    low, high = vertices.min(axis=0), vertices.max(axis=0)
-    room = np.float32(1e-5) * (high - low).max() + np.float32(1e-6) * np.abs(vertices).max()
-    return np.array((low - room, high + room), np.float32)
+        return which[: box_kernels.entering(*arrays, self._box, which)]
 
 
 @cache
-def _kernels() -> tuple[Any, Any, Any]:
+def _kernels() -> tuple[Any, Any]:
     """The compiled loops, which find Embree's queries by their names."""
     import llvmlite.binding
 
@@ -190,4 +195,4 @@ def _kernels() -> tuple[Any, Any, Any]:
         llvmlite.binding.add_symbol(name, address)
     from course.geometry import packet_kernels
 
-    return packet_kernels.intersect, packet_kernels.unoccluded, packet_kernels.entering
+    return packet_kernels.intersect, packet_kernels.unoccluded

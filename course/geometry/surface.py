@@ -26,6 +26,7 @@ import numpy as np
 
 from course.core.types import Floats, Floats32, Materials, Numbers
 from course.core.vectors import cross, dot
+from course.geometry.convex import convex_objects
 from course.geometry.embree import Accelerator
 from course.geometry.hierarchy import HierarchyAccelerator, HierarchyFunctions
 from course.geometry.mesh import Mesh
@@ -66,12 +67,13 @@ it is still inside for dihedral angles down to atan(1 / INSET) = 27 degrees.
 
 @dataclass(frozen=True)
 class Part:
-    """One object's mesh on its way into a surface."""
+    """One object's mesh on its way into a surface; ``convex`` as ``course.geometry.convex`` means it."""
 
     mesh: Mesh
     material: int
     velocity: tuple[float, float, float] = (0.0, 0.0, 0.0)
     paint: Paint | None = None
+    convex: bool = False
 
 
 @dataclass(frozen=True)
@@ -143,7 +145,8 @@ def build_surface(
             motion.displacement,
         )
     else:
-        accelerator = _accelerator(static)
+        convex = convex_objects([(t.vertices, t.triangles, t.convex) for t in static])
+        accelerator = Accelerator(*_joined(static), convex)
     return Surface(
         corner_edges=np.concatenate([table.corner_edges for table in tables]),
         normal_offset=np.concatenate([table.normal_offset for table in tables]),
@@ -198,6 +201,7 @@ class _Tables:
     bend: float
     velocity: tuple[float, float, float]
     paint: Paint | None
+    convex: bool
 
 
 def _tables(part: Part, smooth: bool) -> _Tables:
@@ -242,6 +246,7 @@ def _tables(part: Part, smooth: bool) -> _Tables:
         bend,
         part.velocity,
         None if part.paint is None else Paint(part.paint.corners[has_area], part.paint.color_at),
+        part.convex,
     )
 
 

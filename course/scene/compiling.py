@@ -19,7 +19,7 @@ from course.scene.description.values import rgb
 from course.scene.emitters import emitter_parts
 from course.scene.environment_compiling import compile_environment
 from course.scene.frame import Frame, bounds_of, frame_of
-from course.scene.instancing import object_mesh
+from course.scene.instancing import CONVEX, object_mesh
 from course.scene.lens_compiling import compile_lens
 from course.scene.light_compiling import Lit, compile_lights
 from course.scene.loading import Loaded
@@ -84,6 +84,7 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
             columns.of_objects[number],
             shutter.velocity(thing.motion, frame),
             None if painter is None else painter.paint(number, mesh),
+            isinstance(thing, CONVEX),
         )
         for number, (mesh, thing) in enumerate(zip(meshes, scene.objects, strict=True))
     ]

@@ -13,6 +13,9 @@ from course.geometry.mesh import Mesh
 from course.scene import description as d
 from course.scene.document import Document
 
+CONVEX = (d.Sphere, d.Box, d.Cylinder, d.Cone)
+"""Shapes that are closed and convex, however they are transformed."""
+
 
 def object_mesh(
     thing: d.Object,

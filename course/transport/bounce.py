@@ -91,13 +91,15 @@ def _reflected(
     path = which if path is None else path.take(which)
     ng = hits.ng.take(which, axis=1)
     origin, rest = _departures(hits, which, len(which), weight)
+    direction = mirrored(hits, which, ng, path, blur)
     return Rays(
         origin,
-        mirrored(hits, which, ng, path, blur),
+        direction,
         rest,
         path,
         None if medium is None else medium.take(which),
         None if hits.time is None else hits.time.take(which),
+        hits.leaving(which, direction),
     )
 
 
@@ -116,11 +118,13 @@ def _refracted(
         return None
     path = which if path is None else path.take(which)
     origin, rest = _departures(hits, which, 0, weight)
+    direction = refracted(plan, hits, which, boundary.of(which), path, blur)
     return Rays(
         origin,
-        refracted(plan, hits, which, boundary.of(which), path, blur),
+        direction,
         rest,
         path,
         None if medium is None else beyond(hits, which),
         None if hits.time is None else hits.time.take(which),
+        hits.leaving(which, direction),
     )

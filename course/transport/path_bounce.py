@@ -103,7 +103,8 @@ class PathBounce:
         time = None if hits.time is None else hits.time.take(which)
         if kind is None:
             direction = self._diffuse(hits, None if whole else which, path)
-            return Rays(origin, direction, after, path, medium, time), None
+            left = hits.leaving(which, direction)
+            return Rays(origin, direction, after, path, medium, time, left), None
         scattered, back, through = which[:optical], which[optical:crossing], which[crossing:]
         directions = [self._diffuse(hits, scattered, path[:optical])] if optical else []
         if len(back):
@@ -117,7 +118,9 @@ class PathBounce:
             if medium is not None:
                 medium[crossing:] = beyond(hits, through)
         direction = np.concatenate(directions, axis=1)
-        return Rays(origin, direction, after, path, medium, time), np.arange(len(which)) >= optical
+        left = hits.leaving(which, direction)
+        rays = Rays(origin, direction, after, path, medium, time, left)
+        return rays, np.arange(len(which)) >= optical
 
     def _scattered(self, hits: Hits, beta: Floats32 | None) -> Floats32:
         """Throughput (3, n) of diffuse reflection."""

@@ -11,6 +11,7 @@ import numpy as np
 from course.core.samplers import Block, Sampler
 from course.core.samplers.sobol import SobolSampler
 from course.core.types import Floats32, Indices, Media
+from course.geometry.convex import Objects
 from course.transport.counters import Counters
 
 OPEN = np.int16(-1)
@@ -29,6 +30,7 @@ class Rays:
     path : (n,) number of the path in the block; None means one ray for each path, in order
     time : (n,) float32 since the shutter opened, in exposures; None where nothing moves
     medium : (n,) int16, material that the ray travels in, OPEN outside; None where nothing absorbs, and for camera rays
+    left : (n,) int8, the convex object that a ray leaves for good, -1 for none; None where nobody asks
     """
 
     origin: Floats32
@@ -37,6 +39,7 @@ class Rays:
     path: Indices | None
     medium: Media | None = None
     time: Floats32 | None = None
+    left: Objects | None = None
 
     @property
     def size(self) -> int:
@@ -58,6 +61,7 @@ class Rays:
             None if self.path is None else self.path[columns],
             None if self.medium is None else self.medium[columns],
             None if self.time is None else self.time[columns],
+            None if self.left is None else self.left[columns],
         )
 
 

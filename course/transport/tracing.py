@@ -169,6 +169,7 @@ class Tracer:
             counters.embree,
             rays.time,
             coherent=self._coherent(depth),
+            left=rays.left,
         )
         if depth == 0:
             self._leave_eye_surface(rays, found, counters)

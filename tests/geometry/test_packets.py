@@ -112,6 +112,7 @@ def test_hierarchies_that_nobody_uses_give_their_memory_back(
 ) -> None:
     library = packets._library()
     assert library is not None
+    gc.collect()
     released = []
     release = library.rtcReleaseScene
     monkeypatch.setattr(

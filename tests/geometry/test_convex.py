@@ -1,0 +1,222 @@
+"""What leaves a convex object is looked for among the others alone, and found as if all had been asked."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from course.core.vectors import cross, dot
+from course.geometry import packets, shapes, transforms
+from course.geometry.convex import ConvexObjects
+from course.geometry.embree import NO_HIT, Intersections, QueryTime
+from course.geometry.hits import Hits, find_hits
+from course.geometry.mesh import Mesh
+from course.geometry.surface import Part, Surface, build_surface
+from course.scene import description as d
+from course.scene.instancing import CONVEX
+
+compiled = pytest.mark.skipif(
+    not packets.available(), reason="Numba is not installed (pip install .[fast])"
+)
+
+TURN = transforms.compose(
+    [
+        transforms.rotate(np.array([1.0, 2.0, 3.0]), 33.0),
+        transforms.scale(np.array([1.0, 0.3, -2.0])),
+        transforms.rotate(np.array([0.0, 1.0, 3.0]), 100.0),
+    ]
+)
+CONVEX_MESHES = {
+    "sphere": (d.Sphere, shapes.sphere(0.7, 48)),
+    "box": (d.Box, shapes.box((1, 2, 3))),
+    "cylinder": (d.Cylinder, shapes.cylinder(0.5, 2, 48)),
+    "cone": (d.Cone, shapes.cone(0.5, 2, 48)),
+}
+
+
+def normalised(vectors: Any) -> Any:
+    return vectors / np.sqrt(dot(vectors, vectors))
+
+
+def at(mesh: Mesh, *place: float) -> Mesh:
+    return transforms.apply(mesh, transforms.translate(np.array(place)))
+
+
+def rises(mesh: Mesh) -> float:
+    """How far a vertex lies above the plane of a triangle that looks outwards, at most."""
+    p = mesh.vertices[mesh.triangles].transpose(1, 2, 0)
+    normal = normalised(cross(p[1] - p[0], p[2] - p[0]))
+    return float((mesh.vertices @ normal - dot(p[0], normal)).max())
+
+
+@pytest.mark.parametrize("name", CONVEX_MESHES)
+@pytest.mark.parametrize("matrix", [np.eye(4), TURN], ids=["as it is", "transformed"])
+def test_the_shapes_that_count_as_convex_are(name: str, matrix: Any) -> None:
+    kind, mesh = CONVEX_MESHES[name]
+    assert kind in CONVEX
+    assert len(CONVEX) == len(CONVEX_MESHES)
+    assert rises(transforms.apply(mesh, matrix)) < 1e-12
+
+
+def test_the_measure_finds_what_is_not_convex() -> None:
+    assert rises(shapes.torus(1.0, 0.25, 48, 24)) > 0.1
+    assert rises(shapes.displaced_sphere(1.0, 0.1, 4.0, 48)) > 1e-3
+
+
+BALL, SMALL = shapes.sphere(0.25, 64), shapes.sphere(0.25, 24)
+KNOT = at(shapes.torus_knot(2, 3, 0.3, 0.1, 256, 24), 0, -0.5, 0.3)
+ROOM = shapes.box((2, 2, 2))
+
+
+def scene(*parts: tuple[Mesh, bool]) -> Surface:
+    return build_surface([Part(mesh, 0, convex=convex) for mesh, convex in parts])
+
+
+def apart() -> Surface:
+    """Two balls that are worth being left out, between a small ball and two objects that are not convex."""
+    return scene(
+        (at(SMALL, 0, 0.1, 0), True),
+        (at(BALL, -0.6, 0, 0), True),
+        (KNOT, False),
+        (at(BALL, 0.6, 0.2, 0.1), True),
+        (at(shapes.quad(0.5, 0.5), 0, -0.9, 0), False),
+    )
+
+
+def objects(surface: Surface) -> ConvexObjects | None:
+    return surface.accelerator.convex
+
+
+def test_balls_that_stand_apart_are_worth_it() -> None:
+    found = objects(apart())
+    assert found is not None
+    assert found.worth.tolist() == [False, True, False, True, False]
+    sizes = np.diff(found.first)
+    assert sizes.tolist() == [len(m.triangles) for m in (SMALL, BALL, KNOT, BALL)] + [2]
+    low, high = found.boxes[2:4]
+    assert np.allclose(low, (-0.85, -0.25, -0.25), atol=1e-4)
+    assert np.allclose(high, (-0.35, 0.25, 0.25), atol=1e-4)
+    # The balls' farthest points lie in the boxes, with room.
+    assert low[0] < -0.85
+    assert high[0] > -0.35
+
+
+@pytest.mark.parametrize(
+    ("parts", "why"),
+    [
+        ([(BALL, False)], "not convex"),
+        ([(SMALL, True)], "few triangles"),
+        ([(BALL, True), (ROOM, False)], "every ray meets the room"),
+        ([(BALL, True)] + [(at(SMALL, x / 9 - 0.9, 0.9, 0), False) for x in range(16)], "many"),
+        ([(Mesh(np.zeros((3, 3)), np.array([[0, 1, 2]])), True)], "nothing"),
+    ],
+    ids=lambda value: value if isinstance(value, str) else "",
+)
+def test_nothing_is_looked_at_where_it_does_not_pay(parts: Any, why: str) -> None:
+    assert objects(scene(*parts)) is None, why
+
+
+def test_an_object_without_area_is_in_nobodys_way() -> None:
+    nothing = Mesh(np.zeros((3, 3)), np.array([[0, 1, 2]]))
+    found = objects(scene((BALL, True), (nothing, False)))
+    assert found is not None
+    assert found.worth.tolist() == [True, False]
+
+
+def test_where_things_move_nothing_is_left_out() -> None:
+    from course.geometry.motion_functions import MotionFunctions
+
+    functions = MotionFunctions(
+        lambda _open, _close, u: u,
+        lambda velocity, time: velocity[:, None] * time,
+        lambda origins, velocity, time: origins - velocity[:, None] * time,
+    )
+    parts = [Part(BALL, 0, convex=True), Part(at(BALL, 0.6, 0, 0), 0, (0.1, 0.0, 0.0))]
+    assert objects(build_surface(parts, functions)) is None
+
+
+def left_behind(surface: Surface, seed: int) -> tuple[Hits, Any, Any]:
+    """Hits all over the surface from both sides, and rays that leave them upwards, some of them at grazing angles."""
+    n = 60_000
+    rng = np.random.default_rng(seed)
+    triangle = rng.integers(surface.size, size=n).astype(np.int32)
+    _, u, v = rng.dirichlet((1, 1, 1), n).T.astype(np.float32)
+    direction = normalised(rng.normal(size=(3, n))).astype(np.float32)
+    hits = find_hits(surface, Intersections(triangle, u, v, u), direction)
+    way = rng.normal(size=(3, n))
+    way *= np.where(dot(way, hits.ng) > 0, 1, -1)
+    # Every third ray leaves at 1 / 1000 or less: nothing else would find itself so often.
+    steep = np.where(np.arange(n) % 3 == 0, 1e-3 * rng.random(n), 1)
+    up = dot(way, hits.ng)
+    way = normalised(way - up * (1 - steep) * hits.ng).astype(np.float32)
+    return hits, np.arange(n), way
+
+
+@compiled
+def test_hits_are_the_same_as_if_all_had_been_asked() -> None:
+    surface = apart()
+    surface.accelerator.use_packets(True)
+    hits, which, way = left_behind(surface, 1)
+    left = hits.leaving(which, way)
+    assert left is not None
+    convex = objects(surface)
+    assert convex is not None
+    asked = convex.remaining(hits.above, way, np.full(1, NO_HIT, np.float32), left).tolist()
+    assert len(asked) < 0.9 * len(which)
+    clock = QueryTime()
+    some = surface.accelerator.intersect(hits.above, way, clock, left=left)
+    every = surface.accelerator.intersect(hits.above, way, clock)
+    assert 0.1 < (every.triangle < 0).mean() < 0.9
+    for name in ("triangle", "u", "v", "t"):
+        assert getattr(some, name).tobytes() == getattr(every, name).tobytes(), name
+    # Those that were not asked are many of those that hit nothing.
+    assert len(which) - len(asked) > 0.25 * (every.triangle < 0).sum()
+
+
+@compiled
+def test_limits_hold_for_rays_that_are_not_asked() -> None:
+    surface = apart()
+    surface.accelerator.use_packets(True)
+    hits, which, way = left_behind(surface, 2)
+    limit = np.random.default_rng(0).random(len(which)).astype(np.float32)
+    left = hits.leaving(which, way)
+    clock = QueryTime()
+    some = surface.accelerator.intersect(hits.above, way, clock, limit=limit, left=left)
+    every = surface.accelerator.intersect(hits.above, way, clock, limit=limit)
+    for name in ("triangle", "u", "v", "t"):
+        assert getattr(some, name).tobytes() == getattr(every, name).tobytes(), name
+
+
+@compiled
+def test_only_what_leaves_a_ball_outwards_leaves_it() -> None:
+    surface = apart()
+    surface.accelerator.use_packets(True)
+    hits, which, way = left_behind(surface, 3)
+    # Half of the rays go through the surface instead.
+    way = np.where(which % 2 == 0, way, -way)
+    some = which[::3]
+    left = hits.leaving(some, np.ascontiguousarray(way[:, some]))
+    convex = objects(surface)
+    assert left is not None
+    assert convex is not None
+    number = np.searchsorted(convex.first, hits.triangle, side="right") - 1
+    outwards = dot(way, hits.ng) * hits.side > 0
+    expected = np.where(outwards & convex.worth[number], number, -1)[some]
+    assert (left == expected).all()
+    assert set(left.tolist()) == {-1, 1, 3}
+    assert (left >= 0).mean() > 0.1
+
+
+@compiled
+def test_without_convex_objects_nobody_asks_what_a_ray_leaves() -> None:
+    surface = scene((BALL, False), (KNOT, False))
+    surface.accelerator.use_packets(True)
+    hits, which, way = left_behind(surface, 4)
+    assert hits.leaving(which, way) is None
+
+
+def test_without_compiled_loops_nobody_asks_either() -> None:
+    hits, which, way = left_behind(apart(), 5)
+    assert hits.leaving(which, way) is None

@@ -1,0 +1,80 @@
+"""Pictures keep their bits where rays that leave a ball are looked for among other objects alone."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from course import Scene, render
+from course.geometry import convex, packets
+from course.geometry.embree import Accelerator
+from course.transport import tracing
+
+if not packets.available():
+    pytest.skip("Numba is not installed (pip install .[fast])", allow_module_level=True)
+
+MakeScene = Callable[..., Scene]
+
+
+def balls(make_scene: MakeScene, **parts: Any) -> Scene:
+    """Silver, glass and matt balls apart from each other, and a knot, in a bright sky."""
+    places = {"silver": [-1, 0, 0], "glass": [0.9, 0.1, 0.6], "grey": [0.1, 1.1, -0.5]}
+    return make_scene(
+        film={"width": 96, "height": 72},
+        materials={
+            "silver": {"color": 0, "mirror": 0.9, "gloss": {"lobe": "plane", "roughness": 0.1}}
+            if parts.pop("rough", False)
+            else {"color": 0, "mirror": 0.9},
+            "glass": {"color": 0, "dielectric": {"refraction_index": 1.5, "absorption": 0.1}},
+            "grey": {"color": 0.7},
+        },
+        objects=[
+            *(
+                {"shape": "sphere", "material": name, "radius": 0.6, "segments": 64}
+                | {"transform": [{"translate": place}]}
+                for name, place in places.items()
+            ),
+            {"shape": "torus_knot", "material": "silver", "radius": 0.4, "tube": 0.12}
+            | {"transform": [{"translate": [0, -1, 0]}]},
+        ],
+        environment={"type": "constant", "radiance": [0.5, 0.7, 1], "lights": True},
+        lights=[{"type": "point", "position": [2, 3, 4], "intensity": 60}],
+        **{"integrator": {"max_depth": 5}} | parts,
+    )
+
+
+@pytest.mark.parametrize(
+    "parts",
+    [{}, {"rough": True}, {"integrator": {"type": "path", "max_depth": 6}}],
+    ids=["mirrors", "gloss", "paths"],
+)
+# Batches that are cut in two, as glass makes them grow: what is known of each ray goes with it.
+@pytest.mark.parametrize("largest", [tracing.LARGEST_BATCH, 500])
+def test_pictures_keep_their_bits(
+    make_scene: MakeScene, monkeypatch: pytest.MonkeyPatch, parts: dict[str, Any], largest: int
+) -> None:
+    monkeypatch.setattr(tracing, "LARGEST_BATCH", largest)
+    scene = balls(make_scene, **parts)
+    accelerator = scene.compiled.world.surface.accelerator
+    assert isinstance(accelerator, Accelerator)
+    assert accelerator.convex is not None
+    assert accelerator.convex.worth.tolist() == [True, True, True, False]
+    asked, whole = 0, 0
+    remaining = convex.ConvexObjects.remaining
+
+    def counted(self: Any, origin: Any, direction: Any, limit: Any, left: Any) -> Any:
+        nonlocal asked, whole
+        which = remaining(self, origin, direction, limit, left)
+        asked, whole = asked + len(which), whole + len(left)
+        return which
+
+    monkeypatch.setattr(convex.ConvexObjects, "remaining", counted)
+    some = render(scene, compiled=True, threads=1).linear
+    assert 0 < asked < 0.8 * whole
+    accelerator.convex = None
+    everything = render(scene, compiled=True, threads=1).linear
+    assert np.array_equal(some, everything)
+    assert np.array_equal(some, render(scene, compiled=False, threads=1).linear)
