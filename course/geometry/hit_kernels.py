@@ -57,7 +57,7 @@ def _pulled(x, y, z, a, b, c, edges, normal, inset):
 @njit(
     types.float32(
         *(types.int32[::1], ROW, ROW, COLUMNS),
-        *(COLUMNS, COLUMNS, COLUMNS, COLUMNS),
+        *(COLUMNS, COLUMNS, COLUMNS, COLUMNS, types.boolean),
         *(COLUMNS, COLUMNS, COLUMNS, COLUMNS, COLUMNS, ROW),
     ),
     **OPTIONS,
@@ -71,6 +71,7 @@ def find(
     normal_offset,
     inset,
     corner_normals,
+    bends,
     p,
     ng,
     ns,
@@ -84,6 +85,7 @@ def find(
     ----------
     triangle, u, v, direction : (n,) and (3, n)
     corner_edges, normal_offset, inset, corner_normals : of ``Surface``; the last is (0, 9) where all triangles are flat
+    bends : whether normals that look away from the ray are bent until they no longer do
     p, ng, ns, step, above, side : (3, n) and (n,), filled; ``ns`` is (3, 0) where all triangles are flat
     """
     smooth = corner_normals.shape[0] > 0
@@ -121,7 +123,7 @@ def find(
             scale = _ONE / np.sqrt(max(nx * nx + ny * ny + nz * nz, _LEAST))
             nx, ny, nz = nx * scale * way, ny * scale * way, nz * scale * way
             away = nx * dx + ny * dy + nz * dz
-            if away > 0:
+            if bends and away > 0:
                 nx, ny, nz = nx - away * dx, ny - away * dy, nz - away * dz
                 scale = _ONE / np.sqrt(max(nx * nx + ny * ny + nz * nz, _LEAST))
                 nx, ny, nz = nx * scale, ny * scale, nz * scale

@@ -30,7 +30,7 @@ class Hits:
     material : (n,) uint16
     direction : (3, n) float32, of the ray that came in
     p : (3, n) float32, the point
-    ng, ns : (3, n) float32, unit geometric and shading normals, both on the incoming side
+    ng, ns : (3, n) float32, unit geometric and shading normals, on the incoming side of the triangle
     step : (3, n) float32, from the point to where rays leave on the incoming side
     above : (3, n) float32, p + step
     time : (n,) float32, when; None where nothing moves
@@ -121,6 +121,11 @@ def find_hits(
         surface.accelerator.follow(p, triangle, time)
         np.add(p, step, out=above)
     material = surface.material.take(triangle)
+    if surface.bent is not None and ns is not ng:
+        some = np.flatnonzero(surface.bent.take(material))
+        turned = ns.take(some, axis=1)
+        _turn_to_viewer(turned, direction.take(some, axis=1))
+        ns[:, some] = turned
     tint = None if surface.painting is None else surface.painting.tint(triangle, u, v)
     return Hits(
         *(ray, triangle, u, v, t, material, direction, p, ng, ns, step, above, side),
@@ -154,7 +159,8 @@ def _places(
     if surface.corner_normals is not None:
         ns = _interpolated(gather(surface.corner_normals, triangle), u, v)
         ns *= side
-        _turn_to_viewer(ns, direction)
+        if surface.bent is None:
+            _turn_to_viewer(ns, direction)
     return p, ng, ns, step, p + step, side
 
 
@@ -172,7 +178,7 @@ def _compiled_places(
     side = np.empty(n, np.float32)
     tables = surface.corner_edges, surface.normal_offset, surface.inset, corner_normals
     found = map(np.ascontiguousarray, (triangle, u, v, direction))
-    hit_kernels.find(*found, *tables, p, ng, ns, step, above, side)
+    hit_kernels.find(*found, *tables, surface.bent is None, p, ng, ns, step, above, side)
     return p, ng, ng if surface.corner_normals is None else ns, step, above, side
 
 

@@ -24,7 +24,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from course.core.types import Floats, Floats32, Materials, Numbers
+from course.core.types import Floats, Floats32, Mask, Materials, Numbers
 from course.core.vectors import cross, dot
 from course.geometry.convex import convex_objects
 from course.geometry.embree import Accelerator
@@ -92,6 +92,8 @@ class Surface:
     material : (T,) uint16 material numbers
     accelerator : the same triangles in Embree, or in a hierarchy
     painting : the textures, None where there are none
+    bent : (M,) bool, of which materials shading normals that look away from the viewer are bent until they no longer
+        do; None for all
     """
 
     corner_edges: Floats32
@@ -103,6 +105,7 @@ class Surface:
     material: Materials
     accelerator: AnyAccelerator
     painting: Painting | None = None
+    bent: Mask | None = None
 
     @property
     def size(self) -> int:
@@ -115,12 +118,14 @@ def build_surface(
     motion: MotionFunctions | None = None,
     bulges: bool = True,
     hierarchy: HierarchyFunctions | None = None,
+    bent: Mask | None = None,
 ) -> Surface:
     """Gather the triangles of all parts, whose coordinates lie in about [-1, 1].
 
     Triangles that have no area in float32 are left out: no ray can hit them. ``motion`` is needed where a part has a
     velocity; parts that move alike share a hierarchy, and come after those that stand still. Without ``bulges`` shadow
-    rays start from the triangles themselves. ``hierarchy`` takes the place of Embree, where nothing moves.
+    rays start from the triangles themselves. ``hierarchy`` takes the place of Embree, where nothing moves. ``bent`` as
+    ``Surface`` has it.
     """
     still = (0.0, 0.0, 0.0)
     parts = sorted(parts, key=lambda part: (part.velocity != still, part.velocity))
@@ -157,6 +162,7 @@ def build_surface(
         material=np.concatenate([table.material for table in tables]),
         accelerator=accelerator,
         painting=make_painting([(len(table.triangles), table.paint) for table in tables]),
+        bent=bent,
     )
 
 

@@ -97,6 +97,8 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
         parts + emitters,
         motion.functions if motion else None,
         bulges=scene.integrator.terminator == "round",
+        # Refraction is not defined by a normal that looks away.
+        bent=None if scene.integrator.shading_normals == "bent" else materials.refracts,
         hierarchy=compile_acceleration(loaded, shutter, effects),
     )
     objects = Lit(surface, columns.of_lights)

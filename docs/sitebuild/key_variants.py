@@ -232,6 +232,12 @@ VARIANTS: dict[tuple[str, str], list[tuple[str, Changes]]] = {
     ("IntegratorDescription", "terminator"): _values(
         "integrator.terminator", "round", "facets", on={**ALONE, "objects.1.segments": 12}
     ),
+    ("IntegratorDescription", "shading_normals"): _values(
+        "integrator.shading_normals",
+        "bent",
+        "interpolated",
+        on={**ALONE, **POLISHED, "objects.1.segments": 12},
+    ),
     ("ConstantEnvironment", "radiance"): _values("environment.radiance", 0.05, [0.3, 0.38, 0.5]),
     ("ConstantEnvironment", "lights"): _values(
         "environment.lights", False, True, on={"lights": []}

@@ -29,9 +29,9 @@ MESHES = {
 }
 
 
-def met(mesh: Mesh, share: float) -> tuple[Surface, Intersections, Any]:
+def met(mesh: Mesh, share: float, bends: bool = True) -> tuple[Surface, Intersections, Any]:
     """A surface, hits of a share of the rays, and directions; a third of the points lie at edges or corners."""
-    surface = build_surface([Part(mesh, 3)])
+    surface = build_surface([Part(mesh, 3)], bent=None if bends else np.zeros(4, np.bool_))
     n = 4800
     rng = np.random.default_rng(3)
     triangle = rng.integers(surface.size, size=n).astype(np.int32)
@@ -57,10 +57,11 @@ def both(surface: Surface, found: Intersections, direction: Any) -> tuple[Hits, 
     return hits[0], hits[1]
 
 
+@pytest.mark.parametrize("bends", [True, False])
 @pytest.mark.parametrize("share", [0.0, 0.5, 1.0])
 @pytest.mark.parametrize("name", MESHES)
-def test_places_and_normals(name: str, share: float) -> None:
-    surface, found, direction = met(MESHES[name], share)
+def test_places_and_normals(name: str, share: float, bends: bool) -> None:
+    surface, found, direction = met(MESHES[name], share, bends)
     passes, loop = both(surface, found, direction)
     assert passes.size == loop.size == np.count_nonzero(found.triangle >= 0)
     for attribute in PLACES:
@@ -73,7 +74,9 @@ def test_places_and_normals(name: str, share: float) -> None:
         p0, e1, e2 = surface.corner_edges[loop.triangle].T.reshape(3, 3, -1)
         assert (np.abs(p0 + e1 * loop.u + e2 * loop.v - loop.p).max(axis=0) > 1e-6).sum() > 500
         if name == "coarse sphere":
-            assert (np.abs((loop.ns * direction).sum(axis=0)) < 1e-6).sum() > 50
+            away = (loop.ns * direction).sum(axis=0)
+            assert ((np.abs(away) < 1e-6).sum() > 50) == bends
+            assert ((away > 1e-3).sum() > 50) == (not bends)
 
 
 @pytest.mark.parametrize("name", MESHES)

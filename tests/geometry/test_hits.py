@@ -122,21 +122,41 @@ def test_geometric_normals_are_unit_and_face_the_ray(met: Met) -> None:
         assert 0.9 < hits.entering.mean() <= 1
 
 
+def interpolated(mesh: Mesh, hits: Hits) -> Array:
+    """Shading normals (3, n) in float64."""
+    assert mesh.normals is not None
+    n = mesh.normals[mesh.triangles[hits.triangle]]
+    u, v = hits.u.astype(float), hits.v.astype(float)
+    smooth = n[:, 0] * (1 - u - v)[:, None] + n[:, 1] * u[:, None] + n[:, 2] * v[:, None]
+    return np.asarray((smooth / np.linalg.norm(smooth, axis=1, keepdims=True)).T * hits.side)
+
+
 def test_shading_normals_interpolate_and_face_the_ray(met: Met) -> None:
     mesh, _, hits, _, direction = met
     assert np.abs(np.linalg.norm(hits.ns.astype(float), axis=0) - 1).max() < 1e-6
     facing = (hits.ns.astype(float) * direction).sum(axis=0)
     assert facing.max() < 1e-6
-    assert mesh.normals is not None
-    n = mesh.normals[mesh.triangles[hits.triangle]]
-    u, v = hits.u.astype(float), hits.v.astype(float)
-    smooth = n[:, 0] * (1 - u - v)[:, None] + n[:, 1] * u[:, None] + n[:, 2] * v[:, None]
-    smooth = (smooth / np.linalg.norm(smooth, axis=1, keepdims=True)).T * hits.side
+    smooth = interpolated(mesh, hits)
     as_it_is = (smooth * direction).sum(axis=0) < -1e-6
     assert as_it_is.mean() > 0.9
     assert np.abs(hits.ns - smooth)[:, as_it_is].max() < 1e-6
     # The others looked away from the viewer, and were turned until they are just in sight.
     assert np.abs(facing[~as_it_is]).max(initial=0) < 2e-6
+
+
+def test_shading_normals_may_look_away_from_the_ray() -> None:
+    mesh = shapes.sphere(1, 8)
+    origin, direction = aimed(mesh, 20000)
+    glass = np.array([False, True])
+    plain, bent = (
+        cast(build_surface([Part(mesh, material)], bent=glass), origin, direction)
+        for material in (0, 1)
+    )
+    assert np.abs(plain.ns - interpolated(mesh, plain)).max() < 1e-6
+    assert ((plain.ns * plain.direction).sum(axis=0) > 0.01).sum() > 100
+    # Of the materials that are named they are bent after all.
+    assert np.array_equal(bent.ns, cast(build_surface([Part(mesh, 1)]), origin, direction).ns)
+    assert (bent.ns * bent.direction).sum(axis=0).max() < 1e-6
 
 
 def test_hits_carry_material_ray_and_distance() -> None:

@@ -49,3 +49,10 @@ class IntegratorDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_un
             " neighbours cast shadows on it."
         ),
     ] = "round"
+    shading_normals: Annotated[
+        Literal["bent", "interpolated"],
+        about(
+            "What becomes of smooth meshes' normals that look away from the viewer: bent until they are at right angles"
+            " to the ray, or left as they are, but for glass."
+        ),
+    ] = "bent"

@@ -141,6 +141,7 @@ def _common(
             # What is below a surface meets it again, and facets shade each other.
             "into_surface": "keep",
             "terminator": "facets",
+            "shading_normals": "interpolated",
         },
         "environment": {"type": "constant", "radiance": radiance, "seen_by": "camera"},
         "materials": {material_name(number): keys for number, keys in materials.items()},

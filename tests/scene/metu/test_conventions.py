@@ -74,6 +74,7 @@ def test_directions_into_a_surface_are_kept_and_shadow_rays_start_at_facets(metu
     scene = metu.load(tree(materials=[rough], lights={"PointLight": POINT}))
     integrator = scene.loaded.description.integrator
     assert (integrator.into_surface, integrator.terminator) == ("keep", "facets")
+    assert integrator.shading_normals == "interpolated"
     assert scene.compiled.world.keeps
     assert scene.compiled.world.surface.bulge is None
 
