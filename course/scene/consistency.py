@@ -137,18 +137,19 @@ def _check_emission(light: RectangleLight | SphereLight, path: KeyPath, document
         )
     if not isinstance(light, SphereLight):
         return
-    of_surface = ("sphere", "visible")
+    of_surface = ("sphere", "sphere by polar", "visible")
     if light.radiance is not None and light.samples not in of_surface:
         raise document.unexpected(
             (*path, "samples"),
-            '"sphere" or "visible" for a light by radiance, which shines from its surface; by intensity'
-            " it may be a ball or a facing disk",
+            '"sphere", "sphere by polar" or "visible" for a light by radiance, which shines from its surface; by'
+            " intensity it may be a ball or a facing disk",
         )
     if light.radiance is None and light.samples == "visible":
         raise document.unexpected(
             (*path, "samples"),
-            '"sphere", "ball" or "facing disk" for a light by intensity: all of it shines everywhere, and only'
-            " a light by radiance has a side that can't be seen",
+            '"sphere", "ball" or "facing disk" (or "sphere by polar", "ball by polar", "ball by rejection") for a'
+            " light by intensity: all of it shines everywhere, and only a light by radiance has a side that can't"
+            " be seen",
         )
 
 

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from course.core.types import Floats32
 from course.effects import Effects
 from course.imaging.lens import Lens, PointOnDisk
 from course.scene.description.camera import LensDescription
 from course.scene.frame import Frame
 from course.scene.loading import Loaded
 from course.scene.reach import in_reach
+from course.scene.rejection import by_rejection
 
 DISKS = {
     "point": ("thin_lens", "point_on_disk"),
@@ -62,15 +62,4 @@ def compile_lens(loaded: Loaded, frame: Frame, effects: Effects) -> Lens | None:
 
 def _points(lens: LensDescription, effects: Effects) -> PointOnDisk:
     function = effects.function(*DISKS[lens.samples])
-    if lens.samples != "rejection":
-        return function
-
-    def by_rejection(u: Floats32) -> Floats32:
-        from numpy.random import PCG64, Generator, SeedSequence
-
-        # It draws as many numbers as it needs. The paths' own only choose the generator, so a picture can be repeated.
-        words = np.ascontiguousarray(u[:, :64]).view(np.uint32).ravel().tolist()
-        points: Floats32 = function(u.shape[1], Generator(PCG64(SeedSequence(words))))
-        return points
-
-    return by_rejection
+    return by_rejection(function) if lens.samples == "rejection" else function

@@ -30,6 +30,7 @@ from course.scene.light_power import given, why_dark
 from course.scene.loading import Loaded
 from course.scene.reach import in_reach
 from course.scene.shutter import Shutter
+from course.scene.sphere_points import NUMBERS, SPHERES, sphere_points
 
 
 @dataclass(frozen=True)
@@ -189,16 +190,15 @@ class _Compiler:
             return PointLight(self.name, center, color, velocity=velocity)
         if light.samples == "visible":
             return VisibleSphereLight(self.name, center, radius, color, velocity=velocity)
-        method = METHODS[light.samples]
         return SphereLight(
             self.name,
             center,
             radius,
             light.radiance is not None,
             color,
-            method,
-            self.effects.function("soft_shadows", method),
-            3 if method == "point_in_ball" else 2,
+            light.samples,
+            sphere_points(light.samples, self.effects),
+            NUMBERS.get(light.samples, 2),
             velocity,
         )
 
@@ -223,21 +223,14 @@ class _Compiler:
         return np.array(self.shutter.velocity(mover.motion, self.frame), np.float32)
 
 
-METHODS = {
-    "sphere": "point_on_sphere",
-    "ball": "point_in_ball",
-    "facing disk": "point_on_facing_disk",
-}
-"""The soft_shadows function for each value of a sphere light's ``samples``; the visible part needs none."""
-
-
-def light_function(light: d.Light) -> str | None:
-    """The soft_shadows function that a light calls, if any."""
+def light_function(light: d.Light) -> tuple[str, str] | None:
+    """Module and name of the function that a light calls, if any."""
     match light:
         case d.RectangleLight():
-            return "point_on_rectangle" if light.samples == "point" else "light_grid"
+            name = "point_on_rectangle" if light.samples == "point" else "light_grid"
+            return "soft_shadows", name
         case d.SphereLight() if light.radius > 0:
-            return METHODS.get(light.samples)
+            return SPHERES.get(light.samples)
     return None
 
 

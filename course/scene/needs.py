@@ -58,7 +58,7 @@ def needs_of(loaded: Loaded, settings: Settings, world: World) -> list[Need]:
             continue
         function = light_function(light)
         if function:
-            needs.append(Need(f"soft_shadows.{function}", ("lights", number)))
+            needs.append(Need(".".join(function), ("lights", number)))
     if settings.max_depth:
         used = dict.fromkeys(thing.material for thing in scene.objects)
         for name in used:
@@ -120,7 +120,7 @@ def _of_textures(scene: d.SceneDescription) -> list[Need]:
 
 _REASONS = {
     "supersampling": "one sample a pixel needs no mean, and this sampler none of its patterns",
-    "soft_shadows": "no light takes points on a rectangle or in a ball",
+    "soft_shadows": "no light takes its points on a rectangle or in a ball",
     "glossy": "no mirror is glossy",
     "thin_lens": "the aperture is 0",
     "motion_blur": "nothing moves while the shutter is open",

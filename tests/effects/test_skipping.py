@@ -27,7 +27,7 @@ LENS = {"aperture_radius": 0.1, "focus_distance": 4}
 MOVES = {"motion": {"velocity": [1, 0, 0]}}
 GLOSS = {"lobe": "plane", "roughness": 0.2}
 REASONS = {
-    "soft_shadows": "no light takes points on a rectangle or in a ball",
+    "soft_shadows": "no light takes its points on a rectangle or in a ball",
     "glossy": "no mirror is glossy",
     "thin_lens": "the aperture is 0",
     "motion_blur": "nothing moves",

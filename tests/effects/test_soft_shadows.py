@@ -183,7 +183,7 @@ def test_an_unoccluded_rectangle_by_radiance_is_lamberts_polygon(
         ([0.3, 1.2, -0.4], 1e-7),
     ],
 )
-@pytest.mark.parametrize("samples", ["sphere", "visible"])
+@pytest.mark.parametrize("samples", ["sphere", "sphere by polar", "visible"])
 def test_an_unoccluded_sphere_by_radiance_is_its_cone_of_directions(
     make_scene: MakeScene, center: list[float], radius: float, samples: str
 ) -> None:
@@ -249,13 +249,16 @@ def cloud(method: str, c: Array, radius: float) -> Array:
     z = 1 - 2 * squared
     ring = 2 * np.sqrt(1 - squared)
     sphere = np.stack((a * ring, b * ring, z), axis=-1)
-    if method == "sphere":
+    if method.startswith("sphere"):
         return c + radius * sphere
     shells = np.cbrt((np.arange(40) + 0.5) / 40)
     return c + radius * shells[:, None, None, None] * sphere
 
 
-@pytest.mark.parametrize("method", ["sphere", "ball", "facing disk"])
+@pytest.mark.parametrize(
+    "method",
+    ["sphere", "ball", "facing disk", "sphere by polar", "ball by polar", "ball by rejection"],
+)
 @pytest.mark.parametrize(
     ("center", "radius"),
     [([0.3, 1.2, -0.4], 0.5), ([1.5, 0.6, 0.2], 0.5), ([0.5, 0.1, 0.4], 0.4)],
@@ -268,6 +271,30 @@ def test_a_sphere_by_intensity_is_the_mean_of_its_point_lights(
     exact = 4 * from_points(cloud(method, np.array(center), radius)).mean()
     assert tolerance < 0.05 * exact, "the estimate is worth something"
     assert abs(mean - exact) <= tolerance + 1e-3 * exact
+
+
+@pytest.mark.parametrize("method", ["sphere", "ball", "sphere by polar", "ball by polar"])
+@pytest.mark.parametrize("x", ACROSS)
+def test_the_penumbra_of_a_half_plane_before_a_ball_is_a_cap_of_it(
+    make_scene: MakeScene, x: float, method: str
+) -> None:
+    radius = 0.5
+    light = {"type": "sphere", "center": [0, TOP, 0], "radius": radius, "samples": method}
+    mean, tolerance = estimate(at_point(make_scene, x, light | {"intensity": 5}, BLOCKER), 256)
+    points = cloud(method, np.array([-x, TOP, 0]), radius)
+    value = from_points(points)
+    # The plane through the point and the edge cuts it along z; seen from (x, 0, 0) the edge is at (-x, EDGE).
+    across = np.array([EDGE, x]) / math.hypot(EDGE, x)
+    exact = 5 * (value * (points[..., :2] @ across > 0)).mean()
+    whole = 5 * value.mean()
+    # The plane cuts cells of the quadrature: of 300 around the axis two in each ring.
+    assert abs(mean - exact) <= tolerance + 4e-3 * whole
+    # In closed form, but for the change of cos / d^2: the plane is at h radii from the middle.
+    h = -float(np.array([-x, TOP]) @ across) / radius
+    t = min(max(h, -1), 1)
+    share = (1 - t) / 2 if method.startswith("sphere") else (1 - t) ** 2 * (2 + t) / 4
+    change = (value.max() - value.min()) / value.mean()
+    assert abs(mean / whole - share) <= tolerance / whole + change * min(share, 1 - share) + 4e-3
 
 
 def test_the_methods_of_a_sphere_differ() -> None:

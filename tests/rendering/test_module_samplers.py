@@ -174,7 +174,12 @@ def keys(tree: Any, path: tuple[str, ...] = ()) -> dict[str, Any]:
     ("module", "differing", "called"),
     [
         ("quasi_monte_carlo", {"sampler.type"}, {"hammersley", "chain"}),
-        ("sampling", {"sampler.type", "camera.lens.samples"}, {"xorshift32", "disk_by_polar"}),
+        (
+            "sampling",
+            {"sampler.type", "camera.lens.samples", *(f"lights.{n}.samples" for n in range(3))},
+            {"xorshift32", "disk_by_polar"}
+            | {"sphere_by_polar", "ball_by_polar", "ball_by_rejection"},
+        ),
     ],
 )
 def test_a_modules_scene_calls_it_and_its_twin_differs_in_that_alone(

@@ -120,16 +120,17 @@ def test_the_default_up_is_blamed_at_the_camera(refusal: Callable[[str], str]) -
             "radius: 0, intensity: 3",
             "radius: 1, radiance: 3, samples: facing disk",
             (
-                '22: lights[4].samples is "facing disk": expected "sphere" or "visible" for a light by radiance, '
-                "which shines from its surface; by intensity it may be a ball or a facing disk"
+                '22: lights[4].samples is "facing disk": expected "sphere", "sphere by polar" or "visible" for '
+                "a light by radiance, which shines from its surface; by intensity it may be a ball or a facing disk"
             ),
         ),
         (
             "radius: 0, intensity: 3",
             "radius: 1, intensity: 3, samples: visible",
             (
-                '22: lights[4].samples is "visible": expected "sphere", "ball" or "facing disk" for a light by '
-                "intensity: all of it shines everywhere, and only a light by radiance has a side that can't be seen"
+                '22: lights[4].samples is "visible": expected "sphere", "ball" or "facing disk" (or "sphere by '
+                'polar", "ball by polar", "ball by rejection") for a light by intensity: all of it shines everywhere, '
+                "and only a light by radiance has a side that can't be seen"
             ),
         ),
         (

@@ -28,8 +28,10 @@ class SphereLight:
     radius : float > 0 (a sphere of radius 0 is compiled into a point light)
     emitter : whether it is a Lambertian emitter, whose points shine outwards only
     color : (3,) float32, I / pi, or radiance times area / pi
-    method, place : a function of the soft_shadows module and its name: point_on_sphere, point_in_ball, or
-        point_on_facing_disk; an emitter has points on its surface only
+    method : how points are found, as scene files name it: an emitter has them on its surface only, and a facing disk
+        faces each shading point
+    place : the function that finds them: (center, radius, u) -> (3, n), with the shading points before u for a facing
+        disk
     """
 
     name: str
@@ -52,7 +54,7 @@ class SphereLight:
         assert u is not None
         if self.emitter:
             return self._sample_emitter(points, u)
-        if self.method == "point_on_facing_disk":
+        if self.method == "facing disk":
             on_light = self.place(self.center, self.radius, np.ascontiguousarray(points), u)
         else:
             on_light = self.place(self.center, self.radius, u)

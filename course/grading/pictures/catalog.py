@@ -113,6 +113,20 @@ PICTURES: dict[str, tuple[Check, ...]] = {
             noisy=False,
         ),
     ),
+    "sampling": tuple(
+        check
+        for way in ("ball by rejection", "ball by polar", "sphere by polar")
+        for check in picture_checks(
+            "sampling",
+            way.replace(" ", "_"),
+            lambda rng, way=way: scenes.shadows(rng, scenes.large_ball_light(rng, way), 256),  # type: ignore[misc]
+            noisy=True,
+        )
+    ),
+    "adaptive_sampling": (
+        *picture_checks("adaptive_sampling", "needs_subdivision", scenes.cells, noisy=False),
+        *picture_checks("adaptive_sampling", "subdivide", scenes.cells, noisy=False),
+    ),
     "textures": tuple(
         check
         for function, shape in (

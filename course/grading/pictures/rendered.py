@@ -13,7 +13,9 @@ import yaml
 from PIL import Image
 
 from course.effects import Effects
+from course.errors import EffectError
 from course.grading.checks.check import Array, Caller, Check, Trial
+from course.grading.errors import StudentError
 from course.grading.pictures import scenes
 from course.grading.pictures.judging import BIAS_FALSE_FAIL, block_means, check_bias, check_ssim
 from course.grading.pictures.stage import Stage
@@ -82,7 +84,12 @@ def picture_checks(
 
     def run(trial: Trial) -> None:
         stage = Stage(module, trial.caller, function, tape=_tape(trial.references))
-        yours = rendered(loaded(make(trial.rng), stage.function, trial.rng))
+        scene = loaded(make(trial.rng), stage.function, trial.rng)
+        try:
+            yours = rendered(scene)
+        except EffectError as error:
+            # The renderer looks at some values itself: one that it can't go on with is the student's.
+            raise StudentError("bad value", str(error)) from error
         expected = trial.references["picture"]
         trial.show("pictures", "The scene", yours=yours, expected=expected)
         check_ssim(yours, expected, name)

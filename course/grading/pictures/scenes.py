@@ -83,6 +83,11 @@ def ball_light(rng: np.random.Generator, method: str) -> dict[str, Any]:
     }
 
 
+def large_ball_light(rng: np.random.Generator, method: str) -> dict[str, Any]:
+    """A ball so large that posts show how full it is within."""
+    return ball_light(rng, method) | {"radius": float(rng.uniform(1.8, 2.2))}
+
+
 def reflections(rng: np.random.Generator, gloss: dict[str, Any], samples: int = 64) -> Scene:
     """Bright posts over a glossy floor."""
     colors = rng.uniform(0.1, 1, (5, 3))
@@ -297,6 +302,49 @@ def glowing(rng: np.random.Generator) -> Scene:
             _ball("matt", 0.8, [float(rng.uniform(-0.5, 0)), 0.8, 0]),
             _ball("matt", 0.5, [1, 0.5, float(rng.uniform(0.4, 0.9))]),
             *(_box(name, size, at) for name, (size, at) in walls.items()),
+        ],
+    )
+
+
+THRESHOLD = 0.3
+
+OFFSETS = (
+    (1, 0, 0),
+    (-1, 1, 0),
+    (0, -1, -1),
+    (0, 1, -1),
+    (0.6, 0.6, 0.6),
+    (-0.6, -0.6, -0.6),
+    (0.6, 0, -0.6),
+    (1, -0.6, 0),
+    (-1, -1, -1),
+    (0, 0, 1),
+)
+"""What bars differ by from the colour behind them, in units around 1.3 thresholds."""
+
+
+def cells(rng: np.random.Generator) -> Scene:
+    """Slanted bars before a plain wall, each of another colour: some differ from it by too little for a division."""
+    wall = 0.5
+    colors = [
+        wall + THRESHOLD * rng.uniform(1.25, 1.4) * np.array(o) for o in rng.permutation(OFFSETS)
+    ]
+    return _scene(
+        camera={"eye": [0, 0, 10], "look_at": [0, 0, 0], "vertical_fov": 30},
+        film={"subdivision": {"threshold": THRESHOLD, "depth": 3}},
+        sampler={"samples": 1},
+        environment={"type": "constant", "radiance": wall},
+        materials={f"bar {i}": {"ambient": 1} | _color(c) for i, c in enumerate(colors)},
+        lights=[{"type": "ambient", "radiance": 1}],
+        objects=[
+            _box(
+                f"bar {i}",
+                [float(rng.uniform(0.1, 0.45)), 9, 0.1],
+                [-3.2 + 0.7 * i, 0, 0.05 * i],
+                [0, 0, 1],
+                float(rng.uniform(-40, 40)),
+            )
+            for i in range(len(colors))
         ],
     )
 

@@ -53,6 +53,11 @@ SHAPES: dict[str, Callable[..., tuple[Shape, ...]]] = {
     "motion_blur.displacement": lambda _, time: ((3, len(time)),),
     "motion_blur.to_object_space": _like_first,
     "path_tracing.diffuse_bounce": _like_first,
+    "sampling.sphere_by_polar": lambda u: ((3, u.shape[1]),),
+    "sampling.ball_by_polar": _like_first,
+    "sampling.ball_by_rejection": lambda n, _: ((3, n),),
+    "adaptive_sampling.needs_subdivision": lambda corners, _: (corners.shape[2:],),
+    "adaptive_sampling.subdivide": lambda *sides: tuple((4, len(side)) for side in sides),
     "textures.rectangle_uv": _places,
     "textures.sphere_uv": _places,
     "textures.triangle_uv": _places,
@@ -64,7 +69,7 @@ SHAPES: dict[str, Callable[..., tuple[Shape, ...]]] = {
 }
 """What each function that the engine calls returns for its arguments."""
 
-MASKS = {"blurred_transparency.refract": (1,)}
+MASKS = {"blurred_transparency.refract": (1,), "adaptive_sampling.needs_subdivision": (0,)}
 """Which of a function's results says yes or no."""
 
 
@@ -79,7 +84,9 @@ def usable(function: str, value: Any, arguments: tuple[Any, ...]) -> Any:
         It isn't arrays of finite numbers of the shapes that the contract says.
     """
     shapes = SHAPES[function](*arguments)
-    parts = value if isinstance(value, tuple) else (value,)
+    # What a worker sends is a tuple; a function that is called here may return a list as well.
+    several = isinstance(value, tuple | list)
+    parts = value if several else (value,)
     if len(parts) != len(shapes):
         raise StudentError(
             "bad value", f"{function} returned {_told(value)} instead of {_listed(shapes)}"
@@ -98,11 +105,11 @@ def usable(function: str, value: Any, arguments: tuple[Any, ...]) -> Any:
         else np.clip(part, -LARGEST, LARGEST).astype(np.float32, order="C")
         for number, part in enumerate(parts)
     )
-    return arrays if isinstance(value, tuple) else arrays[0]
+    return arrays if several else arrays[0]
 
 
 def _told(value: Any) -> str:
-    if isinstance(value, tuple):
+    if isinstance(value, tuple | list):
         return "(" + ", ".join(map(_told, value)) + ")"
     return (
         f"an array of shape {value.shape}"

@@ -79,10 +79,21 @@ class SphereLight(LightDescription, frozen=True, kw_only=True, tag="sphere"):
     intensity: _Intensity = None
     radiance: _Radiance = None
     samples: Annotated[
-        Literal["sphere", "ball", "facing disk", "visible"],
+        Literal[
+            "sphere",
+            "ball",
+            "facing disk",
+            "visible",
+            "sphere by polar",
+            "ball by polar",
+            "ball by rejection",
+        ],
         about(
             "Where its light comes from: the surface, the whole ball, or the disk that it shows;"
             " by radiance the surface, or only what is visible of it, which is less noisy."
+            " What names a way takes points by `sphere_by_polar`, `ball_by_polar` or `ball_by_rejection` of the"
+            " module sampling, the first three values by functions of soft_shadows. `ball by rejection` draws"
+            " numbers of its own."
         ),
     ] = "sphere"
     motion: _Motion = MotionDescription()

@@ -1,0 +1,68 @@
+"""Known submissions of `sampling` and `adaptive_sampling` before the picture and bias checks of their functions.
+
+Right ones pass them all. Of the wrong ones those are named here that a picture has to show; `CAUGHT_BY` names another
+check for most of them, which `test_mutants` holds.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import pytest
+
+from course.grading.calibration import trusted
+from course.grading.catalog import module_checks
+from course.grading.checks.check import ModuleChecks
+from course.grading.checks.running import References, Status, prepared, run_checks
+from course.grading.known import Known, known
+from course.grading.references import reference
+
+MODULES = ("sampling", "adaptive_sampling")
+SHOWN = {
+    ("sampling", "bias"): {
+        *("ball_cylinder", "ball_zeroed", "ball_crowded", "ball_one_number", "ball_poles"),
+        *("ball_surface", "sphere_half", "sphere_poles"),
+    },
+    ("sampling", "picture"): {"sphere_half"},
+    ("adaptive_sampling", "picture"): {
+        *("all_channels", "brightness", "channels_mixed", "from_mean", "inverted", "one_for_all"),
+        *("relative", "signed", "flat", "gap", "half_of_the_end", "sizes"),
+    },
+}
+
+
+@cache
+def arrays(module: str) -> References:
+    return prepared(reference(module), 0)
+
+
+def statuses(submission: Known, kind: str) -> dict[str, Status]:
+    """By function, of the checks of a kind; for a wrong submission of its wrong function alone."""
+    module = submission.module
+    checks = [
+        check
+        for check in module_checks(module).checks
+        if check.kind == kind and submission.function in ("", check.function)
+    ]
+    alone = ModuleChecks(module, tuple(checks), ())
+    results = run_checks(alone, trusted(submission), arrays(module), 0)
+    return {result.function: result.status for result in results}
+
+
+RIGHT = [submission for module in MODULES for submission in known(module) if submission.right]
+
+
+@pytest.mark.parametrize("submission", RIGHT, ids=[f"{k.module}-{k.name}" for k in RIGHT])
+def test_right_ones_pass(submission: Known) -> None:
+    found = statuses(submission, "picture") | statuses(submission, "bias")
+    assert found
+    assert set(found.values()) == {Status.PASSED}, found
+
+
+@pytest.mark.filterwarnings("ignore::RuntimeWarning")
+@pytest.mark.parametrize(("module", "kind"), SHOWN)
+def test_wrong_ones_are_shown(module: str, kind: str) -> None:
+    wrong = {submission.name: submission for submission in known(module) if not submission.right}
+    for name in sorted(SHOWN[module, kind]):
+        found = statuses(wrong[name], kind)
+        assert found == {wrong[name].function: Status.FAILED}, name
