@@ -8,6 +8,7 @@ material shows as a difference between the two pictures.
 from __future__ import annotations
 
 import json
+from collections.abc import Set
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
@@ -16,11 +17,14 @@ import msgspec
 import numpy as np
 
 from course.appearance.cube_environment import CubeEnvironment
+from course.geometry.mesh import Mesh
+from course.geometry.welding import same
 from course.scene import description as d
 from course.scene.description.values import rgb
 from course.scene.instancing import object_mesh
 from course.scene.lobe_compiling import lobe_function
 from course.scene.material_table import base_color
+from course.scene.object_lights import Columns, material_columns
 from course.scene.scene import Scene
 from course.scene.shutter import shutter_of
 
@@ -100,6 +104,7 @@ class Exported:
     Attributes
     ----------
     lights : plain maps as in the scene file, without the ambient ones
+        A light of type `object` is told by the number of a material that no other object has, and its radiance.
     camera : eye, look_at, up, vertical_fov [degree], aperture_radius, focus_distance
     shutter : seconds that it is open
     background : radiance from every direction, where the environment is no picture
@@ -139,18 +144,20 @@ def export(scene: Scene, width: int, height: int) -> Exported:
     Raises
     ------
     NotExportableError
-        For what no benchmark scene has: lights by radiance that move, grids of lights, apertures other than disks,
-        glass that blurs, and keys that are not EXPORTED.
+        For what no benchmark scene has: lights by radiance that move, grids of lights, objects that are lights and
+        open or not black, apertures other than disks, glass that blurs, and keys that are not EXPORTED.
     """
     description = scene.loaded.description
-    names = list(dict.fromkeys(thing.material for thing in description.objects))
+    columns = material_columns(description)
+    names = list(columns.names)
+    lit = set(columns.of_lights.values())
     _refuse_others(description.camera, "camera")
     _refuse_others(description.environment, "environment")
     for number, light in enumerate(description.lights):
         _refuse_others(light, f"lights[{number}]")
-    for name in names:
+    for number, name in enumerate(names):
         material = description.materials[name]
-        _refuse_others(material, f"materials.{name}")
+        _refuse_others(material, f"materials.{name}", {"emission"} if number in lit else set())
         if material.dielectric is not None:
             _refuse_others(material.dielectric, f"materials.{name}.dielectric")
             if material.gloss is not None:
@@ -158,10 +165,14 @@ def export(scene: Scene, width: int, height: int) -> Exported:
     return Exported(
         width,
         height,
-        _parts(scene, names),
+        _parts(scene, columns),
         _materials(scene, names),
         tuple(
-            _light(light) for light in description.lights if not isinstance(light, d.AmbientLight)
+            _lit_object(description, columns, number)
+            if isinstance(light, d.ObjectLight)
+            else _light(light)
+            for number, light in enumerate(description.lights)
+            if not isinstance(light, d.AmbientLight)
         ),
         _camera(description.camera),
         shutter_of(scene.loaded).duration,
@@ -175,15 +186,15 @@ def export(scene: Scene, width: int, height: int) -> Exported:
     )
 
 
-def _refuse_others(described: msgspec.Struct, where: str) -> None:
+def _refuse_others(described: msgspec.Struct, where: str, besides: Set[str] = frozenset()) -> None:
     exported = EXPORTED.get(type(described))
     for key in msgspec.structs.fields(described) if exported is not None else ():
         value = getattr(described, key.name)
-        if key.name not in exported and value is not None and value != key.default:
+        if key.name not in exported | besides and value is not None and value != key.default:
             raise NotExportableError(f"{where}.{key.name} is not exported")
 
 
-def _parts(scene: Scene, names: list[str]) -> tuple[Part, ...]:
+def _parts(scene: Scene, columns: Columns) -> tuple[Part, ...]:
     loaded = scene.loaded
     shutter = shutter_of(loaded)
     groups: dict[tuple[float, float, float], list[tuple[np.ndarray, ...]]] = {(0.0, 0.0, 0.0): []}
@@ -192,11 +203,31 @@ def _parts(scene: Scene, names: list[str]) -> tuple[Part, ...]:
         velocity = thing.motion.velocity if shutter.moves(thing.motion) else (0.0, 0.0, 0.0)
         vertices, triangles, normals = mesh.vertices, mesh.triangles, mesh.normals
         vertices = vertices + shutter.start(thing.motion)
-        if normals is None:
+        column = columns.of_objects[number]
+        lit = column in columns.of_lights.values()
+        if lit and not _encloses(mesh):
+            # Both sides shine, and of an open surface both are seen.
+            raise NotExportableError(
+                f"materials.{thing.material}.emission is not exported for objects[{number}]: Mitsuba's surfaces shine"
+                " from their fronts alone, so it must be a closed body that faces outwards"
+            )
+        # Mitsuba takes the front, and the cosine there, by the normals that it shades by.
+        if normals is None or lit:
             vertices, triangles, normals = _flat(vertices, triangles)
-        material = np.full(len(triangles), names.index(thing.material))
+        material = np.full(len(triangles), column)
         groups.setdefault(velocity, []).append((vertices, normals, triangles, material))
     return tuple(_joined(meshes, velocity) for velocity, meshes in groups.items())
+
+
+def _encloses(mesh: Mesh) -> bool:
+    """Whether a mesh is closed, with its fronts outwards: each edge is passed as often one way as the other."""
+    _, place = same(*mesh.vertices.T)
+    start = place[mesh.triangles]
+    end = np.roll(start, -1, axis=1)
+    there, back = (np.sort(a * len(place) + b, axis=None) for a, b in ((start, end), (end, start)))
+    p = mesh.vertices[mesh.triangles]
+    volume = (p[:, 0] * np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0])).sum()
+    return np.array_equal(there, back) and bool(volume > 0)
 
 
 def _flat(vertices: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray, ...]:
@@ -260,11 +291,24 @@ def _parameter(gloss: d.Gloss | None) -> float:
     return 0.0
 
 
-def _light(light: d.Light) -> dict[str, Any]:
-    if isinstance(light, d.ObjectLight):
+def _lit_object(description: d.SceneDescription, columns: Columns, number: int) -> dict[str, Any]:
+    """The light of an object, by its number among the lights."""
+    column = columns.of_lights[number]
+    thing = description.objects[columns.of_objects.index(column)]
+    if any(thing.motion.velocity):
+        raise NotExportableError("lights that move are not exported")
+    material = description.materials[thing.material]
+    reflects = (base_color(material), rgb(material.specular), rgb(material.mirror))
+    if np.any(reflects) or material.dielectric is not None:
         raise NotExportableError(
-            "an object that is a light is not exported: it shines from both sides, Mitsuba's from one"
+            f"materials.{thing.material} of a light reflects, which is not exported: its normals are those of its"
+            " triangles there"
         )
+    return {"type": "object", "material": column, "radiance": _list(material.emission)}
+
+
+def _light(light: d.Light) -> dict[str, Any]:
+    assert not isinstance(light, d.ObjectLight)
     if not isinstance(light, d.DirectionalLight | d.AmbientLight) and any(light.motion.velocity):
         raise NotExportableError("lights that move are not exported")
     match light:

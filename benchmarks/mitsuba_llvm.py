@@ -137,9 +137,20 @@ class LlvmScene:
     Parameters
     ----------
     exported : the scene
+
+    Raises
+    ------
+    NotExportableError
+        A light is one by radiance, such as an object.
     """
 
     def __init__(self, exported: Exported) -> None:
+        for light in exported.lights:
+            if "radiance" in light:
+                raise NotExportableError(
+                    f"a light of type {light['type']} by radiance is left to Mitsuba's own emitters: the scalar form"
+                    " (NativeScene, which the LLVM variant runs as well) has them, this one has not"
+                )
         import mitsuba as mi
 
         self._exported = exported
@@ -344,10 +355,6 @@ def _integrator_class() -> type:
                 irradiance = mi.Color3f(light["irradiance"])
                 shadow = there.spawn_ray(towards)
             else:
-                if "intensity" not in light:
-                    raise NotExportableError(
-                        "lights by radiance are left to Mitsuba's own emitters"
-                    )
                 point = mi.Point3f(light["center"])
                 if light["type"] == "sphere":
                     u = sampler.next_2d(hit)

@@ -4,7 +4,8 @@ What they can't do the scene has to do without, and ``native_overrides`` says wh
 scene that both programs render. Where even that can't be had the pictures are only alike, see ``ALIKE``. The same
 plugins run in the LLVM variant too, which makes their references.
 
-Ambient light is emission of the surfaces, with sampling weight 0 so that nobody takes them for lamps.
+Ambient light is emission of the surfaces, with sampling weight 0 so that nobody takes them for lamps. An object that is
+a light is an emitter like others, on a mesh of its own.
 """
 
 from __future__ import annotations
@@ -176,7 +177,9 @@ def _scene_map(e: Exported) -> dict[str, Any]:
         content["environment"] = {"type": "constant", "radiance": _color(e.background)}
     if e.materials.diffuse.any():
         for number, light in enumerate(e.lights):
-            content[f"light_{number}"] = _light(light)
+            # An object shines wherever it is seen, also where nothing reflects: see ``_mesh``.
+            if light["type"] != "object":
+                content[f"light_{number}"] = _light(light)
         # Without any lamp the environment stays one, for Mitsuba refuses a scene of weights 0.
         if e.lights and not e.sky and "environment" in content:
             content["environment"]["sampling_weight"] = 0.0
@@ -199,11 +202,14 @@ def _mesh(e: Exported, part: Part, material: int, still: bool) -> Any:
     chosen, numbers = np.unique(part.triangles[part.material == material], return_inverse=True)
     properties = mi.Properties()
     properties["bsdf"] = mi.load_dict(_bsdf(e, material))
-    emitted = e.materials.ambient[material]
+    emitted, weight = e.materials.ambient[material], 0.0
+    for light in e.lights:
+        if light["type"] == "object" and light["material"] == material:
+            emitted, weight = np.array(light["radiance"]), 1.0
     if emitted.any():
         if not still:
             raise NotExportableError("what moves can't send out light: Mitsuba's instances don't")
-        lamp = {"type": "area", "radiance": _color(emitted), "sampling_weight": 0.0}
+        lamp = {"type": "area", "radiance": _color(emitted), "sampling_weight": weight}
         properties["emitter"] = mi.load_dict(lamp)
     return make_mesh(
         f"mesh {material}",

@@ -8,6 +8,7 @@ least 23 degrees of freedom some block or channel of a right pair exceeds a |t| 
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +19,7 @@ from scipy.stats import t as students_t
 from benchmarks.mitsuba_agreement import compare, converge
 from benchmarks.mitsuba_export import (
     NotExportableError,
+    _encloses,
     export,
     lat_long_directions,
     read,
@@ -27,6 +29,8 @@ from benchmarks.mitsuba_llvm import LlvmScene, find_llvm, start_llvm
 from benchmarks.mitsuba_scalar import NativeScene, native_overrides, start_scalar
 from course import Scene, render
 from course.effects import PROJECT
+from course.geometry import shapes
+from course.geometry.mesh import Mesh
 from tests.conftest import MakeScene
 
 SIZE = (24, 24)
@@ -337,3 +341,118 @@ def test_stills_average_to_motion(
     request.getfixturevalue(variant)
     scene = make_scene(objects=[FLOOR, {**BALL, "motion": {"velocity": [1, 0, 0]}}], lights=[POINT])
     _agrees(scene, NativeScene(export(scene, *SIZE)), tmp_path)
+
+
+# ---------------------------------------------------------------- objects that are lights
+
+LIT = {"type": "object", "object": "lamp"}
+TUBE = {
+    "shape": "torus_knot",
+    "name": "lamp",
+    "material": "neon",
+    "radius": 0.5,
+    "tube": 0.15,
+    "segments": 64,
+    "sides": 8,
+    "transform": [{"translate": [0.5, 1, 0]}],
+}
+BLACK = {"color": 0, "emission": [3, 2, 1]}
+PATHS = {"type": "path", "max_depth": 6}
+
+
+def _lamp_scene(make_scene: MakeScene, **parts: Any) -> Scene:
+    described: dict[str, Any] = {
+        "camera": {"eye": [0, 1.5, 4], "look_at": [0, 0.3, 0]},
+        "materials": {"grey": {"color": 0.6}, "neon": BLACK},
+        "objects": [FLOOR, {**BALL, "transform": [{"translate": [-0.8, 0, 0]}]}, TUBE],
+        "lights": [LIT],
+    }
+    return make_scene(**(described | parts))
+
+
+@pytest.mark.usefixtures("scalar")
+@pytest.mark.parametrize("integrator", [{}, PATHS], ids=["distribution", "path"])
+def test_an_object_that_is_a_light_lights_the_same(
+    make_scene: MakeScene, tmp_path: Path, integrator: dict[str, Any]
+) -> None:
+    """Also beside one of the same shape that is none, and beside a lamp of another kind."""
+    dark = {**TUBE, "name": "dark", "material": "grey", "transform": [{"translate": [-1, 1.2, -1]}]}
+    objects = [dark, {**BALL, "radius": 0.3}, TUBE, FLOOR]
+    scene = _lamp_scene(make_scene, objects=objects, lights=[POINT, LIT], integrator=integrator)
+    _agrees(scene, NativeScene(export(scene, *SIZE)), tmp_path)
+
+
+@pytest.mark.usefixtures("scalar")
+def test_the_comparison_tells_a_lamp_that_is_a_tenth_too_bright(
+    make_scene: MakeScene, tmp_path: Path
+) -> None:
+    scene = _lamp_scene(make_scene)
+    exported = export(scene, *SIZE)
+    (light,) = exported.lights
+    brighter = {**light, "radiance": [1.1 * x for x in light["radiance"]]}
+    with pytest.raises(AssertionError):
+        _agrees(scene, NativeScene(replace(exported, lights=(brighter,))), tmp_path)
+
+
+def test_an_object_that_is_a_light_has_a_material_of_its_own(
+    make_scene: MakeScene, tmp_path: Path
+) -> None:
+    exported = export(_lamp_scene(make_scene), *SIZE)
+    assert exported.names == ("grey", "neon")
+    assert exported.lights == ({"type": "object", "material": 1, "radiance": [3, 2, 1]},)
+    (part,) = exported.parts
+    assert (part.material == 1).sum() == 2 * 64 * 8
+    # Flat, for Mitsuba takes fronts by the normals that it shades by.
+    own = part.triangles[part.material == 1]
+    assert len(np.unique(own)) == own.size
+    write(exported, tmp_path / "scene")
+    _assert_equal(exported, read(tmp_path / "scene"))
+
+
+@pytest.mark.parametrize(
+    ("lamp", "material", "said"),
+    [
+        (QUAD, BLACK, "materials.neon.emission is not exported for objects[1]"),
+        ({**BALL, "transform": [{"scale": [-1, 1, 1]}]}, BLACK, None),
+        ({**BALL, "motion": {"velocity": [1, 0, 0]}}, BLACK, "lights that move"),
+        (BALL, {"color": 0.1, "emission": 1}, "materials.neon of a light reflects"),
+        (BALL, {"color": 0, "mirror": 0.1, "emission": 1}, "materials.neon of a light reflects"),
+        (BALL, {"color": 0, "dielectric": {}, "emission": 1}, "materials.neon of a light reflects"),
+        *[({"shape": shape}, BLACK, None) for shape in ("box", "cylinder", "cone", "torus")],
+    ],
+)
+def test_lamps_that_mitsuba_has_and_has_not(
+    make_scene: MakeScene, lamp: dict[str, Any], material: dict[str, Any], said: str | None
+) -> None:
+    lamp = {**lamp, "name": "lamp", "material": "neon"}
+    camera = {"eye": [0, 1.5, 4], "look_at": [0, 0.3, 0], "shutter": {"open": 0, "close": 1}}
+    materials = {"grey": {"color": 0.6}, "neon": material}
+    scene = _lamp_scene(make_scene, objects=[FLOOR, lamp], materials=materials, camera=camera)
+    if said is None:
+        assert [light["type"] for light in export(scene, *SIZE).lights] == ["object"]
+        return
+    with pytest.raises(NotExportableError) as caught:
+        export(scene, *SIZE)
+    assert str(caught.value).startswith(said)
+
+
+def test_a_body_encloses_something_if_it_is_closed_and_faces_outwards() -> None:
+    knot = shapes.torus_knot(segments=64, sides=6)
+    assert _encloses(knot)
+    assert not _encloses(Mesh(knot.vertices, knot.triangles[:, ::-1]))
+    assert not _encloses(Mesh(knot.vertices, knot.triangles[1:]))
+    turned = np.array(knot.triangles)
+    turned[0] = turned[0, ::-1]
+    assert not _encloses(Mesh(knot.vertices, turned))
+
+
+def test_an_object_that_only_glows_is_refused_beside_a_light(make_scene: MakeScene) -> None:
+    objects = [FLOOR, TUBE, {**TUBE, "name": "other"}]
+    with pytest.raises(NotExportableError, match=r"materials\.neon\.emission is not exported"):
+        export(_lamp_scene(make_scene, objects=objects), *SIZE)
+
+
+def test_the_llvm_form_names_the_one_that_has_such_lights(make_scene: MakeScene) -> None:
+    exported = export(_lamp_scene(make_scene), *SIZE)
+    with pytest.raises(NotExportableError, match=r"type object .* the scalar form \(NativeScene"):
+        LlvmScene(exported)

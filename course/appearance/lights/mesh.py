@@ -1,16 +1,19 @@
-"""An object that emits light: any triangles, a point on one of them for each sample, uniformly by area.
+"""An object that emits light: any triangles, a point on one of them for each sample.
 
-A triangle is chosen with a probability proportional to its area, and then a point on it (Turk, "Generating random
-points in triangles", Graphics Gems, 1990). Together that is uniform over the whole surface. As the emission of a
-material is, its light is sent out from both sides.
+A group of triangles is chosen that sends much to the shaded point (``mesh_groups``), then one of its triangles with a
+probability proportional to its area, and then a point on that (Turk, "Generating random points in triangles", Graphics
+Gems, 1990). So points are uniform over each group. As the emission of a material is, its light is sent out from both
+sides.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
+from course.appearance.lights.mesh_groups import Groups, make_groups
 from course.appearance.lights.sample import TO_A_POINT, Sample, inverse_square
 from course.core.gathering import gather
 from course.core.types import Floats32, Floats64
@@ -38,6 +41,11 @@ class MeshLight:
     velocity: Floats32 | None = None
     limit: float = TO_A_POINT
 
+    @cached_property
+    def groups(self) -> Groups:
+        """The triangles in groups; made for the first sample."""
+        return make_groups(self.shares, self.corner_edges, self.normal_offset[:, :3])
+
     def sample(self, points: Floats32, u: Floats32 | None, compiled: bool = False) -> Sample:
         """See ``course.appearance.lights``.
 
@@ -45,7 +53,11 @@ class MeshLight:
         see both sides. From a point as near to the triangle's plane as that nothing arrives: it lies on it.
         """
         assert u is not None
-        triangle = np.searchsorted(self.shares, u[0], side="right")
+        if compiled:
+            return self._sample_by_loop(points, u)
+        place, weight = self.groups.choose(points, u[0])
+        found = np.searchsorted(self.groups.shares, place, side="right")
+        triangle = self.groups.triangle.take(found)
         root = np.sqrt(u[1])
         corners = gather(self.corner_edges, triangle)
         to_light = corners[:3]
@@ -63,7 +75,22 @@ class MeshLight:
         np.minimum(cosine, 1, out=cosine)
         cosine *= np.abs(height) > 2 * offset
         factor *= cosine
+        factor *= weight
         return Sample(to_light, inverse_length, factor)
+
+    def _sample_by_loop(self, points: Floats32, u: Floats32) -> Sample:
+        """The same, to the same bits, in one loop."""
+        from course.appearance.lights import sample_kernels
+
+        n, groups = points.shape[1], self.groups
+        sample = Sample(np.empty((3, n), np.float32), *np.empty((2, n), np.float32))
+        sample_kernels.on_triangles(
+            *map(np.ascontiguousarray, (points, u)),
+            *(groups.moments, groups.trust, groups.share, groups.start, groups.last),
+            *(groups.shares, groups.triangle, self.corner_edges, self.normal_offset),
+            *(sample.to_light, sample.inverse_length, sample.factor),
+        )
+        return sample
 
 
 def areas(corner_edges: Floats32) -> Floats64:

@@ -39,3 +39,91 @@ def towards(on_light, points, normal, two_sided, to_light, inverse_length, facto
             share *= abs(cosine) if two_sided else (cosine if cosine > 0 else _NOTHING)
         to_light[0, i], to_light[1, i], to_light[2, i] = x, y, z
         inverse_length[i], factor[i] = inverse, share
+
+
+@njit(
+    types.void(
+        *(COLUMNS, COLUMNS, COLUMNS, types.float32, ROW, ROW, ROW),
+        *(ROW, types.int64[::1], COLUMNS, COLUMNS, COLUMNS, ROW, ROW),
+    ),
+    **OPTIONS,
+)
+def on_triangles(
+    points,
+    u,
+    moments,
+    trust,
+    share,
+    start,
+    last,
+    shares,
+    triangle,
+    corner_edges,
+    normal_offset,
+    to_light,
+    inverse_length,
+    factor,
+):
+    """Fill what ``Sample`` says of n points and a light of triangles.
+
+    Parameters
+    ----------
+    points, u : (3, n)
+    moments, trust, share, start, last, shares, triangle : of ``Groups``
+    corner_edges, normal_offset : of ``MeshLight``
+    to_light, inverse_length, factor : (3, n) and (n,), filled
+    """
+    groups = len(share)
+    strength = np.empty(groups, np.float32)
+    for i in range(points.shape[1]):
+        total = _NOTHING
+        for g in range(groups):
+            x, y, z = (
+                points[0, i] - moments[0, g],
+                points[1, i] - moments[1, g],
+                points[2, i] - moments[2, g],
+            )
+            height = moments[3, g] * x + moments[4, g] * y + moments[5, g] * z + moments[6, g]
+            squared = x * x + y * y + z * z
+            cubed = squared + moments[9, g]
+            cubed *= np.sqrt(cubed)
+            squared = squared * moments[7, g] + height * height + moments[8, g]
+            strength[g] = (np.sqrt(squared) + height * trust) / cubed
+        for g in range(groups):
+            total += strength[g] * share[g]
+        wanted = u[0, i] * total
+        chosen, before = 0, _NOTHING
+        through = strength[0] * share[0]
+        while through <= wanted and chosen < groups - 1:
+            chosen, before = chosen + 1, through
+            through += strength[chosen] * share[chosen]
+        own = strength[chosen]
+        place = min((wanted - before) / own + start[chosen], last[chosen])
+        t = triangle[np.searchsorted(shares, place, side="right")]
+        root = np.sqrt(u[1, i])
+        along_1, along_2 = _ONE - root, root * u[2, i]
+        x, y, z = (
+            corner_edges[t, 0] - points[0, i] + corner_edges[t, 3] * along_1,
+            corner_edges[t, 1] - points[1, i] + corner_edges[t, 4] * along_1,
+            corner_edges[t, 2] - points[2, i] + corner_edges[t, 5] * along_1,
+        )
+        x += corner_edges[t, 6] * along_2
+        y += corner_edges[t, 7] * along_2
+        z += corner_edges[t, 8] * along_2
+        nx, ny, nz, offset = (
+            normal_offset[t, 0],
+            normal_offset[t, 1],
+            normal_offset[t, 2],
+            normal_offset[t, 3],
+        )
+        height = nx * x + ny * y + nz * z
+        above = np.copysign(offset, height)
+        x, y, z = x - nx * above, y - ny * above, z - nz * above
+        arriving = _ONE / max(x * x + y * y + z * z, _LEAST)
+        inverse = np.sqrt(arriving)
+        cosine = min(abs(height) * inverse, _ONE)
+        if not abs(height) > offset + offset:
+            cosine = _NOTHING
+        to_light[0, i], to_light[1, i], to_light[2, i] = x, y, z
+        inverse_length[i] = inverse
+        factor[i] = arriving * cosine * (total / own)
