@@ -71,7 +71,7 @@ bench: $(STAMP)
 
 stress: $(STAMP)
 	"$(RUN)" -m benchmarks.stress
-	"$(RUN)" -m pytest -q -n auto --hypothesis-profile=stress tests/stress
+	"$(RUN)" -m pytest -q -n auto --timeout=1800 --hypothesis-profile=stress tests/stress
 
 mutants: $(STAMP)
 	"$(RUN)" -m benchmarks.mutants

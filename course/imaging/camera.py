@@ -62,10 +62,14 @@ class Camera:
         origin : (3, N) or (3, 1) float32, at depth 0
         direction : (3, N) float32, forwards
         """
+        return origin + direction * self.way_to_near_plane(direction)
+
+    def way_to_near_plane(self, direction: Floats32) -> Floats32:
+        """How far it is along rays (3, N) from depth 0, (N,) float32."""
         # The widest fields of view have rays that go forwards by less than float32 can tell.
         forwards = np.maximum(dot(self.forward[:, None], direction), np.float32(1e-12))
         way: Floats32 = np.divide(np.float32(self.near), forwards)
-        return origin + direction * way
+        return way
 
 
 def make_camera(

@@ -22,7 +22,8 @@ class Plan:
     ----------
     shades : any material shows light from the lights
     all_shade : every material does, from both sides
-    has_ambient : some surface has a visible ambient term, or glows by itself
+    has_ambient : some surface has a visible ambient term
+    glows : some surface sends out light by itself, from both sides
     emits : some surface is a light that rays can see
     specular : some material has a highlight
     mirrors, refracts, absorbs : some reachable material does
@@ -42,6 +43,7 @@ class Plan:
     shades: bool
     all_shade: bool
     has_ambient: bool
+    glows: bool
     emits: bool
     specular: bool
     mirrors: bool
@@ -67,11 +69,13 @@ class Lookups:
 
     Attributes
     ----------
-    ambient : what surfaces send out from both sides without any light of the lights: ambient light, and what glows
+    ambient : what surfaces reflect of ambient light
+    glow : what they send out by themselves, from both sides; textures don't colour it
     emission : of the surfaces of lights
     """
 
     ambient: Lookup
+    glow: Lookup
     diffuse: Lookup
     specular: Lookup
     exponent: Lookup
@@ -112,7 +116,8 @@ def make_plan(world: World, settings: Settings) -> Plan:
     return Plan(
         shades=sky or (bool(m.shaded.any()) and bool(world.lights)),
         all_shade=bool(m.shaded_sides.all()),
-        has_ambient=bool((m.ambient * world.ambient[:, None] + m.glowing).any()),
+        has_ambient=bool((m.ambient * world.ambient[:, None]).any()),
+        glows=bool(m.glowing.any()),
         emits=bool(m.shining.any()),
         specular=bool(m.specular.any()),
         mirrors=mirrors,
@@ -155,7 +160,8 @@ def make_lookups(world: World) -> Lookups:
         *(
             Lookup(rows)
             for rows in (
-                m.ambient * world.ambient[:, None] + m.glowing,
+                m.ambient * world.ambient[:, None],
+                m.glowing,
                 m.diffuse,
                 m.specular,
                 m.exponent,

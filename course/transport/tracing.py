@@ -180,7 +180,10 @@ class Tracer:
         hits = find_hits(self.world.surface, found, rays.direction, rays.time)
         throughput, path, medium = _of_hits(rays, hits)
         if self.plan.absorbs:
-            throughput = self._absorbed(hits, throughput, medium)
+            before = None
+            if depth == 0 and self.camera.near:
+                before = self.camera.way_to_near_plane(hits.direction)
+            throughput = self._absorbed(hits, throughput, medium, before)
         counters.lap("hits")
         return hits, throughput, path, medium
 
@@ -226,31 +229,25 @@ class Tracer:
         radiance = None
         if self.plan.shades:
             radiance = direct_light(self.world, self.plan, self.lookups, hits, path, depth, draws)
-        for wanted, lookup in (
-            (self.plan.has_ambient, self.lookups.ambient),
-            (self.plan.emits, self.lookups.emission),
-        ):
-            if not wanted:
-                continue
-            term = lookup(hits.material)
-            if lookup is self.lookups.ambient:
-                term = self._outside(term, hits)
-            if lookup is self.lookups.emission:
-                term = term * hits.entering
-            elif hits.tint is not None:
-                term = term * hits.tint
-            elif term.shape[1] == 1:
-                term = np.repeat(term, hits.size, axis=1)
-            radiance = term if radiance is None else np.add(radiance, term, out=radiance)
+        if self.plan.has_ambient:
+            radiance = _sum(radiance, self._ambient_light(hits))
+        if self.plan.glows:
+            radiance = _sum(radiance, self.lookups.glow(hits.material))
+        if self.plan.emits:
+            radiance = _sum(radiance, self.lookups.emission(hits.material) * hits.entering)
+        if radiance is not None and radiance.shape[1] == 1:
+            radiance = np.repeat(radiance, hits.size, axis=1)
         return radiance
 
-    def _outside(self, term: Floats32, hits: Hits) -> Floats32:
-        """Ambient terms (3, n) or (3, 1), but of the insides of glass what they send out by themselves."""
+    def _ambient_light(self, hits: Hits) -> Floats32:
+        """What the hits reflect of ambient light, (3, n) or (3, 1): nothing on the inside of glass."""
+        term = self.lookups.ambient(hits.material)
+        if hits.tint is not None:
+            term = term * hits.tint
         inside = insides(self.plan, self.lookups, hits)
-        if len(inside) == 0:
-            return term
-        term = np.array(np.broadcast_to(term, (3, hits.size)))
-        term[:, inside] = self.world.materials.glowing.take(hits.material.take(inside), axis=1)
+        if len(inside):
+            term = np.array(np.broadcast_to(term, (3, hits.size)))
+            term[:, inside] = 0
         return term
 
     def _add_environment(self, film: Floats32, rays: Rays, missed: Mask) -> None:
@@ -270,11 +267,17 @@ class Tracer:
         hits: Hits,
         throughput: Floats32 | None,
         medium: Media | None,
+        before: Floats32 | None,
     ) -> Floats32 | None:
         """Beer's law along the way just travelled: exp(-absorption t) for what crossed a dielectric.
 
         A ray that hits the back of a dielectric came through it, whatever we believed (the camera may stand in
         glass); one that hits anything else came through the medium it carries.
+
+        Parameters
+        ----------
+        before : (n,) how far the rays had come where they began, None for no way: nothing that is nearer than the near
+            plane is seen, but what the camera stands in absorbs from the eye on
         """
         dielectric = self.world.materials.refracts.take(hits.material)
         through = np.where(~hits.entering & dielectric, hits.material.astype(np.int16), OPEN)
@@ -284,6 +287,8 @@ class Tracer:
         if len(which) == 0:
             return throughput
         length = hits.t.take(which)
+        if before is not None:
+            length = length + before.take(which)
         left = np.exp(-self.lookups.absorption(through.take(which)) * length)
         result = np.ones((3, hits.size), np.float32) if throughput is None else throughput.copy()
         result[:, which] *= left
@@ -320,6 +325,13 @@ def _of_hits(rays: Rays, hits: Hits) -> tuple[Floats32 | None, Indices | None, M
         hits.ray if path is None else path.take(hits.ray),
         None if medium is None else medium.take(hits.ray),
     )
+
+
+def _sum(radiance: Floats32 | None, term: Floats32) -> Floats32:
+    """Of two terms, each (3, n) or (3, 1); in place where the first has room, for a single column may be shared."""
+    if radiance is None:
+        return term
+    return np.add(radiance, term, out=radiance if radiance.shape[1] > 1 else None)
 
 
 def add_radiance(

@@ -71,11 +71,13 @@ def test_a_slab_seen_head_on_sums_all_its_inner_reflections(
     close(render(scene).linear, np.broadcast_to(transmitted + reflected, (32, 32, 3)), 3e-5)
 
 
+# Light fades from the eye on, wherever the near plane is.
+@pytest.mark.parametrize("near", [0.0, 0.5])
 def test_a_camera_inside_glass_looks_through_it(
-    make_scene: MakeScene, pixel_rays: PixelRays
+    make_scene: MakeScene, pixel_rays: PixelRays, near: float
 ) -> None:
     scene = make_scene(
-        camera={"eye": [0, 0, 0.25], "look_at": [0, 0, -1], "vertical_fov": 30},
+        camera={"eye": [0, 0, 0.25], "look_at": [0, 0, -1], "vertical_fov": 30, "near": near},
         sampler={"type": "regular", "samples": 1},
         objects=[{"shape": "box", "material": "glass", "size": [2, 2, 2]}],
         materials={"glass": glass()},

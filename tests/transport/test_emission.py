@@ -8,6 +8,7 @@ for each of the 3 such numbers).
 from __future__ import annotations
 
 import math
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,7 @@ import pytest
 
 from course import Picture, Scene, render
 from course.errors import SceneError
+from course.imaging.files import save
 from tests.conftest import MakeScene
 from tests.effects import skies
 
@@ -220,3 +222,24 @@ def test_an_emission_is_a_radiance(make_scene: MakeScene, emission: Any, told: s
 def test_other_names_for_it_are_answered_with_its_own(make_scene: MakeScene, key: str) -> None:
     with pytest.raises(SceneError, match="did you mean emission"):
         make_scene(materials={"m": {key: 1}}, objects=[BOX])
+
+
+@pytest.mark.parametrize("integrator", BOTH)
+@pytest.mark.parametrize("lamp", [False, True], ids=["glows", "is a light"])
+@pytest.mark.parametrize("ambient", [0.0, 2.0])
+def test_a_texture_colours_what_is_reflected_and_not_what_is_sent_out(
+    make_scene: MakeScene, tmp_path: Path, integrator: dict[str, Any], lamp: bool, ambient: float
+) -> None:
+    save(tmp_path / "quarter.exr", np.full((3, 2, 2), 0.25, np.float32))
+    scene = make_scene(
+        camera={"eye": [0, 2, 0], "look_at": [0, 0, 0], "up": [0, 0, 1], "vertical_fov": 5},
+        film={"width": 4, "height": 4},
+        sampler=ONE,
+        materials={"m": {"color": 0.5, "emission": 3, "texture": {"image": "quarter.exr"}}},
+        objects=[{"shape": "quad", "material": "m", "name": "panel"}],
+        lights=[{"type": "ambient", "radiance": ambient}] * (ambient > 0)
+        + [{"type": "object", "object": "panel"}] * lamp,
+        integrator=integrator,
+    )
+    seen = render(scene).linear
+    assert np.allclose(seen, 3 + 0.5 * 0.25 * ambient, rtol=1e-6)

@@ -93,11 +93,11 @@ def _camera(element: Element, steps: dict[str, dict[str, Any]], notes: Notes) ->
 
 def _gaze(element: Element, position: Floats64) -> Floats64:
     # A gaze point is where it looks, a gaze the way there, of any length.
-    where = element.maybe("GazePoint")
-    if where is not None and (_looks_at(element) or element.maybe("Gaze") is None):
+    where, looks_at = element.maybe("GazePoint"), _looks_at(element)
+    if where is not None and (looks_at or element.maybe("Gaze") is None):
         gaze = np.array(where.vector()) - position
     else:
-        where = element.child("Gaze", "such as 0 0 -1")
+        where = element.child("Gaze", f"such as 0 0 -1{', or a GazePoint' if looks_at else ''}")
         gaze = np.array(where.vector())
     if not gaze.any():
         raise where.unexpected("a direction that is not 0 0 0, or another point than Position")
@@ -109,8 +109,8 @@ def _looks_at(element: Element) -> bool:
     kind = element.attribute("type")
     if kind not in (None, "", "simple", "lookAt"):
         raise element.error(f"type is {kind!r}: expected lookAt or none")
-    if kind:
-        return kind == "lookAt"
+    if kind == "lookAt":
+        return True
     tags = {child.tag for child in element.children}
     return "FovY" in tags and "NearPlane" not in tags
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from dataclasses import dataclass
 from pathlib import Path, PurePath
@@ -103,7 +104,21 @@ def convert(source: Path, target: Path) -> tuple[list[Converted], list[str]]:
 def retold(error: SceneError, source: Path, path: Path) -> SceneError:
     """An error about a converted scene as one about the METU scene that it comes from."""
     told = re.sub(rf"^{re.escape(str(path))}(:\d+)?: ", "", str(error))
-    return SceneError(f"{source}: as a scene of this course: {told}")
+    return SceneError(f"{source}: as a scene of this course: {_with_name(told, path)}")
+
+
+def _with_name(told: str, path: Path) -> str:
+    """A message about an object of a converted scene with that object's name, such as `mesh 2`, and its file's."""
+    found = re.match(r"objects\[(\d+)\]: ", told)
+    if found is None:
+        return told
+    thing = yaml.safe_load(path.read_text(encoding="utf-8"))["objects"][int(found[1])]
+    rest = told[found.end() :]
+    if "file" in thing:
+        # Named relative to a temporary folder, a file's path goes up and down again.
+        file = path.parent / thing["file"]
+        rest = rest.replace(str(file), os.path.normpath(file))
+    return found[0] + (f"{thing['name']}: " if "name" in thing else "") + rest
 
 
 def _common(

@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from course.core.types import Floats64, Indices
+from course.errors import GeometryError
 from course.geometry.mesh import Mesh
 from course.geometry.mesh_files import read_mesh
 from course.scene.document import show, suggest
@@ -70,6 +71,7 @@ class Objects:
     notes: Notes
     eyes: list[list[float]]
     _bases: dict[str, dict[str, Any]] = field(default_factory=dict)
+    _faces: dict[str, Element] = field(default_factory=dict)
 
     def read(self, scene: Element) -> list[dict[str, Any]]:
         """All objects of a scene; what meshes it holds itself are written."""
@@ -109,6 +111,7 @@ class Objects:
                 mode = "smooth"
             normals = {"normals": "area"} if mode == "smooth" else {}
             path = self._named(found)
+            self._faces.setdefault(path, faces)
         else:
             mesh = inline_mesh(faces, self.vertices, mode == "smooth")
             path = self._written(mesh, f"mesh-{len(self._bases) + 1}")
@@ -215,10 +218,20 @@ class Objects:
             if thing["shape"] == "sphere":
                 box = np.array(list(product((-1, 1), repeat=3))) * thing["radius"]
             else:
-                box = read_mesh(self.target / thing["file"]).vertices
+                box = self._vertices_of(thing["file"])
             matrix = matrix_of_steps(thing["transform"])
             meshes.append((box @ matrix[:3, :3].T + matrix[:3, 3], thing))
         return corners_of_all(meshes)
+
+    def _vertices_of(self, file: str) -> Floats64:
+        """The vertices (V, 3) of a mesh file, which may be one that the scene only names."""
+        try:
+            return read_mesh(self.target / file).vertices
+        except GeometryError as error:
+            if file not in self._faces:
+                raise
+            told = str(error).replace(str(self.target / file), os.path.normpath(self.target / file))
+            raise self._faces[file].error(f"plyFile can't be used: {told}") from None
 
     def _vertex(self, element: Element) -> Floats64:
         """The vertex whose number is an element's text, (3,)."""

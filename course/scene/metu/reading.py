@@ -82,6 +82,10 @@ class _XmlReader:
         except expat.ExpatError as error:
             reason = expat.ErrorString(error.code)
             raise SceneError(f"{self.file}:{error.lineno}: not valid XML: {reason}") from None
+        except (LookupError, ValueError) as error:  # of the encoding that its first line names
+            raise SceneError(
+                f"{self.file}: XML that can't be read: {error}: save it as UTF-8"
+            ) from None
         assert self.root is not None
         return self.root
 
@@ -119,7 +123,7 @@ def _xml(data: bytes, file: str) -> Element:
 
 def _json(data: bytes, file: str) -> Element:
     try:
-        content = json.loads(data)
+        content = json.loads(data, object_pairs_hook=lambda pairs: _map(pairs, file))
     except json.JSONDecodeError as error:
         raise SceneError(f"{file}:{error.lineno}: not valid JSON: {error.msg}") from None
     except UnicodeDecodeError as error:
@@ -133,6 +137,19 @@ def _json(data: bytes, file: str) -> Element:
     root = _from_json(ROOT, content[ROOT], file, 1)
     root.children += [Element(key, key, file) for key in others]
     return root
+
+
+def _map(pairs: list[tuple[str, Any]], file: str) -> dict[str, Any]:
+    """A map of JSON, which would keep only the last of several values of one key; SceneError for those."""
+    found: dict[str, Any] = {}
+    for key, value in pairs:
+        if key in found:
+            raise SceneError(
+                f"{file}: {show(key)} is given twice in one map, which counts only once:"
+                " expected a list of both"
+            )
+        found[key] = value
+    return found
 
 
 def _from_json(tag: str, value: Any, file: str, depth: int) -> Element:

@@ -62,9 +62,12 @@ def test_the_axis_u_of_a_left_handed_camera_is_turned_round(metu: Metu, lens: Tr
 
 
 @pytest.mark.parametrize("aim", [{"GazePoint": "1.4 1.4 3"}, {"Gaze": "0.4 -0.6 -2"}])
-def test_a_look_at_camera_has_a_vertical_field_of_view(metu: Metu, aim: Tree) -> None:
+@pytest.mark.parametrize("kind", ["lookAt", "simple", ""])
+def test_a_camera_without_near_plane_has_a_vertical_field_of_view(
+    metu: Metu, aim: Tree, kind: str
+) -> None:
     camera = {
-        "_type": "lookAt",
+        "_type": kind,
         "Position": "1 2 5",
         "Up": "0.3 2 0.1",
         "FovY": "70",

@@ -17,6 +17,8 @@ from tests.scene.metu.conftest import CAMERA, MATT, Metu, Tree, tree, write
 
 Change = Callable[[Tree], Any]
 
+SIZE = {"ImageResolution": "4 4", "Position": "0 0 5", "Up": "0 1 0"}
+
 MISTAKES: list[tuple[Change, str]] = [
     (lambda s: s.pop("Cameras"), "Scene: Cameras is missing: expected one Camera or more"),
     (lambda s: s["Cameras"].pop("Camera"), "Scene/Cameras: Camera is missing"),
@@ -66,6 +68,10 @@ MISTAKES: list[tuple[Change, str]] = [
     (
         lambda s: s["Cameras"]["Camera"].update(_type="fisheye"),
         "Camera: type is 'fisheye': expected lookAt or none",
+    ),
+    (
+        lambda s: s["Cameras"].update(Camera={"_id": "1", "_type": "lookAt", **SIZE}),
+        "Camera: Gaze is missing: expected such as 0 0 -1, or a GazePoint",
     ),
     (lambda s: s["Cameras"].update(Camera=[CAMERA, CAMERA | {"Up": ""}]), "Camera[2]/Up is"),
     (lambda s: s["Cameras"].update(Camera=[CAMERA, CAMERA]), "Camera[2]: its id is given twice"),
@@ -200,10 +206,22 @@ BOMB = """<?xml version="1.0"?>
         ("a.xml", "<scene/>", r'a\.xml:1: the root is "scene": expected Scene'),
         ("a.xml", "<Scene>" + "<a>" * 50, r"nested more than 32 levels"),
         ("a.xml", "<Scene>&b;</Scene>", r"a\.xml:1: not valid XML: undefined entity"),
+        *(
+            ("a.xml", f'<?xml version="1.0" encoding="{name}"?><Scene/>', rf"a\.xml: .* {told}")
+            for name, told in [
+                ("klingon", "unknown encoding: klingon: save it as UTF-8"),
+                ("utf-7", "not supported: save it as UTF-8"),
+            ]
+        ),
         ("a.json", "{", r"a\.json:1: not valid JSON"),
         ("a.json", "[]", r"expected a map with the key Scene"),
         ("a.json", '{"Scene": 1}', r"expected a map with the key Scene"),
         ("a.json", '{"Scene": {"a":' + "[" * 100_000, r"nested too deeply"),
+        (
+            "a.json",
+            '{"Scene": {"Lights": {"PointLight": {}, "AmbientLight": "1 1 1", "PointLight": {}}}}',
+            r'a\.json: "PointLight" is given twice in one map, .* expected a list of both',
+        ),
         ("a.obj", "", r"expected a METU scene, a file that ends in \.xml or \.json"),
     ],
 )
