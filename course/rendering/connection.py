@@ -132,10 +132,11 @@ class Connection:
                 if ends():
                     return []
                 self.look()
-        except CancelledError as cancelled:
-            raise self.gone() from cancelled
-        except self._distributed.scheduler.KilledWorker as lost:
-            raise self._told(lost) from None
+        except (CancelledError, self._distributed.comm.CommClosedError) as lost:
+            # The client notices sooner or later, by what it is just doing.
+            raise self.gone() from lost
+        except self._distributed.scheduler.KilledWorker as killed:
+            raise self._told(killed) from None
         finally:
             gathering.cancel()
 

@@ -202,6 +202,31 @@ def test_a_cluster_that_goes_is_told(
         render(every_stage(), spp=65536, progress=progress, address=lone.address)
 
 
+@pytest.mark.parametrize("direct", [False, True], ids=["asked", "cut off"])
+def test_a_scheduler_that_goes_while_results_are_fetched_is_told(
+    every_stage: EveryStage, lone: Cluster, monkeypatch: pytest.MonkeyPatch, direct: bool
+) -> None:
+    """What the client meets then depends on the moment: so it is also made to meet a connection that is cut off."""
+    distributed = pytest.importorskip("distributed")
+    gather = distributed.Client.gather
+    asked = []
+
+    async def cut_off() -> None:
+        raise distributed.comm.CommClosedError("reset by peer")
+
+    def at_the_wrong_moment(self: Any, *arguments: Any, **keywords: Any) -> Any:
+        asked.append(arguments)
+        if len(asked) < 3:
+            return gather(self, *arguments, **keywords)
+        lone.scheduler.kill()
+        return cut_off() if direct else gather(self, *arguments, **keywords)
+
+    monkeypatch.setattr(distributed.Client, "gather", at_the_wrong_moment)
+    with pytest.raises(CourseError, match="the scheduler has gone"):
+        render(every_stage(), spp=65536, address=lone.address)
+    assert len(asked) == 3
+
+
 class Loss:
     """A worker dies when it has told that it is done with something, and nobody has got that yet."""
 
