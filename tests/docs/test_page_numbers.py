@@ -141,12 +141,12 @@ def test_orders_are_what_the_pages_lead_to_expect(module: str) -> None:
     sentence, best = EXPECTED[module]
     said(module, sentence)
     series = {line.name: line.order for line in plots(module, "bench")["samplers"].series}
-    # An order of three seeds scatters by some hundredths.
+    # An order of three or four seeds scatters by some hundredths, and depends as much on how many samples there are.
     assert series["random"] == pytest.approx(-0.5, abs=0.03)
     for name in ("jittered", "Sobol"):
         order = series[name]
         assert order is not None
-        assert best - 0.03 <= order <= -0.5 + 0.03, (module, name)
+        assert best - 0.05 <= order <= -0.5 + 0.03, (module, name)
 
 
 # ---------------------------------------------------------------- sampling
