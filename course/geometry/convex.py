@@ -28,7 +28,7 @@ LEAST_TRIANGLES = 1000
 WORTH = 0.2
 """Share of the rays that leave an object from which on it pays to look whether they meet another."""
 
-_PROBES = 512
+_PROBES, _CANDIDATES = 512, 4096
 
 _NOWHERE = np.full((2, 3), 3e38, np.float32)
 """The box of an object without triangles: no ray gets there."""
@@ -70,29 +70,45 @@ class ConvexObjects:
         return which[: box_kernels.remaining(*arrays, self.boxes, which)]
 
 
-def convex_objects(objects: Sequence[tuple[Floats32, Numbers, bool]]) -> ConvexObjects | None:
+@dataclass(frozen=True)
+class Extent:
+    """How much of a scene's vertices and triangles, object by object, is one object's.
+
+    ``convex`` : closed, with triangles that look outwards, and no straight line that leaves it meets it again
+    """
+
+    vertices: int
+    triangles: int
+    convex: bool
+
+
+def convex_objects(
+    vertices: Floats32, triangles: Numbers, extents: Sequence[Extent]
+) -> ConvexObjects | None:
     """The objects of a scene, or None where there is nothing to be gained.
 
     Parameters
     ----------
-    objects : of each its vertices (V, 3), its triangles (T, 3), and whether it is convex: closed, with triangles that
-        look outwards, and no straight line that leaves it meets it again
+    vertices : (V, 3) float32
+    triangles : (T, 3) int
+    extents : of each object, in the order of the arrays
     """
-    sizes = [len(triangles) for _, triangles, _ in objects]
-    worth = np.array([convex and len(mine) >= LEAST_TRIANGLES for _, mine, convex in objects])
-    if len(objects) > MOST_OBJECTS or not worth.any():
+    worth = np.array([e.convex and e.triangles >= LEAST_TRIANGLES for e in extents], np.bool_)
+    if len(extents) > MOST_OBJECTS or not worth.any():
         return None
+    first = np.cumsum([0, *(e.triangles for e in extents)])
+    ends = np.cumsum([e.vertices for e in extents]).tolist()
     boxes = [
-        roomy_box(vertices[triangles].reshape(-1, 3)) if len(triangles) else _NOWHERE
-        for vertices, triangles, _ in objects
+        roomy_box(vertices[end - e.vertices : end]) if e.triangles else _NOWHERE
+        for end, e in zip(ends, extents, strict=True)
     ]
     for number in np.flatnonzero(worth).tolist():
         others = [box for other, box in enumerate(boxes) if other != number]
-        vertices, triangles, _ = objects[number]
-        worth[number] = _spared(vertices, triangles, others) >= WORTH
+        mine = triangles[first[number] : first[number + 1]]
+        worth[number] = _spared(vertices, mine, others) >= WORTH
     if not worth.any():
         return None
-    return ConvexObjects(np.cumsum([0, *sizes]).astype(np.int32), worth, np.concatenate(boxes))
+    return ConvexObjects(first.astype(np.int32), worth, np.concatenate(boxes))
 
 
 def roomy_box(vertices: Floats32) -> Floats32:
@@ -104,11 +120,13 @@ def roomy_box(vertices: Floats32) -> Floats32:
 
 def _spared(vertices: Floats32, triangles: Numbers, boxes: Sequence[Floats32]) -> float:
     """Share of the rays from a surface, spread by the cosine, that meet none of some boxes."""
-    p = vertices.astype(np.float64)[triangles].transpose(1, 2, 0)
+    rng = np.random.default_rng(0)
+    # Probes are chosen by area, among some triangles: to look at a million would take longer than it may spare.
+    some = triangles[rng.integers(len(triangles), size=_CANDIDATES)]
+    p = vertices.take(some, axis=0).astype(np.float64).transpose(1, 2, 0)
     normal = cross(p[1] - p[0], p[2] - p[0])
     twice_area = np.sqrt(dot(normal, normal))
-    rng = np.random.default_rng(0)
-    chosen = rng.choice(len(triangles), _PROBES, p=twice_area / twice_area.sum())
+    chosen = rng.choice(_CANDIDATES, _PROBES, p=twice_area / twice_area.sum())
     origin = p.mean(axis=0)[:, chosen]
     way = rng.normal(size=origin.shape)
     way = normal[:, chosen] / twice_area[chosen] + way / np.sqrt(dot(way, way))

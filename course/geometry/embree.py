@@ -13,6 +13,7 @@ What embreex does that one would not expect, and what is done about it here:
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from threading import Lock
 from time import perf_counter
@@ -22,7 +23,7 @@ from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
 
 from course.core.types import Floats32, Indices, Mask, Numbers
-from course.geometry.convex import ConvexObjects, Objects
+from course.geometry.convex import ConvexObjects, Extent, Objects, convex_objects
 from course.geometry.packets import PacketScene
 
 NO_HIT = 1e37
@@ -65,15 +66,16 @@ class Accelerator:
     ----------
     vertices : (V, 3) float32
     triangles : (T, 3) int32
-    convex : the objects that they belong to, where looking at these spares queries
+    extents : of the objects that they belong to, where these are known
     """
 
     def __init__(
-        self, vertices: Floats32, triangles: Numbers, convex: ConvexObjects | None = None
+        self, vertices: Floats32, triangles: Numbers, extents: Sequence[Extent] = ()
     ) -> None:
         self._vertices = np.ascontiguousarray(vertices, np.float32)
         self._triangles = np.ascontiguousarray(triangles, np.int32)
-        self.convex = convex
+        self._extents = extents
+        self._convex: ConvexObjects | None = None
         # A hierarchy takes as much memory as all else that is known of the triangles: there is none that isn't asked.
         self._scene: EmbreeScene | None = None
         self._packets: PacketScene | None = None
@@ -91,6 +93,7 @@ class Accelerator:
             self._single()
         elif self._packet_scene is None:
             self._packet_scene = PacketScene(self._vertices, self._triangles)
+            self._convex = convex_objects(self._vertices, self._triangles, self._extents)
         self._packets = self._packet_scene if wanted else None
 
     def _single(self) -> EmbreeScene:
@@ -110,6 +113,11 @@ class Accelerator:
     def compiled(self) -> bool:
         """Whether compiled loops are used."""
         return self._packets is not None
+
+    @property
+    def convex(self) -> ConvexObjects | None:
+        """The objects that triangles belong to, where compiled loops are used and looking at these spares queries."""
+        return self._convex if self.compiled else None
 
     def intersect(
         self,
@@ -141,8 +149,8 @@ class Accelerator:
             start = perf_counter()
             far = np.full(1, NO_HIT, np.float32) if limit is None else limit
             which = None
-            if left is not None and self.convex is not None:
-                which = self.convex.remaining(origin, direction, far, left)
+            if left is not None and self._convex is not None:
+                which = self._convex.remaining(origin, direction, far, left)
             hits = self._packets.intersect(origin, direction, far, coherent, which)
             clock.seconds += perf_counter() - start
             return Intersections(*hits)

@@ -129,7 +129,7 @@ def find_hits(
     tint = None if surface.painting is None else surface.painting.tint(triangle, u, v)
     return Hits(
         *(ray, triangle, u, v, t, material, direction, p, ng, ns, step, above, side),
-        *(time, tint, compiled, surface.accelerator.convex if compiled else None),
+        *(time, tint, compiled, surface.accelerator.convex),
     )
 
 

@@ -5,6 +5,10 @@ The scene has been moved and scaled to [-1, 1] before (``course.scene.frame``), 
 Symbols: p0, p1, p2 corners; e1 = p1 - p0, e2 = p2 - p0; ng geometric normal; n0, n1, n2 normals at the corners;
 u, v barycentrics of p1 and p2, w = 1 - u - v.
 
+The normals of a mesh that has been stretched unevenly differ in length. Interpolated as they are, and only then made
+unit vectors, they are what the normals of the mesh before would be if they were interpolated first and transformed
+then: those of an ellipsoid if it was a sphere. Their lengths count nowhere else.
+
 The bulge. A coarse mesh with smooth normals stands for a round surface that rises above its flat triangles. A shadow
 ray that starts on the flat triangle near the terminator runs into the neighbouring facets, and the mesh shows black
 teeth. So a shadow ray starts from where the round surface would be, higher by
@@ -23,10 +27,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
-from course.core.types import Floats, Floats32, Mask, Materials, Numbers
+from course.core.types import Floats, Floats32, Floats64, Mask, Materials, Numbers
 from course.core.vectors import cross, dot
-from course.geometry.convex import convex_objects
+from course.geometry.convex import Extent
 from course.geometry.embree import Accelerator
 from course.geometry.hierarchy import HierarchyAccelerator, HierarchyFunctions
 from course.geometry.mesh import Mesh
@@ -65,6 +70,14 @@ it is still inside for dihedral angles down to atan(1 / INSET) = 27 degrees.
 """
 
 
+UNIT = 1e-9
+"""Normals count as unit vectors if their lengths are within this of 1."""
+
+FAINTEST = 2.0**-24
+"""Normals are at least this long beside the longest of their triangle: float32 has no more digits for what they add to
+it, but the point at their own corner has a direction."""
+
+
 @dataclass(frozen=True)
 class Part:
     """One object's mesh on its way into a surface; ``convex`` as ``course.geometry.convex`` means it."""
@@ -85,7 +98,8 @@ class Surface:
     corner_edges : (T, 9) float32, p0, e1, e2
     normal_offset : (T, 5) float32, ng (unit), the distance by which rays leave the surface, and the largest inset
     inset : (T, 3) float32, the barycentrics w, u, v below which a point counts as next to an edge
-    corner_normals : (T, 9) float32, n0, n1 - n0, n2 - n0; or None when every triangle is flat
+    corner_normals : (T, 9) float32, n0, n1 - n0, n2 - n0, the longest normal of a triangle of length 1; or None when
+        every triangle is flat
     bulge : (T, 3) float32, k01 / 2, k02 / 2, k12 / 2; or None when every triangle is flat, or is to count as flat
         for shadow rays
     bend : sine of the largest angle between a triangle and a normal at its corners, 0 when every triangle is flat
@@ -150,8 +164,8 @@ def build_surface(
             motion.displacement,
         )
     else:
-        convex = convex_objects([(t.vertices, t.triangles, t.convex) for t in static])
-        accelerator = Accelerator(*_joined(static), convex)
+        extents = [Extent(len(t.vertices), len(t.triangles), t.convex) for t in static]
+        accelerator = Accelerator(*_joined(static), extents)
     return Surface(
         corner_edges=np.concatenate([table.corner_edges for table in tables]),
         normal_offset=np.concatenate([table.normal_offset for table in tables]),
@@ -232,13 +246,13 @@ def _tables(part: Part, smooth: bool) -> _Tables:
     corner_normals, bulge = np.zeros((2, 0, 0), np.float32)
     bend = 0.0
     if smooth:
-        n = np.repeat(ng[None], 3, axis=0)
+        n = unit = np.repeat(ng[None], 3, axis=0)
         if mesh.normals is not None:
-            n = np.moveaxis(mesh.normals[triangles], 0, 2)
-            cosine = min((float(dot(ng, corner).min(initial=1)) for corner in n), default=1.0)
+            n, unit = _at_corners(mesh.normals, triangles)
+            cosine = min((float(dot(ng, corner).min(initial=1)) for corner in unit), default=1.0)
             bend = math.sqrt(max(1 - cosine * cosine, 0)) if cosine > 0 else 1.0
-        d1, d2 = n[1] - n[0], n[2] - n[0]
-        corner_normals = _table(n[0], d1, d2)
+        corner_normals = _table(n[0], n[1] - n[0], n[2] - n[0])
+        d1, d2 = unit[1] - unit[0], unit[2] - unit[0]
         bulge = _table(np.stack((dot(e1, d1), dot(e2, d2), dot(e2 - e1, d2 - d1))) / 2)
     return _Tables(
         vertices,
@@ -254,6 +268,17 @@ def _tables(part: Part, smooth: bool) -> _Tables:
         None if part.paint is None else Paint(part.paint.corners[has_area], part.paint.color_at),
         part.convex,
     )
+
+
+def _at_corners(normals: Floats64, triangles: NDArray[np.integer]) -> tuple[Floats64, Floats64]:
+    """Normals (3, 3, T) at the corners of triangles (T, 3), as they are to be interpolated, and at unit length."""
+    n = np.moveaxis(normals[triangles], 0, 2)
+    lengths = np.sqrt(np.stack([dot(corner, corner) for corner in n]))
+    if np.abs(lengths - 1).max(initial=0) < UNIT:
+        return n, n
+    # Only their ratios within a triangle count: its longest has length 1, so that no square leaves float32's range.
+    unit = n / lengths[:, None]
+    return unit * np.maximum(lengths / lengths.max(axis=0), FAINTEST)[:, None], unit
 
 
 def _table(*rows: Floats) -> Floats32:

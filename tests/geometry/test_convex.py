@@ -9,8 +9,8 @@ import pytest
 
 from course.core.vectors import cross, dot
 from course.geometry import packets, shapes, transforms
-from course.geometry.convex import ConvexObjects
-from course.geometry.embree import NO_HIT, Intersections, QueryTime
+from course.geometry.convex import ConvexObjects, convex_objects
+from course.geometry.embree import NO_HIT, Accelerator, Intersections, QueryTime
 from course.geometry.hits import Hits, find_hits
 from course.geometry.mesh import Mesh
 from course.geometry.surface import Part, Surface, build_surface
@@ -86,7 +86,10 @@ def apart() -> Surface:
 
 
 def objects(surface: Surface) -> ConvexObjects | None:
-    return surface.accelerator.convex
+    """What compiled loops would look at, whether there are any or not."""
+    asked = surface.accelerator
+    assert isinstance(asked, Accelerator)
+    return convex_objects(asked._vertices, asked._triangles, asked._extents)
 
 
 def test_balls_that_stand_apart_are_worth_it() -> None:
@@ -134,7 +137,9 @@ def test_where_things_move_nothing_is_left_out() -> None:
         lambda origins, velocity, time: origins - velocity[:, None] * time,
     )
     parts = [Part(BALL, 0, convex=True), Part(at(BALL, 0.6, 0, 0), 0, (0.1, 0.0, 0.0))]
-    assert objects(build_surface(parts, functions)) is None
+    surface = build_surface(parts, functions)
+    surface.accelerator.use_packets(packets.available())
+    assert surface.accelerator.convex is None
 
 
 def left_behind(surface: Surface, seed: int) -> tuple[Hits, Any, Any]:
@@ -161,7 +166,7 @@ def test_hits_are_the_same_as_if_all_had_been_asked() -> None:
     hits, which, way = left_behind(surface, 1)
     left = hits.leaving(which, way)
     assert left is not None
-    convex = objects(surface)
+    convex = surface.accelerator.convex
     assert convex is not None
     asked = convex.remaining(hits.above, way, np.full(1, NO_HIT, np.float32), left).tolist()
     assert len(asked) < 0.9 * len(which)
@@ -198,7 +203,7 @@ def test_only_what_leaves_a_ball_outwards_leaves_it() -> None:
     way = np.where(which % 2 == 0, way, -way)
     some = which[::3]
     left = hits.leaving(some, np.ascontiguousarray(way[:, some]))
-    convex = objects(surface)
+    convex = surface.accelerator.convex
     assert left is not None
     assert convex is not None
     number = np.searchsorted(convex.first, hits.triangle, side="right") - 1
@@ -218,5 +223,10 @@ def test_without_convex_objects_nobody_asks_what_a_ray_leaves() -> None:
 
 
 def test_without_compiled_loops_nobody_asks_either() -> None:
-    hits, which, way = left_behind(apart(), 5)
+    surface = apart()
+    hits, which, way = left_behind(surface, 5)
     assert hits.leaving(which, way) is None
+    # Nor once they have been used and no longer are.
+    surface.accelerator.use_packets(packets.available())
+    surface.accelerator.use_packets(False)
+    assert surface.accelerator.convex is None
