@@ -17,8 +17,9 @@ class Mesh:
     vertices : (V, 3) float64 [m]
     triangles : (T, 3) integer
         Counter-clockwise seen from outside: cross(p1 - p0, p2 - p0) points outwards.
-    normals : (V, 3) float64, unit length, or None
-        Shading normals; None means flat shading.
+    normals : (V, 3) float64, not 0, or None
+        Shading normals; None means flat shading. Of unit length, unless the mesh has been stretched unevenly: in a
+        triangle, longer ones count more (`course.geometry.transforms.apply`).
     uv : (V, 2) float64 or None
         Surface parameters.
     """

@@ -51,7 +51,8 @@ def read_mesh(path: Path, weights: Weights = "angle") -> Mesh:
     ------
     GeometryError
         Naming the file and the trouble: missing, a folder, empty, unreadable, no triangles, an
-        index out of range, a vertex or a normal that is not finite.
+        index out of range, a vertex or a normal that is not finite; in a PLY file a face of fewer
+        than three corners.
     """
     path = Path(path)
     parse = FORMATS.get(path.suffix.lower())

@@ -15,6 +15,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from course.geometry.ply_header import Header, read_header
+from course.geometry.ply_lines import checked_lines, word_that_is_no_number
 from course.geometry.ply_polygons import fanned
 from course.geometry.welding import same
 
@@ -48,7 +50,18 @@ def parse_ply(data: bytes) -> list[Part]:
     """Return the mesh of a PLY file, its polygons cut into fans, with uv by vertex or by corner."""
     from trimesh.exchange.ply import load_ply
 
-    parsed = load_ply(BytesIO(fanned(data)), fix_texture=False, skip_materials=True)
+    header = read_header(data)
+    if header.order == "ascii":
+        plain = header.text() + checked_lines(header, data)
+    else:
+        plain = fanned(header.text() + data[header.end :])
+    try:
+        parsed = load_ply(BytesIO(plain), fix_texture=False, skip_materials=True)
+    except Exception as error:
+        trouble = _ply_trouble(header, data, error)
+        if trouble is None:
+            raise
+        raise ValueError(trouble) from error
     raw = parsed["metadata"]["_ply_raw"]
     for name, element in raw.items():
         _check_element(name, element)
@@ -62,6 +75,18 @@ def parse_ply(data: bytes) -> list[Part]:
     if wedges is None:
         return parts
     return [_split_by_corner(part, np.asarray(wedges)) for part in parts]
+
+
+def _ply_trouble(header: Header, data: bytes, error: Exception) -> str | None:
+    """What to say where trimesh can't read the data of a PLY file; None where it says it itself."""
+    if header.order == "ascii":
+        return word_that_is_no_number(header, data)
+    if "unexpected length" in str(error):
+        return (
+            f"its {len(data) - header.end} bytes of data are an unexpected length:"
+            " it is cut short, or a count in its header is wrong"
+        )
+    return None
 
 
 def parse_obj(data: bytes) -> list[Part]:

@@ -7,17 +7,8 @@ import re
 import numpy as np
 from numpy.typing import NDArray
 
-SIZES = {
-    **dict.fromkeys(("char", "int8"), "i1"),
-    **dict.fromkeys(("uchar", "uint8"), "u1"),
-    **dict.fromkeys(("short", "int16"), "i2"),
-    **dict.fromkeys(("ushort", "uint16"), "u2"),
-    **dict.fromkeys(("int", "int32"), "i4"),
-    **dict.fromkeys(("uint", "uint32"), "u4"),
-    **dict.fromkeys(("float", "float32"), "f4"),
-    **dict.fromkeys(("double", "float64"), "f8"),
-}
-"""Types of PLY as NumPy calls them, without their byte order."""
+from course.geometry.ply_header import SIZES
+from course.geometry.ply_lines import too_few
 
 _FACE = re.compile(rb"element +face +(\d+)\r?\n((?:property [^\n]*\n)+)")
 _LIST = re.compile(r"list +(\w+) +(\w+) +vertex_ind(?:ex|ices)")
@@ -28,6 +19,15 @@ def fanned(data: bytes) -> bytes:
 
     A polygon 0 1 2 3 becomes 0 1 2 and 0 2 3, in its place. Whatever else a face has is left out. A file whose faces
     have other lists, or that is cut short, comes back as it is.
+
+    Parameters
+    ----------
+    data : with the header that `course.geometry.ply_header.Header.text` writes
+
+    Raises
+    ------
+    ValueError
+        For a face with fewer than three corners.
     """
     end = re.search(rb"end_header\r?\n", data)
     order = re.search(rb"format +binary_(little|big)_endian", data[: end.start() if end else 0])
@@ -107,8 +107,10 @@ class _Rows:
         if faces == 0 or at + self.count.itemsize > len(data):
             return True
         corners = int(np.frombuffer(data, self.count, 1, at)[0])
+        if corners < 3:
+            raise ValueError(too_few(0, corners))
         step = self.before + self.count.itemsize + corners * self.index.itemsize + self.after
-        if corners < 0 or first + faces * step > len(data):
+        if first + faces * step > len(data):
             return False
         counts = np.ndarray((faces,), self.count, data, at, (step,))
         return bool((counts == corners).all())
@@ -129,8 +131,12 @@ class _Rows:
             at += self.before
             n = int.from_bytes(data[at : at + each], order, signed=signed)  # type: ignore[arg-type]
             count[number], start[number] = n, at + each
+            if at + each > size:
+                return None
+            if n < 3:
+                raise ValueError(too_few(number, n))
             at += each + n * width + self.after
-            if at > size or n < 0:
+            if at > size:
                 return None
         return count, start, at
 
@@ -140,14 +146,12 @@ class _Rows:
         """(T, 3), in the order of the faces."""
         content = np.frombuffer(data, np.uint8)
         found, faces = [], []
-        for n in np.unique(count[count >= 3]):
+        for n in np.unique(count):
             which = np.flatnonzero(count == n)
             places = start[which][:, None] + np.arange(n * self.index.itemsize)
             corners = np.ascontiguousarray(content[places]).view(self.index).astype(np.int64)
             for k in range(1, n - 1):
                 found.append(corners[:, [0, k, k + 1]])
                 faces.append(which)
-        if not found:
-            return np.zeros((0, 3), np.int64)
         # Stable: the triangles of a face stay in order.
         return np.concatenate(found)[np.argsort(np.concatenate(faces), kind="stable")]

@@ -12,6 +12,12 @@ from course.geometry.mesh import Mesh
 
 Matrix = NDArray[np.float64]
 
+ROUNDING = 1e-12
+"""Lengths of transformed normals within this of 1 are 1."""
+
+SHORTEST = 1e-100
+"""Transformed normals are at least this long: their squares are still numbers of float64."""
+
 
 def translate(offset: ArrayLike) -> Matrix:
     """Return the matrix that moves by `offset` (3,) [m]; ValueError if it isn't finite."""
@@ -68,6 +74,11 @@ def apply(mesh: Mesh, matrix: Matrix) -> Mesh:
 
     Vertices with the same bits keep the same bits, so that a watertight mesh stays so.
 
+    The transform of a mixture of normals is the mixture of their transforms, if these keep their lengths. So
+    they do, but for one factor for all of them: the longest possible has length 1, and under rotations and even
+    scales unit normals stay unit normals. Whoever interpolates them sees the normals of the mesh as it was,
+    interpolated and then transformed.
+
     Parameters
     ----------
     mesh : Mesh
@@ -103,17 +114,24 @@ def apply(mesh: Mesh, matrix: Matrix) -> Mesh:
 
 def _transformed_normals(normals: NDArray[np.float64], linear: Matrix) -> NDArray[np.float64]:
     # The inverse transpose has the direction of the matrix of cofactors, and its sign keeps outward
-    # normals outward under a mirror. Only its direction counts, so it may be scaled at will.
+    # normals outward under a mirror. One factor for all normals is free.
     scaled = linear / np.max(np.abs(linear))
     inverse = np.linalg.inv(scaled)
     if not np.all(np.isfinite(inverse)):
         raise ValueError("matrix can't be inverted: it flattens the mesh")
-    turned = _rows_times(normals, inverse / np.max(np.abs(inverse)))
+    inverse /= np.max(np.abs(inverse))
+    turned = _rows_times(normals, inverse)
     largest = np.max(np.abs(turned), axis=1, keepdims=True)
     turned = turned / np.where(largest > 0.0, largest, 1.0)
     lengths = np.sqrt(np.sum(turned * turned, axis=1, keepdims=True))
-    # A scale so uneven that a normal underflows leaves the original one: finite, unit length.
-    return np.where(lengths > 0.0, turned / np.where(lengths > 0.0, lengths, 1.0), normals)
+    unit = turned / np.where(lengths > 0.0, lengths, 1.0)
+    # By its largest singular value, the longest that the image of a unit vector can be.
+    lengths = lengths * (largest / np.linalg.norm(inverse, 2))
+    # Where nothing is stretched unevenly, unit vectors stay just that.
+    lengths = np.where(np.abs(lengths - 1.0) < ROUNDING, 1.0, np.maximum(lengths, SHORTEST))
+    # A scale so uneven that a normal underflows leaves the original direction, which hardly counts.
+    before = normals / np.max(np.abs(normals), axis=1, keepdims=True, initial=SHORTEST)
+    return np.where(largest > 0.0, unit, before) * lengths
 
 
 def _rows_times(rows: NDArray[np.float64], matrix: Matrix) -> NDArray[np.float64]:

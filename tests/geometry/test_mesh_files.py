@@ -488,8 +488,8 @@ def test_missing_file_and_folder_are_told_apart(tmp_path: Path) -> None:
         read_mesh(folder)
 
 
-PENTAGON_AND_MORE = [[0, 3, 4], [0, 1, 2, 3], [0, 1, 2, 3, 4], [2, 3]]
-"""Polygons of four lengths; the last one has no area."""
+PENTAGON_AND_MORE = [[0, 3, 4], [0, 1, 2, 3], [0, 1, 2, 3, 4]]
+"""Polygons of three lengths."""
 
 
 def polygon_ply(order: str, faces: list[list[int]], extra: bool = False) -> bytes:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from course.geometry import shapes
 from course.geometry.mesh import Mesh
-from course.geometry.transforms import apply, compose, rotate, scale, translate
+from course.geometry.transforms import SHORTEST, apply, compose, rotate, scale, translate
 
 TILTED = compose(
     [scale((2.0, 0.5, 3.0)), rotate((1.0, 2.0, 3.0), 40.0), translate((5.0, -6.0, 7.0))]
@@ -22,6 +22,10 @@ MIRRORED = compose([scale((-1.0, 2.0, 0.3)), rotate((0.0, 1.0, 1.0), 100.0)])
 
 def moved(matrix: NDArray[np.float64], point: tuple[float, float, float]) -> list[float]:
     return list((matrix @ [*point, 1.0])[:3])
+
+
+def unit(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+    return np.asarray(vectors / np.linalg.norm(vectors, axis=1, keepdims=True))
 
 
 def volume(mesh: Mesh) -> float:
@@ -82,21 +86,47 @@ def test_volume_scales_by_the_determinant_and_stays_positive(matrix: NDArray[np.
 
 
 @pytest.mark.parametrize("matrix", [TILTED, MIRRORED], ids=["tilted", "mirrored"])
-def test_normals_stay_unit_and_orthogonal_to_their_faces(matrix: NDArray[np.float64]) -> None:
+def test_normals_stay_orthogonal_to_their_faces(matrix: NDArray[np.float64]) -> None:
     image = apply(shapes.box((1.0, 2.0, 3.0)), matrix)
     assert image.normals is not None
     p0, p1, p2 = image.vertices[image.triangles].transpose(1, 0, 2)
     faces = np.cross(p1 - p0, p2 - p0)
     faces /= np.linalg.norm(faces, axis=1, keepdims=True)
-    np.testing.assert_allclose(image.normals[image.triangles[:, 0]], faces, rtol=0.0, atol=1e-14)
+    normals = unit(image.normals)[image.triangles[:, 0]]
+    np.testing.assert_allclose(normals, faces, rtol=0.0, atol=1e-14)
 
 
 def test_ellipsoid_normals_are_its_gradient() -> None:
+    """In length too, in units of the largest possible one: 1 / 0.25."""
     image = apply(shapes.sphere(1.0, 24), scale((1.0, 2.0, 0.25)))
-    assert image.normals is not None
     gradient = image.vertices / np.array([1.0, 2.0, 0.25]) ** 2
-    gradient /= np.linalg.norm(gradient, axis=1, keepdims=True)
-    np.testing.assert_allclose(image.normals, gradient, rtol=0.0, atol=1e-14)
+    np.testing.assert_allclose(image.normals, gradient / 4, rtol=0.0, atol=1e-14)
+
+
+@pytest.mark.parametrize("matrix", [TILTED, MIRRORED], ids=["tilted", "mirrored"])
+@pytest.mark.parametrize("before", [np.eye(4), scale((1.0, 0.2, 3.0))], ids=["unit", "stretched"])
+def test_image_of_a_mixture_of_normals_is_the_mixture_of_their_images(
+    matrix: NDArray[np.float64], before: NDArray[np.float64]
+) -> None:
+    mesh = apply(shapes.torus(segments=12, sides=7), before)
+    image = apply(mesh, matrix)
+    assert mesh.normals is not None
+    assert image.normals is not None
+    weights = np.random.default_rng(3).dirichlet((1.0, 1.0, 1.0), len(mesh.triangles))[:, :, None]
+    mixed = np.sum(mesh.normals[mesh.triangles] * weights, axis=1)
+    # A mirror turns the triangles round, and with them the order of their corners.
+    turned = weights if np.linalg.det(matrix[:3, :3]) > 0.0 else weights[:, ::-1]
+    got = np.sum(image.normals[image.triangles] * turned, axis=1)
+    expected = mixed @ np.linalg.inv(matrix[:3, :3])
+    np.testing.assert_allclose(unit(got), unit(expected), rtol=0.0, atol=1e-14)
+
+
+@pytest.mark.parametrize("factor", [-2.0, 1.0, 1e-9, 1e30])
+def test_without_uneven_scaling_normals_stay_unit(factor: float) -> None:
+    mesh = shapes.torus(segments=12, sides=7)
+    image = apply(mesh, compose([scale(factor), rotate((1.0, 2.0, 3.0), 40.0)]))
+    assert image.normals is not None
+    np.testing.assert_allclose(np.linalg.norm(image.normals, axis=1), 1.0, rtol=0.0, atol=4e-16)
 
 
 def test_image_of_a_vertex_has_the_same_bits_wherever_it_stands() -> None:
@@ -117,13 +147,15 @@ def test_image_of_a_vertex_has_the_same_bits_wherever_it_stands() -> None:
 
 
 @pytest.mark.parametrize("factor", [1e-140, 1e140])
-def test_extreme_scales_keep_normals_unit(factor: float) -> None:
+def test_extreme_scales_keep_normals_within_range(factor: float) -> None:
     mesh = shapes.sphere(1.0, 8)
     image = apply(mesh, scale(factor))
     np.testing.assert_allclose(image.normals, mesh.normals, rtol=0.0, atol=1e-15)
-    uneven = apply(mesh, scale((1.0, factor, 1.0)))
+    uneven = apply(apply(mesh, scale((1.0, factor, 1.0))), scale((1.0, 1.0, factor)))
     assert uneven.normals is not None
-    np.testing.assert_allclose(np.linalg.norm(uneven.normals, axis=1), 1.0, rtol=0.0, atol=4e-16)
+    lengths = np.linalg.norm(uneven.normals, axis=1)
+    assert lengths.min() >= 0.999 * SHORTEST
+    assert lengths.max() < 1.0 + 1e-12
 
 
 def test_flat_mesh_stays_without_normals_and_uv_is_kept() -> None:
