@@ -42,6 +42,8 @@ class AdaptiveFilm:
         """(H, W) samples behind each pixel."""
         self.variance = np.zeros((height, width), np.float32)
         """(H, W) estimated variance of each pixel [radiance^2]."""
+        self.cost = np.ones((height, width), np.float32)
+        """(H, W) what a sample of each pixel has cost on average, in any unit."""
         self.order = INDEPENDENT
         """Order of convergence, as measured in the last round."""
         self._sums = np.zeros((pixels, 4))
@@ -57,7 +59,7 @@ class AdaptiveFilm:
 
         Parameters
         ----------
-        mean : (3, n * PARTS) float32, the parts of each pixel next to each other
+        mean : (4, n * PARTS) float32, the parts of each pixel next to each other: colours, and what a sample cost
         weight : (n * PARTS,) float32 or one number
         samples : how many samples of each pixel the picture holds with this stretch
         whole : false for a preview without parts, (3, n), which later stretches replace
@@ -67,7 +69,7 @@ class AdaptiveFilm:
             self.linear.reshape(3, -1)[:, which] = mean
             return
         parts = np.empty((4, n, PARTS), np.float32)
-        parts[:3] = mean.reshape(3, n, PARTS)
+        parts[:3] = mean[:3].reshape(3, n, PARTS)
         parts[3] = np.reshape(weight, (n, PARTS)) if np.ndim(weight) else weight
         np.maximum(parts[3], _NEARLY_NOTHING, out=parts[3])
         parts[:3] *= parts[3]
@@ -89,6 +91,9 @@ class AdaptiveFilm:
             since = _apart(earlier.T.astype(np.float32), stretch)
             estimates.add(since, before, samples - before, 2)
             estimates.keep(self.variance.reshape(-1).take(which), before, 1)
+        share = np.float32((samples - before) / samples)
+        cost = self.cost.reshape(-1)
+        cost[which] += share * (mean[3].reshape(n, PARTS).mean(axis=1) - cost.take(which))
         total = earlier + stretch.T
         self._sums[which] = total
         self.linear.reshape(3, -1)[:, which] = (total[:, :3] / total[:, 3:]).T

@@ -61,9 +61,10 @@ def render_adaptively(film: AdaptiveFilm, error: float, budget: int, run: Run) -
     aim = (SAFETY * error) ** 2
     # Nothing is known yet of how much there is to do.
     done, total = 0.0, GROWTH * float(wanted.sum())
+    cost = film.cost.reshape(-1)
     while True:
-        work = groups.stretches(have, wanted, order)
-        share = float((wanted - have).sum()) / (total - float(have.sum()))
+        work = groups.stretches(have, wanted, order, cost)
+        share = _sum(wanted - have, cost) / (total - _sum(have, cost))
         after = done + (1 - done) * share
         if not run(work, done, after):
             return False
@@ -72,15 +73,25 @@ def render_adaptively(film: AdaptiveFilm, error: float, budget: int, run: Run) -
         if film.error <= error:
             return True
         variance = smoothed(film.variance, film.samples, film.order).reshape(-1)
-        best = best_samples(variance, have, film.order, aim)
+        cost = smoothed(film.cost, film.samples, 0).reshape(-1)
+        best = best_samples(variance, have, cost, film.order, aim)
         wanted = next_rung(have, best)
         if (wanted == have).all():
             excess = (film.error**2 - aim) * len(have)
-            wanted = one_rung_more(have, variance, film.order, excess)
+            wanted = one_rung_more(have, variance, cost, film.order, excess)
         wanted = _within(wanted, have, best, budget)
         if (wanted == have).all():
             return True
-        total = max(min(float(np.maximum(best, have).sum()), budget), float(wanted.sum()))
+        most = np.maximum(best, have)
+        # Within the budget, which is of samples.
+        most *= min(1, budget / float(most.sum()))
+        total = _sum(np.maximum(most, wanted), cost)
+
+
+def _sum(samples: Numbers | Floats32, cost: Floats32) -> float:
+    """What some samples of each pixel cost."""
+    # Not a dot product: for doubles BLAS would start threads, which then spin where rays could be traced.
+    return float((samples * cost).sum(dtype=np.float64))
 
 
 def _within(wanted: Numbers, have: Numbers, best: Floats32, budget: int) -> Numbers:
@@ -103,8 +114,15 @@ class _Groups:
         self._width = film.width
         self._count = 0
 
-    def stretches(self, have: Numbers, wanted: Numbers, order: Indices) -> list[Work]:
-        """Work from the samples that the pixels have to those that they shall have, (P,) each."""
+    def stretches(
+        self, have: Numbers, wanted: Numbers, order: Indices, cost: Floats32
+    ) -> list[Work]:
+        """Work from the samples that the pixels have to those that they shall have, (P,) each; the longest first.
+
+        Parameters
+        ----------
+        cost : (P,) of a sample
+        """
         pixels = order[(wanted > have).take(order)]
         # Pixels with the same stretch to go can be rendered together.
         kind = rung(have.take(pixels)) * len(LADDER) + rung(wanted.take(pixels))

@@ -14,6 +14,7 @@ from course.core.types import Floats32, Indices, Mask
 from course.core.vectors import dot
 from course.geometry.hits import Hits, bulge
 from course.scene.world import World
+from course.transport import costs
 from course.transport.counters import Counters
 from course.transport.paths import Draws
 from course.transport.plan import Lookups, Plan
@@ -50,6 +51,7 @@ def direct_light(
         if lit is None:
             continue
         which, irradiance, to_light, inverse_length = lit
+        draws.spend(costs.SHADOW_RAY, path, which)
         diffuse = _accumulated(diffuse, hits, which, irradiance, light.color)
         if plan.specular:
             highlight = _highlight(hits, lookups, which, to_light, inverse_length)

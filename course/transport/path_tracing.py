@@ -138,7 +138,7 @@ class PathTracer(Tracer):
                 _Piece(
                     some,
                     np.ones(part.size, np.bool_),
-                    replace(draws, block=part),
+                    draws.part(part, paths),
                     film[:, paths],
                     paths.start,
                 )
@@ -161,7 +161,7 @@ class PathTracer(Tracer):
         sees : (n,) which rays bring light from lamps and the environment; None for none of them
         """
         hits, throughput, path, medium = self._met(
-            rays, False if sees is None else sees, depth, film, counters
+            rays, False if sees is None else sees, depth, film, draws
         )
         if sees is not None and hits.ray is not None:
             sees = sees.take(hits.ray)

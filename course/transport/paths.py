@@ -67,11 +67,12 @@ class Rays:
 
 @dataclass(frozen=True)
 class Draws:
-    """Draws the numbers of a block's paths, those that are asked for and no others.
+    """Draws the numbers of a block's paths, those that are asked for and no others, and notes what paths cost.
 
     Attributes
     ----------
     compiled : whether compiled loops are used
+    cost : (paths,) float32, in which the cost of each path is added up; None where nobody asks
     """
 
     sampler: Sampler
@@ -79,6 +80,30 @@ class Draws:
     counters: Counters
     cancelled: Callable[[], bool]
     compiled: bool = False
+    cost: Floats32 | None = None
+
+    def part(self, block: Block, paths: slice) -> Draws:
+        """The same for some pixels of the block, to which some of its paths belong."""
+        return replace(self, block=block, cost=None if self.cost is None else self.cost[paths])
+
+    def spend(self, each: float, path: Indices | None, which: Indices | None = None) -> None:
+        """Add to the cost of the paths of some rays.
+
+        Parameters
+        ----------
+        each : cost of a ray, in the unit of ``course.transport.costs``
+        path : (n,) of each ray; None for one ray for each path, in order
+        which : (m,) of the rays; None for all
+        """
+        cost = self.cost
+        if cost is None:
+            return
+        if which is not None:
+            path = which if path is None else path.take(which)
+        if path is None:
+            cost += np.float32(each)
+        else:
+            np.add.at(cost, path, np.float32(each))
 
     def __call__(self, name: str, dimension: int, width: int, path: Indices | None) -> Floats32:
         """(width, n) numbers for the given paths, or for all paths of the block."""

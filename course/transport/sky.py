@@ -12,6 +12,7 @@ from course.core.types import Floats32, Indices
 from course.core.vectors import dot
 from course.geometry.hits import Hits
 from course.scene.world import World
+from course.transport import costs
 from course.transport.paths import Draws
 
 FAR = 1e30
@@ -48,6 +49,7 @@ def skylight(
     chosen = np.flatnonzero(outwards)
     direction, which = direction.take(chosen, axis=1), which.take(chosen)
     draws.counters.rays["shadow"] += len(which)
+    draws.spend(costs.SKY_RAY, path, chosen)
     free = world.surface.accelerator.unoccluded(
         hits.above.take(which, axis=1),
         direction,

@@ -16,6 +16,7 @@ from course.imaging.camera import Camera
 from course.imaging.reconstruction import Reconstruction
 from course.imaging.tiles import RAYS, Area
 from course.scene.world import Settings, World
+from course.transport import costs
 from course.transport.bounce import bounced
 from course.transport.counters import Counters
 from course.transport.direct import direct_light
@@ -60,7 +61,8 @@ class Tracer:
     ) -> tuple[Floats32, Floats32 | float]:
         """Colours (3, n) and weights of a tile's n pixels from one stretch of their samples.
 
-        With several ``parts`` the stretch is divided, and there are (3, n * parts) colours, those of a pixel together.
+        With several ``parts`` the stretch is divided, and there are (4, n * parts) numbers, those of a pixel together:
+        below the colours what a sample cost, in camera rays that meet nothing.
 
         Raises
         ------
@@ -70,7 +72,8 @@ class Tracer:
         counters.start()
         block = Block(tile.pixel_numbers(self.settings.width), first, samples, tile.number)
         compiled = self.world.surface.accelerator.compiled
-        draws = Draws(self.sampler, block, counters, cancelled, compiled)
+        cost = None if parts == 1 else np.ones(block.size, np.float32)
+        draws = Draws(self.sampler, block, counters, cancelled, compiled, cost)
         offsets = draws("pixel", 0, PIXEL_WIDTH, None).reshape(2, tile.size, samples)
         counters.lap("sampler")
         x, y = tile.corners()
@@ -81,9 +84,11 @@ class Tracer:
         counters.lap("camera")
         radiance = self._trace(rays, block.size, draws, counters)
         pieces = (-1, tile.size * parts, samples // parts)
-        pixels = self.reconstruction.pixels(radiance.reshape(pieces), offsets.reshape(pieces))
+        mean, weight = self.reconstruction.pixels(radiance.reshape(pieces), offsets.reshape(pieces))
+        if cost is not None:
+            mean = np.concatenate((mean, cost.reshape(pieces).mean(axis=2)))
         counters.lap("film")
-        return pixels
+        return mean, weight
 
     def _camera_rays(self, x: Floats32, y: Floats32, draws: Draws) -> Rays:
         """Rays through picture points (N,), from the lens if there is one, at times if anything moves."""
@@ -125,7 +130,7 @@ class Tracer:
         self, rays: Rays, depth: int, film: Floats32, draws: Draws, counters: Counters
     ) -> Rays | None:
         """One depth: what the rays bring is added to the film, and the rays that go on are returned."""
-        hits, throughput, path, medium = self._met(rays, True, depth, film, counters)
+        hits, throughput, path, medium = self._met(rays, True, depth, film, draws)
         if hits.size == 0:
             return None
         radiance = self._shade(hits, path, depth, draws)
@@ -153,7 +158,7 @@ class Tracer:
         return following
 
     def _met(
-        self, rays: Rays, sees: Mask | bool, depth: int, film: Floats32, counters: Counters
+        self, rays: Rays, sees: Mask | bool, depth: int, film: Floats32, draws: Draws
     ) -> tuple[Hits, Floats32 | None, Indices | None, Media | None]:
         """What the rays of one depth meet, and the throughput, path and medium of those that meet something.
 
@@ -163,6 +168,7 @@ class Tracer:
         ----------
         sees : (n,) or for all, which rays bring the environment's light
         """
+        counters = draws.counters
         found = self.world.surface.accelerator.intersect(
             rays.origin,
             rays.direction,
@@ -179,6 +185,9 @@ class Tracer:
             self._add_environment(film, rays, (found.triangle < 0) & sees)
         hits = find_hits(self.world.surface, found, rays.direction, rays.time)
         throughput, path, medium = _of_hits(rays, hits)
+        if depth > 0:
+            draws.spend(costs.FURTHER_RAY, rays.path)
+        draws.spend(costs.HIT, path)
         if self.plan.absorbs:
             before = None
             if depth == 0 and self.camera.near:

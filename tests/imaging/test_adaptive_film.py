@@ -38,11 +38,12 @@ class Samples:
     weights: Array
 
     def stretch(self, pixels: NDArray[np.intp], first: int, last: int) -> tuple[Array, Array]:
-        """Means (3, p * PARTS) and sums of weights (p * PARTS,), as a tracer hands them to the film."""
+        """Means and costs of 1 (4, p * PARTS), sums of weights (p * PARTS,), as a tracer hands them to the film."""
         w = self.weights[pixels, first:last].reshape(len(pixels) * PARTS, -1)
         x = self.values[:, pixels, first:last].reshape(3, *w.shape)
         total = w.sum(axis=1)
-        return (x * w).sum(axis=2) / total, total
+        mean = (x * w).sum(axis=2) / total
+        return np.concatenate((mean, np.ones((1, *total.shape)))), total
 
     def mean(self, samples: int) -> Array:
         """(3, P) weighted mean of the first samples of each pixel."""
@@ -126,11 +127,11 @@ def test_weights_that_vanish_leave_the_plain_mean_and_yield_to_any_other() -> No
     group = PixelGroup(0, np.arange(2), 2)
     means = np.arange(1, 9, dtype=np.float32) / 8
     nothing = np.zeros(8, np.float32)
-    film.add(group, np.stack((means, 2 * means, 4 * means)), nothing, 16, True)
+    film.add(group, np.stack((means, 2 * means, 4 * means, means)), nothing, 16, True)
     expected = means.reshape(2, PARTS).mean(axis=1)
     assert np.allclose(film.linear[:, 0], np.outer((1, 2, 4), expected), rtol=1e-6)
     assert (film.variance > 0).all()
-    film.add(group, np.full((3, 8), 7, np.float32), nothing + np.float32(1e-20), 32, True)
+    film.add(group, np.full((4, 8), 7, np.float32), nothing + np.float32(1e-20), 32, True)
     assert np.allclose(film.linear, 7, rtol=1e-6)
 
 
@@ -186,10 +187,10 @@ def test_with_the_right_order_samples_that_even_each_other_out_are_judged_right(
 
 
 def quarters(order: float, pixels: int) -> tuple[NDArray[np.float32], float]:
-    """Means (3, pixels * PARTS) whose halves are 2^-a as far apart as their quarters, and these squared."""
+    """Means and costs (4, pixels * PARTS) whose halves are 2^-a as far apart as their quarters, and these squared."""
     half = 2 * 2**-order
     one = np.array([half + 1, half - 1, 1, -1], np.float32)
-    return np.tile(one, (3, pixels)), 4.0
+    return np.tile(one, (4, pixels)), 4.0
 
 
 @pytest.mark.parametrize("order", [0.5, 0.7, 0.9])
@@ -227,6 +228,26 @@ def test_the_first_round_is_judged_by_the_order_it_has_shown(
     film.add(PixelGroup(1, np.arange(16), 8), means[:, :64], 2.0, 24, True)
     film.end_round()
     assert np.array_equal(film.variance.ravel()[16:], variance.ravel()[16:]), "only the first is"
+
+
+def test_what_a_sample_costs_is_the_mean_over_all_samples() -> None:
+    film = AdaptiveFilm(3, 1)
+    assert film.cost.tolist() == [[1, 1, 1]]
+    rng = np.random.default_rng(3)
+    costs = [
+        (16, np.full((2, PARTS), 7.0)),
+        (24, rng.random((2, PARTS))),
+        (64, rng.random((2, PARTS))),
+    ]
+    before, total = 0, np.zeros(2)
+    for number, (samples, cost) in enumerate(costs):
+        mean = np.concatenate((rng.random((3, 2 * PARTS)), cost.reshape(1, -1)))
+        group = PixelGroup(number, np.array([2, 0]), 3)
+        film.add(group, mean.astype(np.float32), 1.0, samples, True)
+        total += (samples - before) * cost.mean(axis=1)
+        before = samples
+        assert film.cost[0, [2, 0]] == pytest.approx(total / samples, rel=1e-6)
+    assert film.cost[0, 1] == 1
 
 
 def test_groups_in_any_order_give_the_same_bits(monkeypatch: pytest.MonkeyPatch) -> None:

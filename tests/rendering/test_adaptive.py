@@ -144,8 +144,11 @@ def test_the_closed_forms_are_those_of_the_scenes(make_scene: MakeScene) -> None
 class Noise:
     """A run that answers work with independent normal numbers, and checks what it is asked."""
 
-    def __init__(self, deviation: Array, seed: int = 0, rounds: int = 1000) -> None:
+    def __init__(
+        self, deviation: Array, seed: int = 0, rounds: int = 1000, cost: Array | float = 1.0
+    ) -> None:
         height, width = deviation.shape
+        self._cost = np.broadcast_to(cost, deviation.shape).ravel()
         self.film = AdaptiveFilm(width, height)
         self.shares: list[tuple[float, float]] = []
         self._deviation = deviation.ravel()
@@ -162,6 +165,7 @@ class Noise:
             deviation = self._deviation[item.tile.pixel_numbers(self.film.width)]
             each = np.repeat(deviation, PARTS) * math.sqrt(PARTS / item.samples)
             mean = 0.5 + each * self._rng.standard_normal((3, len(each)))
+            mean = np.concatenate((mean, np.repeat(self._cost[item.tile.pixels], PARTS)[None]))
             samples = item.first + item.samples
             weight = item.samples / PARTS
             self.film.add(item.tile, mean.astype(np.float32), weight, samples, True)
@@ -223,6 +227,21 @@ def test_where_all_pixels_are_alike_no_target_is_just_missed(size: tuple[int, in
         if size == (30, 20):
             mean = float(noise.film.samples.mean())
             assert 0.8 / error**2 < mean < 1.35 / error**2
+
+
+def test_where_a_sample_costs_more_there_are_fewer() -> None:
+    """As c^(-1 / (2a + 1)): with independent samples, a half as many where each costs four times."""
+    cost = np.ones((40, 60))
+    cost[:, 30:] = 4
+    noise = Noise(np.full((40, 60), 1.0), seed=7, cost=cost)
+    assert noise.render(0.05)
+    cheap, dear = noise.film.samples[:, :29], noise.film.samples[:, 31:]
+    assert 1.7 < cheap.mean() / dear.mean() < 2.4
+    spent = float((noise.film.samples * cost).sum())
+    plain = Noise(np.full((40, 60), 1.0), seed=7)
+    assert plain.render(0.05)
+    # (1 + 2)^2 / 4 beside 1 + 4: nine tenths.
+    assert spent < 0.95 * float((plain.film.samples * cost).sum())
 
 
 def test_more_than_a_thousand_samples_a_pixel() -> None:

@@ -40,12 +40,17 @@ def variance_with(variance: Array, samples: Array, more: Array, order: float) ->
     return np.asarray(variance * (samples / np.maximum(more, samples)) ** (2 * order), float)
 
 
+def costs(seed: int) -> NDArray[np.float32]:
+    """(P,) what a sample costs: one ray, or up to thirty."""
+    return np.exp(np.random.default_rng((seed, 1)).uniform(0, 3.4, P)).astype(np.float32)
+
+
 @pytest.mark.parametrize("order", ORDERS)
 @pytest.mark.parametrize("part", [0.9, 0.3, 1e-2, 1e-5])
 def test_the_best_samples_bring_the_variance_to_the_target(part: float, order: float) -> None:
     variance, samples = picture(1)
     target = part * float(variance.mean())
-    best = best_samples(variance, samples, order, target)
+    best = best_samples(variance, samples, costs(1), order, target)
     assert best.dtype == np.float32
     left = variance_with(variance, samples, best, order).mean()
     assert left == pytest.approx(target, rel=1e-4)
@@ -55,28 +60,31 @@ def test_the_best_samples_bring_the_variance_to_the_target(part: float, order: f
 def test_a_picture_that_is_good_enough_wants_nothing(order: float) -> None:
     variance, samples = picture(2)
     for slack in (1.001, 2, 1e6):
-        best = best_samples(variance, samples, order, slack * float(variance.mean()))
+        best = best_samples(variance, samples, costs(2), order, slack * float(variance.mean()))
         assert (best <= samples * (1 + 1e-6)).all()
 
 
 @pytest.mark.parametrize("order", ORDERS)
 @pytest.mark.parametrize("part", [0.5, 1e-2])
 def test_one_more_sample_gains_the_same_wherever_samples_go(part: float, order: float) -> None:
-    """The conditions of Karush, Kuhn and Tucker: equal gains where samples grow, smaller ones where they don't."""
+    """The conditions of Karush, Kuhn and Tucker: gains are to costs alike where samples grow, and less elsewhere."""
     variance, samples = picture(3)
-    best = best_samples(variance, samples, order, part * float(variance.mean())).astype(float)
+    cost = costs(3)
+    best = best_samples(variance, samples, cost, order, part * float(variance.mean()))
+    best = best.astype(float)
     growing = best > samples
     assert 20 < growing.sum() < P
     have = np.maximum(best, samples)
-    gain = 2 * order * variance_with(variance, samples, best, order) / have
+    gain = 2 * order * variance_with(variance, samples, best, order) / (have * cost)
     assert np.ptp(gain[growing]) < 1e-4 * gain[growing].mean()
     assert gain[~growing].max() <= gain[growing].mean() * (1 + 1e-4)
 
 
 @pytest.mark.parametrize("order", ORDERS)
-def test_no_other_way_to_spend_as_many_samples_is_better(order: float) -> None:
+def test_no_other_way_to_spend_as_much_is_better(order: float) -> None:
     variance, samples = picture(4)
-    best = best_samples(variance, samples, order, 0.05 * float(variance.mean()))
+    cost = costs(4)
+    best = best_samples(variance, samples, cost, order, 0.05 * float(variance.mean()))
     have = np.maximum(best, samples).astype(float)
     least = variance_with(variance, samples, have, order).sum()
     rng = np.random.default_rng(5)
@@ -84,16 +92,27 @@ def test_no_other_way_to_spend_as_many_samples_is_better(order: float) -> None:
         for _ in range(100):
             extra = (have - samples) * np.exp(rng.normal(0, size, P))
             extra += rng.random() * size * rng.exponential(1, P) * (rng.random(P) < 0.2)
-            other = samples + extra * ((have - samples).sum() / extra.sum())
+            other = samples + extra * ((cost * (have - samples)).sum() / (cost * extra).sum())
             assert variance_with(variance, samples, other, order).sum() >= least * (1 - 1e-9)
 
 
 def test_independent_samples_in_closed_form() -> None:
-    # Where all grow, n = sqrt(v) sum(sqrt(v)) / target, v of one sample each (Neyman 1934).
+    # Where all grow, n = sqrt(v / c) sum(sqrt(v c)) / target, v of one sample each (Neyman 1934).
     one = np.array([1, 4, 9, 16, 100], np.float32)
     samples = np.full(5, 16, np.int32)
-    best = best_samples(one / 16, samples, 0.5, 0.01)
-    assert best == pytest.approx(np.sqrt(one) * np.sqrt(one).sum() / (5 * 0.01), rel=1e-5)
+    for cost in (np.ones(5, np.float32), np.array([16, 1, 4, 9, 25], np.float32)):
+        best = best_samples(one / 16, samples, cost, 0.5, 0.01)
+        expected = np.sqrt(one / cost) * np.sqrt(one * cost).sum() / (5 * 0.01)
+        assert best == pytest.approx(expected, rel=1e-5)
+
+
+@pytest.mark.parametrize("order", ORDERS)
+def test_the_unit_of_costs_is_of_no_consequence(order: float) -> None:
+    variance, samples = picture(6)
+    target = 0.1 * float(variance.mean())
+    best = best_samples(variance, samples, costs(6), order, target)
+    same = best_samples(variance, samples, 1000 * costs(6), order, target)
+    assert same == pytest.approx(best, rel=1e-5)
 
 
 @pytest.mark.parametrize("order", ORDERS)
@@ -102,7 +121,7 @@ def test_noisier_pixels_and_smaller_targets_want_more(order: float) -> None:
     variance = np.geomspace(1e-8, 1, 40).astype(np.float32)
     before = np.zeros(40, np.float32)
     for target in (1e-2, 1e-3, 1e-4):
-        best = best_samples(variance, samples, order, target)
+        best = best_samples(variance, samples, np.ones(40, np.float32), order, target)
         assert (np.diff(best) > 0).all()
         assert (best > before).all()
         before = best
@@ -111,11 +130,12 @@ def test_noisier_pixels_and_smaller_targets_want_more(order: float) -> None:
 def test_pixels_without_variance_want_nothing() -> None:
     samples = np.array([16, 64, 16], np.int32)
     variance = np.array([0, 0, 1], np.float32)
-    best = best_samples(variance, samples, 0.5, 0.01)
+    best = best_samples(variance, samples, costs(0)[:3], 0.5, 0.01)
     assert best[:2].tolist() == [0, 0]
     assert best[2] == pytest.approx(16 / 0.03, rel=1e-5)
     for target in (0.0, 1e-9, 1.0):
-        assert not best_samples(np.zeros(3, np.float32), samples, 0.5, target).any()
+        nothing = np.zeros(3, np.float32)
+        assert not best_samples(nothing, samples, costs(0)[:3], 0.5, target).any()
 
 
 @pytest.mark.parametrize("order", ORDERS)
@@ -125,7 +145,7 @@ def test_any_range_of_variances_and_any_target_give_finite_numbers(
 ) -> None:
     variance = np.array([0, 1e-30, 1e-20, 1e-3, 1, 1e12, 1e30], np.float32)
     samples = np.array([16, 16, 64, 24, 1024, 65536, 2048], np.int32)
-    best = best_samples(variance, samples, order, target)
+    best = best_samples(variance, samples, costs(0)[:7], order, target)
     assert np.isfinite(best).all()
     assert (best >= 0).all()
     assert np.isin(next_rung(samples, best), LADDER).all()
@@ -175,14 +195,15 @@ def test_what_is_in_reach_is_rounded_to_the_nearest_rung_by_ratio() -> None:
 @pytest.mark.parametrize("excess", [1e-12, 1e-3, 0.05, 0.3])
 def test_at_the_end_only_as_many_pixels_go_up_as_are_needed(excess: float, order: float) -> None:
     variance, samples = picture(8)
-    after = one_rung_more(samples, variance, order, excess)
+    cost = costs(8)
+    after = one_rung_more(samples, variance, cost, order, excess)
     up = after > samples
     assert np.array_equal(np.searchsorted(LADDER, after), np.searchsorted(LADDER, samples) + up)
     assert set(after.tolist()) <= set(LADDER.tolist())
     above = LADDER.take(np.searchsorted(LADDER, samples) + 1)
     gain = variance - variance_with(variance, samples, above, order)
     assert gain[up].sum() >= excess * (1 - 1e-6)
-    worth = gain / (above - samples)
+    worth = gain / (cost * (above - samples))
     assert worth[up].min() >= worth[~up].max() * (1 - 1e-6), "the best bargains first"
     last = np.flatnonzero(up)[worth[up].argmin()]
     assert gain[up].sum() - gain[last] < excess * (1 + 1e-6), "and not one too many"
@@ -191,8 +212,10 @@ def test_at_the_end_only_as_many_pixels_go_up_as_are_needed(excess: float, order
 def test_nothing_goes_up_that_gains_nothing() -> None:
     samples = np.array([16, LADDER[-1], 24], np.int32)
     variance = np.array([0, 1, 1e-6], np.float32)
-    assert one_rung_more(samples, variance, 0.5, 1.0).tolist() == [16, LADDER[-1], 32]
-    assert np.array_equal(one_rung_more(samples, np.zeros(3, np.float32), 0.5, 1.0), samples)
+    cost = costs(0)[:3]
+    assert one_rung_more(samples, variance, cost, 0.5, 1.0).tolist() == [16, LADDER[-1], 32]
+    nothing = np.zeros(3, np.float32)
+    assert np.array_equal(one_rung_more(samples, nothing, cost, 0.5, 1.0), samples)
 
 
 @pytest.mark.parametrize(

@@ -60,6 +60,7 @@ def test_pictures_keep_their_bits(
     scene = balls(make_scene, **parts)
     accelerator = scene.compiled.world.surface.accelerator
     assert isinstance(accelerator, Accelerator)
+    accelerator.use_packets(True)
     assert accelerator.convex is not None
     assert accelerator.convex.worth.tolist() == [True, True, True, False]
     asked, whole = 0, 0
@@ -74,7 +75,7 @@ def test_pictures_keep_their_bits(
     monkeypatch.setattr(convex.ConvexObjects, "remaining", counted)
     some = render(scene, compiled=True, threads=1).linear
     assert 0 < asked < 0.8 * whole
-    accelerator.convex = None
+    monkeypatch.setattr(accelerator, "_convex", None)
     everything = render(scene, compiled=True, threads=1).linear
     assert np.array_equal(some, everything)
     assert np.array_equal(some, render(scene, compiled=False, threads=1).linear)

@@ -353,7 +353,7 @@ def test_radiosity_takes_it_as_what_glows(make_scene: MakeScene) -> None:
     assert np.array_equal(lit.back_emission, glowing.back_emission)
 
 
-def test_mitsuba_is_not_told_of_it(make_scene: MakeScene) -> None:
+def test_a_scene_with_an_object_light_is_not_exported_to_mitsuba(make_scene: MakeScene) -> None:
     scene = scene_of(make_scene, [panel()], ["panel"], PATHS)
     with pytest.raises(NotExportableError, match="emission is not exported"):
         export(scene, 8, 8)
