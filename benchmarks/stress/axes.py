@@ -28,6 +28,9 @@ NOTHING = 1e-30
 VISIBLE_TWIN = 1e-4
 """Size of the visible light that is the twin of smaller ones [half extents]: a point would be infinitely bright."""
 
+ONE_POINT = 1e-5
+"""Lights up to this size are as good as a point [half extents]."""
+
 ANGLES = (1e-2, 1e-4, 1e-6)
 
 
@@ -157,15 +160,21 @@ AXES: dict[str, tuple[Level, ...]] = {
             "sphere",
             "ball",
             "facing disk",
+            "sphere by polar",
+            "ball by polar",
+            "ball by rejection",
             "rectangle",
             "grid",
             "visible sphere",
             "visible rectangle",
+            "object",
             "directional",
             "sky",
         )
     ),
-    "glass": tuple(_same(kind, kind) for kind in ("none", "clear", "absorbing")),
+    "glass": tuple(
+        _same(kind, kind) for kind in ("none", "clear", "absorbing", "around the camera")
+    ),
     "environment": tuple(_same(kind, kind) for kind in ("constant", "seamless", "clamped")),
     "motion": (
         _same("none", ("none", 0.0)),
@@ -179,6 +188,9 @@ AXES: dict[str, tuple[Level, ...]] = {
     # How long the shutter is open [s]; what moves is as much slower.
     "duration": tuple(Level(f"{t:g} s", t, 1.0) for t in (1.0, 1e-12, 1e12, 1e-60, 1e60)),
     "sampler": tuple(_same(kind, kind) for kind in ("sobol", "random", "jittered", "regular")),
+    # As a share of a way that every ray has free before it: the plane hides nothing.
+    "near plane": tuple(Level(f"{share:g}", share, 0.0) for share in (0.0, 1e-6, 1.0)),
+    "normals": tuple(_same(kind, kind) for kind in ("bent", "interpolated")),
     "filter": tuple(_same(kind, kind) for kind in ("box", "gaussian")),
     "corner": tuple(_same(f"{degrees} degrees", degrees) for degrees in (90, 60, 35)),
 }

@@ -15,9 +15,21 @@ from numpy.typing import NDArray
 from benchmarks.stress.axes import U
 from benchmarks.stress.cells import Cell
 from benchmarks.stress.files import SceneFiles, square
-from benchmarks.stress.parts import gloss, lamp, lens, picture, placement
+from benchmarks.stress.parts import (
+    LAMP,
+    gloss,
+    lamp,
+    lamp_object,
+    lens,
+    near_plane,
+    picture,
+    placement,
+)
 
 COLOR = 0.3
+FOV = 70.0
+"""Of the camera, from below to above [degrees]."""
+
 OUTSIDE = 1e3
 """Radiance of the environment, and how much brighter than elsewhere the light is."""
 
@@ -37,9 +49,10 @@ def box(cell: Cell) -> SceneFiles:
         "eye": place.point(*eye),
         "look_at": place.point(*look_at),
         "up": place.vector(0.1, 1, 0.2),
-        "vertical_fov": 70,
+        "vertical_fov": FOV,
     }
     camera |= lens(cell, place, clearance, 0.5)
+    camera |= near_plane(cell, place, clearance, FOV)
     sky = light is None
     files = SceneFiles(
         {
@@ -65,6 +78,11 @@ def box(cell: Cell) -> SceneFiles:
     }
     for name, (middle, a, b) in walls.items():
         square(files, name, place, cell["triangles"], middle, a, b, "wall", closed=True)
+    shining = lamp_object(cell, place)
+    if shining is not None:
+        thing, emission = shining
+        files.description["materials"][LAMP] = {"color": 0, "emission": emission * OUTSIDE}
+        files.description["objects"].append(thing)
     kind, size = cell["triangles"]
     if kind == "huge":
         below = (size / 2, -2.0, 0.0)

@@ -29,6 +29,7 @@ cut into thousands. `make stress` renders {cells:,} such cells, in which every t
 
       {gain:g} * shift * (1 + bounces) * steepness + {rounding:g} * 2^-24 * (brightest pixel)
 
+  and, where an object is the light, by the error of its area besides.
   How steeply a pixel answers to a change of the scene is measured on the twin. Where a small change lets a sample meet
   another thing, it may also do so in the cell: at such edges as many pixels may differ as the shift explains (the
   quantile of a Poisson distribution at {false_fail:g}), and none may show what is not seen around it. A flat patch and

@@ -18,6 +18,9 @@ LIGHT = (0.2, 1.6, 0.3)
 IRRADIANCE = 3.0
 """What the light brings to the unit scene, about."""
 
+LAMP = "lamp"
+"""Name of the object that is a light, and of its material."""
+
 CUTOFF = 1 / 512
 
 
@@ -38,7 +41,11 @@ def picture(cell: Cell) -> dict[str, Any]:
     return {
         "film": {"width": width, "height": height, "filter": cell["filter"]},
         "sampler": {"type": cell["sampler"], "samples": samples(cell)},
-        "integrator": {"max_depth": cell["depth"], "cutoff": CUTOFF},
+        "integrator": {
+            "max_depth": cell["depth"],
+            "cutoff": CUTOFF,
+            "shading_normals": cell["normals"],
+        },
     }
 
 
@@ -53,6 +60,21 @@ def lens(cell: Cell, place: Placement, clearance: float, focus: float) -> dict[s
             "shape": cell["lens"],
         }
     }
+
+
+def near_plane(cell: Cell, place: Placement, clearance: float, fov: float) -> dict[str, Any]:
+    """How deep the camera is blind, in units of the least depth that half its clearance has; nothing for not at all.
+
+    Parameters
+    ----------
+    fov : vertical field of view [degrees]
+    """
+    if cell["near plane"] == 0:
+        return {}
+    width, height = cell["resolution"]
+    # Along a ray through a corner of the picture depth grows least.
+    corner = math.tan(math.radians(fov) / 2) * math.hypot(1, width / height)
+    return {"near": place.length(cell["near plane"] * clearance / 2 / math.hypot(1, corner))}
 
 
 def gloss(cell: Cell) -> dict[str, Any]:
@@ -83,6 +105,8 @@ def lamp(cell: Cell, place: Placement) -> dict[str, Any] | None:
         towards = place.direction(-0.2, -1, -0.1)
         return {"type": "directional", "direction": towards, "irradiance": IRRADIANCE}
     visible = kind.startswith("visible")
+    if kind == "object":
+        return {"type": "object", "object": LAMP}
     if visible and size in (0.0, NOTHING):
         # A point of that power would be infinitely bright.
         size = VISIBLE_TWIN
@@ -101,6 +125,29 @@ def lamp(cell: Cell, place: Placement) -> dict[str, Any] | None:
     if visible:
         return light | {"radiance": IRRADIANCE * power / area}
     return light | {"intensity": place.intensity(IRRADIANCE * power)}
+
+
+def lamp_object(cell: Cell, place: Placement) -> tuple[dict[str, Any], float] | None:
+    """The object that a light is, within a ball on LIGHT, and its radiance; None where the light is none.
+
+    No two of its 48 triangles are alike, and none stands on the border between two groups of them: of others rounding
+    would decide into which group they come, and so which one is chosen by a number.
+    """
+    if cell["light"] != "object":
+        return None
+    size = cell["light size"]
+    x, y, z = LIGHT
+    thing = {
+        "shape": "displaced_sphere",
+        "name": LAMP,
+        "material": LAMP,
+        "radius": place.length(0.75 * size),
+        "amplitude": place.length(0.25 * size),
+        "segments": 8,
+        "seed": 3,
+        "transform": place.steps(x, y + size, z),
+    }
+    return thing, IRRADIANCE * (y + size) ** 2 / (math.pi * size * size)
 
 
 def _rectangle(place: Placement, size: float) -> dict[str, Any]:

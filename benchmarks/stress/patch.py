@@ -8,6 +8,7 @@ itself, and a ray that meets the patch again or misses it, shows something else.
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +16,15 @@ from numpy.typing import NDArray
 from benchmarks.stress.axes import U
 from benchmarks.stress.cells import Cell
 from benchmarks.stress.files import SceneFiles, square
-from benchmarks.stress.parts import BACKGROUND, gloss, lens, picture, placement, samples
+from benchmarks.stress.parts import (
+    BACKGROUND,
+    gloss,
+    lens,
+    near_plane,
+    picture,
+    placement,
+    samples,
+)
 
 COLOR, MIRROR = 0.2, 0.8
 SUN = 3.0
@@ -42,14 +51,16 @@ def patch(cell: Cell) -> SceneFiles:
         # Straight at the thin triangles, which lie the closer together the thinner they are.
         half = min(half, 25 / size / DISTANCE * min(1.0, height / width))
     eye = DISTANCE * _direction(looking, AZIMUTHS.get(kind, 0.3))
-    camera = {
+    camera: dict[str, Any] = {
         "eye": place.point(*eye),
         "look_at": place.point(0, 0, 0),
         "up": place.vector(0, 1, 0),
         "vertical_fov": 2 * math.degrees(math.atan(half)),
     }
     # Lens points stay so low above the patch that rays through the middle of the picture meet it.
-    camera |= lens(cell, place, 0.25 * float(eye[1]), DISTANCE)
+    clearance = 0.25 * float(eye[1])
+    camera |= lens(cell, place, clearance, DISTANCE)
+    camera |= near_plane(cell, place, clearance, camera["vertical_fov"])
     sun = {
         "type": "directional",
         "direction": place.direction(*-_direction(shining, AZIMUTHS.get(kind, 4.0))),

@@ -111,4 +111,13 @@ def _lights_moved(files: SceneFiles, by: float) -> SceneFiles:
                 length = np.linalg.norm(light[key]) if key == "direction" else 1.0
                 moved[key] = (np.array(light[key]) + by * length * AWAY).tolist()
         lights.append(moved)
-    return files.with_(lights=lights)
+    shining = {light["object"] for light in lights if light["type"] == "object"}
+    objects = [
+        _moved(thing, by * AWAY) if thing.get("name") in shining else thing
+        for thing in files.description["objects"]
+    ]
+    return files.with_(lights=lights, objects=objects)
+
+
+def _moved(thing: dict[str, Any], way: Array) -> dict[str, Any]:
+    return thing | {"transform": [*thing["transform"], {"translate": way.tolist()}]}

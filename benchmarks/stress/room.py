@@ -10,9 +10,21 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.stress.cells import Cell
+from benchmarks.stress.cells import AROUND, Cell
 from benchmarks.stress.files import SceneFiles, square
-from benchmarks.stress.parts import BACKGROUND, CUTOFF, LIGHT, gloss, lamp, lens, picture, placement
+from benchmarks.stress.parts import (
+    BACKGROUND,
+    CUTOFF,
+    LAMP,
+    LIGHT,
+    gloss,
+    lamp,
+    lamp_object,
+    lens,
+    near_plane,
+    picture,
+    placement,
+)
 from benchmarks.stress.placement import Placement
 
 HEIGHT = 1.2
@@ -24,6 +36,9 @@ SUN = 2.0
 
 MIRROR = [0.7, 0.75, 0.8]
 FURNACE_MIRROR = 0.9
+FOV = 45.0
+"""Of the camera, from below to above [degrees]."""
+
 LATE = 1e6
 """When the shutter opens late, in units of the time that it is open."""
 
@@ -61,12 +76,14 @@ def furnace(cell: Cell) -> SceneFiles:
         "glass": clear if cell["glass"] != "none" else {"color": 1, "diffuse": 0},
         "box": {"color": 1, "diffuse": 0},
         "sky": {"color": 1, "diffuse": 0},
+        LAMP: {"color": 0, "emission": 1},
     }
     lights = [
         {k: v for k, v in light.items() if k != "intensity"} | {"radiance": 1}
         for light in files.description["lights"]
         if "radiance" in light and light["type"] != "ambient"
     ]
+    lights += [light for light in files.description["lights"] if light["type"] == "object"]
     return files.with_(
         materials=materials,
         lights=[{"type": "ambient", "radiance": 1}, *lights],
@@ -94,8 +111,14 @@ def brightest(cell: Cell) -> float:
     """
     k2 = cell["scale"] ** 2
     irradiance, seen = 0.0, 1.0
-    for light in room(cell).description["lights"]:
+    description = room(cell).description
+    for light in description["lights"]:
         match light["type"]:
+            case "object":
+                radiance = description["materials"][LAMP]["emission"]
+                seen = max(seen, radiance)
+                area = 4 * math.pi * cell["light size"] ** 2
+                irradiance += radiance * area / CLEARANCE**2
             case "directional":
                 irradiance += light["irradiance"]
             case "sphere" | "rectangle" if "radiance" in light:
@@ -128,15 +151,19 @@ def _camera(cell: Cell, place: Placement) -> dict[str, Any]:
             eye, look_at, near = (0.1, angle, 0.95), (0.07, angle, -1.0), 0.5 * angle
         case "mirror":
             eye, look_at, near = (1 - angle, 0.5, 0.9), (0.6, 0.35, -1.0), 0.5 * angle
+        case _ if cell["glass"] == AROUND:
+            # About the middle of the ball, also when the camera moves: from there no ray is reflected totally.
+            eye, look_at, near = (0.42, 0.36, 0.35), (-0.3, 0.3, -0.1), 0.04
         case _:
             eye, look_at, near = (0.5, 0.6, 1.9), (-0.3, 0.3, -0.1), 0.5
     camera = {
         "eye": place.point(*eye),
         "look_at": place.point(*look_at),
         "up": place.vector(0, 1, 0),
-        "vertical_fov": 45,
+        "vertical_fov": FOV,
     }
     camera |= lens(cell, place, near, 2.0)
+    camera |= near_plane(cell, place, near, FOV)
     seconds = cell["duration"]
     start = LATE if cell["motion"][0] == "late" else 0.0
     camera["shutter"] = {"open": start * seconds, "close": (start + 1) * seconds}
@@ -154,7 +181,7 @@ def _motion(cell: Cell, place: Placement, mover: str) -> dict[str, Any]:
 
 def _materials(cell: Cell, place: Placement) -> dict[str, Any]:
     glass: dict[str, Any] = {"refraction_index": 1.5}
-    if cell["glass"] == "absorbing":
+    if cell["glass"] in ("absorbing", AROUND):
         glass["absorption"] = [a / place.k for a in (0.5, 1.0, 2.0)]
     opaque = {"color": [0.8, 0.7, 0.3], "ambient": 0.3}
     return {
@@ -179,7 +206,7 @@ def _lights(cell: Cell, place: Placement) -> list[dict[str, Any]]:
             }
         )
     light = lamp(cell, place)
-    if light is None or light["type"] == "directional":
+    if light is None or light["type"] in ("directional", "object"):
         return lights + ([] if light is None else [light])
     return [*lights, light | _motion(cell, place, "light")]
 
@@ -224,6 +251,11 @@ def _furnish(cell: Cell, place: Placement, files: SceneFiles) -> None:
         "transform": place.steps(*middle),
     }
     box |= _motion(cell, place, "object")
+    shining = lamp_object(cell, place)
+    if shining is not None:
+        thing, emission = shining
+        files.description["materials"][LAMP] = {"color": 0, "emission": emission}
+        files.description["objects"].append(thing | _motion(cell, place, "light"))
     files.description["objects"] += [
         box,
         _ball("ball", 0.3, (-0.35, 0.31, -0.2), place),

@@ -6,8 +6,10 @@ The bound, for the room. Compared with its twin, whatever the renderer meets lie
     GAIN * shift * (1 + bounces) * steepness  +  ROUNDING * U * (brightest pixel)
 
 where the steepness of each pixel is measured on the twin (``probes``), up to four bounces count since each mirror that
-errs turns what follows it, and the last term is the arithmetic on the way to the film. Pixels that see thin triangles,
-which are expected to be samples * bounces * (their share of the surfaces), may differ by the larger shift of those.
+errs turns what follows it, and the last term is the arithmetic on the way to the film. The power of a light that is an
+object is that of its area, which errs as its corners do: GAIN times that (``Cell.power``) of the brightest pixel is
+added. Pixels that see thin triangles, which are expected to be samples * bounces * (their share of the surfaces), may
+differ by the larger shift of those.
 There are no other exceptions but edges: where a sample of the twin sees something else when the scene moves by
 H = 1e-3, it may do so in the cell too. Of those pixels a share of GAIN * shift / H is expected to jump. How many pixels
 may is the quantile of the Poisson distribution with the expected number, at 1 : 10^6; and none may jump to what is not
@@ -146,7 +148,7 @@ def compare(picture: Array, twin: Response, cell: Cell, verdict: Verdict) -> Non
     thin = min(1.0, samples * triangles.thin_share)
     moved = GAIN * cell.shift
     moved_more = moved + GAIN * triangles.thin_shift
-    rounding = ROUNDING * U * twin.brightest
+    rounding = (ROUNDING * U + GAIN * cell.power) * twin.brightest
     over = off / (moved * bounces * twin.steepness + rounding)
     over_most = off / (moved_more * bounces * twin.steepness + rounding)
 

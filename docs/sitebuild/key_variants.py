@@ -62,6 +62,16 @@ WINDOW = {
     "edge_v": [0, 0, 3],
     "radiance": 6,
 }
+PLAIN = {"materials.floor": {"color": 0.5}}
+LARGE = {**ALONE, **PLAIN, "lights.1.radius": 2, "sampler.samples": 1}
+"""A ray for each pixel: with more of them several of the values end in the same picture."""
+GLOBE = {
+    "type": "sphere",
+    "center": [-3, 4, 3],
+    "radius": 2,
+    "radiance": 5,
+    "samples": "visible",
+}
 LANTERNS = {
     **ALONE,
     "sampler.samples": 64,
@@ -72,7 +82,6 @@ LANTERNS = {
     "materials.near.emission": [4, 2.6, 0.6],
 }
 """Two that glow, and either lights the others where it is one of the lights."""
-PLAIN = {"materials.floor": {"color": 0.5}}
 COARSE = {"film.width": 66, "film.height": 44, "sampler.samples": 1, "lights.1.radius": 0, **PLAIN}
 """Pixels that can be seen, with a ray each, and neither noise nor a pattern in what they show."""
 NOISY = {
@@ -388,6 +397,13 @@ VARIANTS: dict[tuple[str, str], list[tuple[str, Changes]]] = {
     ("ObjectLight", "object"): [
         (f"object: {name}", {**LANTERNS, "lights.1": {"type": "object", "object": name}})
         for name in ("ball", "cone")
+    ],
+    ("SphereLight", "samples"): [
+        *_values("lights.1.samples", "sphere", "ball", "facing disk", on=LARGE),
+        ("samples: visible, by radiance", {**LARGE, "lights.1": GLOBE}),
+        *_values(
+            "lights.1.samples", "sphere by polar", "ball by polar", "ball by rejection", on=LARGE
+        ),
     ],
     ("SphereLight", "radius"): _values("lights.1.radius", 0.1, 1, 2.5),
     ("SphereLight", "intensity"): _values("lights.1.intensity", 20, 60, [60, 40, 15]),

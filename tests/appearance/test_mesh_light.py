@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from scipy.stats import chi2
 
-from course.appearance.lights import MeshLight
+from course.appearance.lights import MeshLight, mesh
 from course.appearance.lights.mesh import areas, shares
 from course.core.types import Floats32, Floats64
 
@@ -119,6 +119,13 @@ def test_the_ends_of_the_interval_choose_the_first_and_the_last_triangle() -> No
     assert x.astype(int).tolist() == [0, 999]
     one = light_of(corners[:1]).sample(np.zeros((3, 2), np.float32), u)
     assert np.isfinite(one.to_light).all()
+
+
+def test_the_groups_are_there_before_threads_take_samples(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Made for the first sample, they would be made by every thread that takes one then."""
+    light = light_of(SQUARE)
+    monkeypatch.setattr(mesh, "make_groups", None)
+    assert light.sample(np.zeros((3, 4), np.float32), drawn(4, 10)).factor.shape == (4,)
 
 
 def test_many_triangles_are_chosen_evenly_in_float32() -> None:

@@ -177,8 +177,10 @@ def _repaired(description: dict[str, Any]) -> dict[str, Any]:
             if light["type"] == "sphere" and light.get("samples", "sphere") != "sphere":
                 # Only a lamp by radiance has a visible side, and that and its surface are all it has.
                 by_radiance = light.get("radiance") is not None
-                if by_radiance or light["samples"] == "visible":
-                    light["samples"] = "visible" if by_radiance else "ball"
+                if by_radiance and light["samples"] != "sphere by polar":
+                    light["samples"] = "visible"
+                elif not by_radiance and light["samples"] == "visible":
+                    light["samples"] = "ball"
             if light["type"] == "rectangle" and light.get("radiance") is None:
                 for key in ("two_sided", "visible"):
                     light.pop(key, None)

@@ -15,10 +15,11 @@ import pytest
 from click.testing import CliRunner
 from scipy.special import pdtrc
 
-from benchmarks.stress import axes, box, patch, room
+from benchmarks.stress import axes, box, parts, patch, room
 from benchmarks.stress.__main__ import main
 from benchmarks.stress.axes import AXES, NOTHING, U, level
 from benchmarks.stress.cells import (
+    AROUND,
     OUTER,
     STAGES,
     Cell,
@@ -36,11 +37,13 @@ from benchmarks.stress.rows import rows_of
 from benchmarks.stress.running import judge_all, judge_some
 from benchmarks.stress.shrinking import shrunk, wild_levels
 from benchmarks.stress.triangles import cut
-from benchmarks.stress.verdict import FALSE_FAIL, Judge, Verdict, compare, most_of
+from benchmarks.stress.verdict import FALSE_FAIL, SCENES, Judge, Verdict, compare, most_of
 from course.geometry import surface
+from course.geometry.shapes import displaced_sphere
 
 CELLS = all_cells()
 SHORT = short_form(CELLS)
+REJECTION = "ball by rejection"
 
 
 def cell(stage: str, **levels: str) -> Cell:
@@ -181,6 +184,53 @@ def test_no_pixel_of_the_room_exceeds_its_bound_which_is_not_far_off(tmp_path: P
         assert least < picture.max() / room.brightest(each) <= 1
 
 
+@pytest.mark.parametrize("size", ["1e-3", "0.1", "1"])
+def test_a_light_that_is_an_object_keeps_its_distance(size: str) -> None:
+    """The bound on the energy takes it for a ball that rests on LIGHT."""
+    each = cell("room", light="object", light_size=size)
+    found = parts.lamp_object(each, parts.placement(each))
+    assert found is not None
+    thing, _ = found
+    sizes = {key: thing[key] for key in ("radius", "amplitude", "segments", "seed")}
+    shape = displaced_sphere(**sizes, frequency=6.0)
+    distance = np.linalg.norm(shape.vertices, axis=1)
+    assert 0.5 * each["light size"] < distance.min()
+    assert distance.max() <= each["light size"]
+    x, y, z = parts.LIGHT
+    assert thing["transform"] == [{"translate": [x, y + each["light size"], z]}]
+
+
+def test_points_by_rejection_are_one_point_in_the_room() -> None:
+    """Of a larger light they are all others as soon as one ray meets something else, and no twin has the same."""
+    there = [each for each in CELLS if each.levels.get("light") == level("light", REJECTION)]
+    assert {each["light size"] for each in there if each.stage == "room"} == {0.0, 1e-7, 1e-5}
+    assert {each["light size"] for each in there if each.stage == "box"} > {0.1, 1.0, 30.0}
+
+
+@pytest.mark.parametrize("angle", ["steep", "camera 0.0001", "mirror 1e-06"])
+@pytest.mark.parametrize("resolution", ["64 x 1", "24 x 18"])
+@pytest.mark.parametrize("stage", STAGES)
+def test_the_near_plane_hides_nothing(
+    stage: str, resolution: str, angle: str, tmp_path: Path
+) -> None:
+    """Not even what a lens as large as may be has just before it; twice as deep it may."""
+    open_wide = cell(stage, aperture="1", angle=angle, resolution=resolution)
+    picture = SCENES[stage](open_wide).picture(tmp_path)
+    blind = SCENES[stage](open_wide.with_level("near plane", "1"))
+    assert blind.description["camera"]["near"] > 0
+    assert np.abs(blind.picture(tmp_path) - picture).max() <= 32 * U * picture.max()
+
+
+def test_a_camera_in_glass_sees_the_room(tmp_path: Path) -> None:
+    each = cell("room", glass=AROUND, resolution="33 x 17")
+    seen = room.room(each).picture(tmp_path)
+    assert (seen > 0).all()
+    assert seen.std(axis=(0, 1)).min() > 0.05 * seen.max()
+    # The way from the eye to the near plane absorbs too.
+    blind = room.room(each.with_level("near plane", "1")).picture(tmp_path)
+    assert np.abs(blind - seen).max() <= 32 * U * seen.max()
+
+
 def test_scaling_moving_and_turning_keep_shapes() -> None:
     points = np.random.default_rng(0).normal(size=(20, 3))
     place = Placement(7.0, 3.0, 33.0)
@@ -223,6 +273,12 @@ def test_a_picture_that_is_a_little_off_is_told(twin: Response) -> None:
     for factor in (1 + 3e-5, 1 - 3e-5):
         assert not verdict_on(twin.picture * factor, twin).passed
     assert verdict_on(twin.picture * (1 + 2 * U), twin).passed
+
+
+def test_the_power_of_an_object_may_err_as_its_area_does(twin: Response) -> None:
+    for size, passes in (("1e-3", True), ("0.1", False)):
+        each = cell("room", light="object", light_size=size)
+        assert verdict_on(twin.picture * 1.0002, twin, each).passed == passes
 
 
 def test_one_wrong_pixel_is_told(twin: Response) -> None:

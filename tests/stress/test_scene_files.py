@@ -99,10 +99,12 @@ def test_random_scenes_render_finite_or_are_refused_by_their_line(folder: Path) 
     check()
     # Most are rendered and show something, and everything occurs; or this would say little.
     assert found.count("seen") + found.count("black") > len(found) / 2
-    assert found.count("seen") > len(found) / 3
+    # Of sixty, drawn otherwise after any change of the sources, fewer may happen to be seen than of many.
+    assert found.count("seen") > len(found) / (3 if LONG else 5)
     everything = {kind.__struct_config__.tag for kind in (*get_args(Object), *get_args(Light))}
     everything |= {"gloss", "dielectric", "mirror", "lens", "shutter", "camera motion"}
     everything |= {"constant", "cube", "lat_long", "sobol", "random", "jittered", "regular"}
+    everything |= {"sphere by polar", "ball by polar", "ball by rejection", "interpolated", "near"}
     # Hypothesis lets the modules that happen to be loaded have a say in what it draws, and the rarest kinds are in one
     # description of twenty: sixty of them may well do without one or the other.
     assert len(everything - drawn) <= (0 if LONG else len(everything) // 4)
@@ -113,11 +115,13 @@ def kinds(description: dict[str, Any]) -> Iterator[str]:
     camera = description["camera"]
     yield from (thing["shape"] for thing in description["objects"])
     yield from (light["type"] for light in description["lights"])
+    yield from (light["samples"] for light in description["lights"] if "samples" in light)
+    yield description["integrator"].get("shading_normals", "bent")
     for material in description["materials"].values():
         yield from (key for key in ("gloss", "dielectric", "mirror") if material.get(key))
     yield description.get("environment", {"type": "constant"})["type"]
     yield description["sampler"].get("type", "sobol")
-    yield from (key for key in ("lens", "shutter") if camera.get(key))
+    yield from (key for key in ("lens", "shutter", "near") if camera.get(key))
     yield from ("camera motion" for _ in [0] if camera.get("motion"))
 
 

@@ -8,8 +8,7 @@ sides.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import cached_property
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -30,6 +29,7 @@ class MeshLight:
     corner_edges : (T, 9) float32, p0, e1, e2, see ``course.geometry.surface``
     normal_offset : (T, 4) float32, the unit normal, and the distance by which rays leave the triangle
     color : (3,) float32, radiance times area / pi
+    groups : the triangles in groups, made of the others
     """
 
     name: str
@@ -40,11 +40,12 @@ class MeshLight:
     width: int = 3
     velocity: Floats32 | None = None
     limit: float = TO_A_POINT
+    groups: Groups = field(init=False, repr=False)
 
-    @cached_property
-    def groups(self) -> Groups:
-        """The triangles in groups; made for the first sample."""
-        return make_groups(self.shares, self.corner_edges, self.normal_offset[:, :3])
+    def __post_init__(self) -> None:
+        # Not for the first sample: every thread that takes one then would make them, each its own.
+        groups = make_groups(self.shares, self.corner_edges, self.normal_offset[:, :3])
+        object.__setattr__(self, "groups", groups)
 
     def sample(self, points: Floats32, u: Floats32 | None, compiled: bool = False) -> Sample:
         """See ``course.appearance.lights``.
