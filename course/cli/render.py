@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 import json
+import signal
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
@@ -28,6 +32,9 @@ SAMPLERS = (
     "chained",
     "xorshift",
 )
+
+ENDS = ("SIGTERM", "SIGHUP")
+"""Signals that end a process, and have no exception as Ctrl-C has; not every system has both."""
 
 
 @click.command()
@@ -127,7 +134,7 @@ def render(
         out = Path(f"{scene.stem}.png") if out is None else out
         _render_one(scene, scene, out, effects, choices, heat_map, receipt_path)
         return
-    with TemporaryDirectory(prefix="course-") as folder:
+    with _told_to_end(), TemporaryDirectory(prefix="course-") as folder:
         chosen = _converted(scene, camera, Path(folder))
         for option, path in (("-o", out), ("--heat-map", heat_map), ("--receipt", receipt_path)):
             if len(chosen) > 1 and path is not None:
@@ -139,6 +146,26 @@ def render(
         for one in chosen:
             picture = Path(one.image) if out is None else out
             _render_one(scene, one.path, picture, effects, choices, heat_map, receipt_path)
+
+
+@contextmanager
+def _told_to_end() -> Iterator[None]:
+    """A process that is told to end, or whose terminal is closed, ends by an exception, and so deletes its folder."""
+    known = [getattr(signal, name) for name in ENDS if hasattr(signal, name)]
+    # What is ignored, as under nohup, stays so.
+    taken = [number for number in known if signal.getsignal(number) is signal.SIG_DFL]
+    for number in taken:
+        signal.signal(number, _end)
+    try:
+        yield
+    finally:
+        for number in taken:
+            signal.signal(number, signal.SIG_DFL)
+
+
+def _end(number: int, _frame: object) -> None:
+    # As shells say it of a process that a signal has ended.
+    sys.exit(128 + number)
 
 
 def _converted(scene: Path, camera: str | None, folder: Path) -> list[Converted]:
