@@ -60,8 +60,9 @@ check: $(STAMP)
 	"$(RUN)" -m course release --check
 	"$(RUN)" -m pytest -q tests/test_layers.py
 
+# Each process begins with half of the tests, so that one builds the site for all tests of it; who is done takes over.
 test: $(STAMP)
-	"$(RUN)" -m pytest -q -n auto
+	"$(RUN)" -m pytest -q -n auto --dist worksteal
 
 demo: $(STAMP)
 	@"$(RUN)" -m course demo --out $(DEMO_FOLDER) $(DEMO_SCENES)

@@ -54,7 +54,8 @@ class Cluster:
             process = subprocess.Popen(
                 [*command, "--scheduler-file", str(self._file), *options],
                 cwd=self._folder,
-                env={**os.environ, "PYTHONPATH": str(ROOT)},
+                # A worker that is killed leaves the scenes that it keeps: there, where the tests clear up.
+                env={**os.environ, "PYTHONPATH": str(ROOT), "TMPDIR": str(self._folder)},
                 stdout=log,
                 stderr=log,
             )

@@ -223,7 +223,9 @@ class Page:
         if "--spp" in words and words[words.index("--spp") + 1] == "1":
             del words[-2:]
         if name == "radiosity" and not any(word.endswith(".npz") for word in words[1:2]):
-            words += [*TINY, "--patches", "100"]
+            words += [*TINY, "--patches", "40"]
+            # Where patches are divided, all is worked out again at each step.
+            words += ["--split", "0.3"] if "--split" in words else []
         elif name == "radiosity":
             words += TINY
         with _small(words):

@@ -30,8 +30,8 @@ FOLLOWED = [path.relative_to(PROJECT).as_posix() for path in PAGES if blocks(pat
 KNOWN_SUBMISSIONS = 3
 """Right and wrong submissions of a module that are kept for `course calibrate`."""
 
-FINEST = 512
-"""Flat pieces of a curve in the copy; a spring of many turns may not have less."""
+FINEST, KNOT = 96, 288
+"""Flat pieces of a curve in the copy; a knot needs 8 (p + q), and one with many turns is a spring."""
 
 SMALL_SCENE = """\
 camera: {eye: [0, 2, 6], look_at: [0, 1, 0]}
@@ -62,12 +62,8 @@ def _copied(folder: Path) -> Path:
         shutil.copyfile(PROJECT / file, folder / file)
     for scene in (folder / "scenes").rglob("*.yaml"):
         # What costs most in small pictures is to make the meshes.
-        coarse = re.sub(
-            r"\b(segments|sides): (\d+)",
-            lambda found: f"{found[1]}: {min(int(found[2]), FINEST)}",
-            scene.read_text(encoding="utf-8"),
-        )
-        scene.write_text(coarse, encoding="utf-8")
+        lines = scene.read_text(encoding="utf-8").splitlines(keepends=True)
+        scene.write_text("".join(map(_coarse, lines)), encoding="utf-8")
     (folder / "few").mkdir()
     for name in ("scenes/NAME.yaml", "few/ball.yaml"):
         (folder / name).write_text(SMALL_SCENE, encoding="utf-8")
@@ -85,6 +81,13 @@ def _copied(folder: Path) -> Path:
     with zipfile.ZipFile(handed_in / "ben.zip", "w") as archive:
         archive.write(folder / "assignments" / written.name, written.name)
     return folder
+
+
+def _coarse(line: str) -> str:
+    most = KNOT if "shape: torus_knot" in line else FINEST
+    return re.sub(
+        r"\b(segments|sides): (\d+)", lambda found: f"{found[1]}: {min(int(found[2]), most)}", line
+    )
 
 
 def _follow(page: str, folder: Path) -> subprocess.CompletedProcess[str]:
