@@ -29,34 +29,31 @@ import click
 import numpy as np
 import yaml
 
-from benchmarks.mitsuba_agreement import Agreement, Converged, compare, converge, save_difference
+from benchmarks.mitsuba_agreement import Converged, compare, converge, save_difference
 from benchmarks.mitsuba_export import export, write
 from benchmarks.mitsuba_llvm import SAMPLERS, LlvmScene, find_llvm, start_llvm
 from benchmarks.mitsuba_scalar import ALIKE, NativeScene, native_overrides, start_scalar
+from benchmarks.peer_cases import (
+    EFFECTS,
+    FORMS,
+    QUICK,
+    Effort,
+    Measured,
+    Reached,
+    Result,
+    keep_cases,
+)
+from benchmarks.peer_document import SIZE, tables, write_document
 from course import Scene, render
-from course.benchmarking.documents import replace_marked
 from course.benchmarking.machine import machine
-from course.benchmarking.plot_data import rounded
 from course.benchmarking.sources import scene_hash
-from course.benchmarking.tables import Table, print_tables
+from course.benchmarking.tables import print_tables
 from course.benchmarking.variants import load_variant
 from course.effects import PROJECT
-from course.imaging.atomic import write_text
 from course.scene.description.values import rgb
 from course.scene.loading import load_description
 from course.scene.overriding import Overrides
 
-EFFECTS = (
-    "supersampling",
-    "soft_shadows",
-    "glossy",
-    "thin_lens",
-    "motion_blur",
-    "cube_map",
-    "path_tracing",
-)
-FORMS = ("llvm", "scalar")
-SIZE = (400, 300)
 SAMPLES = 64
 """A pixel, of Mitsuba's best sampler; its error is the one to reach."""
 
@@ -67,21 +64,6 @@ MOST_SAMPLES = 16384
 OUT = Path("out/bench/peers")
 DOCUMENT = PROJECT / "docs" / "peers.md"
 DATA = PROJECT / "docs" / "data" / "peers.json"
-MARK = "python -m benchmarks.peers"
-
-
-@dataclass(frozen=True)
-class Effort:
-    """How much is spent: pictures for each error, rounds of times, batches of converged pictures and their samples."""
-
-    pictures: int = 4
-    rounds: int = 5
-    batches: int = 16
-    batch_samples: int = 256
-    processes: int = 5
-
-
-QUICK = Effort(pictures=2, rounds=5, batches=8, batch_samples=64, processes=3)
 
 
 @dataclass(frozen=True)
@@ -97,47 +79,6 @@ class Setting:
     first: float
     finer: float
     """Factor of the knob for a better picture."""
-
-
-@dataclass(frozen=True)
-class Reached:
-    """How a way to render reaches the target.
-
-    Attributes
-    ----------
-    seconds : interpolated between the two measured pictures around the target, both axes logarithmic
-    knob : samples, or the error asked for, interpolated alike
-    """
-
-    name: str
-    seconds: float
-    knob: float
-
-
-@dataclass(frozen=True)
-class Result:
-    """One effect in one form.
-
-    Attributes
-    ----------
-    without : what the scene has to do without in this form
-    error : root of the target's mean squared error
-    seconds : Mitsuba's; ours : of each way to render, fastest first
-    process, our_process : seconds of whole processes
-    """
-
-    effect: str
-    form: str
-    without: list[str]
-    alike: bool
-    sampler: str
-    samples: int
-    error: float
-    seconds: float
-    ours: list[Reached]
-    process: float
-    our_process: float
-    agreement: Agreement
 
 
 @dataclass(frozen=True)
@@ -435,135 +376,6 @@ def run_module(arguments: list[str]) -> None:
     )
 
 
-def tables(results: list[Result]) -> list[Table]:
-    """Everything, for people."""
-    measured = [form for form in FORMS if any(r.form == form for r in results)]
-    return [
-        *(time_table(form, [r for r in results if r.form == form]) for form in measured),
-        process_table(results),
-        agreement_table(results),
-    ]
-
-
-def time_table(form: str, results: list[Result]) -> Table:
-    """Seconds to the same error, and ours over theirs."""
-    names = ["uniform", "adaptive", "uniform, compiled", "adaptive, compiled"]
-    names = [n for n in names if any(n == o.name for r in results for o in r.ours)]
-    rows = []
-    for r in results:
-        ours = {o.name: o for o in r.ours}
-        cells = [_beside(ours[n].seconds, r.seconds) if n in ours else "-" for n in names]
-        rows.append((_effect(r), f"{r.error:.2e}", r.sampler, f"{r.seconds:.3f}", *cells))
-    return Table(
-        f"seconds to the same error, Mitsuba {form}; in brackets ours / Mitsuba's",
-        ("scene", "RMSE", "Mitsuba's best sampler", f"Mitsuba {form}", *names),
-        tuple(rows),
-    )
-
-
-def process_table(results: list[Result]) -> Table:
-    """Whole processes."""
-    rows = [
-        (f"{_effect(r)}, {r.form}", f"{r.process:.2f}", _beside(r.our_process, r.process))
-        for r in results
-    ]
-    return Table("whole processes to the same error", ("scene", "Mitsuba", "ours"), tuple(rows))
-
-
-def agreement_table(results: list[Result]) -> Table:
-    """Converged pictures."""
-    rows = []
-    for r in results:
-        a = r.agreement
-        numbers = (f"{a.largest:.1f}", f"{a.far:.2%}", f"{a.rms:.1e}", f"{a.rms / r.error:.2f}")
-        rows.append((f"{_effect(r)}, {r.form}", *numbers, f"{a.mean:+.3%}", f"{a.where}"))
-    return Table(
-        "converged pictures: Mitsuba's against ours",
-        (
-            "scene",
-            "largest |t|",
-            "|t| > 4.5",
-            "RMS beyond noise",
-            "/ RMSE above",
-            "mean",
-            "worst at",
-        ),
-        tuple(rows),
-    )
-
-
-def _effect(r: Result) -> str:
-    return f"{r.effect} ≈" if r.alike else r.effect
-
-
-def _beside(ours: float, theirs: float) -> str:
-    return f"{ours:.3f} ({ours / theirs:.2f})"
-
-
-def keep(result: Result, effort: Effort, about: dict[str, str]) -> None:
-    """Write a case to disk: all take an hour, and a row's figures were measured in turn, whenever that was."""
-    path = OUT / "results" / f"{result.effect}_{result.form}.json"
-    path.parent.mkdir(parents=True, exist_ok=True)
-    document = {"effort": asdict(effort), "about": about, "result": asdict(result)}
-    path.write_text(json.dumps(document, indent=2) + "\n")
-
-
-def kept(effort: Effort, about: dict[str, str]) -> list[Result]:
-    """The latest result of each case that was measured with this effort, on this machine and with this software."""
-    results = []
-    for form in FORMS:
-        for effect in EFFECTS:
-            path = OUT / "results" / f"{effect}_{form}.json"
-            document = json.loads(path.read_text()) if path.is_file() else {}
-            if (document.get("effort"), document.get("about")) != (asdict(effort), about):
-                continue
-            values = document["result"]
-            agreement = {**values["agreement"], "where": tuple(values["agreement"]["where"])}
-            ours = [Reached(**reached) for reached in values["ours"]]
-            results.append(Result(**{**values, "agreement": Agreement(**agreement), "ours": ours}))
-    return results
-
-
-def write_document(results: list[Result], effort: Effort, about: dict[str, str]) -> None:
-    """Put the tables between the marks of docs/peers.md."""
-    rows = tuple(about.items())
-    command = MARK + (" --quick" if effort == QUICK else "") + " --write"
-    parts = [
-        f"Made by `{command}`, pictures of {SIZE[0]} x {SIZE[1]}, medians of {effort.rounds} rounds.",
-        Table("", ("machine", ""), rows).markdown(),
-    ]
-    forms = [form for form in FORMS if any(r.form == form for r in results)]
-    for number, table in enumerate(tables(results)):
-        parts.append(f"### {table.title[0].upper()}{table.title[1:]}")
-        # The tables of times come first, one for each form.
-        parts += [f"<!-- site: peer_times {form} -->" for form in forms[number : number + 1]]
-        parts.append(table.markdown())
-    without = [
-        f"- {r.effect}, {r.form}: {', '.join(r.without) or 'as it is'}"
-        + (f"; {ALIKE[r.effect]}" if r.alike else "")
-        for r in results
-    ]
-    parts += ["What the scenes do without:", "\n".join(without)]
-    replace_marked(DOCUMENT, MARK, "\n\n".join(parts))
-    write_data(results, command, about, DATA)
-
-
-def write_data(results: list[Result], command: str, about: dict[str, str], path: Path) -> None:
-    """Keep the numbers that the site's plots are drawn from: seconds to the same error, by form and scene."""
-    forms: dict[str, list[dict[str, Any]]] = {}
-    for r in results:
-        seconds = {"Mitsuba": r.seconds, **{ours.name: ours.seconds for ours in r.ours}}
-        row = {
-            "scene": _effect(r),
-            "error": rounded(r.error),
-            "seconds": {name: rounded(value) for name, value in seconds.items()},
-        }
-        forms.setdefault(r.form, []).append(row)
-    data = {"command": command, "machine": about, "forms": forms}
-    path.parent.mkdir(exist_ok=True)
-    write_text(path, json.dumps(data, indent=1, ensure_ascii=False) + "\n")
-
-
 def versions(threads: int) -> dict[str, str]:
     """Machine and software."""
     library = find_llvm()
@@ -583,7 +395,7 @@ def versions(threads: int) -> dict[str, str]:
     "--write",
     "write_docs",
     is_flag=True,
-    help="Write the tables to docs/peers.md, with cases of earlier runs on this machine.",
+    help="Keep the results in docs/data, and write them and those kept before to docs/peers.md.",
 )
 def main(
     effects: Iterable[str],
@@ -608,15 +420,15 @@ def main(
             result = measure(
                 case, lambda text, label=label: click.echo(f"{label}: {text}", err=True)
             )
-            keep(result, effort, about)
             results.append(result)
+            if write_docs:
+                # At once, for all of them take an hour.
+                write_document(keep_cases([Measured(effort, about, result)], DATA), DOCUMENT)
     print_tables(tables(results))
     if json_path is not None:
         json_path.parent.mkdir(parents=True, exist_ok=True)
         document = {**about, "results": [asdict(r) for r in results]}
         json_path.write_text(json.dumps(document, indent=2) + "\n")
-    if write_docs:
-        write_document(kept(effort, about), effort, about)
 
 
 if __name__ == "__main__":

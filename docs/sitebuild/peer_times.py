@@ -37,8 +37,9 @@ def peer_times(place: Place, name: str, words: str = "") -> str:  # noqa: ARG001
     CourseError
         It has not been measured.
     """
-    data = json.loads(DATA.read_text(encoding="utf-8")) if DATA.is_file() else {"forms": {}}
-    rows = data["forms"].get(name, [])
+    kept = json.loads(DATA.read_text(encoding="utf-8")) if DATA.is_file() else []
+    cases = [case for case in kept if case["result"]["form"] == name]
+    rows = [_seconds(case["result"]) for case in cases]
     if not rows:
         raise CourseError(f"{DATA} has no form {name!r}: python -m benchmarks.peers --write")
     found = {program for row in rows for program in row["seconds"]}
@@ -48,7 +49,9 @@ def peer_times(place: Place, name: str, words: str = "") -> str:  # noqa: ARG001
         f' aria-hidden="true">{_mark(program)}</svg> {_named(program, name)}</li>'
         for program in programs
     )
-    machine = ", ".join(data["machine"][key] for key in ("processor", "peer"))
+    # Mostly one; a case may have been measured elsewhere than the others.
+    machines = {", ".join(case["about"][key] for key in ("processor", "peer")) for case in cases}
+    machine = "; ".join(sorted(machines))
     return f"""<figure class="convergence">
 <p class="title">Seconds to the same error</p>
 <div class="panels">
@@ -59,9 +62,16 @@ def peer_times(place: Place, name: str, words: str = "") -> str:  # noqa: ARG001
 <ul class="legend">
 {legend}
 </ul>
-<figcaption>{escape(machine)}. Made by <code>{escape(data["command"])}</code></figcaption>
+<figcaption>{escape(machine)}. Made by <code>python -m benchmarks.peers --write</code></figcaption>
 </figure>
 """
+
+
+def _seconds(result: dict[str, Any]) -> dict[str, Any]:
+    """A scene's name, and seconds of each program."""
+    ours = {way["name"]: way["seconds"] for way in result["ours"]}
+    scene = f"{result['effect']} ≈" if result["alike"] else result["effect"]
+    return {"scene": scene, "seconds": {"Mitsuba": result["seconds"], **ours}}
 
 
 def svg(form: str, rows: list[dict[str, Any]]) -> str:
