@@ -59,7 +59,8 @@ class AdaptiveFilm:
 
         Parameters
         ----------
-        mean : (4, n * PARTS) float32, the parts of each pixel next to each other: colours, and what a sample cost
+        mean : (4, n * PARTS) float32, the parts of each pixel next to each other: colours, and what a sample of the
+            pixel cost
         weight : (n * PARTS,) float32 or one number
         samples : how many samples of each pixel the picture holds with this stretch
         whole : false for a preview without parts, (3, n), which later stretches replace
@@ -93,7 +94,7 @@ class AdaptiveFilm:
             estimates.keep(self.variance.reshape(-1).take(which), before, 1)
         share = np.float32((samples - before) / samples)
         cost = self.cost.reshape(-1)
-        cost[which] += share * (mean[3].reshape(n, PARTS).mean(axis=1) - cost.take(which))
+        cost[which] += share * (mean[3, ::PARTS] - cost.take(which))
         total = earlier + stretch.T
         self._sums[which] = total
         self.linear.reshape(3, -1)[:, which] = (total[:, :3] / total[:, 3:]).T

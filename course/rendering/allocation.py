@@ -152,7 +152,7 @@ def _level(
         k = math.sqrt(low * high)
         growing = ratio < k
         # No dot products: BLAS would start threads for them, which then spin where rays could be traced.
-        left = float((variance * ~growing).sum(dtype=np.float64))
-        left += math.pow(k, -2 * order) * float((unit * growing).sum(dtype=np.float64))
+        left = float((variance * ~growing).sum())
+        left += math.pow(k, -2 * order) * float((unit * growing).sum())
         low, high = (k, high) if left > allowed else (low, k)
     return high

@@ -62,7 +62,7 @@ class Tracer:
         """Colours (3, n) and weights of a tile's n pixels from one stretch of their samples.
 
         With several ``parts`` the stretch is divided, and there are (4, n * parts) numbers, those of a pixel together:
-        below the colours what a sample cost, in camera rays that meet nothing.
+        below the colours what a sample of the pixel cost, in camera rays that meet nothing.
 
         Raises
         ------
@@ -86,7 +86,9 @@ class Tracer:
         pieces = (-1, tile.size * parts, samples // parts)
         mean, weight = self.reconstruction.pixels(radiance.reshape(pieces), offsets.reshape(pieces))
         if cost is not None:
-            mean = np.concatenate((mean, cost.reshape(pieces).mean(axis=2)))
+            # The same for all parts: sums of a few numbers each would take longer than what they are good for.
+            cost = cost.reshape(tile.size, samples).mean(axis=1)
+            mean = np.concatenate((mean, np.repeat(cost, parts)[None]))
         counters.lap("film")
         return mean, weight
 

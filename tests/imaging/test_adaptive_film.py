@@ -234,17 +234,13 @@ def test_what_a_sample_costs_is_the_mean_over_all_samples() -> None:
     film = AdaptiveFilm(3, 1)
     assert film.cost.tolist() == [[1, 1, 1]]
     rng = np.random.default_rng(3)
-    costs = [
-        (16, np.full((2, PARTS), 7.0)),
-        (24, rng.random((2, PARTS))),
-        (64, rng.random((2, PARTS))),
-    ]
     before, total = 0, np.zeros(2)
-    for number, (samples, cost) in enumerate(costs):
-        mean = np.concatenate((rng.random((3, 2 * PARTS)), cost.reshape(1, -1)))
+    for number, samples in enumerate((16, 24, 64)):
+        cost = 1 + rng.random(2)
+        mean = np.concatenate((rng.random((3, 2 * PARTS)), np.repeat(cost, PARTS)[None]))
         group = PixelGroup(number, np.array([2, 0]), 3)
         film.add(group, mean.astype(np.float32), 1.0, samples, True)
-        total += (samples - before) * cost.mean(axis=1)
+        total += (samples - before) * cost
         before = samples
         assert film.cost[0, [2, 0]] == pytest.approx(total / samples, rel=1e-6)
     assert film.cost[0, 1] == 1
