@@ -51,12 +51,12 @@ class Reached:
     Attributes
     ----------
     seconds : interpolated between the two measured pictures around the target, both axes logarithmic
-    knob : samples, or the error asked for, interpolated alike
+    knob : samples, or the error asked for, interpolated alike; None where an older run has not kept it
     """
 
     name: str
     seconds: float
-    knob: float
+    knob: float | None
 
 
 @dataclass(frozen=True)
