@@ -16,10 +16,9 @@ from benchmarks.stress.axes import U
 from benchmarks.stress.cells import Cell
 from benchmarks.stress.files import SceneFiles, square
 from benchmarks.stress.parts import (
-    LAMP,
     gloss,
+    hang_lamp,
     lamp,
-    lamp_object,
     lens,
     near_plane,
     picture,
@@ -78,11 +77,7 @@ def box(cell: Cell) -> SceneFiles:
     }
     for name, (middle, a, b) in walls.items():
         square(files, name, place, cell["triangles"], middle, a, b, "wall", closed=True)
-    shining = lamp_object(cell, place)
-    if shining is not None:
-        thing, emission = shining
-        files.description["materials"][LAMP] = {"color": 0, "emission": emission * OUTSIDE}
-        files.description["objects"].append(thing)
+    hang_lamp(files, cell, place, OUTSIDE, {})
     kind, size = cell["triangles"]
     if kind == "huge":
         below = (size / 2, -2.0, 0.0)

@@ -7,6 +7,7 @@ from typing import Any
 
 from benchmarks.stress.axes import NOTHING, VISIBLE_TWIN
 from benchmarks.stress.cells import Cell
+from benchmarks.stress.files import SceneFiles
 from benchmarks.stress.placement import Placement
 
 BACKGROUND = [0.3, 0.4, 0.5]
@@ -148,6 +149,17 @@ def lamp_object(cell: Cell, place: Placement) -> tuple[dict[str, Any], float] | 
         "transform": place.steps(x, y + size, z),
     }
     return thing, IRRADIANCE * (y + size) ** 2 / (math.pi * size * size)
+
+
+def hang_lamp(
+    files: SceneFiles, cell: Cell, place: Placement, brighter: float, motion: dict[str, Any]
+) -> None:
+    """Add the object that a light is to a scene, where there is one."""
+    shining = lamp_object(cell, place)
+    if shining is not None:
+        thing, emission = shining
+        files.description["materials"][LAMP] = {"color": 0, "emission": emission * brighter}
+        files.description["objects"].append(thing | motion)
 
 
 def _rectangle(place: Placement, size: float) -> dict[str, Any]:

@@ -18,8 +18,8 @@ from benchmarks.stress.parts import (
     LAMP,
     LIGHT,
     gloss,
+    hang_lamp,
     lamp,
-    lamp_object,
     lens,
     near_plane,
     picture,
@@ -251,11 +251,7 @@ def _furnish(cell: Cell, place: Placement, files: SceneFiles) -> None:
         "transform": place.steps(*middle),
     }
     box |= _motion(cell, place, "object")
-    shining = lamp_object(cell, place)
-    if shining is not None:
-        thing, emission = shining
-        files.description["materials"][LAMP] = {"color": 0, "emission": emission}
-        files.description["objects"].append(thing | _motion(cell, place, "light"))
+    hang_lamp(files, cell, place, 1.0, _motion(cell, place, "light"))
     files.description["objects"] += [
         box,
         _ball("ball", 0.3, (-0.35, 0.31, -0.2), place),

@@ -4,8 +4,8 @@ If a pixel's variance is v n^-2a and a sample of it costs c, the sum over all pi
 n is proportional to (v / c)^(1 / (2a + 1)): the derivative of the variance by the cost is then the same everywhere.
 Some pixels have more samples than that already; the others share what is left of the target.
 
-Costs differ: a sample of the sky is one ray, one of a mirror or of glass may be twenty. At equal error `cube_map` takes
-0.92 of what it takes where samples alone are counted; scenes whose hard pixels cost as much as others gain nothing.
+Costs differ: a sample of the sky is one ray, one of a mirror or of glass may be twenty. Where hard pixels cost as much
+as the others, looking at it gains nothing.
 """
 
 from __future__ import annotations
