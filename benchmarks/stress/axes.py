@@ -166,6 +166,7 @@ AXES: dict[str, tuple[Level, ...]] = {
             "rectangle",
             "grid",
             "visible sphere",
+            "visible part",
             "visible rectangle",
             "object",
             "directional",

@@ -54,12 +54,22 @@ class SceneFiles:
         path.write_text(json.dumps(self.description, indent=1), encoding="utf-8")
         return path
 
-    def picture(self, folder: Path) -> Array:
-        """(H, W, 3) float64 linear radiance; what NumPy warns of on the way there is an error."""
+    def picture(self, folder: Path, compiled: bool | None = None) -> Array:
+        """(H, W, 3) float64 linear radiance; what NumPy warns of on the way there is an error.
+
+        Parameters
+        ----------
+        compiled : whether by Numba's loops; None for what the renderer takes itself
+        """
         path = self.write(folder)
         with warnings.catch_warnings():
             warnings.simplefilter("error")
-            return render(load_scene(path, "solutions"), threads=1).linear.astype(np.float64)
+            return _linear(path, compiled)
+
+
+def _linear(path: Path, compiled: bool | None) -> Array:
+    picture = render(load_scene(path, "solutions"), threads=1, compiled=compiled)
+    return picture.linear.astype(np.float64)
 
 
 def square(

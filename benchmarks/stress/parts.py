@@ -19,6 +19,9 @@ LIGHT = (0.2, 1.6, 0.3)
 IRRADIANCE = 3.0
 """What the light brings to the unit scene, about."""
 
+VISIBLE_PART = "visible part"
+"""The level of light that is a visible sphere, of which points are taken only where it can be seen from."""
+
 LAMP = "lamp"
 """Name of the object that is a light, and of its material."""
 
@@ -121,7 +124,9 @@ def lamp(cell: Cell, place: Placement) -> dict[str, Any] | None:
         middle, radius = place.point(x, y + size, z), place.length(size)
         light = {"type": "sphere", "center": middle, "radius": radius}
         power, area = (y + size) ** 2, math.pi * size * size
-        if not visible:
+        if kind == VISIBLE_PART:
+            light["samples"] = "visible"
+        elif not visible:
             light["samples"] = kind
     if visible:
         return light | {"radiance": IRRADIANCE * power / area}

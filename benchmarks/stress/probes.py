@@ -53,14 +53,14 @@ class Response:
         return float(self.picture.max())
 
 
-def probe(files: SceneFiles, folder: Path) -> Response:
+def probe(files: SceneFiles, folder: Path, compiled: bool | None = None) -> Response:
     """Render a twin and its neighbours. The scene is that of a unit scene: scale 1, offset 0."""
-    picture = files.picture(folder)
+    picture = files.picture(folder, compiled)
     steepness = np.zeros(picture.shape[:2])
     bends = np.zeros(picture.shape[:2])
     lowest, highest = picture, picture
     for change in (_view_turned, _view_tilted, _lights_moved):
-        above, below = (change(files, sign * H).picture(folder) for sign in (1, -1))
+        above, below = (change(files, sign * H).picture(folder, compiled) for sign in (1, -1))
         steepness += (np.abs(above - below) / (2 * H)).max(axis=2)
         bends = np.maximum(bends, np.abs(above - 2 * picture + below).max(axis=2))
         lowest = np.minimum(np.minimum(above, below), lowest)

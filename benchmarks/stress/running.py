@@ -6,6 +6,7 @@ import multiprocessing
 import tempfile
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
+from functools import partial
 from itertools import groupby
 from pathlib import Path
 
@@ -18,7 +19,10 @@ AT_ONCE = 16
 
 
 def judge_all(
-    cells: Sequence[Cell], jobs: int | None = None, tick: Callable[[int], None] | None = None
+    cells: Sequence[Cell],
+    jobs: int | None = None,
+    tick: Callable[[int], None] | None = None,
+    compiled: bool | None = None,
 ) -> list[Verdict]:
     """The verdict on each cell, in order.
 
@@ -26,21 +30,23 @@ def judge_all(
     ----------
     jobs : processes; None for one a core, 1 for this one
     tick : called now and then with the number of cells judged since
+    compiled : see `Judge`
     """
     tasks = list(_tasks(cells))
     jobs = jobs or default_threads()
+    judge = partial(judge_some, compiled=compiled)
     if jobs == 1:
-        return _collected(map(judge_some, tasks), tick)
+        return _collected(map(judge, tasks), tick)
     # Spawned, not forked: the same on all systems, and nothing is inherited.
     context = multiprocessing.get_context("spawn")
     with ProcessPoolExecutor(jobs, mp_context=context) as pool:
-        return _collected(pool.map(judge_some, tasks), tick)
+        return _collected(pool.map(judge, tasks), tick)
 
 
-def judge_some(cells: Sequence[Cell]) -> list[Verdict]:
+def judge_some(cells: Sequence[Cell], compiled: bool | None = None) -> list[Verdict]:
     """The verdicts on some cells, in this process."""
     with tempfile.TemporaryDirectory(prefix="stress-") as folder:
-        judge = Judge(Path(folder))
+        judge = Judge(Path(folder), compiled)
         return [judge(cell) for cell in cells]
 
 

@@ -7,7 +7,7 @@ from benchmarks.stress.cells import Cell, legal
 from benchmarks.stress.running import judge_some
 
 
-def shrunk(cell: Cell) -> Cell:
+def shrunk(cell: Cell, compiled: bool | None = None) -> Cell:
     """A cell that fails too, and in which no level can be made tame without its passing."""
     left = list(cell.levels)
     while True:
@@ -15,7 +15,7 @@ def shrunk(cell: Cell) -> Cell:
             tamer = cell.with_level(axis, TAME[axis])
             if tamer.levels[axis] == cell.levels[axis] or not legal(tamer):
                 continue
-            if not judge_some([tamer])[0].passed:
+            if not judge_some([tamer], compiled)[0].passed:
                 cell = tamer
                 break
         else:

@@ -82,10 +82,17 @@ class Verdict:
 
 
 class Judge:
-    """Renders cells and judges them; the twin of the last family is kept."""
+    """Renders cells and judges them; the twin of the last family is kept.
 
-    def __init__(self, folder: Path) -> None:
+    Parameters
+    ----------
+    folder : for their files
+    compiled : whether pictures are made by Numba's loops; None for what the renderer takes itself
+    """
+
+    def __init__(self, folder: Path, compiled: bool | None = None) -> None:
         self._folder = folder
+        self._compiled = compiled
         self._family: tuple[str, ...] | None = None
         self._twin: Response | None = None
 
@@ -106,12 +113,13 @@ class Judge:
         return verdict
 
     def _picture(self, files: SceneFiles) -> Array:
-        return files.picture(self._folder / "cell")
+        return files.picture(self._folder / "cell", self._compiled)
 
     def twin(self, cell: Cell) -> Response:
         """The twin's picture and how it answers to changes."""
         if self._twin is None or self._family != cell.family:
-            self._twin = probe(room.room(cell.twin()), self._folder / "twin")
+            twin = room.room(cell.twin())
+            self._twin = probe(twin, self._folder / "twin", self._compiled)
             self._family = cell.family
         return self._twin
 

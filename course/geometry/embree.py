@@ -60,7 +60,7 @@ class Intersections:
 
 
 class Accelerator:
-    """Triangles in Embree's hierarchy.
+    """Triangles in Embree's hierarchy, behind ``course.geometry.accelerators.AnyAccelerator``.
 
     Parameters
     ----------
@@ -116,7 +116,7 @@ class Accelerator:
 
     @property
     def convex(self) -> ConvexObjects | None:
-        """The objects that triangles belong to, where compiled loops are used and looking at these spares queries."""
+        """The objects that triangles belong to, where compiled loops are used: they look at these."""
         return self._convex if self.compiled else None
 
     def intersect(
@@ -129,16 +129,12 @@ class Accelerator:
         coherent: bool = False,
         left: Objects | None = None,
     ) -> Intersections:
-        """Nearest hit of each ray.
+        """Nearest hit of each ray; see ``AnyAccelerator.intersect``.
 
         Parameters
         ----------
-        origin : (3, N) or (3, 1) float32
-        direction : (3, N) float32, any length but 0
         time : of no consequence to triangles that don't move
         limit : (N,) float32, distances beyond which nothing counts
-        coherent : whether rays that follow each other go much the same way
-        left : (N,) the convex object that each ray leaves; None where that is not known
         """
         n = direction.shape[1]
         if len(self._triangles) == 0 or n == 0:
@@ -186,19 +182,7 @@ class Accelerator:
         clock: QueryTime,
         time: Floats32 | None = None,
     ) -> Mask:
-        """Whether nothing lies between origin and origin + limit * direction.
-
-        Parameters
-        ----------
-        origin : (3, N) or (3, 1) float32
-        direction : (3, N) float32, any length but 0
-        limit : in lengths of the direction
-        time : of no consequence to triangles that don't move
-
-        Returns
-        -------
-        (N,) bool
-        """
+        """Whether nothing lies on the way; see ``AnyAccelerator.unoccluded``. Time is of no consequence."""
         n = direction.shape[1]
         if len(self._triangles) == 0 or n == 0:
             return np.ones(n, np.bool_)

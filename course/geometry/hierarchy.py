@@ -39,7 +39,7 @@ class HierarchyFunctions:
 
 
 class HierarchyAccelerator:
-    """Triangles that stand still behind the interface of ``Accelerator``; it adds its tests to the clock.
+    """Triangles that stand still behind ``course.geometry.accelerators.AnyAccelerator``; tests are added to the clock.
 
     Parameters
     ----------
@@ -78,7 +78,7 @@ class HierarchyAccelerator:
         coherent: bool = False,
         left: Objects | None = None,
     ) -> Intersections:
-        """Nearest hit of each ray; see ``Accelerator.intersect``.
+        """Nearest hit of each ray; see ``AnyAccelerator.intersect``.
 
         Raises
         ------
@@ -105,7 +105,7 @@ class HierarchyAccelerator:
         clock: QueryTime,
         time: Floats32 | None = None,
     ) -> Mask:
-        """Whether nothing lies between origin and origin + limit * direction; see ``Accelerator.unoccluded``.
+        """Whether nothing lies between origin and origin + limit * direction; see ``AnyAccelerator.unoccluded``.
 
         Raises
         ------

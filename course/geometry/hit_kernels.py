@@ -58,7 +58,7 @@ def _pulled(x, y, z, a, b, c, edges, normal, inset):
     types.float32(
         *(types.int32[::1], ROW, ROW, COLUMNS),
         *(COLUMNS, COLUMNS, COLUMNS, COLUMNS, types.boolean),
-        *(COLUMNS, COLUMNS, COLUMNS, COLUMNS, COLUMNS, ROW),
+        *(COLUMNS, COLUMNS, COLUMNS, ROW, COLUMNS, ROW),
     ),
     **OPTIONS,
 )
@@ -75,7 +75,7 @@ def find(
     p,
     ng,
     ns,
-    step,
+    offset,
     above,
     side,
 ):
@@ -86,7 +86,7 @@ def find(
     triangle, u, v, direction : (n,) and (3, n)
     corner_edges, normal_offset, inset, corner_normals : of ``Surface``; the last is (0, 9) where all triangles are flat
     bends : whether normals that look away from the ray are bent until they no longer do
-    p, ng, ns, step, above, side : (3, n) and (n,), filled; ``ns`` is (3, 0) where all triangles are flat
+    p, ng, ns, offset, above, side : (3, n) and (n,), filled; ``ns`` is (3, 0) where all triangles are flat
     """
     smooth = corner_normals.shape[0] > 0
     total = _NOTHING
@@ -109,14 +109,16 @@ def find(
         facing = _NOTHING + nx * dx + ny * dy + nz * dz
         way = np.float32(math.copysign(_ONE, -facing))
         nx, ny, nz = nx * way, ny * way, nz * way
-        offset = normal_offset[k, 3]
-        sx, sy, sz = nx * offset, ny * offset, nz * offset
+        far = normal_offset[k, 3]
         p[0, i], p[1, i], p[2, i] = x, y, z
         ng[0, i], ng[1, i], ng[2, i] = nx, ny, nz
-        step[0, i], step[1, i], step[2, i] = sx, sy, sz
-        above[0, i], above[1, i], above[2, i] = x + sx, y + sy, z + sz
-        side[i] = way
+        above[0, i], above[1, i], above[2, i] = x + nx * far, y + ny * far, z + nz * far
+        offset[i], side[i] = far, way
         if smooth:
+            if normal_offset[k, 5] > 0:
+                for c in range(3):
+                    ns[c, i] = corner_normals[k, c] * way
+                continue
             nx = corner_normals[k, 3] * a + corner_normals[k, 6] * b + corner_normals[k, 0]
             ny = corner_normals[k, 4] * a + corner_normals[k, 7] * b + corner_normals[k, 1]
             nz = corner_normals[k, 5] * a + corner_normals[k, 8] * b + corner_normals[k, 2]

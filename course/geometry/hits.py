@@ -15,7 +15,7 @@ from course.geometry.moving import MovingAccelerator
 from course.geometry.surface import Surface
 
 _Places = tuple[Floats32, Floats32, Floats32, Floats32, Floats32, Floats32]
-"""p, ng, ns, step, above, side; see ``Hits``."""
+"""p, ng, ns, offset, above, side; see ``Hits``."""
 
 
 @dataclass(frozen=True)
@@ -31,8 +31,8 @@ class Hits:
     direction : (3, n) float32, of the ray that came in
     p : (3, n) float32, the point
     ng, ns : (3, n) float32, unit geometric and shading normals, on the incoming side of the triangle
-    step : (3, n) float32, from the point to where rays leave on the incoming side
-    above : (3, n) float32, p + step
+    offset : (n,) float32, how far from the point rays leave
+    above : (3, n) float32, where they leave on the incoming side, p + offset ng
     time : (n,) float32, when; None where nothing moves
     side : (n,) float32, 1 where the ray meets the front of the triangle, -1 where it meets the back
     tint : (3, n) float32, what textures say; 1 where there is none, None where none of the hits has one
@@ -50,7 +50,7 @@ class Hits:
     p: Floats32
     ng: Floats32
     ns: Floats32
-    step: Floats32
+    offset: Floats32
     above: Floats32
     side: Floats32
     time: Floats32 | None = None
@@ -69,9 +69,9 @@ class Hits:
         return np.asarray(self.side > 0)
 
     def below(self, which: Indices) -> Floats32:
-        """(3, m) where refracted rays leave some of the hits from: the same step to the far side."""
+        """(3, m) where refracted rays leave some of the hits from: as far off, on the far side."""
         below: Floats32 = self.p.take(which, axis=1)
-        below -= self.step.take(which, axis=1)
+        below -= self.ng.take(which, axis=1) * self.offset.take(which)
         return below
 
     def leaving(self, which: Indices, direction: Floats32) -> Objects | None:
@@ -116,10 +116,10 @@ def find_hits(
         time = None if time is None else time.take(hit)
     compiled = surface.accelerator.compiled
     places = _compiled_places if compiled else _places
-    p, ng, ns, step, above, side = places(surface, triangle, u, v, direction)
+    p, ng, ns, offset, above, side = places(surface, triangle, u, v, direction)
     if isinstance(surface.accelerator, MovingAccelerator) and time is not None:
         surface.accelerator.follow(p, triangle, time)
-        np.add(p, step, out=above)
+        np.add(p, ng * offset, out=above)
     material = surface.material.take(triangle)
     if surface.bent is not None and ns is not ng:
         some = np.flatnonzero(surface.bent.take(material))
@@ -128,7 +128,7 @@ def find_hits(
         ns[:, some] = turned
     tint = None if surface.painting is None else surface.painting.tint(triangle, u, v)
     return Hits(
-        *(ray, triangle, u, v, t, material, direction, p, ng, ns, step, above, side),
+        *(ray, triangle, u, v, t, material, direction, p, ng, ns, offset, above, side),
         *(time, tint, compiled, surface.accelerator.convex),
     )
 
@@ -153,15 +153,15 @@ def _places(
     facing = dot(ng, direction)
     side = np.copysign(np.float32(1), -facing)
     ng *= side
-    step = ng * offset
-
     ns = ng
     if surface.corner_normals is not None:
-        ns = _interpolated(gather(surface.corner_normals, triangle), u, v)
-        ns *= side
-        if surface.bent is None:
-            _turn_to_viewer(ns, direction)
-    return p, ng, ns, step, p + step, side
+        rows = gather(surface.corner_normals, triangle)
+        ns = rows[0:3] * side
+        # Most triangles of a room have nothing to interpolate.
+        some = np.flatnonzero(normal[5] == 0)
+        if len(some):
+            ns[:, some] = _interpolated(surface, rows, u, v, side, direction, some)
+    return p, ng, ns, offset, p + ng * offset, side
 
 
 def _compiled_places(
@@ -171,15 +171,15 @@ def _compiled_places(
     from course.geometry import hit_kernels
 
     n = len(triangle)
-    p, ng, step, above = (np.empty((3, n), np.float32) for _ in range(4))
+    p, ng, above = (np.empty((3, n), np.float32) for _ in range(3))
     ns, corner_normals = np.empty((3, 0), np.float32), np.empty((0, 9), np.float32)
     if surface.corner_normals is not None:
         ns, corner_normals = np.empty((3, n), np.float32), surface.corner_normals
-    side = np.empty(n, np.float32)
+    offset, side = np.empty((2, n), np.float32)
     tables = surface.corner_edges, surface.normal_offset, surface.inset, corner_normals
     found = map(np.ascontiguousarray, (triangle, u, v, direction))
-    hit_kernels.find(*found, *tables, surface.bent is None, p, ng, ns, step, above, side)
-    return p, ng, ng if surface.corner_normals is None else ns, step, above, side
+    hit_kernels.find(*found, *tables, surface.bent is None, p, ng, ns, offset, above, side)
+    return p, ng, ng if surface.corner_normals is None else ns, offset, above, side
 
 
 def bulge(surface: Surface, hits: Hits, which: Indices) -> Floats32:
@@ -229,8 +229,19 @@ def _pull_off_edges(
     p[:, near] = moved
 
 
-def _interpolated(rows: Floats32, u: Floats32, v: Floats32) -> Floats32:
-    """Unit normals from rows n0, n1 - n0, n2 - n0."""
+def _interpolated(
+    surface: Surface,
+    rows: Floats32,
+    u: Floats32,
+    v: Floats32,
+    side: Floats32,
+    direction: Floats32,
+    which: Indices,
+) -> Floats32:
+    """Shading normals (3, m) of some of the hits, from rows (9, n) n0, n1 - n0, n2 - n0."""
+    if len(which) < len(u):
+        rows, direction = rows.take(which, axis=1), direction.take(which, axis=1)
+        u, v, side = u.take(which), v.take(which), side.take(which)
     normal = rows[3:6]
     normal *= u
     rows[6:9] *= v
@@ -240,6 +251,9 @@ def _interpolated(rows: Floats32, u: Floats32, v: Floats32) -> Floats32:
     # Opposite corner normals may cancel; any unit vector is as good as another there.
     np.maximum(squared, np.float32(1e-20), out=squared)
     normal *= 1 / np.sqrt(squared)
+    normal *= side
+    if surface.bent is None:
+        _turn_to_viewer(normal, direction)
     return normal
 
 

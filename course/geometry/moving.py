@@ -36,7 +36,7 @@ NEARLY_ALL = 0.9
 
 @dataclass(frozen=True)
 class MovingAccelerator:
-    """Static triangles and movers behind the interface of ``Accelerator``.
+    """Static triangles and movers behind ``course.geometry.accelerators.AnyAccelerator``.
 
     Attributes
     ----------
@@ -54,13 +54,13 @@ class MovingAccelerator:
         return None
 
     def use_packets(self, wanted: bool) -> None:
-        """See ``Accelerator.use_packets``."""
+        """See ``AnyAccelerator.use_packets``."""
         for accelerator in (self.static, *(mover.accelerator for mover in self.movers)):
             accelerator.use_packets(wanted)
 
     @property
     def compiled(self) -> bool:
-        """See ``Accelerator.compiled``."""
+        """Whether one of them uses compiled loops."""
         return self.static.compiled or any(mover.accelerator.compiled for mover in self.movers)
 
     def intersect(
@@ -72,7 +72,7 @@ class MovingAccelerator:
         coherent: bool = False,
         left: Objects | None = None,
     ) -> Intersections:
-        """Nearest hits at the rays' times (N,); see ``Accelerator.intersect``."""
+        """Nearest hits at the rays' times (N,); see ``AnyAccelerator.intersect``."""
         assert time is not None
         found = self.static.intersect(origin, direction, clock, coherent=coherent)
         origin = _each_its_own(origin, direction.shape[1])
@@ -104,7 +104,7 @@ class MovingAccelerator:
         clock: QueryTime,
         time: Floats32 | None,
     ) -> Mask:
-        """Whether the way is free at the rays' times; see ``Accelerator.unoccluded``."""
+        """Whether the way is free at the rays' times; see ``AnyAccelerator.unoccluded``."""
         assert time is not None
         free = self.static.unoccluded(origin, direction, limit, clock)
         origin = _each_its_own(origin, direction.shape[1])

@@ -31,6 +31,7 @@ from numpy.typing import NDArray
 
 from course.core.types import Floats, Floats32, Floats64, Mask, Materials, Numbers
 from course.core.vectors import cross, dot
+from course.geometry.accelerators import AnyAccelerator
 from course.geometry.convex import Extent
 from course.geometry.embree import Accelerator
 from course.geometry.hierarchy import HierarchyAccelerator, HierarchyFunctions
@@ -38,9 +39,6 @@ from course.geometry.mesh import Mesh
 from course.geometry.motion_functions import MotionFunctions
 from course.geometry.moving import Mover, MovingAccelerator
 from course.geometry.painting import Paint, Painting, make_painting
-
-AnyAccelerator = Accelerator | MovingAccelerator | HierarchyAccelerator
-"""What may answer the rays of a scene."""
 
 OFFSET = 2.0**-19
 """Rays leave a surface from a point this far above it, as a share of the largest coordinate of its triangle.
@@ -96,7 +94,8 @@ class Surface:
     Attributes
     ----------
     corner_edges : (T, 9) float32, p0, e1, e2
-    normal_offset : (T, 5) float32, ng (unit), the distance by which rays leave the surface, and the largest inset
+    normal_offset : (T, 6) float32, ng (unit), the distance by which rays leave the surface, the largest inset, and 1
+        where the triangle has one shading normal, 0 where there is something to interpolate
     inset : (T, 3) float32, the barycentrics w, u, v below which a point counts as next to an edge
     corner_normals : (T, 9) float32, n0, n1 - n0, n2 - n0, the longest normal of a triangle of length 1; or None when
         every triangle is flat
@@ -245,10 +244,12 @@ def _tables(part: Part, smooth: bool) -> _Tables:
     inset = np.minimum(INSET * offset * edges / twice_area, 1 / 3)
     corner_normals, bulge = np.zeros((2, 0, 0), np.float32)
     bend = 0.0
+    even = np.ones(len(triangles))
     if smooth:
         n = unit = np.repeat(ng[None], 3, axis=0)
         if mesh.normals is not None:
             n, unit = _at_corners(mesh.normals, triangles)
+            even = (n == n[0]).all(axis=(0, 1))
             cosine = min((float(dot(ng, corner).min(initial=1)) for corner in unit), default=1.0)
             bend = math.sqrt(max(1 - cosine * cosine, 0)) if cosine > 0 else 1.0
         corner_normals = _table(n[0], n[1] - n[0], n[2] - n[0])
@@ -258,7 +259,7 @@ def _tables(part: Part, smooth: bool) -> _Tables:
         vertices,
         triangles.astype(np.int32),
         _table(p[0], e1, e2),
-        _table(ng, offset[None], inset.max(axis=0)[None]),
+        _table(ng, offset[None], inset.max(axis=0)[None], even[None]),
         _table(inset),
         np.full(len(triangles), part.material, np.uint16),
         corner_normals,

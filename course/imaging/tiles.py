@@ -79,11 +79,15 @@ class Tile:
         return np.tile(x, self.height), np.repeat(y, self.width)
 
 
-def tile_picture(width: int, height: int, samples: int, batches: int = 1) -> list[Tile]:
-    """Tiles that cover a picture, each with about so many batches of RAYS rays at that many samples a pixel.
+def tile_picture(
+    width: int, height: int, samples: int, batches: int = 1, shares: int = 8
+) -> list[Tile]:
+    """Tiles that cover a picture, each with at most so many batches of RAYS rays at that many samples a pixel.
 
-    With several batches the last quarter of the tiles has one each, for threads that run out of work to wait less.
+    Where they may have several, a tile has about one part in ``shares`` of what is left, so that the last ones are
+    small and no thread waits long for another.
     """
+    one = max(RAYS // samples, 1)
     pixels = max(batches * RAYS // samples, 1)
     tile_width = 1
     while tile_width * tile_width < pixels:
@@ -94,31 +98,30 @@ def tile_picture(width: int, height: int, samples: int, batches: int = 1) -> lis
         for x in range(0, width, tile_width):
             size = min(tile_width, width - x), min(tile_height, height - y)
             tiles.append(Tile(len(tiles), x, y, *size))
-    # The small ones at the edges last, too.
-    tiles.sort(key=lambda tile: -tile.size)
     if batches > 1:
-        whole = len(tiles) - len(tiles) // 4
-        one = max(RAYS // samples, 1)
-        small = [part for tile in tiles[whole:] for part in _halved(tile, one)]
-        first = len(tiles)
-        tiles[whole:] = [replace(tile, number=first + place) for place, tile in enumerate(small)]
+        waiting, tiles, left = tiles[::-1], [], width * height
+        while waiting:
+            tile = waiting.pop()
+            if tile.size > max(left // shares, one):
+                waiting += _halves(tile)[::-1]
+            else:
+                left -= tile.size
+                tiles.append(replace(tile, number=len(tiles)))
+    # Small ones last, those at the picture's edges, too.
+    tiles.sort(key=lambda tile: -tile.size)
     return tiles
 
 
-def _halved(tile: Tile, most: int) -> list[Tile]:
-    """Halves, and halves of halves, until none has more than ``most`` pixels; all with the tile's number."""
-    if tile.size <= most:
-        return [tile]
+def _halves(tile: Tile) -> tuple[Tile, Tile]:
+    """Both halves of a tile of more than one pixel."""
     if tile.width > tile.height:
         half = tile.width // 2
-        parts = [
+        return (
             replace(tile, width=half),
             replace(tile, x=tile.x + half, width=tile.width - half),
-        ]
-    else:
-        half = tile.height // 2
-        parts = [
-            replace(tile, height=half),
-            replace(tile, y=tile.y + half, height=tile.height - half),
-        ]
-    return [piece for part in parts for piece in _halved(part, most)]
+        )
+    half = tile.height // 2
+    return (
+        replace(tile, height=half),
+        replace(tile, y=tile.y + half, height=tile.height - half),
+    )

@@ -24,6 +24,7 @@ from course.rendering.allocation import (
     rung,
     smoothed,
 )
+from course.rendering.passes import SHARES as PASS_SHARES
 from course.rendering.passes import Work
 
 SAFETY = 0.95
@@ -33,7 +34,7 @@ SMALLEST, LARGEST = RAYS, 2 * RAYS
 """Camera rays in a group of pixels, as far as pixels have so many samples to go: more than in a tile, for the hard
 pixels of a picture lose many of their rays on the way."""
 
-SHARE = 8
+SHARES = 8
 """Of what is left of a round a group is one part in so many: large ones first, and small ones at the end, so that no
 thread waits long for another."""
 
@@ -46,7 +47,9 @@ class Run(Protocol):
         ...
 
 
-def render_adaptively(film: AdaptiveFilm, error: float, budget: int, run: Run) -> bool:
+def render_adaptively(
+    film: AdaptiveFilm, error: float, budget: int, groups: Groups, run: Run
+) -> bool:
     """Add samples until the film's estimated error is at most ``error``; whether that was reached, or the budget spent.
 
     Parameters
@@ -55,7 +58,6 @@ def render_adaptively(film: AdaptiveFilm, error: float, budget: int, run: Run) -
     budget : samples of all pixels together
     """
     order = nearby_order(film.width, film.height)
-    groups = _Groups(film)
     have = film.samples.reshape(-1)
     wanted = np.full(len(have), min(FIRST, max(budget // len(have), 1)), np.int32)
     aim = (SAFETY * error) ** 2
@@ -107,12 +109,22 @@ def _within(wanted: Numbers, have: Numbers, best: Floats32, budget: int) -> Numb
     return result
 
 
-class _Groups:
-    """Divides the pixels of a round into groups that are rendered at once."""
+class Groups:
+    """Divides the pixels of a round into groups that are rendered at once.
 
-    def __init__(self, film: AdaptiveFilm) -> None:
-        self._width = film.width
+    Parameters
+    ----------
+    width : of the picture
+    batches : of rays that a group should have where there are so many
+    threads : that render
+    """
+
+    def __init__(self, width: int, batches: int = 1, threads: int = 1) -> None:
+        self._width = width
         self._count = 0
+        self._most = LARGEST if batches == 1 else batches * RAYS
+        # Where it makes a difference which pixels go together, it doesn't matter how many threads there are.
+        self._shares = SHARES if batches == 1 else PASS_SHARES * max(threads, 1)
 
     def stretches(self, have: Numbers, wanted: Numbers, order: Indices) -> list[Work]:
         """Work from the samples that the pixels have to those that they shall have, (P,) each.
@@ -130,7 +142,7 @@ class _Groups:
             chosen, step = kinds[place], steps[place]
             first = int(have[chosen[0]])
             while len(chosen):
-                most = max(min(max(left // SHARE, SMALLEST), LARGEST) // step, 1)
+                most = max(min(max(left // self._shares, SMALLEST), self._most) // step, 1)
                 # Equal groups rather than full ones and a rest.
                 part = -(-len(chosen) // -(-len(chosen) // most))
                 group = PixelGroup(self._count, chosen[:part], self._width)

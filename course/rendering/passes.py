@@ -10,14 +10,14 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from course.core.samplers import Sampler
-from course.imaging.tiles import RAYS, Area, tile_picture
+from course.imaging.tiles import Area, tile_picture
 from course.scene.world import Settings
 
 PASS = 16
 """Samples of each pixel in a whole pass of an extensible sampler."""
 
-ENOUGH = 8
-"""Tiles of a pass, so that threads find work and a time limit is kept."""
+SHARES = 2
+"""A tile of several batches has at most one part in so many of what each thread would get of what is left of a pass."""
 
 
 @dataclass(frozen=True)
@@ -44,18 +44,19 @@ def pass_size(settings: Settings, sampler: Sampler) -> int:
     return min(settings.samples, PASS) if sampler.extensible else settings.samples
 
 
-def passes(settings: Settings, sampler: Sampler, done: int = 0, batches: int = 1) -> Iterator[Work]:
+def passes(
+    settings: Settings, sampler: Sampler, done: int = 0, batches: int = 1, threads: int = 1
+) -> Iterator[Work]:
     """The work of a render, pass by pass.
 
     Parameters
     ----------
     done : samples that a film already holds, a multiple of PASS
-    batches : of rays that a tile should have; fewer where a pass would have less than ENOUGH tiles
+    batches : of rays that a tile may have
+    threads : that render
     """
     size = pass_size(settings, sampler)
-    pixels = settings.width * settings.height
-    batches = max(min(batches, pixels * size // (ENOUGH * RAYS)), 1)
-    tiles = tile_picture(settings.width, settings.height, size, batches)
+    tiles = tile_picture(settings.width, settings.height, size, batches, SHARES * max(threads, 1))
     for order, first in enumerate(range(done, settings.samples, size)):
         samples = min(size, settings.samples - first)
         whole = samples == PASS or not sampler.extensible

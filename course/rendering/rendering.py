@@ -15,7 +15,7 @@ from course.errors import CourseError, EffectError, OutputError
 from course.geometry.packets import available as packets_available
 from course.imaging.adaptive_film import AdaptiveFilm
 from course.imaging.film import Film
-from course.rendering.adaptive import render_adaptively
+from course.rendering.adaptive import Groups, render_adaptively
 from course.rendering.allocation import FIRST
 from course.rendering.binding import bind
 from course.rendering.corners import Corners
@@ -44,6 +44,9 @@ if TYPE_CHECKING:
     from course.rendering.cluster import Cluster
 
 Progress = Callable[[float, bool], None]
+
+HURRIED = 4
+"""Batches of rays in a tile where a time limit has to be kept; what has begun is finished first."""
 
 MOST_SAMPLES = 65536
 WORTH_COMPILED = 8_000_000
@@ -153,7 +156,7 @@ def render(
                     pool, scene, film, corners, settings, progress
                 )
             elif isinstance(film, AdaptiveFilm):
-                complete = _render_adaptively(pool, film, settings, deadline, progress)
+                complete = _render_adaptively(pool, tracer, film, settings, deadline, progress)
             elif deadline is None or time_limit is None:
                 complete = _render_all(pool, tracer, settings, done, progress)
             else:
@@ -297,7 +300,7 @@ def _check_start(start: Picture, settings: Settings, sampler: Sampler) -> int:
 def _render_all(
     pool: Pool | Cluster, tracer: Tracer, settings: Settings, done: int, progress: Progress | None
 ) -> bool:
-    work = list(passes(settings, tracer.sampler, done, tracer.batches))
+    work = list(passes(settings, tracer.sampler, done, tracer.batches, pool.threads))
     first_pass = sum(item.order == 0 for item in work)
 
     def tick(count: int, count_first: int) -> None:
@@ -335,7 +338,8 @@ def _render_until(
         seconds = monotonic() - before
         if seconds * size / quick < 0.5 * (deadline - monotonic()):
             break
-    return pool.run(passes(settings, tracer.sampler, done, tracer.batches), deadline, tick)
+    work = passes(settings, tracer.sampler, done, min(tracer.batches, HURRIED), pool.threads)
+    return pool.run(work, deadline, tick)
 
 
 class _Rounds:
@@ -364,6 +368,7 @@ class _Rounds:
 
 def _render_adaptively(
     pool: Pool | Cluster,
+    tracer: Tracer,
     film: AdaptiveFilm,
     settings: Settings,
     deadline: float | None,
@@ -377,7 +382,9 @@ def _render_adaptively(
             return False
     assert settings.error is not None
     budget = settings.samples * settings.width * settings.height
-    return render_adaptively(film, settings.error, budget, run)
+    batches = tracer.batches if deadline is None else min(tracer.batches, HURRIED)
+    groups = Groups(settings.width, batches, pool.threads)
+    return render_adaptively(film, settings.error, budget, groups, run)
 
 
 def _render_subdivided(

@@ -39,9 +39,9 @@ def facing(ns, material, side, to_light, inverse_length, factor, shaded, which, 
         angle *= inverse_length[k]
         light = angle * factor[k]
         row = 1 if len(shaded) > 1 and not side[i] > 0 else 0
-        if light > 0 and (len(shaded) == 0 or shaded[row, material[i]]):
-            which[found], strength[found], cosine[found] = i, light, angle
-            found += 1
+        # Which face it is chance, so a branch would be foretold badly: the others are overwritten by the next.
+        which[found], strength[found], cosine[found] = i, light, angle
+        found += (light > 0) & (len(shaded) == 0 or shaded[row, material[i]])
     return found
 
 

@@ -43,19 +43,20 @@ def draw(pixels, samples, path, points, salts, first, u):
     u : (1 or 2, n), filled
     """
     orders = np.uint32(points.shape[1])
-    last = -1
+    # The paths of a pixel mostly stand together: as long as they do, nothing is divided and nothing is hashed.
+    begin = end = np.int64(0)
     order = np.int64(0)
     scramble, other = np.uint32(0), np.uint32(0)
     for i in range(len(path)):
-        pixel = path[i] // samples
-        if pixel != last:
-            # Paths of a pixel mostly stand together.
-            last = pixel
+        if not begin <= path[i] < end:
+            pixel = np.uint32(path[i]) // np.uint32(samples)
+            begin = np.int64(pixel) * samples
+            end = begin + samples
             order = np.int64(_hashed(pixels[pixel], salts[0]) % orders)
             scramble = _hashed(pixels[pixel], salts[1 + first])
             if u.shape[0] > 1:
                 other = _hashed(pixels[pixel], salts[2])
-        sample = path[i] - pixel * samples
+        sample = path[i] - begin
         u[0, i] = np.float32((points[first, order, sample] ^ scramble) >> _BYTE) * TO_UNIT
         if u.shape[0] > 1:
             u[1, i] = np.float32((points[1, order, sample] ^ other) >> _BYTE) * TO_UNIT

@@ -227,7 +227,7 @@ def _ordered(
     if compiled:
         from course.transport import way_kernels
 
-        which, counts = np.empty(len(kind), np.int64), np.empty(3, np.int64)
+        which, counts = np.empty(len(kind) + 1, np.int64), np.empty(3, np.int64)
         total = way_kernels.sort(np.ascontiguousarray(goes_on), kind, which, counts)
         return which[:total], int(counts[0]), int(counts[0] + counts[1])
     which = np.flatnonzero(goes_on)

@@ -9,6 +9,7 @@ with a surface, from its front, and objects that are lights, from both sides.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -48,16 +49,36 @@ class _Piece:
     Attributes
     ----------
     sees : (n,) which rays bring light from lamps and the environment; None for none of them
-    draws : of the part of the block that the paths are numbered in
-    film : (3, paths of that part) float32
-    start : of that part's paths in the block
+    pixels : of the block, in whose paths theirs are numbered
+    draws : of these pixels
+    film : (3, paths of these pixels) float32
     """
 
     rays: Rays
     sees: Mask | None
+    pixels: slice
     draws: Draws
     film: Floats32
-    start: int
+
+
+@dataclass(frozen=True)
+class _Whole:
+    """A block, whose pixels are followed in pieces.
+
+    Attributes
+    ----------
+    film : (3, paths of the block) float32
+    """
+
+    draws: Draws
+    film: Floats32
+
+    def piece(self, rays: Rays, sees: Mask | None, pixels: slice) -> _Piece:
+        """Paths of some of the pixels."""
+        block = self.draws.block
+        paths = slice(pixels.start * block.samples, pixels.stop * block.samples)
+        part = replace(block, pixels=block.pixels[pixels])
+        return _Piece(rays, sees, pixels, self.draws.part(part, paths), self.film[:, paths])
 
 
 @dataclass(frozen=True)
@@ -68,7 +89,7 @@ class PathTracer(Tracer):
     def batches(self) -> int:
         """Batches of rays in a tile: most paths end soon, and the few that are left of several batches make one."""
         # Sobol points are each pixel's own; those of other samplers belong to a tile, which can't be divided.
-        return 4 if isinstance(self.sampler, SobolSampler) else 1
+        return 16 if isinstance(self.sampler, SobolSampler) else 1
 
     @cached_property
     def _paths(self) -> Paths:
@@ -107,43 +128,51 @@ class PathTracer(Tracer):
     def _trace(self, camera_rays: Rays, paths: int, draws: Draws, counters: Counters) -> Floats32:
         """Radiance (3, paths) that the paths bring back."""
         film = np.zeros((3, paths), np.float32)
-        pieces = self._pieces(camera_rays, draws, film)
-        depth = 0
-        while pieces:
-            following = []
-            for piece in pieces:
-                if draws.cancelled():
-                    raise CancelledError
-                rest = self._step(piece.rays, piece.sees, depth, piece.film, piece.draws, counters)
-                if rest is not None:
-                    following.append(replace(piece, rays=rest[0], sees=rest[1]))
-            pieces = following
-            if len(pieces) > 1 and sum(piece.rays.size for piece in pieces) <= RAYS:
-                pieces = [_joined(pieces, draws, film)]
-            depth += 1
+        whole = _Whole(draws, film)
+        # By depth: few rays cost nearly as much as many, so a batch that has become small waits for others.
+        waiting: dict[int, _Piece] = {}
+        for piece in self._pieces(camera_rays, whole):
+            self._advance(piece, 0, waiting, RAYS // 2, whole, counters)
+        while waiting:
+            depth = min(waiting)
+            self._advance(waiting.pop(depth), depth, waiting, 0, whole, counters)
         return film
 
-    def _pieces(self, rays: Rays, draws: Draws, film: Floats32) -> list[_Piece]:
+    def _advance(
+        self,
+        piece: _Piece,
+        depth: int,
+        waiting: dict[int, _Piece],
+        least: int,
+        whole: _Whole,
+        counters: Counters,
+    ) -> None:
+        """Follow paths until fewer than ``least`` are left, which wait for others of their depth."""
+        while True:
+            if whole.draws.cancelled():
+                raise CancelledError
+            rest = self._step(piece.rays, piece.sees, depth, piece.film, piece.draws, counters)
+            if rest is None:
+                return
+            depth += 1
+            piece = replace(piece, rays=rest[0], sees=rest[1])
+            others = waiting.get(depth)
+            if others is not None and others.rays.size + piece.rays.size <= RAYS:
+                piece = _joined(waiting.pop(depth), piece, whole)
+            if depth not in waiting and piece.rays.size < least:
+                waiting[depth] = piece
+                return
+
+    def _pieces(self, rays: Rays, whole: _Whole) -> Iterator[_Piece]:
         """The block's camera rays in batches of RAYS, each with the pixels that it belongs to."""
-        block = draws.block
+        block = whole.draws.block
         pixels = len(block.pixels)
         count = min(-(-block.size // RAYS), self.batches, pixels)
-        pieces = []
-        for number in range(count):
-            mine = slice(pixels * number // count, pixels * (number + 1) // count)
+        ends = [pixels * number // count for number in range(count + 1)]
+        for mine in map(slice, ends[:-1], ends[1:]):
             paths = slice(mine.start * block.samples, mine.stop * block.samples)
-            part = replace(block, pixels=block.pixels[mine])
             some = rays if count == 1 else rays.part(paths)
-            pieces.append(
-                _Piece(
-                    some,
-                    np.ones(part.size, np.bool_),
-                    draws.part(part, paths),
-                    film[:, paths],
-                    paths.start,
-                )
-            )
-        return pieces
+            yield whole.piece(some, np.ones(some.size, np.bool_), mine)
 
     def _step(
         self,
@@ -236,18 +265,22 @@ def _added(radiance: Floats32 | None, hits: Hits, glow: Glow, seen: Mask | None)
     return radiance
 
 
-def _joined(pieces: list[_Piece], draws: Draws, film: Floats32) -> _Piece:
-    """What is left of all pieces as one, of the whole block."""
+def _joined(first: _Piece, second: _Piece, whole: _Whole) -> _Piece:
+    """Paths of the same depth as one."""
+    pieces = first, second
+    ends = [(piece.pixels.start, piece.pixels.stop) for piece in pieces]
+    pixels = slice(min(start for start, _ in ends), max(stop for _, stop in ends))
     numbered = []
     for piece in pieces:
         assert piece.rays.path is not None
-        numbered.append(replace(piece.rays, path=piece.rays.path + piece.start))
+        before = (piece.pixels.start - pixels.start) * whole.draws.block.samples
+        numbered.append(replace(piece.rays, path=piece.rays.path + before))
     sees = None
-    if any(piece.sees is not None for piece in pieces):
+    if first.sees is not None or second.sees is not None:
         sees = np.concatenate(
             [
                 np.zeros(piece.rays.size, np.bool_) if piece.sees is None else piece.sees
                 for piece in pieces
             ]
         )
-    return _Piece(joined(numbered), sees, draws, film, 0)
+    return whole.piece(joined(numbered), sees, pixels)

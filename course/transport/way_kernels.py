@@ -138,46 +138,37 @@ def sort(goes_on, kind, which, counts):
     Parameters
     ----------
     goes_on, kind : (n,) of all hits
-    which : (n,) filled from the beginning with those that go on
+    which : (n + 1,) filled from the beginning with those that go on
     counts : (3,) filled with how many take each way
 
     Returns
     -------
     how many go on
     """
-    counts[:] = 0
-    for i in range(len(kind)):
-        if goes_on[i]:
-            counts[kind[i]] += 1
-    diffuse, mirrored, refracted = 0, counts[0], counts[0] + counts[1]
-    for i in range(len(kind)):
-        if not goes_on[i]:
-            continue
-        if kind[i] == DIFFUSE:
-            which[diffuse] = i
-            diffuse += 1
-        elif kind[i] == MIRRORED:
-            which[mirrored] = i
-            mirrored += 1
-        else:
-            which[refracted] = i
-            refracted += 1
-    return refracted
+    found = 0
+    for way in (DIFFUSE, MIRRORED, REFRACTED):
+        before = found
+        # Which go on is chance, so a branch would be foretold badly: the others are overwritten by the next.
+        for i in range(len(kind)):
+            which[found] = i
+            found += goes_on[i] & (kind[i] == way)
+        counts[way] = found - before
+    return found
 
 
-@njit(types.void(types.int64[::1], types.int64, *(COLUMNS,) * 6), **OPTIONS)
-def leave(which, above_until, above, p, step, after, origin, throughput):
+@njit(types.void(types.int64[::1], types.int64, *(COLUMNS,) * 3, ROW, *(COLUMNS,) * 3), **OPTIONS)
+def leave(which, above_until, above, p, ng, offset, after, origin, throughput):
     """Where the rays that go on start, and what they carry.
 
     Parameters
     ----------
     which : (m,) the hits that they leave
     above_until : how many of them leave on the side that the light came from; the others go through
-    above, p, step, after : (3, n) of all hits
+    above, p, ng, offset, after : (3, n) and (n,) of all hits
     origin, throughput : (3, m), filled
     """
     for i in range(len(which)):
         j = which[i]
         for c in range(3):
-            origin[c, i] = above[c, j] if i < above_until else p[c, j] - step[c, j]
+            origin[c, i] = above[c, j] if i < above_until else p[c, j] - ng[c, j] * offset[j]
             throughput[c, i] = after[c, j]

@@ -165,7 +165,7 @@ def departures(
         from course.transport import way_kernels
 
         origin, throughput = np.empty((2, 3, len(which)), np.float32)
-        arrays = hits.above, hits.p, hits.step, after
+        arrays = hits.above, hits.p, hits.ng, hits.offset, after
         way_kernels.leave(which, crossing, *map(np.ascontiguousarray, arrays), origin, throughput)
         return origin, throughput
     origin = hits.above.take(which[:crossing], axis=1)

@@ -62,7 +62,17 @@ WINDOW = {
     "edge_v": [0, 0, 3],
     "radiance": 6,
 }
+SCREEN = {**WINDOW, "corner": [-0.9, 0.3, -2], "radiance": 3, "visible": False}
+"""Between the box and the ball."""
+DARK = {**ALONE, "environment.radiance": 0.02, "sampler.samples": 64}
 PLAIN = {"materials.floor": {"color": 0.5}}
+GRAZED = {
+    **ALONE,
+    **PLAIN,
+    "lights.1.center": [-2.5, 3.5, -2.5],
+    "materials.ball": {"color": [0.3, 0.1, 0.06], "specular": 1, "exponent": 4},
+}
+"""Lit from behind: where the light grazes the ball its highlight is widest."""
 LARGE = {**ALONE, **PLAIN, "lights.1.radius": 2, "sampler.samples": 1}
 """A ray for each pixel: with more of them several of the values end in the same picture."""
 GLOBE = {
@@ -287,6 +297,9 @@ VARIANTS: dict[tuple[str, str], list[tuple[str, Changes]]] = {
     ("MaterialDescription", "exponent"): _values(
         "materials.ball.exponent", 8, 32, 200, on={"materials.ball.specular": 0.5}
     ),
+    ("MaterialDescription", "highlight"): _values(
+        "materials.ball.highlight", "cosine", "plain", on=GRAZED
+    ),
     ("MaterialDescription", "emission"): _values("materials.ball.emission", 0, [0.9, 0.5, 0.1]),
     ("MaterialDescription", "mirror"): _values(
         "materials.ball.mirror", 0, 0.3, 0.9, on={"materials.ball.color": 0.1}
@@ -382,6 +395,13 @@ VARIANTS: dict[tuple[str, str], list[tuple[str, Changes]]] = {
     ("RectangleLight", "edge_u"): [
         (f"edge_u: {edge}", {**ALONE, "lights.1": {**WINDOW, "edge_u": edge}})
         for edge in ([0, 0.3, 0], [0, 1.6, 0])
+    ],
+    ("RectangleLight", "two_sided"): [
+        (
+            f"two_sided: {_said(value)}",
+            {**DARK, "lights.1": {**SCREEN, "two_sided": value}},
+        )
+        for value in (False, True)
     ],
     ("RectangleLight", "visible"): [
         (f"visible: {_said(value)}", {**ALONE, "lights.1": {**WINDOW, "visible": value}})

@@ -51,6 +51,31 @@ def test_values_show_a_difference(definition: str) -> None:
             assert np.abs(first - second).max() > APART, f"{definition}.{key}: {one}, {other}"
 
 
+def test_a_plain_highlight_ends_where_the_light_does() -> None:
+    """With the cosine it has faded away by then: the upper left of the ball shines much less."""
+    said, shown = _shown("MaterialDescription", "highlight")
+    assert said == ["highlight: cosine", "highlight: plain"]
+    shining = [picture[5:10, 11:17].mean() for picture in shown]
+    assert shining[1] > 1.4 * shining[0]
+
+
+def test_the_other_side_of_a_light_is_dark_unless_it_has_two() -> None:
+    """The box stands behind it: in the left third of the picture, level with the ball."""
+    said, shown = _shown("RectangleLight", "two_sided")
+    assert said == ["two_sided: false", "two_sided: true"]
+    box = [picture[11:16, 3:8].mean() for picture in shown]
+    assert box[1] > 3 * box[0]
+    # What stands before it stays as it is.
+    ball = [picture[8:16, 13:18].mean() for picture in shown]
+    assert abs(ball[1] - ball[0]) < 0.1 * ball[0]
+
+
+def _shown(definition: str, key: str) -> tuple[list[str], list[np.ndarray]]:
+    """What is said of a key's values, and the means of the blocks of their pictures."""
+    said, changes = zip(*VARIANTS[definition, key], strict=True)
+    return list(said), [_blocks(key_pictures.image(each, SMALL)) for each in changes]
+
+
 def test_a_value_is_named_as_it_is_written() -> None:
     said = [said for said, _ in VARIANTS["RectangleLight", "visible"]]
     assert said == ["visible: true", "visible: false"]

@@ -17,7 +17,7 @@ from course.geometry.surface import Part, Surface, build_surface
 if not packets.available():
     pytest.skip("Numba is not installed (pip install .[fast])", allow_module_level=True)
 
-PLACES = ("p", "ng", "ns", "step", "above", "side", "u", "v", "t", "triangle", "material")
+PLACES = ("p", "ng", "ns", "offset", "above", "side", "u", "v", "t", "triangle", "material")
 TURN = transforms.rotate(np.array([1.0, 2.0, 3.0]), 33.0)
 BOX = transforms.apply(shapes.box((1.2, 1, 0.5)), TURN)
 MESHES = {
@@ -77,6 +77,18 @@ def test_places_and_normals(name: str, share: float, bends: bool) -> None:
             away = (loop.ns * direction).sum(axis=0)
             assert ((np.abs(away) < 1e-6).sum() > 50) == bends
             assert ((away > 1e-3).sum() > 50) == (not bends)
+
+
+@pytest.mark.parametrize("name", MESHES)
+def test_only_round_triangles_have_normals_to_interpolate(name: str) -> None:
+    """A cone has both: its base is flat, its side isn't."""
+    surface, found, direction = met(MESHES[name], 1.0, bends=False)
+    flat = surface.normal_offset[:, 5] > 0
+    share = {"coarse sphere": 0.0, "box": 1.0, "box without normals": 1.0}.get(name, 0.5)
+    assert abs(flat.mean() - share) < 0.03
+    for hits in both(surface, found, direction):
+        off = np.abs(hits.ns - hits.ng).max(axis=0)[flat[hits.triangle]]
+        assert off.max(initial=0) < 3e-5
 
 
 @pytest.mark.parametrize("name", MESHES)

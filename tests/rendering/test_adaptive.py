@@ -27,7 +27,7 @@ from course.errors import CourseError, SceneError
 from course.imaging.adaptive_film import PARTS, AdaptiveFilm
 from course.imaging.reading import read_picture
 from course.rendering import adaptive, pool, rendering
-from course.rendering.adaptive import render_adaptively
+from course.rendering.adaptive import Groups, render_adaptively
 from course.rendering.allocation import FIRST, LADDER, LONGEST
 from course.rendering.passes import Work
 from course.transport.tracing import Tracer
@@ -187,7 +187,8 @@ class Noise:
             self._numbers.add(item.tile.number)
 
     def render(self, error: float, budget: int = 65536) -> bool:
-        return render_adaptively(self.film, error, budget * self._deviation.size, self)
+        groups = Groups(self.film.width)
+        return render_adaptively(self.film, error, budget * self._deviation.size, groups, self)
 
 
 def spots(width: int, height: int, seed: int = 1) -> Array:
@@ -319,7 +320,7 @@ def test_threads_and_the_order_of_the_work_do_not_change_a_bit(
     assert np.isfinite(one.linear).all()
     for threads in (2, 3):
         assert same(one, picture(threads))
-    stretches = adaptive._Groups.stretches
+    stretches = Groups.stretches
     for arrange in (list.reverse, random.Random(6).shuffle):
         moved: list[bool] = []
 
@@ -331,7 +332,7 @@ def test_threads_and_the_order_of_the_work_do_not_change_a_bit(
             arrange(work)
             return work
 
-        monkeypatch.setattr(adaptive._Groups, "stretches", arranged)
+        monkeypatch.setattr(Groups, "stretches", arranged)
         assert same(one, picture(2))
         assert sum(moved) > 2
     monkeypatch.undo()

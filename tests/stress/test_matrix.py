@@ -30,6 +30,7 @@ from benchmarks.stress.cells import (
     short_form,
     tame,
 )
+from benchmarks.stress.files import SceneFiles
 from benchmarks.stress.page import BEGIN, END, write_page
 from benchmarks.stress.placement import Placement
 from benchmarks.stress.probes import Response, probe
@@ -38,7 +39,9 @@ from benchmarks.stress.running import judge_all, judge_some
 from benchmarks.stress.shrinking import shrunk, wild_levels
 from benchmarks.stress.triangles import cut
 from benchmarks.stress.verdict import FALSE_FAIL, SCENES, Judge, Verdict, compare, most_of
+from course import render
 from course.geometry import surface
+from course.geometry.packets import available as packets_available
 from course.geometry.shapes import displaced_sphere
 
 CELLS = all_cells()
@@ -198,6 +201,52 @@ def test_a_light_that_is_an_object_keeps_its_distance(size: str) -> None:
     assert distance.max() <= each["light size"]
     x, y, z = parts.LIGHT
     assert thing["transform"] == [{"translate": [x, y + each["light size"], z]}]
+
+
+def test_the_visible_part_is_of_a_visible_sphere(tmp_path: Path) -> None:
+    """The same lamp, and about the same light in the room, by other points of it."""
+    for size in AXES["light size"]:
+        part, whole = (
+            parts.lamp(each, parts.placement(each))
+            for each in (
+                cell("room", light=kind, light_size=size.name)
+                for kind in (parts.VISIBLE_PART, "visible sphere")
+            )
+        )
+        assert whole is not None
+        assert part == whole | {"samples": "visible"}
+        assert "radiance" in whole
+    each = cell("room", light=parts.VISIBLE_PART, light_size="1")
+    pictures = [
+        room.room(some).picture(tmp_path)
+        for some in (each, each.with_level("light", "visible sphere"))
+    ]
+    assert not np.array_equal(*pictures)
+    assert 0.9 < pictures[0].mean() / pictures[1].mean() < 1.1
+    assert room.least_in_furnace(each) == 0
+
+
+@pytest.mark.skipif(not packets_available(), reason="without Numba there is one way alone")
+def test_a_cell_may_be_judged_with_compiled_loops_or_without(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The same in the picture, the furnace and the twin, and the verdict too."""
+    asked = []
+
+    def rendered(*args: Any, **options: Any) -> Any:
+        asked.append(options["compiled"])
+        return render(*args, **options)
+
+    monkeypatch.setattr("benchmarks.stress.files.render", rendered)
+    each = cell("room", light=parts.VISIBLE_PART)
+    verdicts = []
+    for compiled in (True, False, None):
+        verdicts += judge_all([each], 1, compiled=compiled)
+        # The twin and six changes of it; the cell and the furnace.
+        assert asked == [compiled] * 9
+        asked.clear()
+    assert all(verdict.passed for verdict in verdicts)
+    assert verdicts[0].error == verdicts[1].error
 
 
 def test_points_by_rejection_are_one_point_in_the_room() -> None:
@@ -433,6 +482,22 @@ def test_one_cell_can_be_judged_alone_from_the_command_line(
     refused = CliRunner().invoke(main, ["--cell", "room-9999"])
     assert refused.exit_code == 2
     assert "no cell room-9999" in refused.output
+
+
+def test_the_cells_of_one_light_can_be_judged_from_the_command_line(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    asked = []
+    monkeypatch.setattr(SceneFiles, "picture", lambda _self, _folder, how: asked.append(how))
+    command = ["--light", parts.VISIBLE_PART, "--short", "--compiled", "--jobs", "1", "--json", "a"]
+    CliRunner().invoke(main, command)
+    levels = [each["levels"] for each in json.loads((tmp_path / "a").read_text())["verdicts"]]
+    assert {each["light"] for each in levels} == {parts.VISIBLE_PART}
+    assert len(levels) > 5
+    assert set(asked) == {True}
+    refused = CliRunner().invoke(main, ["--light", "lantern"])
+    assert refused.exit_code == 2
 
 
 def test_a_broken_cell_is_the_exit_code_and_is_named(

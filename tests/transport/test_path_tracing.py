@@ -22,6 +22,7 @@ from course.errors import EffectError, SceneError
 from course.geometry import shapes
 from course.rendering import passes
 from course.scene.scene import load_scene
+from course.transport import path_tracing
 from course.transport.path_tracing import PathTracer
 from tests.effects import skies
 
@@ -401,7 +402,7 @@ def test_batches_that_are_followed_together_give_the_same_bits(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     scene = load_scene(PROJECT / "scenes" / "path_tracing.yaml")
-    monkeypatch.setattr(passes, "ENOUGH", 1)
+    monkeypatch.setattr(passes, "SHARES", 1)
 
     def picture(batches: int, **settings: Any) -> bytes:
         monkeypatch.setattr(PathTracer, "batches", batches)
@@ -409,7 +410,12 @@ def test_batches_that_are_followed_together_give_the_same_bits(
 
     # 4.4 batches of rays, in tiles of one, of two and of four.
     assert picture(1) == picture(2) == picture(4)
+    assert picture(4, threads=1) == picture(4, threads=3)
     assert picture(1, error=0.05) == picture(4, error=0.05)
+    # Batches that wait for others at many depths, and some that overtake those that wait.
+    one = picture(1)
+    monkeypatch.setattr(path_tracing, "RAYS", 3000)
+    assert picture(64) == one
 
 
 def test_the_receipt_says_what_was_called(make_scene: MakeScene) -> None:

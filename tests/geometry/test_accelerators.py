@@ -1,0 +1,61 @@
+"""All that may answer rays has one interface: mypy compares the types, and here are names, places and answers."""
+
+from __future__ import annotations
+
+import inspect
+from typing import Any
+
+import numpy as np
+import pytest
+
+from course.geometry.accelerators import AnyAccelerator
+from course.geometry.embree import Accelerator, QueryTime
+from course.geometry.hierarchy import HierarchyAccelerator, HierarchyFunctions
+from course.geometry.moving import MovingAccelerator
+from solutions import bounding_volumes, motion_blur
+
+KINDS = (Accelerator, MovingAccelerator, HierarchyAccelerator)
+QUERIES = ("intersect", "unoccluded")
+
+VERTICES = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], np.float32)
+TRIANGLES = np.array([[0, 1, 2]], np.int32)
+
+
+def made(kind: type) -> AnyAccelerator:
+    """One triangle that stands still in z = 0."""
+    if kind is HierarchyAccelerator:
+        functions = HierarchyFunctions(bounding_volumes.build, bounding_volumes.traverse, 4)
+        return HierarchyAccelerator(VERTICES, TRIANGLES, functions)
+    still = Accelerator(VERTICES, TRIANGLES)
+    if kind is Accelerator:
+        return still
+    return MovingAccelerator(still, (), motion_blur.to_object_space, motion_blur.displacement)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("query", QUERIES)
+def test_queries_take_what_the_interface_says(kind: type, query: str) -> None:
+    wanted = inspect.signature(getattr(AnyAccelerator, query)).parameters
+    has = inspect.signature(getattr(kind, query)).parameters
+    by_place = [name for name, each in wanted.items() if each.kind is not each.KEYWORD_ONLY]
+    assert list(has)[: len(by_place)] == by_place
+    for name in wanted.keys() - set(by_place):
+        assert has[name].default == wanted[name].default
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_who_knows_the_interface_alone_gets_the_same_answers(kind: type) -> None:
+    accelerator: Any = made(kind)
+    assert accelerator.compiled is False
+    assert accelerator.convex is None
+    accelerator.use_packets(False)
+    # The second one passes the triangle by.
+    origin = np.array([[0.25, 0.9], [0.25, 0.9], [2, 2]], np.float32)
+    direction = np.repeat(np.array([[0], [0], [-1]], np.float32), 2, axis=1)
+    time = np.zeros(2, np.float32)
+    clock = QueryTime()
+    found = accelerator.intersect(origin, direction, clock, time, coherent=True, left=None)
+    assert found.triangle.tolist() == [0, -1]
+    np.testing.assert_allclose([found.t[0], found.u[0], found.v[0]], [2, 0.25, 0.25], rtol=1e-6)
+    assert accelerator.unoccluded(origin, direction, 3.0, clock, time).tolist() == [False, True]
+    assert accelerator.unoccluded(origin, direction, 1.5, clock, time).tolist() == [True, True]
