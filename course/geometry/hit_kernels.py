@@ -20,10 +20,11 @@ _AHEAD = 64
 
 
 @njit(**OPTIONS)
-def _touched(triangle, corner_edges, normal_offset, corner_normals):
+def _touched(begin, end, hit, triangle, corner_edges, normal_offset, corner_normals):
     """Read a number of each row, so that it is in the cache; the sum is there so that the reading isn't left out."""
     total = _NOTHING
-    for k in triangle:
+    for i in range(begin, end):
+        k = triangle[hit[i] if len(hit) else i]
         total += normal_offset[k, 0] + corner_edges[k, 0] + corner_edges[k, 8]
         if corner_normals.shape[0]:
             total += corner_normals[k, 0] + corner_normals[k, 8]
@@ -56,22 +57,30 @@ def _pulled(x, y, z, a, b, c, edges, normal, inset):
 
 @njit(
     types.float32(
-        *(types.int32[::1], ROW, ROW, COLUMNS),
-        *(COLUMNS, COLUMNS, COLUMNS, COLUMNS, types.boolean),
+        *(types.int64[::1], types.int32[::1], ROW, ROW, ROW, COLUMNS),
+        *(COLUMNS, COLUMNS, COLUMNS, COLUMNS, types.uint16[::1], types.boolean),
+        *(types.int32[::1], COLUMNS, COLUMNS, types.uint16[::1]),
         *(COLUMNS, COLUMNS, COLUMNS, ROW, COLUMNS, ROW),
     ),
     **OPTIONS,
 )
 def find(
+    hit,
     triangle,
     u,
     v,
+    t,
     direction,
     corner_edges,
     normal_offset,
     inset,
     corner_normals,
+    materials,
     bends,
+    met,
+    uvt,
+    arriving,
+    material,
     p,
     ng,
     ns,
@@ -79,23 +88,34 @@ def find(
     above,
     side,
 ):
-    """Fill what ``Hits`` says of the places; what is returned means nothing.
+    """Fill what ``Hits`` says; what is returned means nothing.
 
     Parameters
     ----------
-    triangle, u, v, direction : (n,) and (3, n)
+    hit : (n,) which of the rays hit something; (0,) for all
+    triangle, u, v, t, direction : (N,) and (3, N) of the rays
     corner_edges, normal_offset, inset, corner_normals : of ``Surface``; the last is (0, 9) where all triangles are flat
+    materials : (T,) of ``Surface``
     bends : whether normals that look away from the ray are bent until they no longer do
-    p, ng, ns, offset, above, side : (3, n) and (n,), filled; ``ns`` is (3, 0) where all triangles are flat
+    met, uvt, arriving : (n,) and (3, n), filled with the above of the rays that hit; without columns if all do
+    material, p, ng, ns, offset, above, side : (n,) and (3, n), filled; ``ns`` is (3, 0) where all triangles are flat
     """
     smooth = corner_normals.shape[0] > 0
+    some = len(hit) > 0
     total = _NOTHING
-    for i in range(len(triangle)):
+    for i in range(len(side)):
         if i % _AHEAD == 0:
-            total += _touched(triangle[i : i + _AHEAD], corner_edges, normal_offset, corner_normals)
-        k = triangle[i]
-        a, b = u[i], v[i]
-        dx, dy, dz = direction[0, i], direction[1, i], direction[2, i]
+            end = min(i + _AHEAD, len(side))
+            total += _touched(i, end, hit, triangle, corner_edges, normal_offset, corner_normals)
+        j = hit[i] if some else i
+        k = triangle[j]
+        a, b = u[j], v[j]
+        dx, dy, dz = direction[0, j], direction[1, j], direction[2, j]
+        if some:
+            met[i] = k
+            uvt[0, i], uvt[1, i], uvt[2, i] = a, b, t[j]
+            arriving[0, i], arriving[1, i], arriving[2, i] = dx, dy, dz
+        material[i] = materials[k]
         x = corner_edges[k, 3] * a + corner_edges[k, 6] * b + corner_edges[k, 0]
         y = corner_edges[k, 4] * a + corner_edges[k, 7] * b + corner_edges[k, 1]
         z = corner_edges[k, 5] * a + corner_edges[k, 8] * b + corner_edges[k, 2]

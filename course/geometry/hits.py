@@ -17,6 +17,13 @@ from course.geometry.surface import Surface
 _Places = tuple[Floats32, Floats32, Floats32, Floats32, Floats32, Floats32]
 """p, ng, ns, offset, above, side; see ``Hits``."""
 
+_Found = tuple[Indices | None, Numbers, Floats32, Floats32, Floats32, Materials, Floats32, _Places]
+"""ray, triangle, u, v, t, material, direction; see ``Hits``."""
+
+_ALL_RAYS = np.empty(0, np.int64)
+_NOTHING_MET = np.empty(0, np.int32), np.empty((3, 0), np.float32), np.empty((3, 0), np.float32)
+_NO_NORMALS = np.empty((3, 0), np.float32), np.empty((0, 9), np.float32)
+
 
 @dataclass(frozen=True)
 class Hits:
@@ -106,21 +113,15 @@ def find_hits(
     direction : (3, N) float32, unit length, of all rays of the batch
     time : (N,) float32 of all rays, None where nothing moves
     """
-    hit = np.flatnonzero(found.triangle >= 0)
-    triangle, u, v, t = found.triangle, found.u, found.v, found.t
-    ray: Indices | None = None
-    if len(hit) < len(triangle):
-        ray = hit
-        triangle, u, v, t = triangle.take(hit), u.take(hit), v.take(hit), t.take(hit)
-        direction = direction.take(hit, axis=1)
-        time = None if time is None else time.take(hit)
     compiled = surface.accelerator.compiled
-    places = _compiled_places if compiled else _places
-    p, ng, ns, offset, above, side = places(surface, triangle, u, v, direction)
+    find = _find_by_loop if compiled else _find
+    ray, triangle, u, v, t, material, direction, places = find(surface, found, direction)
+    p, ng, ns, offset, above, side = places
+    if time is not None and ray is not None:
+        time = time.take(ray)
     if isinstance(surface.accelerator, MovingAccelerator) and time is not None:
         surface.accelerator.follow(p, triangle, time)
         np.add(p, ng * offset, out=above)
-    material = surface.material.take(triangle)
     if surface.bent is not None and ns is not ng:
         some = np.flatnonzero(surface.bent.take(material))
         turned = ns.take(some, axis=1)
@@ -131,6 +132,49 @@ def find_hits(
         *(ray, triangle, u, v, t, material, direction, p, ng, ns, offset, above, side),
         *(time, tint, compiled, surface.accelerator.convex),
     )
+
+
+def _find(surface: Surface, found: Intersections, direction: Floats32) -> _Found:
+    hit = np.flatnonzero(found.triangle >= 0)
+    triangle, u, v, t = found.triangle, found.u, found.v, found.t
+    ray: Indices | None = None
+    if len(hit) < len(triangle):
+        ray = hit
+        triangle, u, v, t = triangle.take(hit), u.take(hit), v.take(hit), t.take(hit)
+        direction = direction.take(hit, axis=1)
+    places = _places(surface, triangle, u, v, direction)
+    return ray, triangle, u, v, t, surface.material.take(triangle), direction, places
+
+
+def _find_by_loop(surface: Surface, found: Intersections, direction: Floats32) -> _Found:
+    """The same, to the same bits, in one loop."""
+    from course.geometry import hit_kernels
+
+    hit = np.flatnonzero(found.triangle >= 0)
+    n = len(hit)
+    triangle, u, v, t = found.triangle, found.u, found.v, found.t
+    rays = tuple(map(np.ascontiguousarray, (triangle, u, v, t, direction)))
+    ray: Indices | None = None
+    met, uvt, arriving = _NOTHING_MET
+    if n < len(triangle):
+        ray = hit
+        triangle = met = np.empty(n, np.int32)
+        u, v, t = uvt = np.empty((3, n), np.float32)
+        direction = arriving = np.empty((3, n), np.float32)
+    material = np.empty(n, np.uint16)
+    p, ng, above = np.empty((3, 3, n), np.float32)
+    offset, side = np.empty((2, n), np.float32)
+    ns, corner_normals = _NO_NORMALS
+    if surface.corner_normals is not None:
+        ns, corner_normals = np.empty((3, n), np.float32), surface.corner_normals
+    hit_kernels.find(
+        *(_ALL_RAYS if ray is None else hit, *rays),
+        *(surface.corner_edges, surface.normal_offset, surface.inset, corner_normals),
+        *(surface.material, surface.bent is None, met, uvt, arriving),
+        *(material, p, ng, ns, offset, above, side),
+    )
+    places = p, ng, ng if surface.corner_normals is None else ns, offset, above, side
+    return ray, triangle, u, v, t, material, direction, places
 
 
 def _places(
@@ -162,24 +206,6 @@ def _places(
         if len(some):
             ns[:, some] = _interpolated(surface, rows, u, v, side, direction, some)
     return p, ng, ns, offset, p + ng * offset, side
-
-
-def _compiled_places(
-    surface: Surface, triangle: Numbers, u: Floats32, v: Floats32, direction: Floats32
-) -> _Places:
-    """The same, to the same bits, in one loop."""
-    from course.geometry import hit_kernels
-
-    n = len(triangle)
-    p, ng, above = (np.empty((3, n), np.float32) for _ in range(3))
-    ns, corner_normals = np.empty((3, 0), np.float32), np.empty((0, 9), np.float32)
-    if surface.corner_normals is not None:
-        ns, corner_normals = np.empty((3, n), np.float32), surface.corner_normals
-    offset, side = np.empty((2, n), np.float32)
-    tables = surface.corner_edges, surface.normal_offset, surface.inset, corner_normals
-    found = map(np.ascontiguousarray, (triangle, u, v, direction))
-    hit_kernels.find(*found, *tables, surface.bent is None, p, ng, ns, offset, above, side)
-    return p, ng, ng if surface.corner_normals is None else ns, offset, above, side
 
 
 def bulge(surface: Surface, hits: Hits, which: Indices) -> Floats32:

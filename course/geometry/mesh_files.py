@@ -15,14 +15,15 @@ from numpy.typing import NDArray
 from course.errors import GeometryError, OutputError
 from course.geometry.joining import join
 from course.geometry.mesh import Mesh
-from course.geometry.mesh_formats import FORMATS as PLAIN_FORMATS
-from course.geometry.mesh_formats import Part
+from course.geometry.mesh_formats import Part, parse_stl
 from course.geometry.mesh_glb import parse_glb
+from course.geometry.mesh_obj import parse_obj
+from course.geometry.mesh_ply import parse_ply
 from course.geometry.smooth_normals import area_normals, smooth_normals
 from course.geometry.transforms import apply
 from course.geometry.welding import same
 
-FORMATS = {**PLAIN_FORMATS, ".glb": parse_glb}
+FORMATS = {".ply": parse_ply, ".obj": parse_obj, ".stl": parse_stl, ".glb": parse_glb}
 
 # Beyond this, squares of distances overflow float64; no unit makes a scene that large.
 FARTHEST = 1e150
@@ -51,8 +52,8 @@ def read_mesh(path: Path, weights: Weights = "angle") -> Mesh:
     ------
     GeometryError
         Naming the file and the trouble: missing, a folder, empty, unreadable, no triangles, an
-        index out of range, a vertex or a normal that is not finite; in a PLY file a face of fewer
-        than three corners.
+        index out of range, a vertex or a normal that is not finite; in a PLY or OBJ file a face of
+        fewer than three corners. Of text the line is told.
     """
     path = Path(path)
     parse = FORMATS.get(path.suffix.lower())

@@ -1,8 +1,5 @@
 """The header of a PLY file, checked before anything is read by it.
 
-trimesh's parser passes over much that a header may have wrong, or fails later and elsewhere. What it gets is the header
-that `Header.text` writes: without comments, and with one way to name things.
-
 The format: Greg Turk, "The PLY polygon file format", 1994; types as later programs write them.
 """
 
@@ -13,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-SIZES = {
+TYPES = {
     **dict.fromkeys(("char", "int8"), "i1"),
     **dict.fromkeys(("uchar", "uint8"), "u1"),
     **dict.fromkeys(("short", "int16"), "i2"),
@@ -22,16 +19,20 @@ SIZES = {
     **dict.fromkeys(("uint", "uint32"), "u4"),
     **dict.fromkeys(("float", "float32"), "f4"),
     **dict.fromkeys(("double", "float64"), "f8"),
+    # Some programs add these.
+    "int64": "i8",
+    "uint64": "u8",
+    "float16": "f2",
 }
 """Types of PLY as NumPy calls them, without their byte order."""
-
-TYPES = {**SIZES, "int64": "i8", "uint64": "u8", "float16": "f2"}
-"""The same, and those that some programs add."""
 
 ORDERS = ("ascii", "binary_little_endian", "binary_big_endian")
 
 CORNERS = ("vertex_indices", "vertex_index")
 """Names of a face's list of vertices."""
+
+WEDGES = "texcoord"
+"""Name of a face's list of uv, u and v for each of its corners."""
 
 _END = re.compile(rb"^end_header[ \t]*(?:\r?\n|\Z)", re.MULTILINE)
 _COUNT = re.compile(r"\d{1,30}")
@@ -81,16 +82,6 @@ class Header:
     elements: tuple[Element, ...]
     lines: int
     end: int
-
-    def text(self) -> bytes:
-        """The header anew."""
-        lines = ["ply", f"format {self.order} 1.0"]
-        for element in self.elements:
-            lines.append(f"element {element.name} {element.rows}")
-            for each in element.properties:
-                kind = each.kind if each.count is None else f"list {each.count} {each.kind}"
-                lines.append(f"property {kind} {each.name}")
-        return "\n".join([*lines, "end_header", ""]).encode("ascii", "replace")
 
 
 def read_header(data: bytes) -> Header:

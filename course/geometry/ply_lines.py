@@ -1,31 +1,36 @@
-"""The lines of a PLY file in text, checked one by one: trimesh's parser takes numbers that are too many or too few."""
+"""The lines of a PLY file in text, checked one by one."""
 
 from __future__ import annotations
 
 import re
 
-from course.geometry.ply_header import CORNERS, Element, Header, Property, cut_short
+from course.geometry.mesh_polygons import too_few
+from course.geometry.mesh_words import real, whole
+from course.geometry.ply_header import CORNERS, WEDGES, Element, Header, Property, cut_short
 
 _WHOLE = re.compile(r"[-+\d\s]*")
 
 
-def checked_lines(header: Header, data: bytes) -> bytes:
-    """Return the data of a PLY file in text, without its empty lines.
+def checked_lines(header: Header, data: bytes) -> list[tuple[Element, list[str]]]:
+    """Return the lines of each element of a PLY file in text, the empty ones left out.
 
     Raises
     ------
     ValueError
         For lines that are missing or left over, and, with its number, for one that has not as many numbers as its
-        element's properties say, whose face has fewer than three corners, or a corner that is no whole number.
+        element's properties say, whose face has fewer than three corners, a corner that is no whole number, or uv that
+        are not two for each corner.
     """
     lines = data[header.end :].decode("ascii", "replace").splitlines()
     filled = [k for k, line in enumerate(lines) if line and not line.isspace()]
+    found = []
     first = 0
     for element in header.elements:
         if first + element.rows > len(filled):
             raise ValueError(cut_short(element))
         rows = filled[first : first + element.rows]
-        if not _surely_right(element, [lines[k] for k in rows]):
+        found.append((element, [lines[k] for k in rows]))
+        if not _surely_right(*found[-1]):
             for number, k in enumerate(rows):
                 trouble = _trouble(element, number, lines[k])
                 if trouble:
@@ -35,7 +40,7 @@ def checked_lines(header: Header, data: bytes) -> bytes:
         raise ValueError(
             f"line {header.lines + filled[first] + 1} is left over: a count in its header is wrong"
         )
-    return "\n".join(lines[k] for k in filled).encode()
+    return found
 
 
 def word_that_is_no_number(header: Header, data: bytes) -> str | None:
@@ -44,7 +49,7 @@ def word_that_is_no_number(header: Header, data: bytes) -> str | None:
     for number, line in enumerate(lines, start=header.lines + 1):
         for word in line.split():
             try:
-                float(word)
+                real(word)
             except ValueError:
                 return f"line {number}: {word[:40]!r} is no number"
     return None
@@ -65,6 +70,7 @@ def _trouble(element: Element, number: int, line: str) -> str | None:
     """What is wrong with a line, the data of the element's thing of that number."""
     words = line.split()
     at = 0
+    lengths: dict[str, int] = {}
     for each in element.properties:
         if each.count is None:
             at += 1
@@ -73,31 +79,40 @@ def _trouble(element: Element, number: int, line: str) -> str | None:
         length = 0
         if at < len(words):
             try:
-                length = int(words[at])
+                length = whole(words[at])
             except ValueError:
                 return f"{words[at][:40]!r} is no count of numbers to come"
+            if length < 0 and each.name not in CORNERS:
+                return f"the list {each.name} of {element.name} {number} has {length} numbers: expected 0 or more"
+        lengths["corners" if each.name in CORNERS else each.name] = length
         if each.name in CORNERS and element.name == "face":
             if at < len(words) and length < 3:
-                return too_few(number, length)
+                return too_few(f"face {number}", length)
             if not _WHOLE.fullmatch(line):
                 wrong = _not_whole(words[at + 1 : at + 1 + length])
                 if wrong:
                     return f"corner {wrong[:40]!r} of face {number}: expected a whole number"
         at += 1 + max(length, 0)
     if at == len(words):
+        wedges, corners = lengths.get(WEDGES, 0), lengths.get("corners", 0)
+        if element.name == "face" and wedges not in (0, 2 * corners):
+            return wrong_wedges(number, wedges, corners)
         return None
     return f"{len(words)} numbers for {element.name} {number}: expected {at}, {_form(element.properties)}"
 
 
-def too_few(face: int, corners: int) -> str:
-    """What is wrong with a face that is none."""
-    return f"face {face} has {corners} corner{'' if corners == 1 else 's'}: expected 3 or more, or no such face"
+def wrong_wedges(face: int, numbers: int, corners: int) -> str:
+    """What is wrong with a face's list of uv."""
+    return (
+        f"{WEDGES} of face {face} has {numbers} number{'' if numbers == 1 else 's'}:"
+        f" expected {2 * corners}, u and v for each of its {corners} corners, or 0 for a face without"
+    )
 
 
 def _not_whole(words: list[str]) -> str | None:
     for word in words:
         try:
-            if not float(word).is_integer():
+            if not real(word).is_integer():
                 return word
         except ValueError:
             return word

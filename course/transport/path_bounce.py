@@ -113,7 +113,9 @@ class PathBounce:
         if len(through):
             assert other is not None
             assert boundary is not None
-            within = boundary.of(np.searchsorted(other, through))
+            # Where among those on mirrors and glass the refracted ones are: both in the order of the hits.
+            refracts = goes_on.take(other) & (kind.take(other) == REFRACTED)
+            within = boundary.of(np.flatnonzero(refracts))
             directions.append(refracted(self.plan, hits, through, within, path[crossing:], blur))
             if medium is not None:
                 medium[crossing:] = beyond(hits, through)

@@ -114,6 +114,18 @@ BAD: dict[str, tuple[bytes, str]] = {
         ply(vertices=[SQUARE[0], (1, "one", 0), *SQUARE[2:]]),
         "line 11: 'one' is no number",
     ),
+    "an underscore": (
+        ply(vertices=[SQUARE[0], ("1_0", 0, 0), *SQUARE[2:]]),
+        "line 11: '1_0' is no number",
+    ),
+    "an underscore in a corner": (
+        ply(faces=[(0, 1, 2), (0, "0_2", 3)]),
+        "line 15: corner '0_2' of face 1: expected a whole number",
+    ),
+    "an underscore in a count": (
+        ply(faces=TWO[:1], counts=(4, 2), tail="0_3 0 2 3\n"),
+        "line 15: '0_3' is no count",
+    ),
     # Lines.
     "too few numbers": (
         ply(vertices=[(0, 0), *SQUARE[1:]]),

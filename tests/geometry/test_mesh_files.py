@@ -432,7 +432,7 @@ BAD: dict[str, tuple[str, str | bytes, str]] = {
     "ply negative": ("a.ply", ply_text(TRIANGLE, [[0, 1, -1]]), "triangle 0 refers to vertex -1"),
     "obj index": ("a.obj", SQUARE_OBJ + "f 1 2 5\n", "vertex 5, but there are 4"),
     "obj zero": ("a.obj", SQUARE_OBJ + "f 0 1 2\n", "refers to vertex 0"),
-    "obj back": ("a.obj", SQUARE_OBJ + "f -1 -2 -5\n", "refers to vertex 0"),
+    "obj back": ("a.obj", SQUARE_OBJ + "f -1 -2 -5\n", "refers to vertex -5, but before it there"),
     "obj uv": ("a.obj", SQUARE_OBJ + "vt 0 0\nf 1/1 2/2 3/1\n", "uv 2, but there are 1"),
     "obj normal": (
         "a.obj",
