@@ -136,8 +136,7 @@ def find(
         offset[i], side[i] = far, way
         if smooth:
             if normal_offset[k, 5] > 0:
-                for c in range(3):
-                    ns[c, i] = corner_normals[k, c] * way
+                ns[0, i], ns[1, i], ns[2, i] = nx, ny, nz
                 continue
             nx = corner_normals[k, 3] * a + corner_normals[k, 6] * b + corner_normals[k, 0]
             ny = corner_normals[k, 4] * a + corner_normals[k, 7] * b + corner_normals[k, 1]

@@ -199,12 +199,16 @@ def _places(
     ng *= side
     ns = ng
     if surface.corner_normals is not None:
-        rows = gather(surface.corner_normals, triangle)
-        ns = rows[0:3] * side
         # Most triangles of a room have nothing to interpolate.
         some = np.flatnonzero(normal[5] == 0)
-        if len(some):
-            ns[:, some] = _interpolated(surface, rows, u, v, side, direction, some)
+        if len(some) == len(side):
+            ns = _interpolated(surface, triangle, u, v, side, direction)
+        else:
+            ns = ng.copy()
+            coming = direction.take(some, axis=1)
+            ns[:, some] = _interpolated(
+                surface, triangle.take(some), u.take(some), v.take(some), side.take(some), coming
+            )
     return p, ng, ns, offset, p + ng * offset, side
 
 
@@ -257,17 +261,15 @@ def _pull_off_edges(
 
 def _interpolated(
     surface: Surface,
-    rows: Floats32,
+    triangle: Numbers,
     u: Floats32,
     v: Floats32,
     side: Floats32,
     direction: Floats32,
-    which: Indices,
 ) -> Floats32:
-    """Shading normals (3, m) of some of the hits, from rows (9, n) n0, n1 - n0, n2 - n0."""
-    if len(which) < len(u):
-        rows, direction = rows.take(which, axis=1), direction.take(which, axis=1)
-        u, v, side = u.take(which), v.take(which), side.take(which)
+    """Shading normals (3, n) on the incoming side."""
+    assert surface.corner_normals is not None
+    rows = gather(surface.corner_normals, triangle)
     normal = rows[3:6]
     normal *= u
     rows[6:9] *= v
