@@ -79,15 +79,8 @@ class Tile:
         return np.tile(x, self.height), np.repeat(y, self.width)
 
 
-def tile_picture(
-    width: int, height: int, samples: int, batches: int = 1, shares: int = 8
-) -> list[Tile]:
-    """Tiles that cover a picture, each with at most so many batches of RAYS rays at that many samples a pixel.
-
-    Where they may have several, a tile has about one part in ``shares`` of what is left, so that the last ones are
-    small and no thread waits long for another.
-    """
-    one = max(RAYS // samples, 1)
+def tile_picture(width: int, height: int, samples: int, batches: int = 1) -> list[Tile]:
+    """Tiles that cover a picture, each with about so many batches of RAYS rays at that many samples a pixel."""
     pixels = max(batches * RAYS // samples, 1)
     tile_width = 1
     while tile_width * tile_width < pixels:
@@ -98,22 +91,13 @@ def tile_picture(
         for x in range(0, width, tile_width):
             size = min(tile_width, width - x), min(tile_height, height - y)
             tiles.append(Tile(len(tiles), x, y, *size))
-    if batches > 1:
-        waiting, tiles, left = tiles[::-1], [], width * height
-        while waiting:
-            tile = waiting.pop()
-            if tile.size > max(left // shares, one):
-                waiting += _halves(tile)[::-1]
-            else:
-                left -= tile.size
-                tiles.append(replace(tile, number=len(tiles)))
-    # Small ones last, those at the picture's edges, too.
+    # The small ones at the edges last.
     tiles.sort(key=lambda tile: -tile.size)
     return tiles
 
 
-def _halves(tile: Tile) -> tuple[Tile, Tile]:
-    """Both halves of a tile of more than one pixel."""
+def halves(tile: Tile) -> tuple[Tile, Tile]:
+    """Both halves of a tile of more than one pixel, under its number."""
     if tile.width > tile.height:
         half = tile.width // 2
         return (

@@ -10,25 +10,26 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from course.core.samplers import Sampler
-from course.imaging.tiles import Area, tile_picture
+from course.imaging.tiles import RAYS, Area, Tile, halves, tile_picture
 from course.scene.world import Settings
 
 PASS = 16
 """Samples of each pixel in a whole pass of an extensible sampler."""
 
 SHARES = 2
-"""A tile of several batches has at most one part in so many of what each thread would get of what is left of a pass."""
+"""What is rendered at once is at most one part in so many of what each thread would get of what is left to do."""
 
 
 @dataclass(frozen=True)
 class Work:
-    """One tile of one pass.
+    """One tile of one pass, or a part of it.
 
     Attributes
     ----------
     order : number of the pass, for the film adds the passes of a tile in order
     whole : whether the film keeps its sums
     parts : into which the samples of a pixel are divided, each a mean of its own
+    pixels : of the whole tile
     """
 
     tile: Area
@@ -37,6 +38,13 @@ class Work:
     samples: int
     whole: bool
     parts: int = 1
+    pixels: int | None = None
+
+    @property
+    def share(self) -> tuple[int, int]:
+        """How many pixels of how many."""
+        size = self.tile.size
+        return size, size if self.pixels is None else self.pixels
 
 
 def pass_size(settings: Settings, sampler: Sampler) -> int:
@@ -49,6 +57,8 @@ def passes(
 ) -> Iterator[Work]:
     """The work of a render, pass by pass.
 
+    Tiles of several batches come in parts where little is left to do, so that no thread waits long for another.
+
     Parameters
     ----------
     done : samples that a film already holds, a multiple of PASS
@@ -56,12 +66,22 @@ def passes(
     threads : that render
     """
     size = pass_size(settings, sampler)
-    tiles = tile_picture(settings.width, settings.height, size, batches, SHARES * max(threads, 1))
-    for order, first in enumerate(range(done, settings.samples, size)):
+    tiles = tile_picture(settings.width, settings.height, size, batches)
+    one = max(RAYS // size, 1)
+    starts = range(done, settings.samples, size)
+    left = settings.width * settings.height * len(starts)
+    for order, first in enumerate(starts):
         samples = min(size, settings.samples - first)
         whole = samples == PASS or not sampler.extensible
         for tile in tiles:
-            yield Work(tile, order, first, samples, whole)
+            waiting: list[Tile] = [tile]
+            while waiting:
+                part = waiting.pop()
+                if batches > 1 and part.size > max(left // (SHARES * max(threads, 1)), one):
+                    waiting += halves(part)[::-1]
+                    continue
+                left -= part.size
+                yield Work(part, order, first, samples, whole, pixels=tile.size)
 
 
 def preview(settings: Settings, samples: int) -> list[Work]:

@@ -40,21 +40,27 @@ def default_threads() -> int:
     return os.cpu_count() or 1
 
 
+_Rendered = tuple[Work, Floats32, Floats32 | float]
+
+
 class InOrder:
     """Hands work on to a film, the passes of a tile in their order even if a later one comes first.
+
+    A pass of a tile is in the film when all its parts are, which may come in any order.
 
     Any number of threads may add at once; different tiles enter the film side by side.
 
     Attributes
     ----------
-    done, done_first : tiles that the film has taken in, and how many of them in the first pass
+    done, done_first : tiles, or parts of them, that the film has taken in, and how many of them in the first pass
     """
 
     def __init__(self, film: Sink) -> None:
         self._film = film
         self._lock = threading.Lock()
         self._next: dict[int, int] = {}
-        self._early: dict[tuple[int, int], tuple[Work, Floats32, Floats32 | float]] = {}
+        self._missing: dict[int, int] = {}
+        self._early: dict[tuple[int, int], list[_Rendered]] = {}
         self._adding: set[int] = set()
         self.done = 0
         self.done_first = 0
@@ -63,25 +69,30 @@ class InOrder:
         """Take in a piece of work, and whatever has waited for it."""
         tile = work.tile.number
         with self._lock:
-            self._early[tile, work.order] = (work, pixels, weight)
-            # Somebody who is adding to this tile now will see this pass when done with the one before.
+            self._early.setdefault((tile, work.order), []).append((work, pixels, weight))
+            # Somebody who is adding to this tile now will see this piece when done with the one before.
             if tile in self._adding:
                 return
             self._adding.add(tile)
-            order = self._next.get(tile, 0)
         while True:
             with self._lock:
-                ready = self._early.pop((tile, order), None)
-                if ready is None:
-                    self._next[tile] = order
+                order = self._next.get(tile, 0)
+                ready = self._early.get((tile, order))
+                if not ready:
                     self._adding.discard(tile)
                     return
-            item, pixels, weight = ready
+                item, pixels, weight = ready.pop()
             self._film.add(item.tile, pixels, weight, item.first + item.samples, item.whole)
-            order += 1
+            size, whole = item.share
             with self._lock:
                 self.done += 1
                 self.done_first += item.order == 0
+                missing = self._missing.pop(tile, whole) - size
+                if missing:
+                    self._missing[tile] = missing
+                else:
+                    del self._early[tile, order]
+                    self._next[tile] = order + 1
 
 
 class Run:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from course.imaging.tiles import RAYS, Tile, tile_picture
+from course.imaging.tiles import RAYS, Tile, halves, tile_picture
 
 PICTURES = [(1, 1), (7, 5), (64, 64), (640, 480), (33, 200), (1, 1000), (1000, 1)]
 
@@ -42,19 +42,15 @@ def test_every_tile_has_a_number_of_its_own_and_small_ones_come_last() -> None:
     assert sizes == sorted(sizes, reverse=True)
 
 
-@pytest.mark.parametrize("shares", [1, 4, 16])
-@pytest.mark.parametrize("batches", [2, 3, 16])
-def test_large_tiles_have_several_batches_and_the_last_have_one(batches: int, shares: int) -> None:
-    tiles = tile_picture(1000, 800, 16, batches, shares)
-    left = 800_000
-    for tile in tiles:
-        most = max(min(left // shares, batches * RAYS // 16), RAYS // 16)
-        # Halves, and those at the edges of the picture smaller still.
-        assert tile.size <= most
-        left -= tile.size
-    largest = min(batches * RAYS // 16, 800_000 // shares)
-    assert largest / 2.2 < tiles[0].size
-    assert tiles[-1].size <= RAYS // 16 or shares == 1
+@pytest.mark.parametrize(("width", "height"), [(2, 1), (1, 2), (7, 5), (5, 8), (1, 1000)])
+def test_halves_make_the_whole(width: int, height: int) -> None:
+    tile = Tile(3, 5, 2, width, height)
+    count = np.zeros((height, width), int)
+    for half in halves(tile):
+        assert abs(half.size - tile.size / 2) <= min(width, height) / 2
+        assert half.number == tile.number
+        count[half.y - 2 : half.y - 2 + half.height, half.x - 5 : half.x - 5 + half.width] += 1
+    assert (count == 1).all()
 
 
 def test_pixels_are_numbered_row_by_row_and_corners_go_with_them() -> None:
