@@ -94,7 +94,7 @@ def _reserve(path: Path, target: Path) -> Path:
         temporary.touch(exist_ok=False)
     except OSError as error:
         if not folder.exists():
-            trouble = f"there is no folder {path.parent}"
+            trouble = f"there is no folder {path.parent}: make it first"
         elif not folder.is_dir():
             trouble = f"{path.parent} is not a folder"
         else:

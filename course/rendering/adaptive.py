@@ -13,7 +13,7 @@ import numpy as np
 from course.core.types import Floats32, Indices, Numbers
 from course.imaging.adaptive_film import PARTS, AdaptiveFilm
 from course.imaging.pixel_groups import PixelGroup, nearby_order
-from course.imaging.tiles import RAYS
+from course.imaging.tiles import RAYS, spread_pixels
 from course.rendering.allocation import (
     FIRST,
     GROWTH,
@@ -144,7 +144,7 @@ class Groups:
             while len(chosen):
                 most = max(min(max(left // self._shares, SMALLEST), self._most) // step, 1)
                 # Equal groups rather than full ones and a rest.
-                part = -(-len(chosen) // -(-len(chosen) // most))
+                part = spread_pixels(-(-len(chosen) // -(-len(chosen) // most)), step)
                 group = PixelGroup(self._count, chosen[:part], self._width)
                 work.append(Work(group, 0, first, step, True, PARTS))
                 self._count += 1

@@ -18,7 +18,7 @@ import numpy as np
 from course.core.samplers.sobol import SobolSampler
 from course.core.types import Floats32, Indices, Mask
 from course.geometry.hits import Hits
-from course.imaging.tiles import RAYS
+from course.imaging.tiles import RAYS, spread_pixels
 from course.scene.world import Paths
 from course.transport.counters import Counters
 from course.transport.direct import direct_light
@@ -168,8 +168,9 @@ class PathTracer(Tracer):
         block = whole.draws.block
         pixels = len(block.pixels)
         count = min(-(-block.size // RAYS), self.batches, pixels)
-        ends = [pixels * number // count for number in range(count + 1)]
-        for mine in map(slice, ends[:-1], ends[1:]):
+        each = pixels if count == 1 else spread_pixels(-(-pixels // count), block.samples, True)
+        for first in range(0, pixels, each):
+            mine = slice(first, min(first + each, pixels))
             paths = slice(mine.start * block.samples, mine.stop * block.samples)
             some = rays if count == 1 else rays.part(paths)
             yield whole.piece(some, np.ones(some.size, np.bool_), mine)
