@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from course.imaging.tiles import RAYS, Tile, halves, tile_picture
+from course.imaging.tiles import RAYS, Tile, halves, spread_over_cache, spread_pixels, tile_picture
 
 PICTURES = [(1, 1), (7, 5), (64, 64), (640, 480), (33, 200), (1, 1000), (1000, 1)]
 
@@ -33,6 +33,35 @@ def test_a_tile_holds_at_most_one_batch_and_at_least_half_of_one(samples: int) -
     largest = max(tile.size for tile in tiles)
     assert largest * samples <= max(RAYS, samples)
     assert largest * samples > min(RAYS / 2, samples / 2)
+
+
+@pytest.mark.parametrize("batches", [1, 16])
+@pytest.mark.parametrize("samples", [1, 2, 3, 4, 7, 16, 100, 256])
+def test_the_rows_of_a_tiles_arrays_lie_in_different_places_of_the_cache(
+    samples: int, batches: int
+) -> None:
+    """A first-level cache has room for eight numbers that are a multiple of 4096 bytes apart, and a loop has thirty."""
+    side = 1600 if batches > 1 else 300
+    tile = tile_picture(side, side, samples, batches)[0]
+    starts = np.arange(24) * 4 * tile.size * samples % 4096 // 64
+    assert np.bincount(starts).max() <= 6
+
+
+@pytest.mark.parametrize("more", [True, False])
+@pytest.mark.parametrize("samples", [1, 3, 16, 64, 512])
+@pytest.mark.parametrize("pixels", [1, 100, 1024, 4096])
+def test_numbers_of_pixels_that_spread_over_the_cache(
+    pixels: int, samples: int, more: bool
+) -> None:
+    found = spread_pixels(pixels, samples, more)
+    assert spread_over_cache(found * samples) or found == pixels
+    between = range(min(found, pixels) + (not more), max(found, pixels) + (not more))
+    assert not any(spread_over_cache(n * samples) for n in between)
+    assert found >= pixels if more else 1 <= found <= pixels
+
+
+def test_a_pixel_of_very_many_samples_is_left_as_it_is() -> None:
+    assert spread_pixels(4, 16384) == spread_pixels(4, 16384, True) == 4
 
 
 def test_every_tile_has_a_number_of_its_own_and_small_ones_come_last() -> None:
