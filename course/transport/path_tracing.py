@@ -9,7 +9,6 @@ with a surface, from its front, and objects that are lights, from both sides.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -18,13 +17,13 @@ import numpy as np
 from course.core.samplers.sobol import SobolSampler
 from course.core.types import Floats32, Indices, Mask
 from course.geometry.hits import Hits
-from course.imaging.tiles import RAYS, spread_pixels
+from course.imaging.tiles import RAYS
 from course.scene.world import Paths
-from course.transport.counters import Counters
 from course.transport.direct import direct_light
 from course.transport.insides import insides
 from course.transport.path_bounce import PathBounce
-from course.transport.paths import Draws, Rays, joined
+from course.transport.path_pieces import Piece, Pieces
+from course.transport.paths import Draws, Rays
 from course.transport.tracing import CancelledError, Tracer, add_radiance
 
 
@@ -40,45 +39,6 @@ class Glow:
 
     radiance: Floats32
     which: Mask
-
-
-@dataclass(frozen=True)
-class _Piece:
-    """Paths of a block that are followed together.
-
-    Attributes
-    ----------
-    sees : (n,) which rays bring light from lamps and the environment; None for none of them
-    pixels : of the block, in whose paths theirs are numbered
-    draws : of these pixels
-    film : (3, paths of these pixels) float32
-    """
-
-    rays: Rays
-    sees: Mask | None
-    pixels: slice
-    draws: Draws
-    film: Floats32
-
-
-@dataclass(frozen=True)
-class _Whole:
-    """A block, whose pixels are followed in pieces.
-
-    Attributes
-    ----------
-    film : (3, paths of the block) float32
-    """
-
-    draws: Draws
-    film: Floats32
-
-    def piece(self, rays: Rays, sees: Mask | None, pixels: slice) -> _Piece:
-        """Paths of some of the pixels."""
-        block = self.draws.block
-        paths = slice(pixels.start * block.samples, pixels.stop * block.samples)
-        part = replace(block, pixels=block.pixels[pixels])
-        return _Piece(rays, sees, pixels, self.draws.part(part, paths), self.film[:, paths])
 
 
 @dataclass(frozen=True)
@@ -125,55 +85,26 @@ class PathTracer(Tracer):
         rows = self.world.materials.emission * self._paths.objects
         return _glow(rows)
 
-    def _trace(self, camera_rays: Rays, paths: int, draws: Draws, counters: Counters) -> Floats32:
+    def _trace(self, camera_rays: Rays, paths: int, draws: Draws) -> Floats32:
         """Radiance (3, paths) that the paths bring back."""
         film = np.zeros((3, paths), np.float32)
-        whole = _Whole(draws, film)
-        # By depth: few rays cost nearly as much as many, so a batch that has become small waits for others.
-        waiting: dict[int, _Piece] = {}
-        for piece in self._pieces(camera_rays, whole):
-            self._advance(piece, 0, waiting, RAYS // 2, whole, counters)
-        while waiting:
-            depth = min(waiting)
-            self._advance(waiting.pop(depth), depth, waiting, 0, whole, counters)
+        pieces = Pieces(draws, film)
+        for piece in pieces.cut(camera_rays, self.batches):
+            self._advance(piece, 0, pieces, RAYS // 2)
+        while (rest := pieces.shallowest()) is not None:
+            self._advance(*rest, pieces, 0)
         return film
 
-    def _advance(
-        self,
-        piece: _Piece,
-        depth: int,
-        waiting: dict[int, _Piece],
-        least: int,
-        whole: _Whole,
-        counters: Counters,
-    ) -> None:
-        """Follow paths until fewer than ``least`` are left, which wait for others of their depth."""
-        while True:
-            if whole.draws.cancelled():
+    def _advance(self, piece: Piece | None, depth: int, pieces: Pieces, least: int) -> None:
+        """Follow paths to their ends, or until fewer than ``least`` are left, which wait for others."""
+        while piece is not None:
+            if piece.draws.cancelled():
                 raise CancelledError
-            rest = self._step(piece.rays, piece.sees, depth, piece.film, piece.draws, counters)
+            rest = self._step(piece.rays, piece.sees, depth, piece.film, piece.draws)
             if rest is None:
                 return
             depth += 1
-            piece = replace(piece, rays=rest[0], sees=rest[1])
-            others = waiting.get(depth)
-            if others is not None and others.rays.size + piece.rays.size <= RAYS:
-                piece = _joined(waiting.pop(depth), piece, whole)
-            if depth not in waiting and piece.rays.size < least:
-                waiting[depth] = piece
-                return
-
-    def _pieces(self, rays: Rays, whole: _Whole) -> Iterator[_Piece]:
-        """The block's camera rays in batches of RAYS, each with the pixels that it belongs to."""
-        block = whole.draws.block
-        pixels = len(block.pixels)
-        count = min(-(-block.size // RAYS), self.batches, pixels)
-        each = pixels if count == 1 else spread_pixels(-(-pixels // count), block.samples, True)
-        for first in range(0, pixels, each):
-            mine = slice(first, min(first + each, pixels))
-            paths = slice(mine.start * block.samples, mine.stop * block.samples)
-            some = rays if count == 1 else rays.part(paths)
-            yield whole.piece(some, np.ones(some.size, np.bool_), mine)
+            piece = pieces.joined(replace(piece, rays=rest[0], sees=rest[1]), depth, least)
 
     def _step(
         self,
@@ -182,7 +113,6 @@ class PathTracer(Tracer):
         depth: int,
         film: Floats32,
         draws: Draws,
-        counters: Counters,
     ) -> tuple[Rays, Mask | None] | None:
         """One depth: what the rays bring is added to the film, and the rays that go on are returned.
 
@@ -190,6 +120,7 @@ class PathTracer(Tracer):
         ----------
         sees : (n,) which rays bring light from lamps and the environment; None for none of them
         """
+        counters = draws.counters
         hits, throughput, path, medium = self._met(
             rays, False if sees is None else sees, depth, film, draws
         )
@@ -264,24 +195,3 @@ def _added(radiance: Floats32 | None, hits: Hits, glow: Glow, seen: Mask | None)
         radiance = np.zeros((3, hits.size), np.float32)
     radiance[:, which] += glow.radiance.take(hits.material.take(which), axis=1)
     return radiance
-
-
-def _joined(first: _Piece, second: _Piece, whole: _Whole) -> _Piece:
-    """Paths of the same depth as one."""
-    pieces = first, second
-    ends = [(piece.pixels.start, piece.pixels.stop) for piece in pieces]
-    pixels = slice(min(start for start, _ in ends), max(stop for _, stop in ends))
-    numbered = []
-    for piece in pieces:
-        assert piece.rays.path is not None
-        before = (piece.pixels.start - pixels.start) * whole.draws.block.samples
-        numbered.append(replace(piece.rays, path=piece.rays.path + before))
-    sees = None
-    if first.sees is not None or second.sees is not None:
-        sees = np.concatenate(
-            [
-                np.zeros(piece.rays.size, np.bool_) if piece.sees is None else piece.sees
-                for piece in pieces
-            ]
-        )
-    return whole.piece(joined(numbered), sees, pixels)

@@ -82,7 +82,7 @@ class Tracer:
         )
         counters.rays["camera"] += rays.size
         counters.lap("camera")
-        radiance = self._trace(rays, block.size, draws, counters)
+        radiance = self._trace(rays, block.size, draws)
         pieces = (-1, tile.size * parts, samples // parts)
         mean, weight = self.reconstruction.pixels(radiance.reshape(pieces), offsets.reshape(pieces))
         if cost is not None:
@@ -110,7 +110,7 @@ class Tracer:
             origin = camera.from_near_plane(origin, direction)
         return Rays(origin, direction, None, None, time=time)
 
-    def _trace(self, camera_rays: Rays, paths: int, draws: Draws, counters: Counters) -> Floats32:
+    def _trace(self, camera_rays: Rays, paths: int, draws: Draws) -> Floats32:
         """Radiance (3, paths) that the camera rays and all that follow from them bring back."""
         film = np.zeros((3, paths), np.float32)
         # Glass may double the rays at each depth. Batches that outgrow the cache are split, and the last one put on
@@ -123,15 +123,14 @@ class Tracer:
             if rays.size > LARGEST_BATCH:
                 pile += [(depth, part) for part in rays.halves()]
                 continue
-            following = self._follow(rays, depth, film, draws, counters)
+            following = self._follow(rays, depth, film, draws)
             if following is not None:
                 pile.append((depth + 1, following))
         return film
 
-    def _follow(
-        self, rays: Rays, depth: int, film: Floats32, draws: Draws, counters: Counters
-    ) -> Rays | None:
+    def _follow(self, rays: Rays, depth: int, film: Floats32, draws: Draws) -> Rays | None:
         """One depth: what the rays bring is added to the film, and the rays that go on are returned."""
+        counters = draws.counters
         hits, throughput, path, medium = self._met(rays, True, depth, film, draws)
         if hits.size == 0:
             return None

@@ -22,7 +22,7 @@ from course.errors import EffectError, SceneError
 from course.geometry import shapes
 from course.rendering import passes
 from course.scene.scene import load_scene
-from course.transport import path_tracing
+from course.transport import path_pieces, path_tracing
 from course.transport.path_tracing import PathTracer
 from tests.effects import skies
 
@@ -414,6 +414,7 @@ def test_batches_that_are_followed_together_give_the_same_bits(
     assert picture(1, error=0.05) == picture(4, error=0.05)
     # Batches that wait for others at many depths, and some that overtake those that wait.
     one = picture(1)
+    monkeypatch.setattr(path_pieces, "RAYS", 3000)
     monkeypatch.setattr(path_tracing, "RAYS", 3000)
     assert picture(64) == one
 
