@@ -7,6 +7,10 @@ from typing import Any
 
 from course.benchmarking.tables import Table
 
+DIGITS = 2
+MOST_DIGITS = 9
+"""After the point, in the table."""
+
 COLUMNS = ("figure", "median", "range", "goal", "")
 
 
@@ -63,7 +67,21 @@ def markdown(figures: list[Figure]) -> str:
 
 def _cells(f: Figure) -> tuple[str, str, str, str]:
     sign = "≥" if f.at_least else "≤"
-    return f.name, f"{f.value:.2f}", f"{f.low:.2f} .. {f.high:.2f}", f"{sign} {f.goal:g}"
+    digits = _digits(f)
+    spread = f"{f.low:.{digits}f} .. {f.high:.{digits}f}"
+    return f.name, f"{f.value:.{digits}f}", spread, f"{sign} {f.goal:g}"
+
+
+def _digits(f: Figure) -> int:
+    """Two after the point, or as many as it takes until a median that misses its goal doesn't look as if it didn't."""
+    return next(
+        (
+            digits
+            for digits in range(DIGITS, MOST_DIGITS)
+            if f.reached or float(f"{f.value:.{digits}f}") != f.goal
+        ),
+        MOST_DIGITS,
+    )
 
 
 def summary(name: str, values: list[float], goal: float, *, at_least: bool = False) -> Figure:

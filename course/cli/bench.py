@@ -11,10 +11,11 @@ from typing import TYPE_CHECKING
 import click
 
 from course.cli import options
+from course.cli.outputs import check_outputs, is_same_file, make_folder
 from course.cli.progress import progress_bar
-from course.effects import MODULES, PROJECT
+from course.effects import COURSE, MODULES, PROJECT
 from course.errors import CourseError, OutputError
-from course.imaging.atomic import check_writable, write_text
+from course.imaging.atomic import write_text
 
 if TYPE_CHECKING:
     from course.benchmarking.estimators import Estimator, Module
@@ -22,10 +23,35 @@ if TYPE_CHECKING:
 
 DOCUMENTS = PROJECT / "docs"
 FURTHER = ("blurred_transparency", "textures")
+KNOWN = (*MODULES, *FURTHER)
+ELSEWHERE = tuple(module for module in COURSE if module not in KNOWN)
+"""Modules whose measurements are programs of their own: `python -m benchmarks NAME`."""
 
 
-@click.command()
-@click.argument("modules", metavar="[MODULE]...", nargs=-1, type=click.Choice([*MODULES, *FURTHER]))
+def _modules(
+    _ctx: click.Context, _argument: click.Parameter, names: tuple[str, ...]
+) -> tuple[str, ...]:
+    """Return the names of modules that are measured here."""
+    for name in names:
+        if name in ELSEWHERE:
+            raise click.BadParameter(
+                f"{name} is measured by `python -m benchmarks {name}`; here are {', '.join(KNOWN)}"
+            )
+        if name not in KNOWN:
+            raise click.BadParameter(
+                f"{name!r}; the modules measured here are {', '.join(KNOWN)}, and"
+                f" `python -m benchmarks NAME` measures {', '.join(ELSEWHERE)}"
+            )
+    return names
+
+
+LISTED = f"""Modules: {", ".join(KNOWN)}.
+
+`python -m benchmarks NAME` measures the others: {", ".join(ELSEWHERE)}."""
+
+
+@click.command(epilog=LISTED)
+@click.argument("modules", metavar="[MODULE]...", nargs=-1, callback=_modules)
 @click.option(
     "--estimator",
     "words",
@@ -144,24 +170,18 @@ def _holds(estimator: Estimator, word: str) -> bool:
 
 def _prepare(json_path: Path | None, plots: Path | None, write_docs: bool) -> None:
     """Find out before the work whether its results can be written."""
-    if json_path is not None:
-        check_writable(json_path)
+    check_outputs(files=[("--json", json_path)])
     if plots:
         from course.benchmarking.plots import check_matplotlib
 
-        _make(plots)
+        if json_path is not None and is_same_file(json_path, plots):
+            raise OutputError(f"--json {json_path} is the folder of --plots: give it another name")
+        make_folder(plots)
         check_matplotlib()
     if write_docs:
         from course.benchmarking.documents import check_documents
 
         check_documents(DOCUMENTS)
-
-
-def _make(folder: Path) -> None:
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise OutputError(f"{folder}: this folder can't be made: {error.strerror}") from error
 
 
 def _measure(

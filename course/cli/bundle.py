@@ -7,6 +7,7 @@ from pathlib import Path
 import click
 
 from course.cli.options import modules_from
+from course.cli.outputs import check_outputs
 from course.cli.tables import count
 from course.effects import COURSE, PROJECT
 from course.errors import CourseError
@@ -36,13 +37,12 @@ from course.errors import CourseError
 def bundle(system: str, out: Path, seed: int, modules: tuple[str, ...]) -> None:
     """Write the autograder with solutions and checks as one archive. It is not for students."""
     from course.grading.classes.bundle import write_gradescope_bundle
-    from course.imaging.atomic import check_writable
 
     if out.suffix.lower() != ".zip":
         raise click.BadParameter(f"{out} doesn't end in .zip", param_hint="--out")
     if not (PROJECT / "solutions").is_dir():
         raise CourseError("an autograder needs the solutions, and this copy has none")
     # Before references are made, which takes a while.
-    check_writable(out)
+    check_outputs(files=[("--out", out)])
     files = write_gradescope_bundle(PROJECT, out, seed, modules or tuple(COURSE))
     click.echo(f"{out}: {count(files, 'file')} for {system}, solutions included: not for students")

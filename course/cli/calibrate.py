@@ -7,6 +7,7 @@ from pathlib import Path
 import click
 
 from course.cli.options import modules_from
+from course.cli.outputs import check_outputs
 from course.effects import PROJECT
 
 
@@ -34,6 +35,7 @@ def calibrate(modules: tuple[str, ...], seeds: int, out: Path) -> None:
     from course.grading.calibration import write_tolerances
     from course.grading.pictures.judging import tolerances
 
+    check_outputs(files=[("--out", out)])
     found = dict(tolerances()) | measured(modules, seeds, click.echo)
     write_tolerances(found, seeds, out)
     click.echo(f"{out} written")

@@ -22,6 +22,9 @@ if TYPE_CHECKING:
 POLL = 0.4
 """Seconds between two looks at a watched file."""
 
+SHORT = 100
+"""Characters of what several checks have found, where it has been told in full before."""
+
 
 @click.command()
 @click.argument("modules", nargs=-1, metavar="[MODULE]...", callback=modules_from)
@@ -94,16 +97,20 @@ def _check(
     folder: Path, modules: tuple[str, ...], only: str | None, seed: int, arrays: References
 ) -> Report:
     from course.grading.grading import grade
-    from course.grading.submissions import read_folder
+    from course.grading.submissions import find_modules, read_folder
 
+    for path in find_modules(folder, modules).values():
+        if path.parent != folder:
+            click.echo(f"{folder / path.name} is missing; {path} is checked in its place", err=True)
     shown = _Printer(seed)
     report = grade(
-        read_folder(folder),
+        read_folder(folder, modules),
         arrays,
         seed=seed,
         modules=modules,
         only=_chooser(only),
         each=shown.result,
+        folder=folder,
     )
     if not report.results:
         raise CourseError(f"--only {only}: no check of {', '.join(modules)} has that name")
@@ -143,6 +150,10 @@ class _Printer:
             self._flush()
             self._module = result.module
             click.secho(result.module, bold=True)
+            if result.module_wide:
+                click.secho(f"  {result.found}", fg="red")
+                for line in result.where.splitlines():
+                    click.echo(f"  {line}")
         self._pending.append(result)
 
     def end(self, report: Report) -> None:
@@ -161,6 +172,9 @@ class _Printer:
         results, self._pending = self._pending, []
         if not results:
             return
+        from course.grading.report import unstarted
+        from course.grading.reports.grouping import FunctionResults
+
         function = results[0].function
         wrong = [result for result in results if result.status != "passed"]
         if not wrong:
@@ -170,13 +184,22 @@ class _Printer:
             return
         if all(result.status == "not attempted" for result in results):
             click.echo(f"  {click.style('to do', fg='yellow')}    {function}")
+            if unstarted(results[0]) and not results[0].module_wide:
+                click.echo(f"           {unstarted(results[0])}")
             return
         click.echo(
             f"  {click.style('wrong', fg='red')}    {function}  ({len(wrong)} of {count(len(results), 'check')})"
         )
+        if results[0].module_wide:
+            return
         told: set[str] = set()
-        for result in wrong:
+        grouped = FunctionResults(self._module, function, tuple(results))
+        for result in grouped.told:
             self._tell(result, told)
+        for found, repeated in grouped.repeated:
+            names = ", ".join(result.check for result in repeated)
+            click.echo(f"      {count(len(repeated), 'check')} more: {_short(found)}")
+            _line("these", names)
 
     def _tell(self, result: Result, told: set[str]) -> None:
         from course.grading.report import docs_page, findings, reproduce
@@ -190,6 +213,11 @@ class _Printer:
             _line(label, text)
         _line("again", reproduce(result, self._seed))
         _line("read", docs_page(result))
+
+
+def _short(text: str) -> str:
+    line = " ".join(text.split())
+    return line if len(line) <= SHORT else f"{line[:SHORT]} ..."
 
 
 def _line(label: str, text: str) -> None:

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import click
 
+from course.cli.outputs import check_outputs
 from course.errors import OutputError
-from course.imaging.atomic import check_writable
 
 
 @click.command()
@@ -31,7 +31,7 @@ def convert(scene: Path, out: Path | None) -> None:
     out = Path(f"{scene.stem}.yaml") if out is None else out
     if out.suffix.lower() not in (".yaml", ".yml"):
         raise OutputError(f"{out}: the name of a scene file must end in .yaml")
-    check_writable(out)
+    check_outputs(files=[("-o", out)], source=scene)
     converted, warnings = convert_scene(scene, out)
     for warning in warnings:
         click.echo(f"warning: {warning}", err=True)

@@ -6,14 +6,18 @@ from pathlib import Path
 
 import click
 
+from course.cli.metu import check_not_metu
 from course.cli.options import INTERRUPTED
+from course.cli.outputs import check_distinct, check_outputs, make_folder
 from course.cli.progress import progress_bar
 from course.cli.tables import print_sections, receipt_sections
-from course.errors import OutputError, SceneError
+from course.errors import SceneError
 from course.imaging.atomic import write_text
 
 SCENES = Path(__file__).parents[2] / "scenes"
 """The scenes that come with the course."""
+
+PAGE = "index.html"
 
 
 @click.command()
@@ -37,10 +41,12 @@ def demo(scenes: tuple[Path, ...], out: Path) -> None:
     scenes = scenes or tuple(sorted(SCENES.glob("*.yaml")))
     if not scenes:
         raise SceneError(f"{SCENES}: there are no scene files (*.yaml)")
-    try:
-        out.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise OutputError(f"{out}: this folder can't be made: {error.strerror}") from error
+    for path in scenes:
+        check_not_metu(path, "demo")
+    pictures = [(f"the picture of {path},", out / f"{path.stem}.png") for path in scenes]
+    check_distinct(pictures)
+    make_folder(out)
+    check_outputs(pictures, [("the page", out / PAGE)])
 
     cards = []
     for number, path in enumerate(scenes, start=1):
@@ -58,6 +64,6 @@ def demo(scenes: tuple[Path, ...], out: Path) -> None:
         title = scene.title or path.stem
         cards.append(Card(title, file.name, file.read_bytes(), receipt, (width, height)))
 
-    page = out / "index.html"
+    page = out / PAGE
     write_text(page, contact_sheet(cards))
     click.echo(f"\nAll of them on one page: {page}")

@@ -6,7 +6,8 @@ from pathlib import Path
 
 import click
 
-from course.cli.tables import print_sections, summary_sections
+from course.cli.metu import check_camera, converted, is_metu, told_of, without_place
+from course.cli.tables import Section, print_sections, summary_sections
 
 
 @click.command()
@@ -16,13 +17,34 @@ from course.cli.tables import print_sections, summary_sections
     help="Whose functions would be called: solutions, assignments, or a folder of modules."
     "  [default: solutions, or assignments where there are none]",
 )
-def info(scene: Path, effects: str | None) -> None:
+@click.option("--camera", metavar="ID", help="Of a METU scene with several cameras, only this one.")
+def info(scene: Path, effects: str | None, camera: str | None) -> None:
     """Say what a scene holds and what rendering it will call.
 
     Nothing is rendered. Effects that the scene does not need are listed with the reason, objects
-    with where they lie, in the units of the file, and hints tell what is probably not meant.
+    with where they lie, in the units of the file, and hints tell what is probably not meant. Of a
+    METU scene (.xml or .json) each camera is told by itself.
     """
+    check_camera(scene, camera)
+    if not is_metu(scene):
+        print_sections(str(scene), _sections(scene, scene, effects))
+        return
+    with converted(scene, camera) as chosen:
+        for one in chosen:
+            title = f"{scene}, camera {one.camera}"
+            print_sections(title, _sections(scene, one.path, effects))
+
+
+def _sections(scene: Path, file: Path, effects: str | None) -> list[Section]:
+    """The summary of a file, in which places are told of the scene that the user has given."""
     from course import load_scene
     from course.rendering.summary import summarize
 
-    print_sections(str(scene), summary_sections(summarize(load_scene(scene, effects=effects))))
+    with told_of(scene, file):
+        sections = summary_sections(summarize(load_scene(file, effects=effects)))
+    if file == scene:
+        return sections
+    return [
+        (heading, [(label, without_place(text, scene, file)) for label, text in rows])
+        for heading, rows in sections
+    ]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Sequence
 from pathlib import Path
@@ -10,9 +11,10 @@ from typing import TYPE_CHECKING, Literal
 import click
 
 from course.cli import options
+from course.cli.metu import check_not_metu
+from course.cli.outputs import check_outputs
 from course.cli.progress import progress_bar
 from course.errors import CourseError
-from course.imaging.atomic import check_writable
 
 if TYPE_CHECKING:
     from course.radiosity.solution import Solution
@@ -116,9 +118,11 @@ def radiosity(
     SCENE is a scene file, or an .npz that was written before, which only has to be looked at.
     Several pictures are numbered: NAME_000.png, NAME_001.png.
     """
+    check_not_metu(scene, "radiosity")
     outs = outs or (Path(f"{scene.stem}.png"),)
     pictures = [out for out in outs if out.suffix.lower() != ".npz"]
-    _check_outs(outs, pictures)
+    solutions = [out for out in outs if out not in pictures]
+    check_outputs([("-o", out) for out in pictures], [("-o", out) for out in solutions], scene)
     if frames is not None and len(cameras) < 2:
         raise CourseError("--frames needs two or more --camera to fly between")
     if scene.suffix.lower() == ".npz":
@@ -169,21 +173,15 @@ def _solution(
             split=split,
             report=report,
         )
-    click.echo(
-        f"{len(solution.triangles)} patches, {int(solution.steps[0])} steps, "
-        f"within {float(solution.left[0]):.2%} of convergence"
+    left = float(solution.left[0])
+    # Gathering learns how far it is by its first iteration.
+    near = (
+        f"within {left:.2%} of convergence"
+        if math.isfinite(left)
+        else "how far from convergence is not known"
     )
+    click.echo(f"{len(solution.triangles)} patches, {int(solution.steps[0])} steps, {near}")
     return solution
-
-
-def _check_outs(outs: Sequence[Path], pictures: Sequence[Path]) -> None:
-    from course.imaging.files import check_picture_path
-
-    for out in outs:
-        if out in pictures:
-            check_picture_path(out)
-        else:
-            check_writable(out)
 
 
 def _views(

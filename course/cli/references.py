@@ -6,6 +6,7 @@ from pathlib import Path
 
 import click
 
+from course.cli.outputs import check_outputs
 from course.cli.tables import count
 from course.effects import COURSE, PROJECT
 
@@ -25,5 +26,6 @@ def references(seed: int, out: Path) -> None:
     from course.grading.pictures.whole import NAME
     from course.grading.references import make_references
 
+    check_outputs(files=[("--out", out)])
     arrays = make_references((*COURSE, NAME), seed, out)
     click.echo(f"{out}: {count(arrays, 'array')}, {out.stat().st_size / 1e6:.1f} MB")

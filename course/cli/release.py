@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from course.cli.outputs import check_outputs
 from course.cli.tables import count
 from course.effects import PROJECT
 from course.errors import OutputError
@@ -41,6 +42,9 @@ def release(check: bool, force: bool, out: Path | None) -> None:
     if out is not None:
         from course.grading.release.archive import write_archive
 
+        if out.suffix == ".zip":
+            # Before the references are made, which takes a while. A folder is made where there is none.
+            check_outputs(files=[("--out", out)])
         files = write_archive(PROJECT, out)
         click.echo(f"{out}: {count(files, 'file')}, searched for solutions and free of them")
         return

@@ -3,24 +3,18 @@
 from __future__ import annotations
 
 import json
-import signal
-import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
-from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
 from course.cli import options
+from course.cli.metu import check_camera, converted, is_metu, told_of
+from course.cli.outputs import check_outputs
 from course.cli.progress import progress_bar
 from course.cli.tables import print_sections, receipt_sections
-from course.errors import CourseError, SceneError
-from course.imaging.atomic import check_writable, write_text
-
-if TYPE_CHECKING:
-    from course.scene.metu.converting import Converted
+from course.errors import CourseError
+from course.imaging.atomic import write_text
 
 SAMPLERS = (
     "sobol",
@@ -33,8 +27,8 @@ SAMPLERS = (
     "xorshift",
 )
 
-ENDS = ("SIGTERM", "SIGHUP")
-"""Signals that end a process, and have no exception as Ctrl-C has; not every system has both."""
+GOES_ON = ("sobol", "random", "xorshift")
+"""Samplers that can go on where the error is."""
 
 
 @click.command()
@@ -128,14 +122,14 @@ def render(
         "error": error,
         "address": address,
     }
-    if scene.suffix.lower() not in (".xml", ".json"):
-        if camera is not None:
-            raise CourseError("--camera is for METU scenes, .xml or .json; others have one camera")
+    check_camera(scene, camera)
+    if not is_metu(scene):
         out = Path(f"{scene.stem}.png") if out is None else out
+        pictures, files = [("-o", out), ("--heat-map", heat_map)], [("--receipt", receipt_path)]
+        check_outputs(pictures, files, scene)
         _render_one(scene, scene, out, effects, choices, heat_map, receipt_path)
         return
-    with _told_to_end(), TemporaryDirectory(prefix="course-") as folder:
-        chosen = _converted(scene, camera, Path(folder))
+    with converted(scene, camera) as chosen:
         for option, path in (("-o", out), ("--heat-map", heat_map), ("--receipt", receipt_path)):
             if len(chosen) > 1 and path is not None:
                 names = ", ".join(one.camera for one in chosen)
@@ -143,45 +137,15 @@ def render(
                     f"{option} names one file, but {scene} has {len(chosen)} cameras: choose one of"
                     f" them with --camera ({names})"
                 )
-        for one in chosen:
-            picture = Path(one.image) if out is None else out
+        outs = [
+            (f"the picture of camera {one.camera},", Path(one.image))
+            if out is None
+            else ("-o", out)
+            for one in chosen
+        ]
+        check_outputs([*outs, ("--heat-map", heat_map)], [("--receipt", receipt_path)], scene)
+        for one, (_, picture) in zip(chosen, outs, strict=True):
             _render_one(scene, one.path, picture, effects, choices, heat_map, receipt_path)
-
-
-@contextmanager
-def _told_to_end() -> Iterator[None]:
-    """A process that is told to end, or whose terminal is closed, ends by an exception, and so deletes its folder."""
-    known = [getattr(signal, name) for name in ENDS if hasattr(signal, name)]
-    # What is ignored, as under nohup, stays so.
-    taken = [number for number in known if signal.getsignal(number) is signal.SIG_DFL]
-    for number in taken:
-        signal.signal(number, _end)
-    try:
-        yield
-    finally:
-        for number in taken:
-            signal.signal(number, signal.SIG_DFL)
-
-
-def _end(number: int, _frame: object) -> None:
-    # As shells say it of a process that a signal has ended.
-    sys.exit(128 + number)
-
-
-def _converted(scene: Path, camera: str | None, folder: Path) -> list[Converted]:
-    """The scene files of a METU scene, one for each camera or for the one that is asked for."""
-    from course.scene.metu.converting import convert
-
-    converted, warnings = convert(scene, folder / "scene.yaml")
-    for warning in warnings:
-        click.echo(f"warning: {warning}", err=True)
-    if camera is None:
-        return converted
-    chosen = [one for one in converted if one.camera == camera]
-    if not chosen:
-        names = ", ".join(one.camera for one in converted)
-        raise CourseError(f"--camera {camera}: {scene} has the cameras {names}")
-    return chosen[:1]
 
 
 def _render_one(
@@ -196,22 +160,12 @@ def _render_one(
     """Render one scene file to one picture; `scene` is what messages call it."""
     from course import load_scene
     from course import render as render_picture
-    from course.imaging.files import check_picture_path
     from course.scene.needs import why_black
 
-    for path in (out, heat_map):
-        if path is not None:
-            check_picture_path(path)
-    if receipt_path is not None:
-        check_writable(receipt_path)
-    try:
+    with told_of(scene, file):
         world = load_scene(file, effects=effects)
-    except SceneError as error:
-        if file == scene:
-            raise
-        from course.scene.metu.converting import retold
-
-        raise retold(error, scene, file) from error
+    if file != scene:
+        _check_error(scene, world.settings.sampler, world.settings.samples, choices)
     black = why_black(world)
     if black:
         click.echo(f"hint: {scene}: {black}", err=True)
@@ -233,6 +187,19 @@ def _render_one(
     if receipt_path is not None:
         write_text(receipt_path, json.dumps(receipt, indent=2, allow_nan=False) + "\n")
     print_sections(str(out), receipt_sections(receipt))
+
+
+def _check_error(scene: Path, sampler: str, samples: int, choices: dict[str, Any]) -> None:
+    """A METU scene has a grid of samples, which nobody chose who asks for an error to be aimed at."""
+    if choices["error"] is None or choices["sampler"] is not None or sampler in GOES_ON:
+        return
+    from course.rendering.allocation import FIRST
+
+    more = " --spp 64" if choices["spp"] is None and samples < FIRST else ""
+    raise CourseError(
+        f"{scene}: --error adds samples where the error is, but NumSamples of a METU scene places them all at once"
+        f" ({sampler}): say --sampler sobol{more}, too"
+    )
 
 
 def _check_engine(engine: str, address: str | None, threads: int | None) -> None:

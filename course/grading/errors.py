@@ -6,7 +6,9 @@ from typing import Literal
 
 from course.errors import CourseError
 
-Trouble = Literal["not written", "raised", "bad value", "timeout", "crashed", "not loaded"]
+Trouble = Literal[
+    "not written", "missing", "raised", "bad value", "timeout", "crashed", "not loaded"
+]
 
 
 class StudentError(CourseError):
@@ -14,12 +16,28 @@ class StudentError(CourseError):
 
     Attributes
     ----------
-    kind : what happened; "not loaded" when the file can't be imported, "bad value" when what came back is no number
-        or plain array
+    kind : what happened; "not loaded" when the file can't be imported, "missing" when it hasn't the function, "bad
+        value" when what came back is no number or plain array
     type : the exception's class where one was raised
     traceback : of the student's own lines, cut
+    module_wide : whether no function of the module can be called
     """
 
-    def __init__(self, kind: Trouble, message: str, type: str = "", traceback: str = "") -> None:  # noqa: A002
+    def __init__(
+        self,
+        kind: Trouble,
+        message: str,
+        type: str = "",  # noqa: A002
+        traceback: str = "",
+        *,
+        module_wide: bool = False,
+    ) -> None:
         super().__init__(message)
         self.kind, self.type, self.traceback = kind, type, traceback
+        self.module_wide = module_wide
+
+    @property
+    def cause(self) -> str:
+        """The same for two errors that have one cause: an exception is known by the lines that it came through."""
+        frames = [line for line in self.traceback.splitlines() if line.startswith(" ")]
+        return "\n".join((self.kind, self.type, *(frames or [str(self)])))

@@ -5,17 +5,21 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import AbstractContextManager, ExitStack, nullcontext
 from functools import partial
+from pathlib import Path
 from time import perf_counter
 
 from course import __version__
 from course.effects import COURSE
 from course.grading.catalog import module_checks
 from course.grading.checks.check import Caller, Check
-from course.grading.checks.running import References, Result, run_checks
+from course.grading.checks.running import References, Result, Status, run_checks, unusable
+from course.grading.errors import StudentError
 from course.grading.pictures.whole import ALL, NAME, Together
 from course.grading.references import SOLUTIONS, reference
 from course.grading.report import Report
+from course.grading.submissions import why_absent
 from course.grading.worker.client import Limits, Worker
+from course.grading.worker.patience import Patience
 from course.grading.worker.sandbox import Sandbox, sandbox
 
 
@@ -30,6 +34,7 @@ def grade(
     shut_in: Sandbox | None = None,
     only: Callable[[Check], bool] | None = None,
     each: Callable[[Result], None] | None = None,
+    folder: Path | None = None,
 ) -> Report:
     """Grade the modules of one submission.
 
@@ -40,6 +45,7 @@ def grade(
     seed : chooses the parameters of scenes and checks
     only : which checks to run; all if not given
     each : called with every result as soon as it is there
+    folder : where the files should be, for what is said of those that aren't; only their names if not given
     """
     limits = limits or Limits()
     shut_in = shut_in or sandbox()
@@ -48,8 +54,19 @@ def grade(
     chosen = tuple(modules)
     with ExitStack() as stack:
         # A worker's process starts at its first call, so those of modules that nobody asks cost nothing.
+        # Of some checks alone the first may be a large one.
+        patience = {module: Patience(limits.call_seconds, only is None) for module in chosen}
         workers = {
-            module: stack.enter_context(Worker(module, sources.get(module, b""), limits, shut_in))
+            module: stack.enter_context(
+                Worker(
+                    module,
+                    sources.get(module, b""),
+                    limits,
+                    shut_in,
+                    patience=patience[module],
+                    trouble=why_absent(module, sources.get(module), folder),
+                )
+            )
             for module in chosen
         }
 
@@ -68,16 +85,39 @@ def grade(
                         shut_in,
                         lender=reference(module),
                         lent=before,
+                        patience=patience[module],
                     )
                 )
             return lenders[module, function]
 
+        def tell(result: Result) -> None:
+            results.append(result)
+            if each is not None:
+                each(result)
+
         lenders: dict[tuple[str, str], Worker] = {}
         for module in (*chosen, *([NAME] if set(ALL) <= set(chosen) else [])):
-            caller: Caller = workers[module] if module in workers else Together(workers)
+            checks = module_checks(module)
+            caller: Caller
+            if module in workers:
+                caller = workers[module]
+                error = (
+                    _loaded(workers[module])
+                    if any(only is None or only(check) for check in checks.checks)
+                    else None
+                )
+                if error is not None:
+                    for result in unusable(checks, error, only):
+                        tell(result)
+                    continue
+            else:
+                caller = Together(
+                    workers,
+                    {f"{r.module}.{r.function}" for r in results if r.status is Status.TIMEOUT},
+                )
             with _yardstick(module, limits, shut_in) as yardstick:
                 for result in run_checks(
-                    module_checks(module),
+                    checks,
                     caller,
                     references,
                     seed,
@@ -85,9 +125,7 @@ def grade(
                     yardstick,
                     partial(lend, module),
                 ):
-                    results.append(result)
-                    if each is not None:
-                        each(result)
+                    tell(result)
         printed = {module: worker.printed for module, worker in workers.items() if worker.printed}
     return Report(
         student,
@@ -98,6 +136,15 @@ def grade(
         __version__,
         perf_counter() - started,
     )
+
+
+def _loaded(worker: Worker) -> StudentError | None:
+    """Why the module can't be used; None if it can."""
+    try:
+        worker.load()
+    except StudentError as error:
+        return error
+    return None
 
 
 def _yardstick(

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Protocol
 
-from course.grading.checks.running import Result, Status
+from course.grading.checks.running import NOT_WRITTEN, Result, Status
 
 
 class Scored(Protocol):
@@ -85,9 +85,15 @@ def findings(result: Result) -> list[tuple[str, str]]:
         ("expected", result.expected),
         ("found", result.found),
         ("where", result.where),
+        ("the same as", result.same_as),
         ("hint", result.hint),
     )
     return [(label, text) for label, text in found if text]
+
+
+def unstarted(result: Result) -> str:
+    """Why a function is still to do: empty for a stub that nobody has touched, which needs no words."""
+    return "" if result.found.endswith(NOT_WRITTEN) else result.found
 
 
 def reproduce(result: Result, seed: int) -> str:

@@ -66,7 +66,8 @@ def flight(views: Sequence[View], frames: int) -> list[View]:
     Raises
     ------
     CourseError
-        There are fewer than two views or frames.
+        There are fewer than two views or frames, or one on the way sees nothing; its frame, counted from 0 as files
+        are, and the cameras before and after it are named.
     """
     if len(views) < 2 or frames < 2:
         raise CourseError(
@@ -86,7 +87,19 @@ def flight(views: Sequence[View], frames: int) -> list[View]:
     fov = np.interp(at, way, [view.vertical_fov for view in views])
     up = along(np.array([view.up for view in views]))
     rows = zip(along(eyes), along(targets), up, fov, strict=True)
-    return [View(eye, target, u, float(angle)) for eye, target, u, angle in rows]
+    flown = []
+    for frame, (eye, target, u, angle) in enumerate(rows):
+        try:
+            flown.append(View(eye, target, u, float(angle)))
+        except CourseError as error:
+            # Cameras that were given have been looked at before: it is one that nobody has named.
+            last = min(int(np.searchsorted(way, at[frame], "right")), len(views) - 1)
+            before, after = (views[k].eye.tolist() for k in (last - 1, last))
+            raise CourseError(
+                f"frame {frame} of the flight, between the cameras at {before} and {after}: {error}, or let a camera"
+                " between these two lead around it"
+            ) from None
+    return flown
 
 
 def look(
@@ -151,7 +164,18 @@ def radiance(
 
 
 def views_of(solution: Solution, cameras: Sequence[tuple[Floats64, Floats64]]) -> Iterator[View]:
-    """Views with the scene's own up and field of view, from (eye, look_at) each."""
+    """Views with the scene's own up and field of view, from (eye, look_at) each.
+
+    Raises
+    ------
+    CourseError
+        One sees nothing; of several, it is told which.
+    """
     own = own_view(solution)
-    for eye, look_at in cameras:
-        yield View(eye, look_at, own.up, own.vertical_fov)
+    for number, (eye, look_at) in enumerate(cameras, start=1):
+        try:
+            yield View(eye, look_at, own.up, own.vertical_fov)
+        except CourseError as error:
+            if len(cameras) == 1:
+                raise
+            raise CourseError(f"camera {number} of {len(cameras)}: {error}") from None

@@ -28,6 +28,27 @@ def test_names_are_printed_with_their_units(capsys: pytest.CaptureFixture[str]) 
     assert rows == [[name, *cells] for name, cells in told.items()]
 
 
+@pytest.mark.parametrize(
+    ("value", "goal", "at_least", "shown"),
+    [
+        (1.84712, 1.85, True, "1.847"),
+        (1.8499993, 1.85, True, "1.849999"),
+        (1.5004, 1.5, False, "1.5004"),
+        (1.8512, 1.85, True, "1.85"),
+        (1.85, 1.85, True, "1.85"),
+        (1.84, 1.85, True, "1.84"),
+        (1.4996, 1.5, False, "1.50"),
+    ],
+)
+def test_a_median_that_misses_its_goal_doesnt_look_as_if_it_didnt(
+    value: float, goal: float, at_least: bool, shown: str
+) -> None:
+    *_, row = markdown([Figure("a", value, value, value, goal, at_least)]).splitlines()
+    told = "reached" if shown in ("1.85", "1.50") else "missed"
+    sign = "≥" if at_least else "≤"
+    assert row == f"| a | {shown} | {shown} .. {shown} | {sign} {goal:g} | {told} |"
+
+
 def test_a_bar_in_a_name_ends_no_cell_in_markdown() -> None:
     *_, row = markdown([Figure("largest |t|", 2.0, 1.0, 3.0, 6.0)]).splitlines()
     assert row == r"| largest \|t\| | 2.00 | 1.00 .. 3.00 | ≤ 6 | reached |"

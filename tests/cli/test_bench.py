@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -11,10 +12,12 @@ from typing import Any
 import pytest
 from click.testing import Result
 
+from benchmarks.__main__ import MEASURES
 from course.benchmarking import measuring
 from course.benchmarking.estimators import BENCHED, FURTHER_BENCHED, Estimator, Module
 from course.benchmarking.measuring import FULL, QUICK, Effort, Measured
-from course.effects import MODULES
+from course.cli.bench import ELSEWHERE
+from course.effects import COURSE, MODULES
 from tests.benchmarking.curves import curve
 
 Run = Callable[..., Result]
@@ -149,7 +152,11 @@ def test_docs_can_be_written_for_some_modules(
     ("arguments", "exit_code", "told"),
     [
         (["--estimator", "nothing"], 1, "no estimator is named like 'nothing'; there are box"),
-        (["soft_shadow"], 2, "soft_shadow"),
+        (["soft_shadow"], 2, "'soft_shadow'; the modules measured here are supersampling, "),
+        *(
+            ([name], 2, f"{name} is measured by `python -m benchmarks {name}`")
+            for name in ELSEWHERE
+        ),
         (["--json", "bench.txt"], 2, "doesn't end in .json"),
         (["--json", "no/folder/b.json"], 1, "there is no folder"),
         (["--height", "10"], 2, "11<=x<=4096"),
@@ -163,6 +170,16 @@ def test_what_can_not_be_done_is_refused_before_the_work(
     assert result.exit_code == exit_code
     assert told in result.output
     assert not bench.measured
+
+
+def test_help_lists_every_module_with_the_command_that_measures_it(run: Run) -> None:
+    text = " ".join(run("bench", "--help").output.split())
+    here, _, there = text.partition("Modules: ")[2].partition("`python -m benchmarks NAME`")
+    named = [re.findall(r"[a-z]+(?:_[a-z]+)*", part) for part in (here, there.partition(": ")[2])]
+    assert named == [list(BENCHED | FURTHER_BENCHED), list(ELSEWHERE)]
+    # The programs are there, and no module is forgotten.
+    assert set(ELSEWHERE) <= set(MEASURES)
+    assert {*here.replace(".", "").replace(",", "").split(), *ELSEWHERE} == set(COURSE)
 
 
 def test_plots_without_matplotlib_are_refused_before_the_work(

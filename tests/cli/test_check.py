@@ -1,4 +1,4 @@
-"""`course check`: which modules are checked."""
+"""`course check`: which modules are checked, and what is said of those that can't be."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import pytest
 from click.testing import Result
 
 from course.cli.options import FAILED
-from course.effects import COURSE
+from course.effects import COURSE, PROJECT
 
 Run = Callable[..., Result]
 
@@ -57,3 +57,96 @@ def test_without_names_all_modules_are_meant(run: Run, folder: Path) -> None:
     result = run("check", "--only", "bokeh", "--folder", folder)
     assert result.exit_code == 1
     assert f"no check of {', '.join(COURSE)} has that name" in result.stderr
+
+
+SOLUTION = (PROJECT / "solutions" / "motion_blur.py").read_text(encoding="utf-8")
+
+
+def told(result: Result, folder: Path) -> str:
+    """What the terminal says, checked to be no more and no less than the other reports do."""
+    assert result.exit_code == FAILED, result.output
+    found = json.loads((folder / "found.json").read_text(encoding="utf-8"))
+    page = (folder / "page.html").read_text(encoding="utf-8")
+    for one in found["results"]:
+        if one["status"] != "passed" and not one["found"].endswith("not written yet"):
+            assert one["found"][:40].partition("'")[0] in result.stdout
+            assert one["found"][:40].partition("'")[0] in page
+        if one["where"]:
+            assert one["where"].splitlines()[0].strip() in result.stdout
+    return result.stdout
+
+
+def check(run: Run, folder: Path, *more: str) -> str:
+    outputs = ("--json", folder / "found.json", "--html", folder / "page.html")
+    return told(run("check", "motion_blur", "--folder", folder, *outputs, *more), folder)
+
+
+def test_a_file_that_is_not_there_is_no_untouched_stub(run: Run, tmp_path: Path) -> None:
+    mine = tmp_path / "mine"
+    mine.mkdir()
+    assert f"{mine / 'motion_blur.py'} is missing\n" in check(run, mine)
+    (mine / "motion_blurr.py").touch()
+    assert "motion_blur.py is missing (is it motion_blurr.py?)" in check(run, mine)
+    (mine / "motion_blur.py").touch()
+    text = check(run, mine)
+    assert f"{mine / 'motion_blur.py'} is empty" in text
+    assert text.count("is empty") == 1
+
+
+def test_an_untouched_stub_needs_no_words(run: Run, folder: Path) -> None:
+    stub = PROJECT / "assignments" / "motion_blur.py"
+    (folder / stub.name).write_bytes(stub.read_bytes())
+    lines = check(run, folder).splitlines()
+    assert [line.split() for line in lines[1:4]] == [
+        ["to", "do", name] for name in COURSE["motion_blur"]
+    ]
+
+
+def test_a_name_that_is_spelt_wrongly_is_pointed_out(run: Run, folder: Path) -> None:
+    renamed = SOLUTION.replace("def displacement", "def displacment")
+    (folder / "motion_blur.py").write_text(renamed, encoding="utf-8")
+    text = check(run, folder)
+    assert text.count("motion_blur.py has no displacement (did you mean displacment?)") == 1
+
+
+def test_a_syntax_error_is_told_once(run: Run, folder: Path) -> None:
+    (folder / "motion_blur.py").write_text("import numpy\ndef f(:\n", encoding="utf-8")
+    lines = check(run, folder).splitlines()
+    assert lines[1].startswith("  motion_blur.py can't be imported: SyntaxError")
+    assert lines[3].strip() == "def f(:"
+    assert lines[4].strip() == "^"
+    assert lines[4].index("^") == lines[3].index(":")
+    assert sum("SyntaxError" in line for line in lines) == 2
+    assert len(lines) < 14
+    assert not any("right" in line for line in lines)
+
+
+def test_a_long_exception_is_cut_and_told_once(run: Run, folder: Path) -> None:
+    own = "\n\ndef displacement(*_):\n    raise KeyError('long ' * 800)\n"
+    (folder / "motion_blur.py").write_text(SOLUTION + own, encoding="utf-8")
+    text = check(run, folder, "--only", "displacement")
+    assert text.count("\n      contract") == 1
+    assert "checks more: KeyError: 'long long" in text
+    assert len(text) < 2000
+
+
+def test_copies_of_other_modules_block_nothing(run: Run, tmp_path: Path) -> None:
+    mine = tmp_path / "mine"
+    for name in (".", "old", "older"):
+        (mine / name).mkdir(parents=True, exist_ok=True)
+        (mine / name / "motion_blur.py").write_text(SOLUTION, encoding="utf-8")
+        if name != ".":
+            (mine / name / "glossy.py").touch()
+    only = ("--only", "displacement/contract")
+    result = run("check", "motion_blur", "--folder", mine, *only)
+    assert result.exit_code == 0, result.output
+    assert not result.stderr
+    (mine / "motion_blur.py").unlink()
+    (mine / "older" / "motion_blur.py").unlink()
+    result = run("check", "motion_blur", "--folder", mine, *only)
+    assert result.exit_code == 0, result.output
+    below = mine / "old" / "motion_blur.py"
+    says = f"{mine / 'motion_blur.py'} is missing; {below} is checked in its place\n"
+    assert result.stderr == says
+    result = run("check", "glossy", "--folder", mine)
+    assert "glossy.py is in it more than once" in result.stderr

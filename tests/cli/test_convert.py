@@ -133,11 +133,57 @@ def test_a_mesh_file_that_cant_be_read_is_told_by_the_scene_that_names_it(
     bad = text.replace("<Faces>1 2 3</Faces>", '<Faces plyFile="bad.ply"/>')
     (tmp_path / "bad.xml").write_text(bad, encoding="utf-8")
     (tmp_path / "bad.ply").write_text("no mesh", encoding="utf-8")
-    result = run("render", "bad.xml")
-    assert result.exit_code == 1
-    assert "error: bad.xml: as a scene of this course: objects[0]:" in result.output
-    assert "bad.ply: not a PLY file that can be read" in result.output
+    for command in ("render", "convert", "info"):
+        result = run(command, "bad.xml")
+        assert result.exit_code == 1
+        assert "error: bad.xml:15: Scene/Objects/Mesh/Faces: plyFile can't be used" in result.output
+        assert "bad.ply: not a PLY file that can be read" in result.output
+        assert "scene.yaml" not in result.output
+    assert files(tmp_path) == {"box.xml", "bad.xml", "bad.ply"}
+
+
+@pytest.mark.usefixtures("two_cameras")
+def test_a_scene_is_described_for_each_camera(run: Run, tmp_path: Path) -> None:
+    result = run("info", "two.xml")
+    assert result.exit_code == 0, result.output
+    lines = [line.split() for line in result.stdout.splitlines()]
+    assert [line for line in lines if "camera" in line and line[0] == "two.xml,"] == [
+        ["two.xml,", "camera", "1"],
+        ["two.xml,", "camera", "b"],
+    ]
+    # Functions are called for this scene, and not for a file that nobody has seen.
+    assert [line[-1] for line in lines if "soft_shadows.point_on_rectangle" in line] == [
+        "two.xml"
+    ] * 2
     assert "scene.yaml" not in result.output
+    one = run("info", "two.xml", "--camera", "b")
+    assert "camera 1" not in one.stdout
+    assert "camera b" in one.stdout
+    assert files(tmp_path) == {"two.xml"}
+
+
+@pytest.mark.usefixtures("scene")
+def test_what_an_error_to_aim_at_needs_is_told_by_its_option(run: Run, tmp_path: Path) -> None:
+    result = run("render", "box.xml", "--error", "1")
+    assert result.exit_code == 1
+    assert "box.xml: --error adds samples where the error is" in result.stderr
+    assert "(jittered): say --sampler sobol, too" in result.stderr
+    text = (tmp_path / "box.xml").read_text(encoding="utf-8")
+    (tmp_path / "one.xml").write_text(text.replace("<NumSamples>9</NumSamples>", ""))
+    result = run("render", "one.xml", "--error", "1")
+    assert "(regular): say --sampler sobol --spp 64, too" in result.stderr
+    for name, options in (("box.xml", []), ("one.xml", ["--spp", "64"])):
+        result = run("render", name, "--error", "1", "--sampler", "sobol", *options)
+        assert result.exit_code == 0, result.output
+
+
+@pytest.mark.usefixtures("two_cameras")
+def test_all_pictures_can_be_written_before_the_first_is_rendered(run: Run, tmp_path: Path) -> None:
+    (tmp_path / "back.exr").mkdir()
+    result = run("render", "two.xml")
+    assert result.exit_code == 1
+    assert "back.exr: can't be written, because it is a folder" in result.stderr
+    assert files(tmp_path) == {"two.xml", "back.exr"}
 
 
 @pytest.mark.parametrize(
@@ -150,6 +196,10 @@ def test_a_mesh_file_that_cant_be_read_is_told_by_the_scene_that_names_it(
         ),
         (("render", "no.json"), "no.json: no such file"),
         (("render", "box.yaml", "--camera", "1"), "--camera is for METU scenes"),
+        (("info", "box.yaml", "--camera", "1"), "--camera is for METU scenes"),
+        (("info", "box.xml", "--camera", "7"), "box.xml has the cameras 1"),
+        (("radiosity", "box.xml"), "`course convert box.xml` makes one of it"),
+        (("demo", "box.xml"), "`course convert box.xml` makes one of it"),
     ],
 )
 @pytest.mark.usefixtures("scene")

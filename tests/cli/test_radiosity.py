@@ -60,15 +60,39 @@ def test_a_solution_is_kept_and_looked_at_from_anywhere(
         (("-o", "room.jpg"), 1, "must end in .png or .exr"),
         (("-o", "nowhere/room.npz"), 1, "there is no folder"),
         (("--camera", "0,0,0:0,1,0", "--patches", "4"), 1, "looks along its up"),
+        (
+            ("--camera", "0,1,4:0,1,0", "--camera", "0,4,0:0,1,0", "--patches", "4"),
+            1,
+            "camera 2 of 2: the camera at [0.0, 4.0, 0.0] looks along its up",
+        ),
+        (
+            ("--camera", "0,1,4:0,1,0", "--camera=0,1,-4:0,1,0", "--frames", 3, "--patches", 4),
+            1,
+            "frame 1 of the flight, between the cameras at [0.0, 1.0, 4.0] and [0.0, 1.0, -4.0]",
+        ),
     ],
 )
 def test_what_does_not_fit_is_refused(
-    run: Run, scene: Path, arguments: tuple[str, ...], code: int, told: str
+    run: Run, scene: Path, arguments: tuple[str | int, ...], code: int, told: str
 ) -> None:
     result = run("radiosity", scene, *arguments)
     assert result.exit_code == code
     assert told in result.stderr
     assert "Traceback" not in result.stderr
+
+
+@pytest.mark.parametrize(
+    ("method", "told"),
+    [("gather", "0 steps, how far from convergence is not known"), ("shoot", r"0 steps, within ")],
+)
+def test_of_no_step_at_all_only_what_is_known_is_said(
+    run: Run, scene: Path, method: str, told: str
+) -> None:
+    options = ("--patches", 20, "--iterations", 0, "--method", method)
+    result = run("radiosity", scene, *options)
+    assert result.exit_code == 0
+    assert told in result.stdout
+    assert "inf" not in result.stdout
 
 
 def test_a_solution_is_not_worked_out_again(run: Run, scene: Path) -> None:

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from course.cli.render import _told_to_end
+from course.cli.metu import told_to_end
 
 if sys.platform == "win32":
     pytest.skip("no signals to send to another process", allow_module_level=True)
@@ -32,7 +32,7 @@ COMMAND = (
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
-def test_a_process_that_is_told_to_end_leaves_no_folder(
+def test_a_process_that_istold_to_end_leaves_no_folder(
     tmp_path: Path, number: signal.Signals
 ) -> None:
     temporary = tmp_path / "temporary"
@@ -63,7 +63,7 @@ def test_what_is_ignored_stays_ignored() -> None:
     """As the end of a terminal is by a process that nohup has started."""
     before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
     try:
-        with _told_to_end():
+        with told_to_end():
             assert signal.getsignal(signal.SIGHUP) is signal.SIG_IGN
         assert signal.getsignal(signal.SIGHUP) is signal.SIG_IGN
     finally:

@@ -156,6 +156,19 @@ def test_a_flight_goes_evenly_through_all_cameras() -> None:
         flight(views[:1], 5)
 
 
+def test_a_frame_that_sees_nothing_is_told_with_the_cameras_that_it_lies_between() -> None:
+    left, front = view((-4, 0, 4), (0, 0, 0)), view((0, 0, 4), (0, 0, 0))
+    behind = view((0, 0, -4), (0, 0, 0))
+    between = r"\[0, 0, 4\] and \[0, 0, -4\]: the camera at \[0\.0, 0\.0, 0\.0\] looks at itself"
+    # 4 units to the front, then 8 through the point that all look at; a frame every two.
+    with pytest.raises(
+        CourseError, match=f"^frame 4 of the flight, between the cameras at {between}"
+    ):
+        flight([left, front, behind], 7)
+    with pytest.raises(CourseError, match="frame 1 of the flight"):
+        flight([front, behind], 3)
+
+
 def test_a_camera_has_to_look_somewhere() -> None:
     with pytest.raises(CourseError, match="looks at itself: give another point"):
         view((1, 2, 3), (1, 2, 3))

@@ -2,7 +2,7 @@
 
 One result for each check, whatever happens: a mistake costs the checks that it concerns, and an exception in a check
 itself is the grader's error, with its points given. A function that has run out of time once, or isn't written yet, is
-not called again.
+not called again. What has been said of a function before is not said again: its later results name the first.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ import traceback
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from functools import lru_cache
+from functools import lru_cache, partial
 from time import perf_counter
 from zlib import crc32
 
@@ -28,6 +28,7 @@ from course.grading.checks.check import (
     Trial,
 )
 from course.grading.errors import StudentError
+from course.grading.worker.patience import NOT_RUN
 
 
 class Status(StrEnum):
@@ -55,6 +56,8 @@ class Result:
     mistake, says : the known mistake that the function makes, if it is one
     seconds : it took
     figures : what there is to draw
+    same_as : the id of an earlier result that says the same, with more about it; empty if this is the first
+    module_wide : whether it is about the whole module, of which no function could be called
     """
 
     module: str
@@ -73,6 +76,8 @@ class Result:
     says: str = ""
     seconds: float = 0.0
     figures: tuple[Figure, ...] = ()
+    same_as: str = ""
+    module_wide: bool = False
 
     @property
     def id(self) -> str:
@@ -128,56 +133,114 @@ def run_checks(
     yardstick : the reference, to compare times with
     lenders : who is asked again when a check fails, so that a function pays for no other function's mistake
     """
-    given_up: dict[str, Status] = {}
+    given_up: dict[str, Result] = {}
     matched: dict[str, Mistake | None] = {}
+    told: dict[tuple[str, str], str] = {}
+    attempt = partial(_attempt, checks.module, references=references, seed=seed)
     for check in checks.checks:
         if only is not None and not only(check):
             continue
         if check.function in given_up:
             # What ran out of time isn't waited for again; and a stub must not earn the checks of its arguments, which
             # it came with.
-            yield _result(
-                checks.module,
-                check,
-                given_up[check.function],
-                found=_GIVEN_UP[given_up[check.function]],
-            )
+            first = given_up[check.function]
+            found = first.found or NOT_WRITTEN
+            if first.status is Status.TIMEOUT and not found.startswith(NOT_RUN):
+                found = OUT_OF_TIME
+            result = _result(checks.module, check, first.status, found=found)
+            yield replace(result, same_as=first.id)
             continue
         started = perf_counter()
-        result = _attempt(checks.module, check, caller, references, seed, yardstick)
-        if result.status not in (Status.PASSED, Status.GRADER_ERROR):
-            lender = lenders(check.function)
-            if lender is not None:
-                again = _attempt(checks.module, check, lender, references, seed, None)
-                if again.status is Status.PASSED:
-                    result = replace(again, hint=STANDS_ON)
-        if result.status in _GIVEN_UP:
-            given_up[check.function] = result.status
+        hung = any(first.status is Status.TIMEOUT for first in given_up.values())
+        result, error, asked = _asked(attempt, check, caller, yardstick, lenders, lent_first=hung)
+        if result.status in (Status.TIMEOUT, Status.NOT_ATTEMPTED):
+            given_up[check.function] = result
         if result.status is Status.FAILED:
             if check.function not in matched:
-                matched[check.function] = _matching(checks, check.function, caller, seed)
+                matched[check.function] = _matching(checks, check.function, asked, seed)
             mistake = matched[check.function]
             if mistake is not None:
                 result = replace(result, mistake=mistake.name, says=mistake.says)
+        if error is not None:
+            first_id = told.setdefault((check.function, error.cause), result.id)
+            if first_id != result.id:
+                result = replace(result, same_as=first_id, where="")
         yield replace(result, seconds=perf_counter() - started)
+
+
+def unusable(
+    checks: ModuleChecks, error: StudentError, only: Callable[[Check], bool] | None = None
+) -> Iterator[Result]:
+    """Results where no function of the module can be called: none passes, and the first says why in full."""
+    first = ""
+    for check in checks.checks:
+        if only is None or only(check):
+            result = replace(_troubled(checks.module, check, error), expected="", module_wide=True)
+            yield replace(result, where="", same_as=first) if first else result
+            first = first or result.id
 
 
 STANDS_ON = "Right by itself: the check passes when the functions above it, which this one calls, are the course's own."
 
-_GIVEN_UP = {
-    Status.TIMEOUT: "an earlier check of this function ran out of time",
-    Status.NOT_ATTEMPTED: "not written yet",
-}
+NOT_WRITTEN = "not written yet"
+OUT_OF_TIME = "an earlier check of this function ran out of time"
+
+_Outcome = tuple[Result, StudentError | None]
+
+
+def _asked(
+    attempt: Callable[..., _Outcome],
+    check: Check,
+    caller: Caller,
+    yardstick: Caller | None,
+    lenders: Lenders,
+    *,
+    lent_first: bool,
+) -> tuple[Result, StudentError | None, Caller]:
+    """A check with the student's functions alone, and with the reference's above it if it doesn't pass so.
+
+    Parameters
+    ----------
+    lent_first : the other way round, because a function above it never ends: whoever calls that one would be waited
+        for in vain
+
+    Returns
+    -------
+    what it gave, the error where there was one, and with which functions
+    """
+    lender = lenders(check.function) if lent_first else None
+    lent: _Outcome | None = None
+    if lender is not None:
+        lent = attempt(check, lender, yardstick=None)
+        if lent[0].status is Status.PASSED:
+            return replace(lent[0], hint=STANDS_ON), None, lender
+    result, error = attempt(check, caller, yardstick=yardstick)
+    # What isn't in the file, or is in a file that can't be used, is nobody else's mistake.
+    alone = error is not None and (error.kind == "missing" or error.module_wide)
+    if result.status in (Status.PASSED, Status.GRADER_ERROR) or alone:
+        return result, error, caller
+    if lent is None:
+        lender = lenders(check.function)
+        if lender is not None:
+            lent = attempt(check, lender, yardstick=None)
+            if lent[0].status is Status.PASSED:
+                return replace(lent[0], hint=STANDS_ON), None, lender
+    elif lender is not None and result.status is Status.TIMEOUT:
+        # It may have waited for the function that never ends; what is wrong with it itself says more.
+        return *lent, lender
+    return result, error, caller
 
 
 def _attempt(
     module: str,
     check: Check,
     caller: Caller,
+    *,
     references: References,
     seed: int,
     yardstick: Caller | None,
-) -> Result:
+) -> _Outcome:
+    trouble: StudentError | None = None
     trial = Trial(check.function, caller, generator(seed, module, check))
     trial.yardstick = yardstick
     try:
@@ -196,7 +259,7 @@ def _attempt(
             hint=failure.hint,
         )
     except StudentError as error:
-        result = _troubled(module, check, error)
+        result, trouble = _troubled(module, check, error), error
     except Exception as error:  # noqa: BLE001 - the grader's own fault must not end the grading of others
         result = _result(
             module,
@@ -206,7 +269,7 @@ def _attempt(
             where=traceback.format_exc(limit=-3),
             hint="This is no fault of yours; please pass it on.",
         )
-    return replace(result, figures=tuple(trial.figures))
+    return replace(result, figures=tuple(trial.figures)), trouble
 
 
 def _matching(checks: ModuleChecks, function: str, caller: Caller, seed: int) -> Mistake | None:
@@ -218,6 +281,9 @@ def _matching(checks: ModuleChecks, function: str, caller: Caller, seed: int) ->
             try:
                 if mistake.matches(trial):
                     return mistake
+            except StudentError as error:
+                if error.kind == "timeout":
+                    return None  # The next one would be waited for too.
             except Exception:  # noqa: BLE001 - what comes back is too wrong to be this mistake
                 continue
     return None
@@ -226,11 +292,13 @@ def _matching(checks: ModuleChecks, function: str, caller: Caller, seed: int) ->
 def _troubled(module: str, check: Check, error: StudentError) -> Result:
     status = {
         "not written": Status.NOT_ATTEMPTED,
+        "missing": Status.NOT_ATTEMPTED,
         "timeout": Status.TIMEOUT,
         "crashed": Status.CRASHED,
     }.get(error.kind, Status.FAILED)
     found = f"{error.type}: {error}" if error.kind == "raised" else str(error)
-    return _result(module, check, status, expected="a value", found=found, where=error.traceback)
+    expected = "" if error.kind == "missing" else "a value"
+    return _result(module, check, status, expected=expected, found=found, where=error.traceback)
 
 
 def _result(

@@ -63,7 +63,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _grade(root: Path, writer: _Writer) -> int:
-    submission = read_one(writer.student, (root / "submission").resolve())
+    submission = read_one(writer.student, (root / "submission").resolve(), writer.modules)
     if submission.trouble:
         writer.fail(submission.trouble)
         return 0

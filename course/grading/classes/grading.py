@@ -78,14 +78,14 @@ def grade_class(
     """
     from course.grading.reports.classes import write_class_page, write_grades
 
-    submissions = find_submissions(folder)
+    modules = tuple(modules)
+    submissions = find_submissions(folder, modules)
     if folder.resolve() in (out.resolve(), out.resolve().parent):
         raise CourseError(f"{out}: lies where the submissions are; choose a folder elsewhere")
     try:
         out.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise OutputError(f"{out}: can't be written: {error.strerror}") from error
-    modules = tuple(modules)
     marks = {
         one.student: fingerprint(one.sources, one.trouble, seed, modules) for one in submissions
     }

@@ -6,10 +6,12 @@ Nobody knows what students hand in, so whatever is wrong with one of them is kep
 from __future__ import annotations
 
 import unicodedata
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 from urllib.parse import quote
 
+from course.effects import COURSE
 from course.errors import CourseError
 from course.grading.submissions import read_submission
 
@@ -49,8 +51,12 @@ class Submission:
     trouble: str = ""
 
 
-def find_submissions(folder: Path) -> list[Submission]:
+def find_submissions(folder: Path, modules: Iterable[str] = tuple(COURSE)) -> list[Submission]:
     """Every folder and zip file directly in a folder, in the order of the names, read.
+
+    Parameters
+    ----------
+    modules : of these; whatever else a submission holds is left alone
 
     Raises
     ------
@@ -76,7 +82,7 @@ def find_submissions(folder: Path) -> list[Submission]:
                 f"{by_name[same]} and {path} are both submissions of {student}; remove one"
             )
         by_name[same] = path
-        found.append(read_one(student, path))
+        found.append(read_one(student, path, modules))
     if not found:
         raise CourseError(f"{folder}: holds no submissions (folders or .zip files)")
     return found
@@ -111,14 +117,14 @@ def _is_submission(path: Path) -> bool:
     return _is_zip(path) or (path.is_dir() and not path.name.startswith("."))
 
 
-def read_one(student: str, path: Path) -> Submission:
+def read_one(student: str, path: Path, modules: Iterable[str] = tuple(COURSE)) -> Submission:
     """One submission; whatever is wrong with it is its trouble."""
     try:
         if path.is_symlink():
             return Submission(student, path, trouble="it is a link; submit the files themselves")
         if path.is_file() and path.stat().st_size > LARGEST_ZIP:
             return Submission(student, path, trouble="it is too large to be a submission")
-        return Submission(student, path, read_submission(path))
+        return Submission(student, path, read_submission(path, modules))
     except CourseError as error:
         # The folders above are the grader's business, not the student's.
         told = str(error).replace(f"{path}: ", "").replace(f"{path}/", "")

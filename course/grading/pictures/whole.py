@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Set
 from typing import Any
 
 import numpy as np
 
 from course.effects import MODULES
 from course.grading.checks.check import Array, Caller, Check, ModuleChecks, Trial
+from course.grading.errors import StudentError
 from course.grading.pictures import scenes
 from course.grading.pictures.judging import check_ssim
 from course.grading.pictures.rendered import Find, loaded, rendered
@@ -18,20 +19,32 @@ NAME = "whole"
 
 
 class Together:
-    """A ``Caller`` of all modules; functions are called "MODULE.NAME"."""
+    """A ``Caller`` of all modules; functions are called "MODULE.NAME".
 
-    def __init__(self, callers: Mapping[str, Caller]) -> None:
-        self._callers = callers
+    Parameters
+    ----------
+    callers : by module
+    hung : functions that have run out of time by themselves, and aren't called again
+    """
+
+    def __init__(self, callers: Mapping[str, Caller], hung: Set[str] = frozenset()) -> None:
+        self._callers, self._hung = callers, hung
 
     def call(self, function: str, *arguments: Any, **named: Any) -> Any:
         """The function's value."""
-        module, _, name = function.partition(".")
-        return self._callers[module].call(name, *arguments, **named)
+        caller, name = self._found(function)
+        return caller.call(name, *arguments, **named)
 
     def call_and_look(self, function: str, *arguments: Any) -> tuple[Any, list[Any], bool]:
         """As a single module's caller does."""
+        caller, name = self._found(function)
+        return caller.call_and_look(name, *arguments)
+
+    def _found(self, function: str) -> tuple[Caller, str]:
+        if function in self._hung:
+            raise StudentError("timeout", f"{function} ran out of time in its own checks")
         module, _, name = function.partition(".")
-        return self._callers[module].call_and_look(name, *arguments)
+        return self._callers[module], name
 
 
 def _all_of(caller: Caller) -> Find:

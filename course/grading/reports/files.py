@@ -74,6 +74,8 @@ def _result(result: Result, seed: int) -> dict[str, Any]:
         "hint": clean(result.hint),
         "mistake": clean(result.mistake),
         "says": clean(result.says),
+        "same_as": clean(result.same_as),
+        "module_wide": result.module_wide,
         "seconds": finite(result.seconds),
         "reproduce": clean(reproduce(result, seed)),
         "docs": clean(docs_page(result)),

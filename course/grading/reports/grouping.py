@@ -48,6 +48,20 @@ class FunctionResults(Total):
         """Results of the checks that didn't."""
         return tuple(result for result in self.results if result.status is not Status.PASSED)
 
+    @property
+    def told(self) -> tuple[Result, ...]:
+        """Those of the others that have something of their own to say."""
+        return tuple(result for result in self.others if not result.same_as)
+
+    @property
+    def repeated(self) -> tuple[tuple[str, tuple[Result, ...]], ...]:
+        """Those that say what an earlier one has said, by what they have found."""
+        found: dict[str, list[Result]] = {}
+        for result in self.others:
+            if result.same_as:
+                found.setdefault(result.found, []).append(result)
+        return tuple((text, tuple(results)) for text, results in found.items())
+
     def parts(self) -> tuple[Result, ...]:
         """Its results."""
         return self.results
@@ -65,6 +79,12 @@ class ModuleResults(Total):
 
     name: str
     functions: tuple[FunctionResults, ...]
+
+    @property
+    def trouble(self) -> Result | None:
+        """Why no function of it could be called; None if they could."""
+        first = self.functions[0].results[0]
+        return first if first.module_wide else None
 
     def parts(self) -> tuple[FunctionResults, ...]:
         """Its functions."""

@@ -6,7 +6,7 @@ from pathlib import Path
 from xml.etree import ElementTree as ET
 
 from course.grading.checks.running import Result, Status
-from course.grading.report import Report, docs_page, reproduce
+from course.grading.report import Report, docs_page, reproduce, unstarted
 from course.grading.reports.grouping import ModuleResults, explained, grouped
 from course.grading.reports.text import clean, finite
 from course.imaging.atomic import write_text
@@ -75,7 +75,7 @@ def _case(suite: ET.Element, result: Result, seed: int) -> None:
     if result.status is Status.PASSED:
         return
     if result.status is Status.NOT_ATTEMPTED:
-        _element("skipped", case, message="not attempted")
+        _element("skipped", case, message=unstarted(result) or "not attempted")
         return
     message = result.says or (
         f"expected {result.expected}, found {result.found}" if result.expected else result.found

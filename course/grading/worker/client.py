@@ -9,6 +9,7 @@ import select
 import signal
 import subprocess
 import threading
+from collections import Counter
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -21,7 +22,9 @@ import numpy as np
 from course.grading.checks.check import Caller
 from course.grading.errors import StudentError
 from course.grading.worker.framing import BrokenMessage, pack, unpack
+from course.grading.worker.patience import Patience
 from course.grading.worker.sandbox import Sandbox, program, sandbox
+from course.grading.worker.wording import no_such, not_loaded, replied
 
 LARGEST_SOURCE = 1_000_000
 """Bytes; a file that is larger was not written by a student."""
@@ -40,16 +43,16 @@ class Limits:
 
     Attributes
     ----------
-    call_seconds : wall clock of one call, and of importing the file
+    call_seconds : wall clock of importing the file, and of one call at most; ``Patience`` says when it is less
     cpu_seconds : processor time of one worker process
     memory : bytes of address space
-    restarts : processes after the first, for one submission
+    deaths : processes that the calls of one function may end before it isn't called again
     """
 
     call_seconds: float = 10.0
     cpu_seconds: int = 60
     memory: int = 2 << 30
-    restarts: int = 12
+    deaths: int = 4
 
 
 class Worker:
@@ -66,6 +69,8 @@ class Worker:
     shut_in : how it is started; the best that the machine has if not given
     lender, lent : functions of the module, by name, that take the place of the student's own when other functions of
         the module call them; they are worked out by ``lender``, on this side of the pipe
+    patience : shared by all workers of the module; one of its own if not given
+    trouble : why there is nothing to import; None if there is
     """
 
     def __init__(
@@ -76,6 +81,8 @@ class Worker:
         shut_in: Sandbox | None = None,
         lender: Caller | None = None,
         lent: Sequence[str] = (),
+        patience: Patience | None = None,
+        trouble: StudentError | None = None,
     ) -> None:
         self.module = module
         self._lender, self._lent = lender, tuple(lent)
@@ -84,15 +91,19 @@ class Worker:
         self._source = source
         self._process: subprocess.Popen[bytes] | None = None
         self._replies = -1
-        self._starts = 0
-        self._broken: StudentError | None = None
+        self._deaths: Counter[str] = Counter()
+        self._broken = trouble
+        self._patience = patience or Patience(limits.call_seconds)
+        self._answered: set[str] = set()
+        self._names: Any = []
         self._printed = bytearray()
         self._drain: threading.Thread | None = None
         self._lock = threading.Lock()
         if len(source) > LARGEST_SOURCE:
             self._broken = StudentError(
                 "not loaded",
-                f"the file has {len(source):,} bytes; more than {LARGEST_SOURCE:,} are not read",
+                f"{module}.py has {len(source):,} bytes; more than {LARGEST_SOURCE:,} are not read",
+                module_wide=True,
             )
 
     def __enter__(self) -> Worker:
@@ -110,6 +121,17 @@ class Worker:
     def printed(self) -> str:
         """What the student's code has printed so far, cut."""
         return bytes(self._printed).decode("utf-8", "replace")
+
+    def load(self) -> None:
+        """Import the file, if it hasn't been.
+
+        Raises
+        ------
+        StudentError
+            It can't be; no call will do better, and none tries again.
+        """
+        with self._lock:
+            self._ready()
 
     def call(self, function: str, *arguments: Any, **named: Any) -> Any:
         """The function's value.
@@ -150,27 +172,40 @@ class Worker:
         self, function: str, arguments: tuple[Any, ...], named: dict[str, Any], *, look: bool
     ) -> tuple[list[Any], dict[str, Any]]:
         with self._lock:
-            deadline = self._ready()
+            if self._deaths[function] >= self.limits.deaths:
+                raise StudentError(
+                    "crashed",
+                    f"it has ended its process {self._deaths[function]} times; it isn't called again",
+                )
+            self._ready()
+            limit = self._patience.limit(function in self._answered)
             head = {"function": function, "names": [*named], "look": look}
-            head, values = self._exchange(pack(head, [*arguments, *named.values()]), deadline)
-            self._raise(head)
-            expected = 1 + (len(arguments) if look else 0)
-            if len(values) != expected:
-                raise self._lost("its replies are not replies to calls")
+            message = pack(head, [*arguments, *named.values()])
+            try:
+                head, values = self._exchange(message, monotonic() + limit)
+                if head.get("error") == "missing":
+                    raise no_such(self.module, function, self._names)
+                self._raise(head)
+                if len(values) != 1 + (len(arguments) if look else 0):
+                    raise self._lost("its replies are not replies to calls")
+            except StudentError as error:
+                if error.kind == "crashed":
+                    self._deaths[function] += 1
+                if error.kind != "timeout":
+                    raise
+                why = str(self._patience)
+                self._patience.lose(limit)
+                raise StudentError("timeout", f"no answer within {limit:.3g} s{why}") from None
+            self._answered.add(function)
             return values, head
 
-    def _ready(self) -> float:
-        """Start the process if there is none; when the call must have ended."""
+    def _ready(self) -> None:
+        """Start the process if there is none."""
         if self._broken is not None:
             raise self._broken
         if self._process is not None and self._process.poll() is None:
-            return monotonic() + self.limits.call_seconds
+            return
         self.close()
-        if self._starts > self.limits.restarts:
-            self._broken = StudentError(
-                "crashed", f"the worker has died {self._starts} times; it isn't started again"
-            )
-            raise self._broken
         self._start()
         # Python's own start is not the student's time.
         self._exchange(
@@ -179,18 +214,17 @@ class Worker:
             ),
             monotonic() + 60,
         )
-        head, _ = self._read(monotonic() + self.limits.call_seconds)
         try:
+            head, _ = self._read(monotonic() + self.limits.call_seconds)
             self._raise(head)
         except StudentError as error:
-            message = f"{self.module}.py can't be imported: {error.type + ': ' if error.type else ''}{error}"
             self.close()
-            self._broken = StudentError("not loaded", message, error.type, error.traceback)
+            # No call tries again: it would be waited for as long, and end no better.
+            self._broken = not_loaded(self.module, error, self.limits.call_seconds)
             raise self._broken from None
-        return monotonic() + self.limits.call_seconds
+        self._names = head.get("names")
 
     def _start(self) -> None:
-        self._starts += 1
         self._replies, theirs = os.pipe()
         settings = {
             "path": self.sandbox.path,
@@ -299,16 +333,11 @@ class Worker:
             return
         if kind not in ("not written", "raised", "bad value"):
             raise self._lost("its replies are not replies to calls")
-        raise StudentError(
-            kind,
-            str(head.get("message", ""))[:500],
-            str(head.get("type", ""))[:80],
-            str(head.get("traceback", ""))[:3000],
-        )
+        raise replied(kind, head)
 
     def _timeout(self) -> StudentError:
         self.close()
-        return StudentError("timeout", f"no answer within {self.limits.call_seconds:g} s")
+        return StudentError("timeout", "no answer in time")
 
     def _lost(self, why: str) -> StudentError:
         process = self._process

@@ -65,7 +65,9 @@ def main() -> None:
         os._exit(0)
     for borrowed in head["lent"]:
         setattr(module, borrowed, _borrowed(borrowed, send, lambda: framing.unpack(read)))
-    send({"loaded": True}, [])
+    defined: dict[Any, Any] = vars(module)
+    names = [key for key, value in defined.items() if isinstance(key, str) and callable(value)]
+    send({"loaded": True, "names": names[:500]}, [])
     while True:
         head, values = framing.unpack(read)
         answer, given = _call(module, head, values, np)
@@ -93,10 +95,7 @@ def _call(
 ) -> tuple[dict[str, Any], list[Any]]:
     function = getattr(module, head["function"], None)
     if not callable(function):
-        return {
-            "error": "not written",
-            "message": f"{module.__name__}.py has no function {head['function']}",
-        }, []
+        return {"error": "missing"}, []
     named = dict(zip(head["names"], values[len(values) - len(head["names"]) :], strict=True))
     arguments = values[: len(values) - len(named)]
     before = ""
@@ -119,8 +118,11 @@ def _told(error: BaseException, name: str) -> dict[str, Any]:
     if isinstance(error, NotImplementedError):
         return {"error": "not written", "message": str(error)[:500]}
     rows = traceback.format_exception(type(error), error, error.__traceback__)
+    # A syntax error ends with its line, a caret under it and its text, any other with its text alone.
+    last = traceback.format_exception_only(error) if isinstance(error, SyntaxError) else rows[-1:]
     # Only what stands in the student's file concerns the student.
-    kept = [row for row in rows if f'"{name}.py"' in row] + rows[-1:]
+    kept = [row for row in rows[: -len(last)] if f'"{name}.py"' in row][-6:]
+    kept += [row[:500] for row in last]
     try:
         message = str(error)[:500]
     except Exception:  # noqa: BLE001 - a message that can't be made is none
@@ -129,7 +131,7 @@ def _told(error: BaseException, name: str) -> dict[str, Any]:
         "error": "raised",
         "type": type(error).__name__[:80],
         "message": message,
-        "traceback": "".join(kept[-6:])[-3000:],
+        "traceback": "".join(kept)[-3000:],
     }
 
 

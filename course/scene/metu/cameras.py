@@ -48,8 +48,13 @@ def read_cameras(
         camera = _camera(element, steps, notes)
         if any(camera.name == other.name for other in cameras):
             raise element.error(f"its id is given twice: expected another than {camera.name}")
-        if any(camera.image == other.image for other in cameras):
-            image = f"camera-{camera.name}.png"
+        taken = {other.image for other in cameras}
+        if camera.image in taken:
+            # Another camera may have been given even that name.
+            image, more = f"camera-{camera.name}.png", 1
+            while image in taken:
+                more += 1
+                image = f"camera-{camera.name}-{more}.png"
             notes.add(element, f"has the ImageName of another camera, so {image} is written")
             camera = replace(camera, image=image)
         cameras.append(camera)

@@ -17,6 +17,7 @@ from course.scene.metu.cameras import MetuCamera, read_cameras
 from course.scene.metu.element import Element
 from course.scene.metu.lights import read_lights
 from course.scene.metu.materials import material_name, read_materials
+from course.scene.metu.mesh_table import MeshTable
 from course.scene.metu.meshes import read_vertices
 from course.scene.metu.notes import Notes
 from course.scene.metu.objects import Objects
@@ -143,8 +144,7 @@ def _common(
         set(materials),
         steps,
         source.parent,
-        target.parent,
-        f"{target.stem}.meshes",
+        MeshTable(target.parent, f"{target.stem}.meshes", notes),
         notes,
         eyes,
     )
@@ -187,9 +187,11 @@ def _file_names(cameras: list[MetuCamera], target: Path) -> list[str]:
         return [target.name]
     names: list[str] = []
     for camera in cameras:
-        name = f"{target.stem}.{PurePath(camera.image).stem}{target.suffix}"
-        if name in names:
-            name = f"{target.stem}.{PurePath(camera.image).stem}-{len(names) + 1}{target.suffix}"
+        stem = f"{target.stem}.{PurePath(camera.image).stem}"
+        name, more = f"{stem}{target.suffix}", len(names)
+        while name in names:
+            more += 1
+            name = f"{stem}-{more}{target.suffix}"
         names.append(name)
     return names
 

@@ -23,6 +23,7 @@ class Element:
     tag : its name
     path : of tags from the root, such as Scene/Cameras/Camera[2]
     where : file and line, or the file alone
+    plain : in JSON, whether it is a value of its own, not a map
     """
 
     tag: str
@@ -31,6 +32,7 @@ class Element:
     attributes: dict[str, str] = field(default_factory=dict)
     children: list[Element] = field(default_factory=list)
     text: str = ""
+    plain: bool = False
     _asked: set[str] = field(default_factory=set)
     _text_asked: bool = False
 
@@ -53,6 +55,7 @@ class Element:
         """The attribute `id`; SceneError where it is missing."""
         name = self.attribute("id")
         if not name:
+            self._check_map()
             raise self.error('id is missing: expected an attribute such as id="1"')
         return name
 
@@ -64,8 +67,10 @@ class Element:
         return value in {"true", "1"}
 
     def all(self, tag: str) -> list[Element]:
-        """The children of that name."""
+        """The children of that name; SceneError for a number or a text in JSON where children could be."""
         self._asked.add(tag)
+        if self.text.strip():
+            self._check_map()
         return [child for child in self.children if child.tag == tag]
 
     def maybe(self, tag: str) -> Element | None:
@@ -79,8 +84,14 @@ class Element:
         """The child of that name; SceneError where it is missing."""
         found = self.maybe(tag)
         if found is None:
+            self._check_map()
             raise self.error(f"{tag} is missing: expected {example}")
         return found
+
+    def _check_map(self) -> None:
+        """SceneError for a value of JSON where something with parts is needed; nothing else is missing there."""
+        if self.plain:
+            raise self.unexpected("a map of its attributes and elements")
 
     def words(self) -> list[str]:
         """Its text, split at blanks."""

@@ -7,7 +7,7 @@ mesh file, which is read once.
 from __future__ import annotations
 
 import json
-import os
+from collections import Counter
 from dataclasses import dataclass, field
 from itertools import product
 from pathlib import Path
@@ -16,12 +16,11 @@ from typing import Any
 import numpy as np
 
 from course.core.types import Floats64, Indices
-from course.errors import GeometryError
 from course.geometry.mesh import Mesh
-from course.geometry.mesh_files import read_mesh
 from course.scene.document import show, suggest
 from course.scene.metu.element import Element
 from course.scene.metu.materials import material_name
+from course.scene.metu.mesh_table import MeshTable
 from course.scene.metu.meshes import (
     check_indices,
     corners_of,
@@ -32,7 +31,6 @@ from course.scene.metu.meshes import (
 )
 from course.scene.metu.notes import Notes
 from course.scene.metu.planes import corners_of_all, plane_mesh
-from course.scene.metu.ply_files import write_ply
 from course.scene.metu.transformations import matrix_of, matrix_of_steps, transform_of
 from course.scene.metu.transformations import normal as transformed_normal
 from course.scene.metu.transformations import point as moved
@@ -56,8 +54,7 @@ class Objects:
     materials : the ids that there are
     steps : of `Transformations`, by letter and id
     source : folder of the METU scene, from which its mesh files are named
-    target : folder of the converted scene
-    meshes : name of the folder beside it for meshes that the scene holds itself
+    meshes : files of the converted scene
     notes : what there is to say about them
     eyes : where the cameras stand
     """
@@ -66,15 +63,13 @@ class Objects:
     materials: set[str]
     steps: dict[str, dict[str, Any]]
     source: Path
-    target: Path
-    meshes: str
+    meshes: MeshTable
     notes: Notes
     eyes: list[list[float]]
     _bases: dict[str, dict[str, Any]] = field(default_factory=dict)
-    _faces: dict[str, Element] = field(default_factory=dict)
 
     def read(self, scene: Element) -> list[dict[str, Any]]:
-        """All objects of a scene; what meshes it holds itself are written."""
+        """All objects of a scene; what meshes it holds itself are written once there is no mistake in any."""
         parent = scene.child("Objects", "one object or more")
         things = [self._mesh(element) for element in parent.all("Mesh")]
         things += self._instances(parent.all("MeshInstance"))
@@ -83,6 +78,7 @@ class Objects:
         things += [self._sphere(element, segments) for element in spheres]
         things += self._triangles(parent.all("Triangle"))
         things += self._planes(parent.all("Plane"), things)
+        self.meshes.write()
         return [{key: value for key, value in thing.items() if value != []} for thing in things]
 
     def _mesh(self, element: Element) -> dict[str, Any]:
@@ -110,11 +106,10 @@ class Objects:
             if not given and has_normals(found):
                 mode = "smooth"
             normals = {"normals": "area"} if mode == "smooth" else {}
-            path = self._named(found)
-            self._faces.setdefault(path, faces)
+            path = self.meshes.add_file(found, faces)
         else:
             mesh = inline_mesh(faces, self.vertices, mode == "smooth")
-            path = self._written(mesh, f"mesh-{len(self._bases) + 1}")
+            path = self.meshes.add_own(mesh, f"mesh-{len(self._bases) + 1}", faces)
         thing = {
             "shape": "mesh",
             "name": f"mesh {number}",
@@ -129,6 +124,14 @@ class Objects:
     def _instances(self, elements: list[Element]) -> list[dict[str, Any]]:
         """Instances of meshes and of other instances, whatever their order in the file."""
         left, things = dict(enumerate(elements)), dict[int, dict[str, Any]]()
+        ids = Counter(element.id() for element in elements)
+        for element in elements:
+            name = _base_of(element)
+            if ids[name] > 1 and name not in self._bases:
+                self.notes.add(
+                    element,
+                    f"has baseMeshId {name}, an id that {ids[name]} instances have: the first is taken",
+                )
         while left:
             ready = {
                 k: base
@@ -137,9 +140,16 @@ class Objects:
             }
             if not ready:
                 element = next(iter(left.values()))
+                # Where an id is there twice, one of the two was probably to be another.
+                twice = [number for number, count in ids.items() if count > 1]
+                told = (
+                    f"; the id {show(twice[0])} is given to {ids[twice[0]]} instances"
+                    if twice
+                    else ""
+                )
                 raise element.error(
                     f"baseMeshId is {show(_base_of(element))}: expected the id of a mesh, or of an instance"
-                    f" that comes from one; {suggest(_base_of(element), self._bases)}"
+                    f" that comes from one; {suggest(_base_of(element), self._bases)}{told}"
                 )
             for k, base in ready.items():
                 things[k] = self._instance(left.pop(k), base)
@@ -170,7 +180,7 @@ class Objects:
 
     def _triangles(self, elements: list[Element]) -> list[dict[str, Any]]:
         """Single triangles; those that look and move alike make one mesh."""
-        groups: dict[str, tuple[dict[str, Any], list[Indices]]] = {}
+        groups: dict[str, tuple[dict[str, Any], list[Indices], Element]] = {}
         for element in elements:
             element.attribute("id")
             indices = element.child("Indices", "three vertex numbers, such as 1 2 3")
@@ -178,12 +188,12 @@ class Objects:
             if len(corners) != 1:
                 raise indices.unexpected("three vertex numbers, such as 1 2 3")
             common = self._common(element)
-            groups.setdefault(json.dumps(common), (common, []))[1].append(corners)
+            groups.setdefault(json.dumps(common), (common, [], element))[1].append(corners)
         things = []
-        for count, (common, found) in enumerate(groups.values(), start=1):
+        for count, (common, found, first) in enumerate(groups.values(), start=1):
             used, triangles = np.unique(np.concatenate(found), return_inverse=True)
             mesh = Mesh(self.vertices[used], triangles.reshape(-1, 3))
-            path = self._written(mesh, f"triangles-{count}")
+            path = self.meshes.add_own(mesh, f"triangles-{count}", first)
             things.append({"shape": "mesh", "file": path, "shading": "flat", **common})
         return things
 
@@ -206,7 +216,7 @@ class Objects:
             mesh = plane_mesh(
                 moved(matrix, point), transformed_normal(matrix, np.array(where.vector())), corners
             )
-            path = self._written(mesh, f"plane-{count}")
+            path = self.meshes.add_own(mesh, f"plane-{count}", element)
             keys = self._common(element) | {"transform": []}
             things.append({"shape": "mesh", "file": path, "shading": "flat", **keys})
         return things
@@ -218,20 +228,10 @@ class Objects:
             if thing["shape"] == "sphere":
                 box = np.array(list(product((-1, 1), repeat=3))) * thing["radius"]
             else:
-                box = self._vertices_of(thing["file"])
+                box = self.meshes.vertices[thing["file"]]
             matrix = matrix_of_steps(thing["transform"])
             meshes.append((box @ matrix[:3, :3].T + matrix[:3, 3], thing))
         return corners_of_all(meshes)
-
-    def _vertices_of(self, file: str) -> Floats64:
-        """The vertices (V, 3) of a mesh file, which may be one that the scene only names."""
-        try:
-            return read_mesh(self.target / file).vertices
-        except GeometryError as error:
-            if file not in self._faces:
-                raise
-            told = str(error).replace(str(self.target / file), os.path.normpath(self.target / file))
-            raise self._faces[file].error(f"plyFile can't be used: {told}") from None
 
     def _vertex(self, element: Element) -> Floats64:
         """The vertex whose number is an element's text, (3,)."""
@@ -259,17 +259,6 @@ class Objects:
             # The shutter of the converted scene is open from 0 to 1.
             keys["motion"] = {"velocity": list(velocity)}
         return keys
-
-    def _written(self, mesh: Mesh, name: str) -> str:
-        write_ply(mesh, self.target / self.meshes / f"{name}.ply")
-        return f"{self.meshes}/{name}.ply"
-
-    def _named(self, path: Path) -> str:
-        """A mesh file's name as seen from the converted scene."""
-        try:
-            return Path(os.path.relpath(path.resolve(), self.target.resolve())).as_posix()
-        except ValueError:  # on another drive
-            return path.resolve().as_posix()
 
 
 def _base_of(element: Element) -> str:

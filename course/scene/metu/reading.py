@@ -20,6 +20,8 @@ SUFFIXES: Final = (".xml", ".json")
 ROOT: Final = "Scene"
 LARGEST_FILE: Final = 1 << 30  # bytes
 DEEPEST: Final = 32
+UTF_16: Final = (b"\xff\xfe", b"\xfe\xff")
+"""Marks at the beginning of a file by which XML's other encoding is known."""
 
 
 def is_metu(path: Path) -> bool:
@@ -80,7 +82,7 @@ class _XmlReader:
         try:
             self._parser.Parse(data, True)
         except expat.ExpatError as error:
-            reason = expat.ErrorString(error.code)
+            reason = expat.ErrorString(error.code) + self._encoding(data)
             raise SceneError(f"{self.file}:{error.lineno}: not valid XML: {reason}") from None
         except (LookupError, ValueError) as error:  # of the encoding that its first line names
             raise SceneError(
@@ -88,6 +90,20 @@ class _XmlReader:
             ) from None
         assert self.root is not None
         return self.root
+
+    def _encoding(self, data: bytes) -> str:
+        """Expat calls bytes that aren't UTF-8 an invalid token, whatever encoding they are in."""
+        # An encoding that the first line names has been followed.
+        if re.search(rb"encoding\s*=", data[:200].partition(b"?>")[0]) or data[:2] in UTF_16:
+            return ""
+        try:
+            data.decode("utf-8")
+        except UnicodeDecodeError as error:
+            return (
+                f"; byte {error.start} is not UTF-8: save the file as UTF-8, or begin it with the encoding that it"
+                ' has, such as <?xml version="1.0" encoding="ISO-8859-1"?>'
+            )
+        return ""
 
     def _where(self) -> str:
         return f"{self.file}:{self._parser.CurrentLineNumber}"
@@ -155,7 +171,7 @@ def _map(pairs: list[tuple[str, Any]], file: str) -> dict[str, Any]:
 def _from_json(tag: str, value: Any, file: str, depth: int) -> Element:
     if depth > DEEPEST:
         raise SceneError(f"{file}: {show(tag)}: nested more than {DEEPEST} levels deep")
-    element = Element(tag, tag, file)
+    element = Element(tag, tag, file, plain=not isinstance(value, dict))
     if not isinstance(value, dict):
         element.text = _text(value)
         return element

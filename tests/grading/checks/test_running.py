@@ -10,6 +10,7 @@ import pytest
 from course.grading.checks.check import Array, Caller, Check, Failure, Mistake, ModuleChecks, Trial
 from course.grading.checks.running import KEPT, Status, generator, prepared, run_checks
 from course.grading.checks.trusted import TrustedModule
+from course.grading.errors import StudentError
 
 MODULE = TrustedModule({"it": lambda: 1})
 
@@ -83,3 +84,57 @@ def test_a_mistake_that_can_not_look_at_what_came_back_is_not_it() -> None:
     (result,) = run_checks(checks, MODULE, prepared(MODULE, 0), 0)
     assert result.status is Status.FAILED
     assert (result.mistake, result.says) == ("one", "You return 1.")
+
+
+class Hangs:
+    """A caller none of whose calls ends; it counts them."""
+
+    def __init__(self) -> None:
+        self.times = 0
+
+    def call(self, *_: object, **__: object) -> object:
+        self.times += 1
+        raise StudentError("timeout", "no answer")
+
+    def call_and_look(self, *_: object) -> tuple[object, list[object], bool]:
+        raise StudentError("timeout", "no answer")
+
+
+def test_mistakes_are_not_waited_for_one_after_the_other() -> None:
+    caller = Hangs()
+    mistakes = tuple(Mistake("it", f"{k}", "", lambda trial: trial.call()) for k in range(5))
+    checks = ModuleChecks("module", (Check("it", "value", "It is 2", fails),), mistakes)
+    (result,) = run_checks(checks, caller, prepared(MODULE, 0), 0)
+    assert (result.status, result.mistake) == (Status.FAILED, "")
+    assert caller.times == 1
+
+
+def calls(trial: Trial) -> None:
+    trial.call()
+
+
+@pytest.mark.parametrize("lent", [True, False])
+def test_whoever_stands_below_a_function_that_hangs_is_asked_with_the_reference_first(
+    lent: bool,
+) -> None:
+    own = Hangs()
+    checks = ModuleChecks(
+        "module",
+        tuple(Check(name, f"{k}", "", calls) for name in ("above", "below") for k in range(2)),
+        (),
+    )
+    right = TrustedModule({"below": lambda: 1})
+    results = list(
+        run_checks(
+            checks,
+            own,
+            prepared(MODULE, 0),
+            0,
+            lenders=lambda name: right if lent and name == "below" else None,
+        )
+    )
+    assert [result.status for result in results[:2]] == [Status.TIMEOUT] * 2
+    expected = Status.PASSED if lent else Status.TIMEOUT
+    assert [result.status for result in results[2:]] == [expected] * 2
+    # What hangs is waited for once, and what calls it not at all.
+    assert own.times == (1 if lent else 2)

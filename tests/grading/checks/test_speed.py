@@ -11,6 +11,8 @@ from course.effects import COURSE
 from course.grading.checks.check import Check, Trial
 from course.grading.checks.running import generator
 from course.grading.checks.speed import ROUNDS, SPEEDS
+from course.grading.checks.trusted import TrustedModule
+from course.grading.errors import StudentError
 from course.grading.references import reference
 
 CHECKS = [(module, check) for module, checks in SPEEDS.items() for check in checks]
@@ -56,3 +58,15 @@ def test_no_function_is_timed_twice_and_none_costs_points() -> None:
         assert len(set(functions)) == len(functions)
         assert set(functions) <= set(COURSE[module])
         assert not any(check.points for check in checks)
+
+
+def test_what_gives_no_value_does_not_pass_where_there_is_nothing_to_compare_with() -> None:
+    def broken(*_: object) -> None:
+        raise KeyError
+
+    module, check = CHECKS[0]
+    trial = Trial(
+        check.function, TrustedModule({check.function: broken}), generator(0, module, check)
+    )
+    with pytest.raises(StudentError):
+        check.run(trial)

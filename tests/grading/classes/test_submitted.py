@@ -174,3 +174,23 @@ def test_a_zip_file_named_after_the_folder_above_stays_inside(tmp_path: Path) ->
 def test_an_empty_class_is_told(tmp_path: Path) -> None:
     with pytest.raises(CourseError, match="holds no submissions"):
         find_submissions(tmp_path)
+
+
+def test_files_of_modules_that_are_not_graded_are_nobody_s_trouble(tmp_path: Path) -> None:
+    twice = {f"{where}/glossy.py": b"pass" for where in "ab"}
+    zipped(tmp_path / "ada.zip", **{"motion_blur.py": STUB}, **twice)
+    for name, content in {"motion_blur.py": STUB, **twice}.items():
+        (tmp_path / "bob" / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / "bob" / name).write_bytes(content)
+    for found in find_submissions(tmp_path, ["motion_blur"]):
+        assert (found.sources, found.trouble) == ({"motion_blur": STUB}, "")
+    for found in find_submissions(tmp_path, ["motion_blur", "glossy"]):
+        assert "glossy.py is in it more than once" in found.trouble
+
+
+def test_the_file_at_the_top_is_meant(tmp_path: Path) -> None:
+    (tmp_path / "ada" / "old").mkdir(parents=True)
+    (tmp_path / "ada" / "motion_blur.py").write_bytes(STUB)
+    (tmp_path / "ada" / "old" / "motion_blur.py").write_bytes(b"pass")
+    (found,) = find_submissions(tmp_path)
+    assert found.sources == {"motion_blur": STUB}

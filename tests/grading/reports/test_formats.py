@@ -59,6 +59,8 @@ OURS = exactly(
                 ("id", "module", "function", "check", "title", "kind", "mistake", "says"), TEXT
             ),
             **dict.fromkeys(("expected", "found", "where", "hint", "reproduce", "docs"), TEXT),
+            same_as=TEXT,
+            module_wide={"type": "boolean"},
             status={"enum": [str(status) for status in Status]},
             points=NUMBER,
             of=NUMBER,
@@ -287,3 +289,13 @@ def test_names_keep_their_letters(tmp_path: Path, report: Report, hostile: str) 
     (row,) = grades([replace(report, student=hostile)], tmp_path)
     assert "<script>" in row["student"]
     assert "\x00" not in row["student"]
+
+
+def test_why_a_function_is_still_to_do_is_told(report: Report) -> None:
+    (stub,) = (one for one in report.results if one.status is Status.NOT_ATTEMPTED)
+    for found, message in (
+        ("glossy.py has no f", "glossy.py has no f"),
+        ("glossy.f: not written yet", "not attempted"),
+    ):
+        root = ET.fromstring(as_xml(replace(report, results=(replace(stub, found=found),))))
+        assert [skipped.get("message") for skipped in root.iter("skipped")] == [message]

@@ -124,6 +124,38 @@ def test_a_known_mistake_is_told_once_for_a_function(report: Report, tmp_path: P
     assert "same mistake as above: wrong-plane" in page.text
 
 
+def test_what_was_said_before_is_folded(report: Report, tmp_path: Path) -> None:
+    first = report.results[1]
+    again = [
+        replace(
+            first, check=f"again-{k}", title=f"Again {k}", same_as=first.id, mistake="", says=""
+        )
+        for k in range(3)
+    ]
+    page = read(replace(report, results=(first, *again)), tmp_path)
+    assert page.text.count("Expected") == 1
+    assert "3 checks more: 0.75" in page.text
+    assert all(reproduce(result, 7) in page.text for result in again)
+
+
+def test_a_module_that_can_not_be_used_is_told_once(report: Report, tmp_path: Path) -> None:
+    first = replace(report.results[1], found="no such file", module_wide=True, says="", mistake="")
+    other = replace(first, function="point_on_disk", same_as=first.id)
+    page = read(replace(report, results=(first, other)), tmp_path)
+    check_closed(page)
+    assert page.text.count("No function of this module could be checked. no such file") == 1
+    assert page.text.count("no such file") == 1
+    assert "point_on_disk" in page.text
+
+
+def test_a_function_that_is_not_there_is_no_untouched_stub(report: Report, tmp_path: Path) -> None:
+    missing = replace(report.results[6], found="glossy.py has no jitter_on_plane")
+    assert (
+        "glossy.py has no jitter_on_plane"
+        in read(replace(report, results=(missing,)), tmp_path).text
+    )
+
+
 def test_passed_checks_are_folded(report: Report, tmp_path: Path) -> None:
     read(report, tmp_path)
     text = (tmp_path / "report.html").read_text(encoding="utf-8")

@@ -86,6 +86,25 @@ def test_instances_of_instances_in_any_order(metu: Metu) -> None:
     np.testing.assert_allclose(vertices_of(scene, 2)[0], [0, 11, 0], atol=1e-12)
 
 
+def test_an_id_of_two_instances_is_told_where_a_base_is_missing(metu: Metu) -> None:
+    """One of the two was probably to have the id that is missed."""
+    scene = with_instances(instance(5, 1), instance(5, 1), instance(7, 6))
+    told = r'baseMeshId is "6": expected .*; the id "5" is given to 2 instances'
+    with pytest.raises(SceneError, match=told):
+        metu.load(scene)
+
+
+def test_a_base_that_two_instances_could_be_is_told(metu: Metu) -> None:
+    moved = instance(5, 1, Transformations="t2")
+    scene = metu.load(with_instances(instance(5, 1), moved, instance(7, 5)))
+    np.testing.assert_allclose(vertices_of(scene, 3)[0], [11, 0, 0])
+    (warning,) = metu.warnings
+    assert "MeshInstance[3] has baseMeshId 5, an id that 2 instances have" in warning
+    # Meshes and instances may be counted apart, and nobody asks for the second.
+    metu.load(with_instances(instance(1, 1), instance(1, 1)))
+    assert metu.warnings == []
+
+
 def test_an_instance_has_a_material_of_its_own_or_its_bases(metu: Metu) -> None:
     scene = with_instances(instance(2, 1, Material="7"), {"_id": "3", "_baseMeshId": "2"})
     scene["Materials"]["Material"].append(MATT | {"_id": "7"})

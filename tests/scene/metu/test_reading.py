@@ -222,6 +222,9 @@ BOMB = """<?xml version="1.0"?>
             '{"Scene": {"Lights": {"PointLight": {}, "AmbientLight": "1 1 1", "PointLight": {}}}}',
             r'a\.json: "PointLight" is given twice in one map, .* expected a list of both',
         ),
+        ("a.json", '{"Scene": {"Cameras": 5}}', r'Scene/Cameras is "5": expected a map'),
+        ("a.json", '{"Scene": {"Cameras": {"Camera": 5}}}', r'Camera is "5": expected a map'),
+        ("a.json", '{"Scene": {"Cameras": {"Camera": null}}}', r'Camera is "": expected a map'),
         ("a.obj", "", r"expected a METU scene, a file that ends in \.xml or \.json"),
     ],
 )
@@ -230,6 +233,32 @@ def test_what_is_no_scene_is_refused(tmp_path: Path, name: str, content: str, to
     with pytest.raises(SceneError, match=told):
         convert(tmp_path / name, tmp_path / "scene.yaml")
     assert not (tmp_path / "scene.yaml").exists()
+
+
+LATIN = "<Scene>\n<!-- caf\u00e9 --></Scen>\n"
+
+
+@pytest.mark.parametrize(
+    ("content", "told"),
+    [
+        (
+            LATIN.encode("latin-1"),
+            r"a\.xml:2: .*; byte 16 is not UTF-8: save the file as UTF-8, or",
+        ),
+        (LATIN.encode("utf-8"), r"a\.xml:2: not valid XML: mismatched tag$"),
+        (LATIN.encode("utf-16"), r"a\.xml:2: not valid XML: mismatched tag$"),
+        (
+            f'<?xml version="1.0" encoding="ISO-8859-1"?>{LATIN}'.encode("latin-1"),
+            r"a\.xml:2: not valid XML: mismatched tag$",
+        ),
+    ],
+)
+def test_bytes_of_another_encoding_are_told_with_the_remedy(
+    tmp_path: Path, content: bytes, told: str
+) -> None:
+    (tmp_path / "a.xml").write_bytes(content)
+    with pytest.raises(SceneError, match=told):
+        convert(tmp_path / "a.xml", tmp_path / "scene.yaml")
 
 
 def test_missing_files_and_folders_are_told(tmp_path: Path) -> None:
@@ -313,6 +342,20 @@ def test_two_pictures_of_one_name_get_two(metu: Metu, tmp_path: Path) -> None:
     assert [one.image for one in converted] == ["one.png", "camera-2.png"]
     assert len({one.path for one in converted}) == 2
     assert "Camera[2] has the ImageName of another camera" in warning
+
+
+def test_every_picture_has_a_name_of_its_own(xml: Metu, tmp_path: Path) -> None:
+    """Even where a camera has the very name that another is given for want of one."""
+    scene = tree()
+    names = ["camera-3.png", "one.png", "one.png", "one.exr", "one-4.png"]
+    scene["Cameras"]["Camera"] = [
+        CAMERA | {"_id": str(number), "ImageName": name}
+        for number, name in enumerate(names, start=1)
+    ]
+    converted, _ = convert(write(tmp_path, scene, xml.form), tmp_path / "scene.yaml")
+    images = [one.image for one in converted]
+    assert images == ["camera-3.png", "one.png", "camera-3-2.png", "one.exr", "one-4.png"]
+    assert len({one.path for one in converted}) == len(names)
 
 
 def test_both_forms_make_the_same_scene_file(tmp_path: Path) -> None:

@@ -1,0 +1,97 @@
+"""The files that a command is asked to write, looked at before any work is done.
+
+The rule for all commands: a file goes into a folder that is there, for a folder that isn't is most likely a slip of the
+pen. A folder is made only where a command is asked to fill one, as by `demo --out` or `bench --plots`. No two outputs
+are one file, and none is the file that is read.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from itertools import combinations
+from pathlib import Path
+
+from course.errors import OutputError
+from course.imaging.atomic import check_writable
+
+Named = tuple[str, Path | None]
+"""What the command line calls an output, such as -o, and its path; None where it isn't asked for."""
+
+
+def check_outputs(
+    pictures: Sequence[Named] = (), files: Sequence[Named] = (), source: Path | None = None
+) -> None:
+    """Find out before the work whether all outputs can be written, without one replacing another or the source.
+
+    Parameters
+    ----------
+    pictures : .png or .exr
+    files : of any other kind
+    source : the file that the command reads
+
+    Raises
+    ------
+    OutputError
+        Names the option and the path: a suffix that no picture has, a folder that isn't there or can't be written, or
+        one file for two purposes, however it is spelled.
+    """
+    check_distinct((*pictures, *files), source)
+    for _, path in pictures:
+        if path is not None:
+            # With the picture formats comes NumPy, which other commands don't need yet.
+            from course.imaging.files import check_picture_path
+
+            check_picture_path(path)
+    for _, path in files:
+        if path is not None:
+            check_writable(path)
+
+
+def check_distinct(outputs: Sequence[Named], source: Path | None = None) -> None:
+    """The part of `check_outputs` for which no folder has to be there yet.
+
+    Raises
+    ------
+    OutputError
+        Two outputs are one file, or one is the source.
+    """
+    given = [(name, path) for name, path in outputs if path is not None]
+    for name, path in given:
+        if source is not None and is_same_file(path, source):
+            raise OutputError(
+                f"{name} {path}: this is the file that is read, and would be replaced: give another name"
+            )
+    for (name, path), (other, twin) in combinations(given, 2):
+        if is_same_file(path, twin):
+            raise OutputError(
+                f"{name} {path} and {other} {twin} are one file: the second would replace the first;"
+                " give each a name of its own"
+            )
+
+
+def is_same_file(a: Path, b: Path) -> bool:
+    """Whether two paths lead to one file, which need not be there: by links, by `..`, or in capitals."""
+    try:
+        # Where file systems pass over capitals, the file that is there tells.
+        return _spelled(a) == _spelled(b) or (a.exists() and b.exists() and a.samefile(b))
+    except (OSError, RuntimeError, ValueError):  # links in a circle, or no path at all
+        return False
+
+
+def _spelled(path: Path) -> str:
+    return os.path.normcase(path.resolve())
+
+
+def make_folder(folder: Path) -> None:
+    """Make a folder that a command is asked to fill, and those above it.
+
+    Raises
+    ------
+    OutputError
+        It can't be made.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise OutputError(f"{folder}: this folder can't be made: {error.strerror}") from error
