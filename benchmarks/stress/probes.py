@@ -1,15 +1,20 @@
 """How a twin's picture answers to small changes of its scene: how steeply where it is smooth, and where its edges are.
 
 A picture with fixed random numbers is a piecewise smooth function of where camera and lights are. The twin is rendered
-again with its view turned by H to either side, up and down, and with its lights moved by H. From f(+H), f(0), f(-H):
+again with its view turned by h to either side, up and down, and with its lights moved by h in three directions. From
+f(+h), f(0), f(-h):
 
-    steepness  |f(+H) - f(-H)| / 2 H, summed over the three kinds of change
-    an edge    where f(+H) - 2 f(0) + f(-H) is more than a smooth function's: a sample has met another thing
+    steepness  |f(+h) - f(-h)| / 2 h, summed over the kinds of change
+    an edge    where f(+h) - 2 f(0) + f(-h) is more than a smooth function's: a sample has met another thing
+
+The camera is moved, too, in as many directions; next to a surface by less than h. That counts for the steepness alone.
 """
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -21,13 +26,13 @@ from benchmarks.stress.files import SceneFiles
 Array = NDArray[np.float64]
 
 H = 1e-3
-"""Size of the changes [radians, half extents]."""
+"""Size of the changes at least [radians, half extents]: as far as a cell may lie from its twin."""
 
 JUMP = 2e-5
-"""Second differences above this, as a share of the brightest pixel, are edges: an H^2 of curvature 20."""
+"""Second differences of H above this, as a share of the brightest pixel, are edges: an H^2 of curvature 20."""
 
-AWAY = np.array([0.6, 0.48, -0.64])
-"""Direction in which the lights are moved."""
+AWAY = np.array([[0.6, 0.48, -0.64], [0.8, -0.36, 0.48], [0.0, 0.8, 0.6]])
+"""Directions in which the lights are moved, at right angles to each other: in one alone a picture may stand still."""
 
 
 @dataclass(frozen=True)
@@ -40,12 +45,14 @@ class Response:
     steepness : (H, W) [radiance / half extent], the largest of each pixel and its neighbours
     edges : (H, W) bool, where a sample may see something else
     contrast : (H, W) difference of the brightest and the darkest that is seen there
+    step : h
     """
 
     picture: Array
     steepness: Array
     edges: NDArray[np.bool_]
     contrast: Array
+    step: float = H
 
     @property
     def brightest(self) -> float:
@@ -53,24 +60,44 @@ class Response:
         return float(self.picture.max())
 
 
-def probe(files: SceneFiles, folder: Path, compiled: bool | None = None) -> Response:
-    """Render a twin and its neighbours. The scene is that of a unit scene: scale 1, offset 0."""
+def probe(
+    files: SceneFiles,
+    folder: Path,
+    compiled: bool | None = None,
+    step: float = H,
+    clearance: float = math.inf,
+) -> Response:
+    """Render a twin and its neighbours. The scene is that of a unit scene: scale 1, offset 0.
+
+    Parameters
+    ----------
+    step : h
+    clearance : how far the camera may move before it comes to a surface
+    """
     picture = files.picture(folder, compiled)
     steepness = np.zeros(picture.shape[:2])
     bends = np.zeros(picture.shape[:2])
     lowest, highest = picture, picture
-    for change in (_view_turned, _view_tilted, _lights_moved):
-        above, below = (change(files, sign * H).picture(folder, compiled) for sign in (1, -1))
-        steepness += (np.abs(above - below) / (2 * H)).max(axis=2)
+    lights = [partial(_lights_moved, way=way) for way in AWAY]
+    for change in (_view_turned, _view_tilted, *lights):
+        above, below = (change(files, sign * step).picture(folder, compiled) for sign in (1, -1))
+        steepness += (np.abs(above - below) / (2 * step)).max(axis=2)
         bends = np.maximum(bends, np.abs(above - 2 * picture + below).max(axis=2))
         lowest = np.minimum(np.minimum(above, below), lowest)
         highest = np.maximum(np.maximum(above, below), highest)
+    small = min(step, clearance / 8)
+    for way in AWAY:
+        above, below = (
+            _camera_moved(files, sign * small, way).picture(folder, compiled) for sign in (1, -1)
+        )
+        steepness += (np.abs(above - below) / (2 * small)).max(axis=2)
     spread = _around(highest, np.max) - _around(lowest, np.min)
     return Response(
         picture,
         _around(steepness[..., None], np.max)[..., 0],
-        bends > JUMP * picture.max(),
+        bends > JUMP * (step / H) ** 2 * picture.max(),
         spread.max(axis=2),
+        step,
     )
 
 
@@ -102,18 +129,25 @@ def _looking(files: SceneFiles, right: float, up: float) -> SceneFiles:
     return files.with_(camera=camera | {"look_at": moved.tolist()})
 
 
-def _lights_moved(files: SceneFiles, by: float) -> SceneFiles:
+def _camera_moved(files: SceneFiles, by: float, way: Array) -> SceneFiles:
+    """The camera stands elsewhere and looks the same way."""
+    camera = files.description["camera"]
+    places = {key: (np.array(camera[key]) + by * way).tolist() for key in ("eye", "look_at")}
+    return files.with_(camera=camera | places)
+
+
+def _lights_moved(files: SceneFiles, by: float, way: Array) -> SceneFiles:
     lights = []
     for light in files.description["lights"]:
         moved = dict(light)
         for key in ("position", "center", "corner", "direction"):
             if key in light:
                 length = np.linalg.norm(light[key]) if key == "direction" else 1.0
-                moved[key] = (np.array(light[key]) + by * length * AWAY).tolist()
+                moved[key] = (np.array(light[key]) + by * length * way).tolist()
         lights.append(moved)
     shining = {light["object"] for light in lights if light["type"] == "object"}
     objects = [
-        _moved(thing, by * AWAY) if thing.get("name") in shining else thing
+        _moved(thing, by * way) if thing.get("name") in shining else thing
         for thing in files.description["objects"]
     ]
     return files.with_(lights=lights, objects=objects)

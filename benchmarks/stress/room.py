@@ -143,19 +143,28 @@ def _area(light: dict[str, Any]) -> float:
     return float(np.linalg.norm(np.cross(light["edge_u"], light["edge_v"])))
 
 
+def clearance(cell: Cell) -> float:
+    """How far the camera may move before it comes to a surface, of the unit scene."""
+    what, angle = cell["angle"]
+    if what in ("camera", "mirror"):
+        return float(0.5 * angle)
+    return 0.04 if cell["glass"] == AROUND else 0.5
+
+
 def _camera(cell: Cell, place: Placement) -> dict[str, Any]:
     what, angle = cell["angle"]
+    near = clearance(cell)
     match what:
         case "camera":
             # Just above the floor, and along it.
-            eye, look_at, near = (0.1, angle, 0.95), (0.07, angle, -1.0), 0.5 * angle
+            eye, look_at = (0.1, angle, 0.95), (0.07, angle, -1.0)
         case "mirror":
-            eye, look_at, near = (1 - angle, 0.5, 0.9), (0.6, 0.35, -1.0), 0.5 * angle
+            eye, look_at = (1 - angle, 0.5, 0.9), (0.6, 0.35, -1.0)
         case _ if cell["glass"] == AROUND:
             # About the middle of the ball, also when the camera moves: from there no ray is reflected totally.
-            eye, look_at, near = (0.42, 0.36, 0.35), (-0.3, 0.3, -0.1), 0.04
+            eye, look_at = (0.42, 0.36, 0.35), (-0.3, 0.3, -0.1)
         case _:
-            eye, look_at, near = (0.5, 0.6, 1.9), (-0.3, 0.3, -0.1), 0.5
+            eye, look_at = (0.5, 0.6, 1.9), (-0.3, 0.3, -0.1)
     camera = {
         "eye": place.point(*eye),
         "look_at": place.point(*look_at),

@@ -11,9 +11,9 @@ object is that of its area, which errs as its corners do: GAIN times that (``Cel
 added. Pixels that see thin triangles, which are expected to be samples * bounces * (their share of the surfaces), may
 differ by the larger shift of those.
 There are no other exceptions but edges: where a sample of the twin sees something else when the scene moves by
-H = 1e-3, it may do so in the cell too. Of those pixels a share of GAIN * shift / H is expected to jump. How many pixels
-may is the quantile of the Poisson distribution with the expected number, at 1 : 10^6; and none may jump to what is not
-seen around it.
+H = 1e-3, or by GAIN * shift where that is more, it may do so in the cell too. Of those pixels a share of
+GAIN * shift / H is expected to jump, all where that is more than 1. How many pixels may is the quantile of the Poisson
+distribution with the expected number, at 1 : 10^6; and none may jump to what is not seen around it.
 
 For patch and box the twin's radiance is a closed form, and the bound is rounding alone.
 """
@@ -93,7 +93,7 @@ class Judge:
     def __init__(self, folder: Path, compiled: bool | None = None) -> None:
         self._folder = folder
         self._compiled = compiled
-        self._family: tuple[str, ...] | None = None
+        self._family: tuple[tuple[str, ...], float] | None = None
         self._twin: Response | None = None
 
     def __call__(self, cell: Cell) -> Verdict:
@@ -117,10 +117,12 @@ class Judge:
 
     def twin(self, cell: Cell) -> Response:
         """The twin's picture and how it answers to changes."""
-        if self._twin is None or self._family != cell.family:
+        family = cell.family, max(H, GAIN * cell.shift)
+        if self._twin is None or self._family != family:
             twin = room.room(cell.twin())
-            self._twin = probe(twin, self._folder / "twin", self._compiled)
-            self._family = cell.family
+            clearance = room.clearance(cell)
+            self._twin = probe(twin, self._folder / "twin", self._compiled, family[1], clearance)
+            self._family = family
         return self._twin
 
     def _judge_room(self, cell: Cell, picture: Array, verdict: Verdict) -> None:
@@ -173,7 +175,7 @@ def compare(picture: Array, twin: Response, cell: Cell, verdict: Verdict) -> Non
     verdict.edges = float(twin.edges.mean())
     jumped = twin.edges & (over > 1)
     verdict.jumps = int(jumped.sum())
-    expected = min(1.0, moved / H) + thin * min(1.0, moved_more / H)
+    expected = min(1.0, moved / twin.step) + thin * min(1.0, moved_more / twin.step)
     verdict.jumps_allowed = most_of(twin.edges.sum() * min(1.0, expected))
     if verdict.jumps > verdict.jumps_allowed:
         verdict.trouble.append(

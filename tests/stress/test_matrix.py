@@ -242,8 +242,8 @@ def test_a_cell_may_be_judged_with_compiled_loops_or_without(
     verdicts = []
     for compiled in (True, False, None):
         verdicts += judge_all([each], 1, compiled=compiled)
-        # The twin and six changes of it; the cell and the furnace.
-        assert asked == [compiled] * 9
+        # The twin and sixteen changes of it; the cell and the furnace.
+        assert asked == [compiled] * 19
         asked.clear()
     assert all(verdict.passed for verdict in verdicts)
     assert verdicts[0].error == verdicts[1].error
