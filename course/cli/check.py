@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import click
 
 from course.cli.options import FAILED, modules_from
+from course.cli.outputs import check_outputs
 from course.cli.tables import count
 from course.effects import PROJECT
 from course.errors import CourseError
@@ -72,6 +73,7 @@ def check(
 
     if not folder.is_dir():
         raise CourseError(f"{folder}: no such folder; --folder says where your modules are")
+    check_outputs(files=[("--html", html), ("--json", json_file)])
     arrays = references(seed)
     while True:
         seen = _times(folder, modules)

@@ -150,3 +150,15 @@ def test_copies_of_other_modules_block_nothing(run: Run, tmp_path: Path) -> None
     assert result.stderr == says
     result = run("check", "glossy", "--folder", mine)
     assert "glossy.py is in it more than once" in result.stderr
+
+
+def test_reports_are_looked_at_before_the_checks(run: Run, folder: Path, tmp_path: Path) -> None:
+    """Two reports in one file, and one in a folder that isn't there."""
+    asked = "check", "sampling", "--folder", folder
+    twice = run(*asked, "--html", tmp_path / "a", "--json", tmp_path / "mine/../a")
+    nowhere = run(*asked, "--json", tmp_path / "nowhere" / "a.json")
+    for result, words in ((twice, "are one file"), (nowhere, "there is no folder")):
+        assert result.exit_code == 1
+        assert words in result.stderr
+        assert not result.stdout
+    assert list(tmp_path.iterdir()) == [folder]
