@@ -117,7 +117,7 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
         lobes=_lobes(used, effects, scene.integrator),
         lens=compile_lens(loaded, frame, effects),
         motion=motion,
-        paths=compile_paths(scene.integrator, effects, materials, columns.of_lights.values()),
+        paths=compile_paths(scene, effects, materials, columns.of_lights.values()),
         backdrop=scene.environment.seen_by == "camera",
         keeps=scene.integrator.into_surface == "keep",
     )

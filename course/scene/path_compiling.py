@@ -9,6 +9,7 @@ import numpy as np
 from course.appearance.materials import MaterialTable
 from course.effects import Effects
 from course.scene import description as d
+from course.scene.rejection import takes_rejection
 from course.scene.world import Paths
 
 
@@ -25,7 +26,7 @@ def path_functions(
 
 
 def compile_paths(
-    integrator: d.IntegratorDescription,
+    scene: d.SceneDescription,
     effects: Effects,
     materials: MaterialTable,
     objects: Iterable[int],
@@ -36,6 +37,7 @@ def compile_paths(
     ----------
     objects : materials of the objects that are lights
     """
+    integrator = scene.integrator
     if integrator.type != "path":
         return None
     functions = {
@@ -52,4 +54,5 @@ def compile_paths(
         functions.get("diffuse_bounce"),
         functions.get("throughput"),
         functions.get("russian_roulette"),
+        not takes_rejection(scene),
     )

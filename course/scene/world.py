@@ -41,6 +41,7 @@ class Paths:
     lamps : (M,) which materials are surfaces of lights, which direct light samples at every diffuse hit
     objects : (M,) which materials are those of objects that are lights, sampled as well, which shine from both sides
     diffuse_bounce, throughput, russian_roulette : of the path_tracing module, None where they are not called
+    together : whether any paths may be followed together; else it makes a difference to the numbers that they draw
     """
 
     roulette: int | None
@@ -49,6 +50,7 @@ class Paths:
     diffuse_bounce: Callable[[Floats32, Floats32], Floats32] | None
     throughput: Callable[[Floats32, Floats32], Floats32] | None
     russian_roulette: Callable[[Floats32, Floats32], tuple[Mask, Floats32]] | None
+    together: bool
 
 
 @dataclass(frozen=True)

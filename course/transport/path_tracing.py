@@ -49,7 +49,7 @@ class PathTracer(Tracer):
     def batches(self) -> int:
         """Batches of rays in a tile: most paths end soon, and the few that are left of several batches make one."""
         # Sobol points are each pixel's own; those of other samplers belong to a tile, which can't be divided.
-        return 16 if isinstance(self.sampler, SobolSampler) else 1
+        return 16 if isinstance(self.sampler, SobolSampler) and self._paths.together else 1
 
     @cached_property
     def _paths(self) -> Paths:

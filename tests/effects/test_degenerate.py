@@ -190,7 +190,7 @@ def test_one_regular_sample_is_the_pixels_centre(room: MakeScene) -> None:
     )
     block = Block(np.arange(1200, dtype=np.uint32), 0, 1, 0)
     draws = Draws(tracer.sampler, block, Counters(), lambda: False)
-    by_hand = tracer._trace(rays, 1200, draws, draws.counters)
+    by_hand = tracer._trace(rays, 1200, draws)
     assert np.array_equal(shown, by_hand.reshape(3, 30, 40).transpose(1, 2, 0))
     assert not draws.counters.numbers, "no other number is drawn"
     # Nothing of it is random.

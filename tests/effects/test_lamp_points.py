@@ -153,6 +153,23 @@ def test_a_picture_is_repeated_with_any_number_of_threads(
     assert one.tobytes() != render(scene, spp=24, seed=1, size=(80, 60)).linear.tobytes()
 
 
+@pytest.mark.parametrize("error", [None, 0.02])
+def test_so_is_one_through_a_lens_by_rejection(make_scene: MakeScene, error: float | None) -> None:
+    """Which paths are followed together makes a difference to such points, and must not come from the threads."""
+    lens = {"aperture_radius": 0.2, "focus_distance": 3, "samples": "rejection"}
+    scene = make_scene(
+        camera={"eye": [0, 1, 4], "look_at": [0, 0, 0], "lens": lens},
+        integrator={"type": "path", "max_depth": 2},
+        materials={"grey": {"color": 0.5}},
+        objects=[{"shape": "quad", "material": "grey", "width": 4, "depth": 4}],
+        lights=[{"type": "point", "position": [0, 3, 1], "intensity": 20}],
+    )
+    asked = {"spp": 64, "size": (120, 90), "error": error}
+    one = render(scene, threads=1, **asked).linear
+    for threads in (2, 5):
+        assert one.tobytes() == render(scene, threads=threads, **asked).linear.tobytes()
+
+
 @pytest.mark.parametrize("samples", WAYS)
 def test_a_receipt_names_the_function_and_what_it_draws(
     make_scene: MakeScene, samples: str
