@@ -32,7 +32,8 @@ JUMP = 2e-5
 """Second differences of H above this, as a share of the brightest pixel, are edges: an H^2 of curvature 20."""
 
 AWAY = np.array([[0.6, 0.48, -0.64], [0.8, -0.36, 0.48], [0.0, 0.8, 0.6]])
-"""Directions in which the lights are moved, at right angles to each other: in one alone a picture may stand still."""
+"""Directions in which lights and camera are moved, at right angles to each other: in one alone a picture may stand
+still."""
 
 
 @dataclass(frozen=True)

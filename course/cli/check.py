@@ -99,14 +99,15 @@ def _check(
     folder: Path, modules: tuple[str, ...], only: str | None, seed: int, arrays: References
 ) -> Report:
     from course.grading.grading import grade
-    from course.grading.submissions import find_modules, read_folder
+    from course.grading.submissions import find_modules, read_found
 
-    for path in find_modules(folder, modules).values():
+    paths = find_modules(folder, modules)
+    for path in paths.values():
         if path.parent != folder:
             click.echo(f"{folder / path.name} is missing; {path} is checked in its place", err=True)
     shown = _Printer(seed)
     report = grade(
-        read_folder(folder, modules),
+        read_found(folder, paths),
         arrays,
         seed=seed,
         modules=modules,

@@ -6,8 +6,9 @@ from pathlib import Path
 
 import click
 
-from course.cli.metu import check_camera, converted, is_metu, told_of, without_place
+from course.cli.metu import check_camera, converted, told_of, without_place
 from course.cli.tables import Section, print_sections, summary_sections
+from course.scene.metu.suffixes import is_metu
 
 
 @click.command()

@@ -14,17 +14,13 @@ from typing import TYPE_CHECKING
 import click
 
 from course.errors import CourseError, SceneError
+from course.scene.metu.suffixes import is_metu
 
 if TYPE_CHECKING:
     from course.scene.metu.converting import Converted
 
 ENDS = ("SIGTERM", "SIGHUP")
 """Signals that end a process, and have no exception as Ctrl-C has; not every system has both."""
-
-
-def is_metu(scene: Path) -> bool:
-    """Whether a file's name is that of a METU scene; said without reading it, or importing what would."""
-    return scene.suffix.lower() in (".xml", ".json")
 
 
 def check_not_metu(scene: Path, command: str) -> None:

@@ -9,12 +9,13 @@ from typing import Any
 import click
 
 from course.cli import options
-from course.cli.metu import check_camera, converted, is_metu, told_of
+from course.cli.metu import check_camera, converted, told_of
 from course.cli.outputs import check_outputs
 from course.cli.progress import progress_bar
 from course.cli.tables import print_sections, receipt_sections
 from course.errors import CourseError
 from course.imaging.atomic import write_text
+from course.scene.metu.suffixes import is_metu
 
 SAMPLERS = (
     "sobol",
@@ -26,9 +27,6 @@ SAMPLERS = (
     "chained",
     "xorshift",
 )
-
-GOES_ON = ("sobol", "random", "xorshift")
-"""Samplers that can go on where the error is."""
 
 
 @click.command()
@@ -191,10 +189,11 @@ def _render_one(
 
 def _check_error(scene: Path, sampler: str, samples: int, choices: dict[str, Any]) -> None:
     """A METU scene has a grid of samples, which nobody chose who asks for an error to be aimed at."""
-    if choices["error"] is None or choices["sampler"] is not None or sampler in GOES_ON:
-        return
+    from course.rendering.adaptive import ADAPTABLE
     from course.rendering.allocation import FIRST
 
+    if choices["error"] is None or choices["sampler"] is not None or sampler in ADAPTABLE:
+        return
     more = " --spp 64" if choices["spp"] is None and samples < FIRST else ""
     raise CourseError(
         f"{scene}: --error adds samples where the error is, but NumSamples of a METU scene places them all at once"

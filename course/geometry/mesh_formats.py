@@ -58,13 +58,10 @@ def part_of(
     faces = geometry.get("faces")
     if faces is None or len(faces) == 0:
         return None
-    faces = np.asarray(faces)
-    fans = [faces[:, [0, k, k + 1]] for k in range(1, faces.shape[1] - 1)]
-    visual = geometry.get("visual")
     return Part(
         vertices=np.asarray(geometry["vertices"]),
-        triangles=np.stack(fans, axis=1).reshape(-1, 3).astype(np.int64),
+        triangles=np.asarray(faces, np.int64),
         normals=geometry.get("vertex_normals"),
-        uv=uv if visual is None else visual.uv,
+        uv=uv,
         transform=transform,
     )

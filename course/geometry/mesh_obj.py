@@ -18,7 +18,7 @@ from course.core.types import Floats64, Indices
 from course.geometry.mesh_formats import Part
 from course.geometry.mesh_obj_faces import KINDS, Face, corners_of
 from course.geometry.mesh_polygons import fans
-from course.geometry.mesh_words import real
+from course.geometry.mesh_words import numbers, real
 from course.geometry.welding import same
 
 WIDTHS = {"v": 3, "vt": 2, "vn": 3}
@@ -103,21 +103,18 @@ def _plain_lines(text: str) -> list[str]:
     return lines
 
 
-def _numbers(keyword: str, rows: list[str], numbers: list[int]) -> Floats64:
+def _numbers(keyword: str, rows: list[str], lines: list[int]) -> Floats64:
     """(N, width) of the rows of one kind."""
     width = WIDTHS[keyword]
     if not rows:
         return np.zeros((0, width))
     words = len(rows[0].split())
     if words >= width:
-        try:
-            found = np.fromstring(" ".join(rows), np.float64, sep=" ")
-        except (ValueError, DeprecationWarning):
-            found = np.zeros(0)
+        found = numbers(" ".join(rows))
         # A row that is longer could make up for one that is shorter.
         if len(found) == words * len(rows) and all(len(row.split()) == words for row in rows):
             return found.reshape(-1, words)[:, :width]
-    return np.array([_row(keyword, row, number) for row, number in zip(rows, numbers, strict=True)])
+    return np.array([_row(keyword, row, number) for row, number in zip(rows, lines, strict=True)])
 
 
 def _row(keyword: str, row: str, number: int) -> list[float]:

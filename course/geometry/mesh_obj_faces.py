@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from course.core.types import Indices
 from course.geometry.mesh_polygons import too_few
-from course.geometry.mesh_words import whole
+from course.geometry.mesh_words import numbers, whole
 
 KINDS = ("v", "vt", "vn")
 """What the fields of a corner v/vt/vn count, in their order."""
@@ -98,11 +98,11 @@ def _alike(words: list[str]) -> NDArray[np.float64] | None:
     # Without digits 1//3 and 1/2/3 are the same.
     if text.count("//") != hollow * len(words):
         return None
-    numbers = np.fromstring(text.replace("/", " "), np.float64, sep=" ")
-    if len(numbers) != len(words) * len(which) or numbers.min() < 1:
+    values = numbers(text.replace("/", " "))
+    if len(values) != len(words) * len(which) or values.min() < 1:
         return None
     fields = np.zeros((3, len(words)))
-    fields[which] = numbers.reshape(-1, len(which)).T
+    fields[which] = values.reshape(-1, len(which)).T
     return fields
 
 

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from course.geometry.mesh_polygons import Lists, runs
+from course.geometry.mesh_words import numbers
 from course.geometry.ply_header import TYPES, Element, Header
 from course.geometry.ply_lines import checked_lines, word_that_is_no_number
 
@@ -35,11 +36,8 @@ def text_columns(header: Header, data: bytes) -> Columns:
 
 def _columns(element: Element, lines: list[str], header: Header, data: bytes) -> dict[str, Column]:
     words = np.array([len(line.split()) for line in lines])
-    try:
-        numbers = np.fromstring(" ".join(lines), np.float64, sep=" ")
-    except (ValueError, DeprecationWarning):
-        numbers = np.zeros(0)
-    if len(numbers) != words.sum():
+    values = numbers(" ".join(lines))
+    if len(values) != words.sum():
         raise ValueError(word_that_is_no_number(header, data) or "its numbers can't be read")
     at = np.cumsum(words) - words
     found: dict[str, Column] = {}
@@ -47,10 +45,10 @@ def _columns(element: Element, lines: list[str], header: Header, data: bytes) ->
         # What is announced as float has its precision; other numbers are as they are written.
         kind = np.dtype(np.float64 if each.whole else TYPES[each.kind])
         if each.count is None:
-            found[each.name] = numbers[at].astype(kind)
+            found[each.name] = values[at].astype(kind)
             at = at + 1
             continue
-        lengths = numbers[at].astype(np.int64)
-        found[each.name] = Lists(lengths, runs(numbers, at + 1, lengths).astype(kind))
+        lengths = values[at].astype(np.int64)
+        found[each.name] = Lists(lengths, runs(values, at + 1, lengths).astype(kind))
         at = at + 1 + lengths
     return found

@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import os
 import zipfile
-from collections.abc import Iterable
-from difflib import get_close_matches
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path, PurePosixPath
 
 from course.effects import COURSE
 from course.errors import CourseError
-from course.grading.errors import StudentError
+from course.grading.errors import StudentError, meant
 
 LARGEST_FILE = 2_000_000
 """Bytes of one file that are read; the worker refuses less than that, with a message of its own."""
@@ -67,9 +67,8 @@ def why_absent(
 def _meant(module: str, folder: Path | None) -> str:
     """Which other file of the folder may be meant to be the module."""
     files = [] if folder is None else sorted(folder.glob("*.py"))
-    others = [file.stem for file in files if file.stem not in COURSE]
-    near = get_close_matches(module, others, 1, 0.75)
-    return f" (is it {near[0]}.py?)" if near else ""
+    near = meant(module, (file.stem for file in files if file.stem not in COURSE))
+    return f" (is it {near}.py?)" if near else ""
 
 
 def find_modules(folder: Path, modules: Iterable[str] = tuple(COURSE)) -> dict[str, Path]:
@@ -78,13 +77,14 @@ def find_modules(folder: Path, modules: Iterable[str] = tuple(COURSE)) -> dict[s
     Raises
     ------
     SubmissionError
-        One isn't in the folder, and more than once below it.
+        One isn't in the folder, and more than once below it; or the folder can't be read.
     """
     found: dict[str, Path] = {}
     for module in modules:
         top = folder / f"{module}.py"
-        # A file at the top is meant, whatever lies deeper.
-        paths = [top] if os.path.lexists(top) else _below(folder, top.name)
+        with _readable(folder):
+            # A file at the top is meant, whatever lies deeper.
+            paths = [top] if os.path.lexists(top) else _below(folder, top.name)
         if len(paths) > 1:
             raise SubmissionError(
                 f"{folder}: {module}.py is in it more than once: {_listed(paths)}"
@@ -110,25 +110,33 @@ def read_folder(folder: Path, modules: Iterable[str] = tuple(COURSE)) -> dict[st
     SubmissionError
         One is a link, is no file, lies twice in it, or can't be read.
     """
+    return read_found(folder, find_modules(folder, modules))
+
+
+def read_found(folder: Path, paths: Mapping[str, Path]) -> dict[str, bytes]:
+    """Modules that `find_modules` has found in a folder; raises what `read_folder` does."""
+    found: dict[str, bytes] = {}
+    with _readable(folder):
+        for module, path in paths.items():
+            if path.is_symlink() or not path.resolve().is_relative_to(folder.resolve()):
+                raise SubmissionError(f"{path}: is a link; submit the file itself")
+            if not path.is_file():
+                # To open a pipe would wait for somebody to write to it.
+                raise SubmissionError(f"{path}: is no ordinary file")
+            with path.open("rb") as file:
+                found[module] = file.read(LARGEST_FILE)
+    return found
+
+
+@contextmanager
+def _readable(folder: Path) -> Iterator[None]:
+    """What the system can't read is told as a mistake of the submission."""
     try:
-        return _read_folder(folder, modules)
+        yield
     except OSError as error:
         raise SubmissionError(
             f"{error.filename or folder}: can't be read: {error.strerror}"
         ) from error
-
-
-def _read_folder(folder: Path, modules: Iterable[str]) -> dict[str, bytes]:
-    found: dict[str, bytes] = {}
-    for module, path in find_modules(folder, modules).items():
-        if path.is_symlink() or not path.resolve().is_relative_to(folder.resolve()):
-            raise SubmissionError(f"{path}: is a link; submit the file itself")
-        if not path.is_file():
-            # To open a pipe would wait for somebody to write to it.
-            raise SubmissionError(f"{path}: is no ordinary file")
-        with path.open("rb") as file:
-            found[module] = file.read(LARGEST_FILE)
-    return found
 
 
 def read_zip(path: Path, modules: Iterable[str] = tuple(COURSE)) -> dict[str, bytes]:

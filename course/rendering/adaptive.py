@@ -24,8 +24,10 @@ from course.rendering.allocation import (
     rung,
     smoothed,
 )
-from course.rendering.passes import SHARES as PASS_SHARES
-from course.rendering.passes import Work
+from course.rendering.passes import Work, fair_share
+
+ADAPTABLE = ("sobol", "random", "xorshift")
+"""Samplers that can go on where the error is, and whose samples tell it."""
 
 SAFETY = 0.95
 """Part of the target that a round aims at, so that the last one doesn't miss it by a hair and another must follow."""
@@ -122,9 +124,7 @@ class Groups:
     def __init__(self, width: int, batches: int = 1, threads: int = 1) -> None:
         self._width = width
         self._count = 0
-        self._most = LARGEST if batches == 1 else batches * RAYS
-        # Where it makes a difference which pixels go together, it doesn't matter how many threads there are.
-        self._shares = SHARES if batches == 1 else PASS_SHARES * max(threads, 1)
+        self._batches, self._threads = batches, threads
 
     def stretches(self, have: Numbers, wanted: Numbers, order: Indices) -> list[Work]:
         """Work from the samples that the pixels have to those that they shall have, (P,) each.
@@ -142,7 +142,7 @@ class Groups:
             chosen, step = kinds[place], steps[place]
             first = int(have[chosen[0]])
             while len(chosen):
-                most = max(min(max(left // self._shares, SMALLEST), self._most) // step, 1)
+                most = max(self._most(left) // step, 1)
                 # Equal groups rather than full ones and a rest.
                 part = spread_pixels(-(-len(chosen) // -(-len(chosen) // most)), step)
                 group = PixelGroup(self._count, chosen[:part], self._width)
@@ -151,3 +151,10 @@ class Groups:
                 left -= part * step
                 chosen = chosen[part:]
         return work
+
+    def _most(self, left: int) -> int:
+        """Camera rays of a group, where so many are left of the round."""
+        if self._batches == 1:
+            # It may make a difference which pixels go together; so it doesn't matter how many threads there are.
+            return min(max(left // SHARES, SMALLEST), LARGEST)
+        return min(max(fair_share(left, self._threads), SMALLEST), self._batches * RAYS)

@@ -29,7 +29,7 @@ class Work:
     order : number of the pass, for the film adds the passes of a tile in order
     whole : whether the film keeps its sums
     parts : into which the samples of a pixel are divided, each a mean of its own
-    pixels : of the whole tile
+    pixels : of the whole tile; None where this is all of it
     """
 
     tile: Area
@@ -40,11 +40,10 @@ class Work:
     parts: int = 1
     pixels: int | None = None
 
-    @property
-    def share(self) -> tuple[int, int]:
-        """How many pixels of how many."""
-        size = self.tile.size
-        return size, size if self.pixels is None else self.pixels
+
+def fair_share(left: int, threads: int) -> int:
+    """What may be rendered at once where so much is left to do."""
+    return left // (SHARES * max(threads, 1))
 
 
 def pass_size(settings: Settings, sampler: Sampler) -> int:
@@ -77,7 +76,7 @@ def passes(
             waiting: list[Tile] = [tile]
             while waiting:
                 part = waiting.pop()
-                if batches > 1 and part.size > max(left // (SHARES * max(threads, 1)), one):
+                if batches > 1 and part.size > max(fair_share(left, threads), one):
                     waiting += halves(part)[::-1]
                     continue
                 left -= part.size

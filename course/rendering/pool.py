@@ -83,11 +83,11 @@ class InOrder:
                     return
                 item, pixels, weight = ready.pop()
             self._film.add(item.tile, pixels, weight, item.first + item.samples, item.whole)
-            size, whole = item.share
+            size = item.tile.size
             with self._lock:
                 self.done += 1
                 self.done_first += item.order == 0
-                missing = self._missing.pop(tile, whole) - size
+                missing = self._missing.pop(tile, item.pixels or size) - size
                 if missing:
                     self._missing[tile] = missing
                 else:

@@ -15,7 +15,7 @@ from course.errors import CourseError, EffectError, OutputError
 from course.geometry.packets import available as packets_available
 from course.imaging.adaptive_film import AdaptiveFilm
 from course.imaging.film import Film
-from course.rendering.adaptive import Groups, render_adaptively
+from course.rendering.adaptive import ADAPTABLE, Groups, render_adaptively
 from course.rendering.allocation import FIRST
 from course.rendering.binding import bind
 from course.rendering.corners import Corners
@@ -244,7 +244,7 @@ def _check_adaptive(settings: Settings) -> None:
             "the halton sampler moves all points of a pixel together, so they don't tell their error; "
             "use sobol, random or xorshift"
         )
-    if settings.sampler not in ("sobol", "random", "xorshift"):
+    if settings.sampler not in ADAPTABLE:
         raise CourseError(
             f"the {settings.sampler} sampler places all its samples at once, so it can't go on where the error is; "
             "use sobol, random or xorshift"

@@ -10,12 +10,12 @@ from course.scene.description.camera import LensDescription
 from course.scene.frame import Frame
 from course.scene.loading import Loaded
 from course.scene.reach import in_reach
-from course.scene.rejection import by_rejection
+from course.scene.rejection import DISK, by_rejection
 
 DISKS = {
     "point": ("thin_lens", "point_on_disk"),
     "polar": ("sampling", "disk_by_polar"),
-    "rejection": ("sampling", "disk_by_rejection"),
+    DISK: ("sampling", "disk_by_rejection"),
 }
 """The module and name of the function that each value of ``samples`` asks for."""
 
@@ -62,4 +62,4 @@ def compile_lens(loaded: Loaded, frame: Frame, effects: Effects) -> Lens | None:
 
 def _points(lens: LensDescription, effects: Effects) -> PointOnDisk:
     function = effects.function(*DISKS[lens.samples])
-    return by_rejection(function) if lens.samples == "rejection" else function
+    return by_rejection(function) if lens.samples == DISK else function

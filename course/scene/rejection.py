@@ -14,6 +14,9 @@ import numpy as np
 from course.core.types import Floats32
 from course.scene.description import SceneDescription
 
+BALL, DISK = "ball by rejection", "rejection"
+"""What ``samples`` of a spherical light and of a lens say for it."""
+
 _CHOOSING = 64
 """Columns of u that choose the generator; more of them would only take more time."""
 
@@ -21,9 +24,9 @@ _CHOOSING = 64
 def takes_rejection(scene: SceneDescription) -> bool:
     """Whether a light or the lens takes points by rejection."""
     lens = scene.camera.lens
-    if lens is not None and lens.shape == "disk" and lens.samples == "rejection":
+    if lens is not None and lens.shape == "disk" and lens.samples == DISK:
         return True
-    return any(getattr(light, "samples", None) == "ball by rejection" for light in scene.lights)
+    return any(getattr(light, "samples", None) == BALL for light in scene.lights)
 
 
 def by_rejection(function: Callable[[int, Any], Floats32]) -> Callable[[Floats32], Floats32]:

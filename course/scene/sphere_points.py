@@ -9,7 +9,7 @@ import numpy as np
 from course.core.types import Floats32
 from course.effects import Effects
 from course.errors import EffectError
-from course.scene.rejection import by_rejection
+from course.scene.rejection import BALL, by_rejection
 
 SPHERES = {
     "sphere": ("soft_shadows", "point_on_sphere"),
@@ -17,7 +17,7 @@ SPHERES = {
     "facing disk": ("soft_shadows", "point_on_facing_disk"),
     "sphere by polar": ("sampling", "sphere_by_polar"),
     "ball by polar": ("sampling", "ball_by_polar"),
-    "ball by rejection": ("sampling", "ball_by_rejection"),
+    BALL: ("sampling", "ball_by_rejection"),
 }
 """The module and name of the function that each value of ``samples`` asks for; the visible part needs none."""
 
@@ -40,7 +40,7 @@ def sphere_points(samples: str, effects: Effects) -> Place:
     function = effects.function(module, name)
     if module == "soft_shadows":
         return function
-    unit = by_rejection(function) if samples == "ball by rejection" else function
+    unit = by_rejection(function) if samples == BALL else function
 
     def place(center: Floats32, radius: float, u: Floats32) -> Floats32:
         points = unit(u)

@@ -87,11 +87,10 @@ class Pieces:
             numbered.append(replace(piece.rays, path=piece.rays.path + before))
         sees = None
         if any(piece.sees is not None for piece in pieces):
-            none = (np.zeros(piece.rays.size, np.bool_) for piece in pieces)
             sees = np.concatenate(
                 [
-                    no if piece.sees is None else piece.sees
-                    for piece, no in zip(pieces, none, strict=True)
+                    np.zeros(piece.rays.size, np.bool_) if piece.sees is None else piece.sees
+                    for piece in pieces
                 ]
             )
         return self._piece(joined(numbered), sees, pixels)

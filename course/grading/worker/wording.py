@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from difflib import get_close_matches
 from typing import Any
 
 from course.effects import COURSE
-from course.grading.errors import StudentError, Trouble
+from course.grading.errors import StudentError, Trouble, meant
 
 LONGEST_MESSAGE = 300
 LONGEST_LINE = 160
 LONGEST_TRACEBACK = 3000
 """Characters of an exception's text, of one line of its traceback, and of all its lines."""
-
-ALIKE = 0.75
-"""How alike two names must be for one to be meant by the other; from 0 to 1, by difflib."""
 
 
 def replied(kind: Trouble, head: Mapping[str, Any]) -> StudentError:
@@ -42,9 +38,9 @@ def no_such(module: str, function: str, names: Any) -> StudentError:
         if isinstance(name, str) and len(name) < 80 and name.isidentifier()
     ]
     others = [name for name in others if name not in COURSE.get(module, ())]
-    near = get_close_matches(function, others, 1, ALIKE)
-    meant = f" (did you mean {near[0]}?)" if near else ""
-    return StudentError("missing", f"{module}.py has no {function}{meant}")
+    near = meant(function, others)
+    hint = f" (did you mean {near}?)" if near else ""
+    return StudentError("missing", f"{module}.py has no {function}{hint}")
 
 
 def not_loaded(module: str, error: StudentError, seconds: float) -> StudentError:

@@ -15,18 +15,13 @@ from xml.parsers import expat
 from course.errors import SceneError
 from course.scene.document import show
 from course.scene.metu.element import Element
+from course.scene.metu.suffixes import SUFFIXES, is_metu
 
-SUFFIXES: Final = (".xml", ".json")
 ROOT: Final = "Scene"
 LARGEST_FILE: Final = 1 << 30  # bytes
 DEEPEST: Final = 32
 UTF_16: Final = (b"\xff\xfe", b"\xfe\xff")
 """Marks at the beginning of a file by which XML's other encoding is known."""
-
-
-def is_metu(path: Path) -> bool:
-    """Whether a file's name is that of a METU scene."""
-    return path.suffix.lower() in SUFFIXES
 
 
 def read_elements(path: Path) -> Element:
