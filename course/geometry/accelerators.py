@@ -56,6 +56,8 @@ class AnyAccelerator(Protocol):
         limit: float,
         clock: QueryTime,
         time: Floats32 | None,
+        *,
+        asked: Mask | None = None,
     ) -> Mask:
         """Whether nothing lies between origin and origin + limit * direction.
 
@@ -66,6 +68,7 @@ class AnyAccelerator(Protocol):
         limit : in lengths of the direction
         clock : the time that it takes, or its tests, are added to it
         time : (N,) float32, when each ray is cast, as a share of the exposure; None where nothing moves
+        asked : (N,) the rays whose answers matter, None for all: what comes back for others means nothing
 
         Returns
         -------

@@ -181,6 +181,7 @@ class Accelerator:
         limit: float,
         clock: QueryTime,
         time: Floats32 | None = None,
+        asked: Mask | None = None,
     ) -> Mask:
         """Whether nothing lies on the way; see ``AnyAccelerator.unoccluded``. Time is of no consequence."""
         n = direction.shape[1]
@@ -191,9 +192,11 @@ class Accelerator:
             free = self._packets.unoccluded(origin, direction, limit)
             clock.seconds += perf_counter() - start
             return free
+        # Embree gives back at once what ends before it begins.
+        limits = limit if asked is None else np.where(asked, np.float32(limit), np.float32(-1))
         scene = self._single()
         start = perf_counter()
-        blocked = scene.run(_rows(origin, n), direction.T, limit, query="OCCLUDED")
+        blocked = scene.run(_rows(origin, n), direction.T, limits, query="OCCLUDED")
         clock.seconds += perf_counter() - start
         return blocked < 0  # type: ignore[no-any-return]
 

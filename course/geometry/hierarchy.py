@@ -104,6 +104,7 @@ class HierarchyAccelerator:
         limit: float,
         clock: QueryTime,
         time: Floats32 | None = None,
+        asked: Mask | None = None,
     ) -> Mask:
         """Whether nothing lies between origin and origin + limit * direction; see ``AnyAccelerator.unoccluded``.
 
@@ -112,9 +113,14 @@ class HierarchyAccelerator:
         EffectError
             A function returned something else than its contract says.
         """
+        if asked is not None:
+            which = np.flatnonzero(asked)
+            free = np.ones(len(asked), np.bool_)
+            rays = _columns(origin, len(asked)).take(which, axis=1), direction.take(which, axis=1)
+            free[which] = self.unoccluded(*rays, limit, clock)
+            return free
         triangle, t, *_ = self._nearest(origin, direction, clock)
-        free: Mask = (triangle < 0) | (t > limit)
-        return free
+        return (triangle < 0) | (t > limit)
 
     def box_tests(self, origin: Floats32, direction: Floats32) -> Numbers:
         """How many boxes each ray is tested with, (N,); arguments are those of ``intersect``."""

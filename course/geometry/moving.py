@@ -103,10 +103,13 @@ class MovingAccelerator:
         limit: float,
         clock: QueryTime,
         time: Floats32 | None,
+        asked: Mask | None = None,
     ) -> Mask:
         """Whether the way is free at the rays' times; see ``AnyAccelerator.unoccluded``."""
         assert time is not None
-        free = self.static.unoccluded(origin, direction, limit, clock)
+        free = self.static.unoccluded(origin, direction, limit, clock, asked=asked)
+        if asked is not None:
+            free &= asked
         origin = _each_its_own(origin, direction.shape[1])
         for mover in self.movers:
             # Only those that nothing has blocked so far are asked again, unless copies of them would be of nearly all.

@@ -15,14 +15,8 @@ from course.core.samplers.sobol import SobolSampler
 from course.geometry import packets
 from course.geometry.hits import Hits
 from course.transport.counters import Counters
-from course.transport.direct import (
-    _accumulated,
-    _facing,
-    _facing_by_loop,
-    _scale,
-    _turned,
-    _turned_by_loop,
-)
+from course.transport.direct import _accumulated, _scale
+from course.transport.facing import NEARLY_ALL, Facing, facing, turned
 from course.transport.paths import Draws
 from course.transport.tracing import add_radiance
 from tests.transport.coarse_sphere import hits_on_a_coarse_sphere
@@ -65,65 +59,116 @@ def test_what_arrives(hits: Hits, of_its_own: bool, normal: Any, two_sided: bool
         assert ((loop.factor == 0).sum() > N / 5) == (normal is not None and not two_sided)
 
 
+def faced(hits: Hits, sample: Sample, shaded: Any = None) -> tuple[Facing | None, Facing | None]:
+    """By passes over arrays, and by the loops."""
+    passes, loop = (
+        facing(replace(hits, compiled=which), sample, shaded) for which in (False, True)
+    )
+    return passes, loop
+
+
+def assert_same_light(hits: Hits, passes: Facing | None, loop: Facing | None) -> None:
+    """The same hits show the light, and their arrays are the same there; the rest of them get nothing."""
+    assert passes is not None
+    assert loop is not None
+    same(passes.lit, loop.lit)
+    place = loop.lit if passes.which is None and loop.which is not None else slice(None)
+    for name in ("strength", "cosine", "origin", "to_light", "inverse_length"):
+        mine, theirs = getattr(passes, name), getattr(loop, name)
+        same(mine[..., place] if mine.shape[-1] == hits.size else mine, theirs)
+    assert loop.asked is None
+    if passes.asked is not None:
+        same(np.flatnonzero(passes.asked), loop.lit)
+        assert not passes.strength[~passes.asked].any()
+
+
 @pytest.mark.parametrize("shape", [N, 1], ids=["a direction each", "one direction"])
+@pytest.mark.parametrize("front", [0.0, 1.0], ids=["few", "most"])
 @pytest.mark.parametrize(
     "shaded",
     [None, [[True, False, True, True]], [[False] * 4], [[True] * 4, [True, False, False, True]]],
 )
-def test_which_hits_face_the_light(hits: Hits, shape: int, shaded: Any) -> None:
+def test_which_hits_face_the_light(hits: Hits, shape: int, front: float, shaded: Any) -> None:
     rng = np.random.default_rng(7)
     to_light = rng.normal(size=(3, shape)).astype(np.float32)
+    if front:
+        # So that most hits face it, from one direction as from many.
+        to_light += np.float32(3) * (hits.ns if shape > 1 else hits.ns.mean(axis=1, keepdims=True))
     sample = Sample(
         to_light,
         1 / np.linalg.norm(to_light, axis=0).astype(np.float32),
-        np.maximum(rng.normal(size=shape).astype(np.float32), np.float32(0 if shape > 1 else 1)),
+        np.maximum(rng.normal(size=shape) + front, 0 if shape > 1 else 1).astype(np.float32),
     )
     shaded = None if shaded is None else np.array(shaded)
-    passes, loop = _facing(hits, sample, shaded), _facing_by_loop(hits, sample, shaded)
+    passes, loop = faced(hits, sample, shaded)
     if shaded is not None and not shaded.any():
         assert passes is None
         assert loop is None
         return
+    assert_same_light(hits, passes, loop)
     assert passes is not None
-    assert loop is not None
-    for mine, theirs in zip(passes, loop, strict=True):
-        same(mine, theirs)
-    assert 500 < len(loop[0]) < N
+    assert 500 < len(passes.lit) < N
+    # Copies are made where few face it, and only there.
+    assert (passes.which is None) == (len(passes.lit) >= NEARLY_ALL * N)
+    if shaded is None and shape > 1:
+        assert (passes.which is None) == (front > 0)
 
 
 def test_all_hits_face_the_light(hits: Hits) -> None:
     """Then nothing is gathered."""
     sample = Sample(hits.ns, np.ones(N, np.float32), np.ones(N, np.float32))
-    passes, loop = _facing(hits, sample, None), _facing_by_loop(hits, sample, None)
+    passes, loop = faced(hits, sample)
+    assert_same_light(hits, passes, loop)
+    for each in (passes, loop):
+        assert each is not None
+        assert len(each.lit) == N
+        assert each.which is None
+        assert each.asked is None
+        assert each.origin is hits.above
+
+
+def test_a_light_that_is_no_number_lights_nothing(hits: Hits) -> None:
+    """By passes over all hits it would, times 0: only copies leave it behind."""
+    factor = np.ones(N, np.float32)
+    factor[7] = np.nan
+    passes, loop = faced(hits, Sample(hits.ns, np.ones(N, np.float32), factor))
+    assert_same_light(hits, passes, loop)
+    assert passes is not None
+    assert passes.which is not None
+    assert 7 not in passes.lit
+    assert np.isfinite(passes.strength).all()
+
+
+@pytest.mark.parametrize("share", [0.3, 0.9], ids=["few", "most"])
+def test_which_facets_turn_away(hits: Hits, share: float) -> None:
+    rng = np.random.default_rng(8)
+    to_light = rng.normal(size=(3, N)).astype(np.float32)
+    # Nothing but chance says which of them face it, so some of those that don't look as if their facets turned away.
+    factor = np.sign((hits.ns * to_light).sum(axis=0)) * np.where(rng.random(N) < share, 1, -1)
+    passes, loop = faced(hits, Sample(to_light, np.ones(N, np.float32), factor.astype(np.float32)))
+    assert_same_light(hits, passes, loop)
     assert passes is not None
     assert loop is not None
-    assert len(loop[0]) == N
-    assert loop[3] is hits.above
-    for mine, theirs in zip(passes, loop, strict=True):
-        same(mine, theirs)
-
-
-def test_which_facets_turn_away(hits: Hits) -> None:
-    rng = np.random.default_rng(8)
-    which = np.flatnonzero(rng.random(N) < 0.7)
-    to_light = rng.normal(size=(3, len(which))).astype(np.float32)
-    cosine = (hits.ns[:, which] * to_light).sum(axis=0)
-    passes, loop = (
-        find(hits, which, cosine, to_light, np.float32(0.3)) for find in (_turned, _turned_by_loop)
-    )
-    same(passes, loop)
-    assert 100 < len(loop) < len(which)
+    assert (passes.which is None) == (share > NEARLY_ALL)
+    found = [
+        each.hit(turned(replace(hits, compiled=which), each, each.to_light, np.float32(0.3)))
+        for which, each in ((False, passes), (True, loop))
+    ]
+    same(*found)
+    assert 100 < len(found[1]) < len(loop.lit)
 
 
 def test_lights_add_up(hits: Hits) -> None:
     rng = np.random.default_rng(9)
     totals: list[Any] = [None, None]
-    for share in (0.3, 1.0, 0.5):
-        which = np.flatnonzero(rng.random(N) < share)
-        values, color = rng.random(len(which), np.float32), rng.random(3, np.float32)
-        for number, compiled in enumerate((False, True)):
-            mine = replace(hits, compiled=compiled)
-            totals[number] = _accumulated(totals[number], mine, which, values, color)
+    for share in (0.3, 1.0, 0.8):
+        factor = np.where(rng.random(N) < share, 1, 0).astype(np.float32)
+        sample = Sample(hits.ns, np.ones(N, np.float32), factor)
+        color = rng.random(3, np.float32)
+        for number, each in enumerate(faced(hits, sample)):
+            assert each is not None
+            mine = replace(hits, compiled=number > 0)
+            totals[number] = _accumulated(totals[number], mine, each, each.strength, color)
         same(*totals)
     assert (totals[1] > 0).any()
 
