@@ -20,23 +20,23 @@ _AHEAD = 64
 
 
 @njit(**OPTIONS)
-def _touched(begin, end, hit, triangle, corner_edges, normal_offset, corner_normals):
+def _touched(begin, end, hit, triangle, planes, edges, corner_normals):
     """Read a number of each row, so that it is in the cache; the sum is there so that the reading isn't left out."""
     total = _NOTHING
     for i in range(begin, end):
         k = triangle[hit[i] if len(hit) else i]
-        total += normal_offset[k, 0] + corner_edges[k, 0] + corner_edges[k, 8]
+        total += planes[k, 0] + planes[k, 7] + edges[k, 0] + edges[k, 7]
         if corner_normals.shape[0]:
             total += corner_normals[k, 0] + corner_normals[k, 8]
     return total
 
 
 @njit(**OPTIONS)
-def _pulled(x, y, z, a, b, c, edges, normal, inset):
+def _pulled(x, y, z, a, b, c, plane, edges, inset):
     """A point next to an edge moved inwards, in float64; see ``course.geometry.hits``."""
-    e1x, e1y, e1z = np.float64(edges[3]), np.float64(edges[4]), np.float64(edges[5])
-    e2x, e2y, e2z = np.float64(edges[6]), np.float64(edges[7]), np.float64(edges[8])
-    nx, ny, nz = np.float64(normal[0]), np.float64(normal[1]), np.float64(normal[2])
+    e1x, e1y, e1z = np.float64(edges[0]), np.float64(edges[1]), np.float64(edges[2])
+    e2x, e2y, e2z = np.float64(edges[3]), np.float64(edges[4]), np.float64(edges[5])
+    nx, ny, nz = np.float64(plane[3]), np.float64(plane[4]), np.float64(plane[5])
     twice_area = (
         (e1y * e2z - e1z * e2y) * nx + (e1z * e2x - e1x * e2z) * ny + (e1x * e2y - e1y * e2x) * nz
     )
@@ -71,8 +71,8 @@ def find(
     v,
     t,
     direction,
-    corner_edges,
-    normal_offset,
+    planes,
+    edges,
     inset,
     corner_normals,
     materials,
@@ -94,7 +94,7 @@ def find(
     ----------
     hit : (n,) which of the rays hit something; (0,) for all
     triangle, u, v, t, direction : (N,) and (3, N) of the rays
-    corner_edges, normal_offset, inset, corner_normals : of ``Surface``; the last is (0, 9) where all triangles are flat
+    planes, edges, inset, corner_normals : of ``Surface``; the last is (0, 9) where all triangles are flat
     materials : (T,) of ``Surface``
     bends : whether normals that look away from the ray are bent until they no longer do
     met, uvt, arriving : (n,) and (3, n), filled with the above of the rays that hit; without columns if all do
@@ -106,7 +106,7 @@ def find(
     for i in range(len(side)):
         if i % _AHEAD == 0:
             end = min(i + _AHEAD, len(side))
-            total += _touched(i, end, hit, triangle, corner_edges, normal_offset, corner_normals)
+            total += _touched(i, end, hit, triangle, planes, edges, corner_normals)
         j = hit[i] if some else i
         k = triangle[j]
         a, b = u[j], v[j]
@@ -116,26 +116,24 @@ def find(
             uvt[0, i], uvt[1, i], uvt[2, i] = a, b, t[j]
             arriving[0, i], arriving[1, i], arriving[2, i] = dx, dy, dz
         material[i] = materials[k]
-        x = corner_edges[k, 3] * a + corner_edges[k, 6] * b + corner_edges[k, 0]
-        y = corner_edges[k, 4] * a + corner_edges[k, 7] * b + corner_edges[k, 1]
-        z = corner_edges[k, 5] * a + corner_edges[k, 8] * b + corner_edges[k, 2]
+        x = edges[k, 0] * a + edges[k, 3] * b + planes[k, 0]
+        y = edges[k, 1] * a + edges[k, 4] * b + planes[k, 1]
+        z = edges[k, 2] * a + edges[k, 5] * b + planes[k, 2]
         c = _ONE - a - b
-        if min(a, b, c) < normal_offset[k, 4] and (
-            c < inset[k, 0] or a < inset[k, 1] or b < inset[k, 2]
-        ):
-            x, y, z = _pulled(x, y, z, a, b, c, corner_edges[k], normal_offset[k], inset[k])
-        nx, ny, nz = normal_offset[k, 0], normal_offset[k, 1], normal_offset[k, 2]
+        if min(a, b, c) < edges[k, 6] and (c < inset[k, 0] or a < inset[k, 1] or b < inset[k, 2]):
+            x, y, z = _pulled(x, y, z, a, b, c, planes[k], edges[k], inset[k])
+        nx, ny, nz = planes[k, 3], planes[k, 4], planes[k, 5]
         # A sum that begins with 0, as NumPy's does, is never -0.
         facing = _NOTHING + nx * dx + ny * dy + nz * dz
         way = np.float32(math.copysign(_ONE, -facing))
         nx, ny, nz = nx * way, ny * way, nz * way
-        far = normal_offset[k, 3]
+        far = planes[k, 6]
         p[0, i], p[1, i], p[2, i] = x, y, z
         ng[0, i], ng[1, i], ng[2, i] = nx, ny, nz
         above[0, i], above[1, i], above[2, i] = x + nx * far, y + ny * far, z + nz * far
         offset[i], side[i] = far, way
         if smooth:
-            if normal_offset[k, 5] > 0:
+            if planes[k, 7] > 0:
                 ns[0, i], ns[1, i], ns[2, i] = nx, ny, nz
                 continue
             nx = corner_normals[k, 3] * a + corner_normals[k, 6] * b + corner_normals[k, 0]

@@ -169,7 +169,7 @@ def _find_by_loop(surface: Surface, found: Intersections, direction: Floats32) -
         ns, corner_normals = np.empty((3, n), np.float32), surface.corner_normals
     hit_kernels.find(
         *(_ALL_RAYS if ray is None else hit, *rays),
-        *(surface.corner_edges, surface.normal_offset, surface.inset, corner_normals),
+        *(surface.planes, surface.edges, surface.inset, corner_normals),
         *(surface.material, surface.bent is None, met, uvt, arriving),
         *(material, p, ng, ns, offset, above, side),
     )
@@ -181,18 +181,17 @@ def _places(
     surface: Surface, triangle: Numbers, u: Floats32, v: Floats32, direction: Floats32
 ) -> _Places:
     """Points and normals of the hits, where things stand at time 0."""
-    normal = gather(surface.normal_offset, triangle)
-    ng, offset = normal[:3], normal[3]
+    plane = gather(surface.planes, triangle)
+    corner, ng, offset, flat = plane[0:3], plane[3:6], plane[6], plane[7]
 
     # From the corners, not origin + t * direction: its error is that of the triangle, however far the camera.
-    corner = gather(surface.corner_edges, triangle)
-    p = corner[3:6]
+    edges = gather(surface.edges, triangle)
+    p, along_2, widest = edges[0:3], edges[3:6], edges[6]
     p *= u
-    edge = corner[6:9]
-    edge *= v
-    p += edge
-    p += corner[0:3]
-    _pull_off_edges(surface, p, triangle, u, v, normal[4])
+    along_2 *= v
+    p += along_2
+    p += corner
+    _pull_off_edges(surface, p, triangle, u, v, widest)
 
     facing = dot(ng, direction)
     side = np.copysign(np.float32(1), -facing)
@@ -200,16 +199,18 @@ def _places(
     ns = ng
     if surface.corner_normals is not None:
         # Most triangles of a room have nothing to interpolate.
-        some = np.flatnonzero(normal[5] == 0)
+        some = np.flatnonzero(flat == 0)
         if len(some) == len(side):
             ns = _interpolated(surface, triangle, u, v, side, direction)
-        else:
+        elif len(some):
             ns = ng.copy()
             coming = direction.take(some, axis=1)
             ns[:, some] = _interpolated(
                 surface, triangle.take(some), u.take(some), v.take(some), side.take(some), coming
             )
-    return p, ng, ns, offset, p + ng * offset, side
+    above = ng * offset
+    above += p
+    return p, ng, ns, offset, above, side
 
 
 def bulge(surface: Surface, hits: Hits, which: Indices) -> Floats32:
@@ -247,9 +248,9 @@ def _pull_off_edges(
     near, inset = near[close], inset[:, close]
     if len(near) == 0:
         return
-    table = surface.corner_edges[triangle.take(near)].T.astype(np.float64)
-    e1, e2 = table[3:6], table[6:9]
-    ng = surface.normal_offset[triangle.take(near), :3].T.astype(np.float64)
+    edges = surface.edges[triangle.take(near), :6].T.astype(np.float64)
+    e1, e2 = edges[:3], edges[3:]
+    ng = surface.planes[triangle.take(near), 3:6].T.astype(np.float64)
     twice_area = dot(cross(e1, e2), ng)
     moved = p[:, near].astype(np.float64)
     for edge, barycentric, least in zip((e2 - e1, -e2, e1), (w, u, v), inset, strict=True):

@@ -96,10 +96,10 @@ class Surface:
 
     Attributes
     ----------
-    corner_edges : (T, 9) float32, p0, e1, e2
-    normal_offset : (T, 8) float32, ng (unit), the distance by which rays leave the surface, the largest inset, 1 where
-        ng is the shading normal, too, and 0 where that is interpolated, and twice nothing: NumPy takes rows of 32 bytes
-        in half the time that rows of 24 take
+    planes : (T, 8) float32, the corner p0, ng (unit), the distance by which rays leave the surface, and 1 where ng is
+        the shading normal, too, 0 where that is interpolated
+    edges : (T, 8) float32, e1 = p1 - p0, e2 = p2 - p0, the largest inset, and nothing: NumPy takes rows of 32 bytes in
+        half the time that rows of 24 or 36 take
     inset : (T, 3) float32, the barycentrics w, u, v below which a point counts as next to an edge
     corner_normals : (T, 9) float32, n0, n1 - n0, n2 - n0, the longest normal of a triangle of length 1; or None when
         every triangle is flat
@@ -113,8 +113,8 @@ class Surface:
         do; None for all
     """
 
-    corner_edges: Floats32
-    normal_offset: Floats32
+    planes: Floats32
+    edges: Floats32
     inset: Floats32
     corner_normals: Floats32 | None
     bulge: Floats32 | None
@@ -127,7 +127,7 @@ class Surface:
     @property
     def size(self) -> int:
         """Number of triangles."""
-        return len(self.corner_edges)
+        return len(self.planes)
 
 
 def build_surface(
@@ -170,8 +170,8 @@ def build_surface(
         extents = [Extent(len(t.vertices), len(t.triangles), t.convex) for t in static]
         accelerator = Accelerator(*_joined(static), extents)
     return Surface(
-        corner_edges=np.concatenate([table.corner_edges for table in tables]),
-        normal_offset=np.concatenate([table.normal_offset for table in tables]),
+        planes=np.concatenate([table.planes for table in tables]),
+        edges=np.concatenate([table.edges for table in tables]),
         inset=np.concatenate([table.inset for table in tables]),
         corner_normals=np.concatenate([t.corner_normals for t in tables]) if smooth else None,
         bulge=np.concatenate([t.bulge for t in tables]) if smooth and bulges else None,
@@ -215,8 +215,8 @@ class _Tables:
 
     vertices: Floats32
     triangles: Numbers
-    corner_edges: Floats32
-    normal_offset: Floats32
+    planes: Floats32
+    edges: Floats32
     inset: Floats32
     material: Materials
     corner_normals: Floats32
@@ -239,13 +239,13 @@ def _tables(part: Part, smooth: bool) -> _Tables:
     e1, e2 = p[1] - p[0], p[2] - p[0]
     twice_area = np.sqrt(dot(ng, ng))
     ng /= twice_area
-    edges = np.sqrt(np.stack([dot(e, e) for e in (e2 - e1, e2, e1)]))
-    longest = edges.max(axis=0, initial=0)
+    lengths = np.sqrt(np.stack([dot(e, e) for e in (e2 - e1, e2, e1)]))
+    longest = lengths.max(axis=0, initial=0)
     thinness = longest * longest / twice_area
     tilt = longest * np.clip(TILT * (thinness - SLIVER), 0, MOST)
     offset = OFFSET * np.maximum(np.abs(p).max(axis=(0, 1), initial=0), tilt)
     # A barycentric is the distance from its edge over the height on that edge, which is twice the area over its length.
-    inset = np.minimum(INSET * offset * edges / twice_area, 1 / 3)
+    inset = np.minimum(INSET * offset * lengths / twice_area, 1 / 3)
     corner_normals, bulge = np.zeros((2, 0, 0), np.float32)
     bend = 0.0
     flat = np.ones(len(triangles))
@@ -264,8 +264,8 @@ def _tables(part: Part, smooth: bool) -> _Tables:
     return _Tables(
         vertices,
         triangles.astype(np.int32),
-        _table(p[0], e1, e2),
-        _table(ng, offset[None], inset.max(axis=0)[None], flat[None], np.zeros((2, len(flat)))),
+        _table(p[0], ng, offset[None], flat[None]),
+        _table(e1, e2, inset.max(axis=0)[None], np.zeros((1, len(flat)))),
         _table(inset),
         np.full(len(triangles), part.material, np.uint16),
         corner_normals,

@@ -110,8 +110,8 @@ class _Compiler:
     def of_object(self, light: d.ObjectLight, surface: Surface, material: int) -> MeshLight:
         """A light of the triangles that have a material."""
         which = np.flatnonzero(surface.material == material)
-        corner_edges = surface.corner_edges[which]
-        area = areas(corner_edges)
+        edges = surface.edges[which]
+        area = areas(edges)
         if not area.sum() > 0:
             raise self.loaded.document.error(
                 (*self.path, "object"),
@@ -124,8 +124,8 @@ class _Compiler:
         return MeshLight(
             self.name,
             shares(area),
-            corner_edges,
-            np.ascontiguousarray(surface.normal_offset[which, :4]),
+            surface.planes[which],
+            edges,
             self._color(radiance * area.sum()),
             velocity=self._velocity(thing),
         )

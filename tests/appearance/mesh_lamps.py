@@ -17,9 +17,9 @@ def lamp(mesh: Mesh) -> MeshLight:
     surface = build_surface([Part(mesh, 0)])
     return MeshLight(
         "light 0",
-        shares(areas(surface.corner_edges)),
-        surface.corner_edges,
-        np.ascontiguousarray(surface.normal_offset[:, :4]),
+        shares(areas(surface.edges)),
+        surface.planes,
+        surface.edges,
         np.ones(3, np.float32),
     )
 

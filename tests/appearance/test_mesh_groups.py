@@ -37,8 +37,8 @@ def steps(n: int) -> Floats32:
 
 def middles(light: MeshLight) -> Floats64:
     """Of the triangles, (T, 3)."""
-    table = light.corner_edges.astype(np.float64)
-    return table[:, :3] + (table[:, 3:6] + table[:, 6:]) / 3
+    corner, edges = light.planes[:, :3].astype(np.float64), light.edges.astype(np.float64)
+    return corner + (edges[:, :3] + edges[:, 3:6]) / 3
 
 
 # ---------------------------------------------------------------- without bias
@@ -49,15 +49,15 @@ def middles(light: MeshLight) -> Floats64:
 def test_what_is_chosen_by_its_weight_is_uniform_by_area(name: str, distance: float) -> None:
     """From within, from near and from far: the mean of functions of the place is that over the surface."""
     light, n = lamp(LAMPS[name]), 100_000
-    area = areas(light.corner_edges)
+    area = areas(light.edges)
     place = middles(light)
     functions = np.column_stack(
         (
             np.ones(len(area)),
             place,
             place**2,
-            light.normal_offset[:, :3],
-            np.abs(light.normal_offset[:, :3]),
+            light.planes[:, 3:6],
+            np.abs(light.planes[:, 3:6]),
         )
     )
     expected = area @ functions / area.sum()
@@ -72,7 +72,7 @@ def test_what_is_chosen_by_its_weight_is_uniform_by_area(name: str, distance: fl
 def test_every_triangle_of_a_group_is_chosen_by_its_area() -> None:
     """From one point, for all numbers in equal steps: no chance, but for the steps."""
     light, n = lamp(KNOT), 1_000_000
-    area = areas(light.corner_edges)
+    area = areas(light.edges)
     triangle, weight = chosen(light, np.repeat(around(1, 0.6, 3), n, axis=1), steps(n))
     share = np.bincount(triangle, weight, len(area)) / n
     # At most two steps at the ends of a triangle's stretch, each a weight's worth.
@@ -98,8 +98,8 @@ def test_far_away_the_estimates_scatter_less(name: str, before: float, share: fl
     """Of the light that fronts send, relative variance from one direction: by area of a ball it is 5 / 3."""
     light, n = lamp(LAMPS[name]), 100_000
     number = np.random.default_rng(5).random(n, np.float32)
-    normals = light.normal_offset[:, :3].astype(np.float64)
-    area = areas(light.corner_edges)
+    normals = light.planes[:, 3:6].astype(np.float64)
+    area = areas(light.edges)
     for point in around(3, 30, 6).T:
         sent = np.maximum(normals @ (point / np.linalg.norm(point)), 0)
         mean, square = area @ sent / area.sum(), area @ sent**2 / area.sum()
@@ -117,7 +117,7 @@ def test_of_a_ball_nine_places_in_ten_face_the_point(x: float) -> None:
     points[0] += np.float32(x)
     triangle, _ = chosen(light, points, np.random.default_rng(8).random(n, np.float32))
     to_point = points.T - middles(light)[triangle]
-    assert ((light.normal_offset[triangle, :3] * to_point).sum(axis=1) > 0).mean() > 0.9
+    assert ((light.planes[triangle, 3:6] * to_point).sum(axis=1) > 0).mean() > 0.9
 
 
 def test_near_a_long_lamp_places_are_near() -> None:
@@ -179,8 +179,8 @@ def test_backs_are_chosen_too() -> None:
     light, number = lamp(shapes.box()), steps(100_000)
     point = np.array([[0.0], [900.0], [0.0]], np.float32)
     triangle, weight = chosen(light, point.repeat(len(number), axis=1), number)
-    down = light.normal_offset[triangle, 1] < -0.5
-    up = light.normal_offset[triangle, 1] > 0.5
+    down = light.planes[triangle, 4] < -0.5
+    up = light.planes[triangle, 4] > 0.5
     odds = (1 - TRUST) / (1 + TRUST)
     assert down.sum() / up.sum() == pytest.approx(odds, rel=0.02)
     assert weight[up].max() / weight[down].min() == pytest.approx(odds, rel=0.02)
@@ -193,7 +193,7 @@ def test_backs_are_chosen_too() -> None:
 @pytest.mark.parametrize("name", LAMPS)
 def test_everything_is_finite_everywhere(name: str, scale: float) -> None:
     light = lamp(moved(LAMPS[name], scale))
-    corners = light.corner_edges[:100, :3].T
+    corners = light.planes[:100, :3].T
     axes = np.array([[0, 0, 0], [1, 0, 0], [0, scale / 2, 0], [1, 1, 1]], np.float32).T
     points = np.ascontiguousarray(np.column_stack((corners, axes)))
     # A sampler that somebody has written may bring 1.

@@ -38,7 +38,7 @@ SQUARE = np.array([[[0, 0, 0], [1, 0, 0], [1, 0, 1]], [[0, 0, 0], [1, 0, 1], [0,
 
 def test_areas_are_half_the_vector_product() -> None:
     corners = [[[0, 0, 0], [3, 0, 0], [0, 4, 0]], [[1, 1, 1], [2, 1, 1], [1, 1, 2]]]
-    assert areas(light_of(np.array(corners, float)).corner_edges) == pytest.approx([6, 0.5])
+    assert areas(light_of(np.array(corners, float)).edges) == pytest.approx([6, 0.5])
 
 
 def test_triangles_are_chosen_by_their_areas() -> None:

@@ -30,7 +30,7 @@ def test_the_same_samples(name: str) -> None:
     rng = np.random.default_rng(1)
     points = around(n, 1, 2) * rng.uniform(0, 1, n).astype(np.float32)
     # On corners of the light, and in the planes of a quad and of the sides of a box.
-    corners = light.corner_edges[:300, :3].T
+    corners = light.planes[:300, :3].T
     points[:, : corners.shape[1]] = corners
     points[1, 300:400] = 0
     points[1, 400:500] = 0.5

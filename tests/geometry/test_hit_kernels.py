@@ -71,7 +71,8 @@ def test_places_and_normals(name: str, share: float, bends: bool) -> None:
     assert (loop.ns is loop.ng) == (passes.ns is passes.ng) == (name == "box without normals")
     if share == 1:
         # Some points were pulled off edges, and some normals turned to the viewer.
-        p0, e1, e2 = surface.corner_edges[loop.triangle].T.reshape(3, 3, -1)
+        p0 = surface.planes[loop.triangle, :3].T
+        e1, e2 = surface.edges[loop.triangle, :6].T.reshape(2, 3, -1)
         assert (np.abs(p0 + e1 * loop.u + e2 * loop.v - loop.p).max(axis=0) > 1e-6).sum() > 500
         if name == "coarse sphere":
             away = (loop.ns * direction).sum(axis=0)
@@ -83,7 +84,7 @@ def test_places_and_normals(name: str, share: float, bends: bool) -> None:
 def test_only_round_triangles_have_normals_to_interpolate(name: str) -> None:
     """A cone has both: its base is flat, its side isn't."""
     surface, found, direction = met(MESHES[name], 1.0, bends=False)
-    flat = surface.normal_offset[:, 5] > 0
+    flat = surface.planes[:, 7] > 0
     share = {"coarse sphere": 0.0, "box": 1.0, "box without normals": 1.0}.get(name, 0.5)
     assert abs(flat.mean() - share) < 0.03
     for hits in both(surface, found, direction):

@@ -68,7 +68,8 @@ Met = tuple[Mesh, Surface, Hits, Any, Any]
 
 def corners(surface: Surface, hits: Hits) -> Array:
     """(3 corners, 3, n) float64 of the triangles that were hit."""
-    p0, e1, e2 = surface.corner_edges[hits.triangle].T.astype(np.float64).reshape(3, 3, -1)
+    p0 = surface.planes[hits.triangle, :3].T.astype(np.float64)
+    e1, e2 = surface.edges[hits.triangle, :6].T.astype(np.float64).reshape(2, 3, -1)
     return np.stack((p0, p0 + e1, p0 + e2))
 
 
@@ -86,7 +87,7 @@ def test_hit_points_are_where_the_ray_says(met: Met) -> None:
     _, surface, hits, origin, direction = met
     along = origin.astype(np.float64) + hits.t.astype(np.float64) * direction
     distance = np.linalg.norm(hits.p - along, axis=0)
-    offset = surface.normal_offset[hits.triangle, 3]
+    offset = surface.planes[hits.triangle, 6]
     # Next to an edge they are moved by two offsets, in a corner from both its edges, further where that is acute.
     # Embree's t is off by as much as the offset is there for, over the cosine, and by its own rounding.
     cosine = np.abs((direction * hits.ng).sum(axis=0))

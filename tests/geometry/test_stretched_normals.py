@@ -38,7 +38,7 @@ def hits_of(mesh: Mesh, compiled: bool = False) -> tuple[Surface, Hits]:
     barycentrics[:300] = np.tile(np.eye(3), (100, 1))
     u, v = np.ascontiguousarray(barycentrics[:, 1:].T, np.float32)
     # Along the facets' normals, so that all meet the front.
-    direction = np.ascontiguousarray(-surface.normal_offset[triangle, :3].T)
+    direction = np.ascontiguousarray(-surface.planes[triangle, 3:6].T)
     return surface, find_hits(surface, Intersections(triangle, u, v, u), direction)
 
 

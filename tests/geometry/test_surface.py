@@ -167,7 +167,7 @@ def test_rays_leave_a_slender_box_from_close_by() -> None:
     # A line on the floor of a scene 200 across, 60 long, 0.16 wide and 0.01 high.
     built = build_surface([Part(shapes.box((0.6, 1e-4, 1.6e-3)), 0)])
     assert built.size == 4 * 2 * 24 + 4
-    assert built.normal_offset[:, 3].max() < 0.1 * 1e-4
+    assert built.planes[:, 6].max() < 0.1 * 1e-4
 
 
 def test_triangles_without_area_are_left_out_and_the_others_keep_their_materials() -> None:
@@ -177,8 +177,8 @@ def test_triangles_without_area_are_left_out_and_the_others_keep_their_materials
     built = build_surface([Part(mesh, 2), Part(Mesh(vertices, np.array(none)), 3), Part(mesh, 4)])
     assert built.size == 2
     assert built.material.tolist() == [2, 4]
-    assert np.isfinite(built.corner_edges).all()
-    assert np.isfinite(built.normal_offset).all()
+    assert np.isfinite(built.planes).all()
+    assert np.isfinite(built.edges).all()
     assert np.isfinite(built.inset).all()
 
 

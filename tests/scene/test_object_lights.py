@@ -87,7 +87,7 @@ def test_triangles_without_area_are_left_out(make_scene: MakeScene) -> None:
     flat = LAMP | {"transform": [{"scale": [1, 1e-60, 1]}]}
     world = scene(make_scene, objects=[FLOOR, flat]).compiled.world
     (light,) = world.lights
-    assert len(light.corner_edges) == 4  # type: ignore[union-attr]
+    assert len(light.planes) == 4  # type: ignore[union-attr]
     assert len(light.shares) == 3  # type: ignore[union-attr]
 
 

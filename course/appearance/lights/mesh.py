@@ -26,16 +26,15 @@ class MeshLight:
     Attributes
     ----------
     shares : (T - 1,) float32, of the area: all up to each triangle but the last, which has the rest
-    corner_edges : (T, 9) float32, p0, e1, e2, see ``course.geometry.surface``
-    normal_offset : (T, 4) float32, the unit normal, and the distance by which rays leave the triangle
+    planes, edges : (T, 8) float32, see ``course.geometry.surface``
     color : (3,) float32, radiance times area / pi
     groups : the triangles in groups, made of the others
     """
 
     name: str
     shares: Floats32
-    corner_edges: Floats32
-    normal_offset: Floats32
+    planes: Floats32
+    edges: Floats32
     color: Floats32
     width: int = 3
     velocity: Floats32 | None = None
@@ -44,7 +43,7 @@ class MeshLight:
 
     def __post_init__(self) -> None:
         # Not for the first sample: every thread that takes one then would make them, each its own.
-        groups = make_groups(self.shares, self.corner_edges, self.normal_offset[:, :3])
+        groups = make_groups(self.shares, self.planes, self.edges)
         object.__setattr__(self, "groups", groups)
 
     def sample(self, points: Floats32, u: Floats32 | None, compiled: bool = False) -> Sample:
@@ -60,13 +59,11 @@ class MeshLight:
         found = np.searchsorted(self.groups.shares, place, side="right")
         triangle = self.groups.triangle.take(found)
         root = np.sqrt(u[1])
-        corners = gather(self.corner_edges, triangle)
-        to_light = corners[:3]
+        plane, edges = gather(self.planes, triangle), gather(self.edges, triangle)
+        to_light, normal, offset = plane[:3], plane[3:6], plane[6]
         to_light -= points
-        to_light += corners[3:6] * (1 - root)
-        to_light += corners[6:] * (root * u[2])
-        facing = gather(self.normal_offset, triangle)
-        normal, offset = facing[:3], facing[3]
+        to_light += edges[:3] * (1 - root)
+        to_light += edges[3:6] * (root * u[2])
         height = dot(normal, to_light)
         normal *= np.copysign(offset, height)
         to_light -= normal
@@ -88,16 +85,16 @@ class MeshLight:
         sample_kernels.on_triangles(
             *map(np.ascontiguousarray, (points, u)),
             *(groups.moments, groups.trust, groups.share, groups.start, groups.last),
-            *(groups.shares, groups.triangle, self.corner_edges, self.normal_offset),
+            *(groups.shares, groups.triangle, self.planes, self.edges),
             *(sample.to_light, sample.inverse_length, sample.factor),
         )
         return sample
 
 
-def areas(corner_edges: Floats32) -> Floats64:
-    """Areas (T,) of triangles (T, 9), see ``MeshLight``."""
-    edges = corner_edges[:, 3:].astype(np.float64).T
-    normal = cross(edges[:3], edges[3:])
+def areas(edges: Floats32) -> Floats64:
+    """Areas (T,) of triangles with edges (T, 8), see ``MeshLight``."""
+    sides = edges[:, :6].astype(np.float64).T
+    normal = cross(sides[:3], sides[3:])
     twice: Floats64 = np.sqrt(dot(normal, normal))
     return twice / 2
 

@@ -126,23 +126,23 @@ class Groups:
         return strength
 
 
-def make_groups(shares: Floats32, corner_edges: Floats32, normal: Floats32) -> Groups:
+def make_groups(shares: Floats32, planes: Floats32, edges: Floats32) -> Groups:
     """Groups of T triangles.
 
     Parameters
     ----------
     shares : (T - 1,) float32, see ``MeshLight``
-    corner_edges : (T, 9) float32, p0, e1, e2
-    normal : (T, 3) float32, unit
+    planes, edges : (T, 8) float32, see ``MeshLight``
     """
     share = np.diff(shares.astype(np.float64), prepend=0, append=1)
-    p0, e1, e2 = np.ascontiguousarray(corner_edges.T, np.float64).reshape(3, 3, -1)
+    p0, normal = np.ascontiguousarray(planes[:, :6].T, np.float64).reshape(2, 3, -1)
+    e1, e2 = np.ascontiguousarray(edges[:, :6].T, np.float64).reshape(2, 3, -1)
     corners = np.stack((p0, p0 + e1, p0 + e2))
     center = _mean(corners.mean(axis=0), share)
     corners -= center[:, None]
-    middle, normals = corners.mean(axis=0), np.ascontiguousarray(normal.T, np.float64)
+    middle = corners.mean(axis=0)
     radius = float(np.sqrt((dot(middle, middle) * share).sum())) or 1.0
-    groups = _split(np.concatenate((middle / radius, normals)), share)
+    groups = _split(np.concatenate((middle / radius, normal)), share)
     triangle = np.concatenate(groups)
     ends = np.cumsum(share[triangle])
     ends /= ends[-1]
@@ -150,10 +150,10 @@ def make_groups(shares: Floats32, corner_edges: Floats32, normal: Floats32) -> G
     # In float32 first, so that a group has as much of [0, 1) as its share says.
     edges = np.concatenate(([0], of_groups)).astype(np.float32)
     moments = np.array(
-        [_moments(corners.take(g, axis=2), normals.take(g, axis=1), share[g]) for g in groups]
+        [_moments(corners.take(g, axis=2), normal.take(g, axis=1), share[g]) for g in groups]
     ).T
     moments[:3] += center[:, None]
-    outside = np.sign((dot(middle, normals) * share).sum())
+    outside = np.sign((dot(middle, normal) * share).sum())
     return Groups(
         triangle,
         ends[:-1].astype(np.float32),

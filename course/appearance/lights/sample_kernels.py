@@ -58,8 +58,8 @@ def on_triangles(
     last,
     shares,
     triangle,
-    corner_edges,
-    normal_offset,
+    planes,
+    edges,
     to_light,
     inverse_length,
     factor,
@@ -70,7 +70,7 @@ def on_triangles(
     ----------
     points, u : (3, n)
     moments, trust, share, start, last, shares, triangle : of ``Groups``
-    corner_edges, normal_offset : of ``MeshLight``
+    planes, edges : of ``MeshLight``
     to_light, inverse_length, factor : (3, n) and (n,), filled
     """
     groups = len(share)
@@ -103,18 +103,18 @@ def on_triangles(
         root = np.sqrt(u[1, i])
         along_1, along_2 = _ONE - root, root * u[2, i]
         x, y, z = (
-            corner_edges[t, 0] - points[0, i] + corner_edges[t, 3] * along_1,
-            corner_edges[t, 1] - points[1, i] + corner_edges[t, 4] * along_1,
-            corner_edges[t, 2] - points[2, i] + corner_edges[t, 5] * along_1,
+            planes[t, 0] - points[0, i] + edges[t, 0] * along_1,
+            planes[t, 1] - points[1, i] + edges[t, 1] * along_1,
+            planes[t, 2] - points[2, i] + edges[t, 2] * along_1,
         )
-        x += corner_edges[t, 6] * along_2
-        y += corner_edges[t, 7] * along_2
-        z += corner_edges[t, 8] * along_2
+        x += edges[t, 3] * along_2
+        y += edges[t, 4] * along_2
+        z += edges[t, 5] * along_2
         nx, ny, nz, offset = (
-            normal_offset[t, 0],
-            normal_offset[t, 1],
-            normal_offset[t, 2],
-            normal_offset[t, 3],
+            planes[t, 3],
+            planes[t, 4],
+            planes[t, 5],
+            planes[t, 6],
         )
         height = nx * x + ny * y + nz * z
         above = np.copysign(offset, height)
