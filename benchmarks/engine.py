@@ -17,12 +17,14 @@ def measure_engine() -> list[Figure]:
     for name, goal in (("direct_light", 1.5), ("mirrors_and_glass", 2.2)):
         scene = load_scene(SCENES / f"{name}.yaml")
         render(scene, threads=2, compiled=False)
-        ratios, speedups = [], []
+        ratios, alone, speedups = [], [], []
         for _ in range(REPETITIONS):
             one = render(scene, threads=1, compiled=False).receipt
             two = render(scene, threads=2, compiled=False).receipt
             ratios.append(two.wall_seconds * 2 / two.embree_seconds)
+            alone.append(one.wall_seconds / one.embree_seconds)
             speedups.append(one.wall_seconds / two.wall_seconds)
         figures.append(summary(f"{name}: 2 x wall clock / inside Embree", ratios, goal))
+        figures.append(summary(f"{name}: the same with one thread", alone, goal))
         figures.append(summary(f"{name}: one thread / two threads", speedups, 1.85, at_least=True))
     return figures

@@ -66,7 +66,8 @@ def measure_path_tracing() -> list[Figure]:
     width, height = measured.size
     about = f"{width} x {height} pixels, {CURVES.seeds} seeds"
     keep("path_tracing", about, comparisons(measured))
-    figures = [_cost(compiled) for compiled in ((False, True) if available() else (False,))]
+    ways = (False, True) if available() else (False,)
+    figures = [figure for compiled in ways for figure in _costs(compiled)]
     if find_spec("mitsuba") is None:
         print("without Mitsuba (pip install .[peers]) there is nothing to agree with")
         return figures
@@ -84,14 +85,19 @@ def measure_path_tracing() -> list[Figure]:
     ]
 
 
-def _cost(compiled: bool) -> Figure:
+def _costs(compiled: bool) -> list[Figure]:
+    """The whole render against the time inside Embree, by all threads and by one."""
     scene = load_variant(SCENE)
-    ratios = []
+    ratios: dict[int, list[float]] = {THREADS: [], 1: []}
     for seed in range(ROUNDS + 1):
-        receipt = render(scene, spp=16, seed=seed, threads=THREADS, compiled=compiled).receipt
-        ratios.append(THREADS * receipt.wall_seconds / receipt.embree_seconds)
-    name = "path tracing: whole render / inside Embree" + ", compiled loops" * compiled
-    return summary(name, ratios[1:], 1.8)
+        for threads, found in ratios.items():
+            receipt = render(scene, spp=16, seed=seed, threads=threads, compiled=compiled).receipt
+            found.append(threads * receipt.wall_seconds / receipt.embree_seconds)
+    name = "path tracing: whole render / inside Embree" + ", compiled" * compiled
+    return [
+        summary(name, ratios[THREADS][1:], 1.8),
+        summary(f"{name}, one thread", ratios[1][1:], 1.8),
+    ]
 
 
 # ---------------------------------------------------------------- error over time
