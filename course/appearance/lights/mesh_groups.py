@@ -148,7 +148,7 @@ def make_groups(shares: Floats32, planes: Floats32, edges: Floats32) -> Groups:
     ends /= ends[-1]
     of_groups = ends[np.cumsum([len(group) for group in groups]) - 1]
     # In float32 first, so that a group has as much of [0, 1) as its share says.
-    edges = np.concatenate(([0], of_groups)).astype(np.float32)
+    bounds = np.concatenate(([0], of_groups)).astype(np.float32)
     moments = np.array(
         [_moments(corners.take(g, axis=2), normal.take(g, axis=1), share[g]) for g in groups]
     ).T
@@ -157,9 +157,9 @@ def make_groups(shares: Floats32, planes: Floats32, edges: Floats32) -> Groups:
     return Groups(
         triangle,
         ends[:-1].astype(np.float32),
-        np.diff(edges),
-        edges[:-1],
-        np.nextafter(edges[1:], np.float32(0)),
+        np.diff(bounds),
+        bounds[:-1],
+        np.nextafter(bounds[1:], np.float32(0)),
         np.ascontiguousarray(moments, np.float32),
         np.float32(TRUST * outside if _closed(corners / radius) else 0),
     )

@@ -110,12 +110,7 @@ def on_triangles(
         x += edges[t, 3] * along_2
         y += edges[t, 4] * along_2
         z += edges[t, 5] * along_2
-        nx, ny, nz, offset = (
-            planes[t, 3],
-            planes[t, 4],
-            planes[t, 5],
-            planes[t, 6],
-        )
+        nx, ny, nz, offset = planes[t, 3], planes[t, 4], planes[t, 5], planes[t, 6]
         height = nx * x + ny * y + nz * z
         above = np.copysign(offset, height)
         x, y, z = x - nx * above, y - ny * above, z - nz * above
