@@ -22,11 +22,12 @@ OFFSET = np.float32(2e-6)
 def light_of(corners: Floats64) -> MeshLight:
     """A light of triangles (T, 3, 3)."""
     p0, e1, e2 = corners[:, 0], corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-    table = np.concatenate((p0, e1, e2), axis=1).astype(np.float32)
     normal = np.cross(e1, e2)
     normal /= np.linalg.norm(normal, axis=1, keepdims=True)
-    facing = np.column_stack((normal, np.full(len(corners), OFFSET))).astype(np.float32)
-    return MeshLight("light 0", shares(areas(table)), table, facing, np.ones(3, np.float32))
+    offset, nothing = np.full((len(corners), 1), OFFSET), np.zeros((len(corners), 2))
+    planes = np.hstack((p0, normal, offset, nothing[:, :1])).astype(np.float32)
+    edges = np.hstack((e1, e2, nothing)).astype(np.float32)
+    return MeshLight("light 0", shares(areas(edges)), planes, edges, np.ones(3, np.float32))
 
 
 def drawn(n: int, seed: int) -> Floats32:
