@@ -202,12 +202,14 @@ def _places(
         some = np.flatnonzero(flat == 0)
         if len(some) == len(side):
             ns = _interpolated(surface, triangle, u, v, side, direction)
-        elif len(some):
+        else:
             ns = ng.copy()
-            coming = direction.take(some, axis=1)
-            ns[:, some] = _interpolated(
-                surface, triangle.take(some), u.take(some), v.take(some), side.take(some), coming
-            )
+            if len(some):
+                ns[:, some] = _interpolated(
+                    surface,
+                    *(triangle.take(some), u.take(some), v.take(some), side.take(some)),
+                    direction.take(some, axis=1),
+                )
     above = ng * offset
     above += p
     return p, ng, ns, offset, above, side
