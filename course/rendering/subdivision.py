@@ -85,7 +85,8 @@ class Functions:
         self._subdivide: Callable[..., Any] | None = None
         if rule.depth:
             self._subdivide = effects.function(module, "subdivide")
-        self._threshold = rule.threshold
+        # Corners are float32: beyond its range a number can't even be compared with them.
+        self._threshold = min(rule.threshold, float(np.finfo(np.float32).max))
 
     def divides(self, corners: Floats32) -> Mask:
         """(n,) which cells to divide, by their corners (3, 4, n)."""

@@ -97,6 +97,18 @@ def test_a_flat_picture_takes_the_corners_of_its_pixels_alone(make_scene: MakeSc
     assert picture.complete
 
 
+@pytest.mark.parametrize("threshold", [1.0, 1e38, 1e60])
+def test_no_contrast_is_over_a_threshold_beyond_all_light(
+    make_scene: MakeScene, threshold: float
+) -> None:
+    """Nor is one that single precision doesn't hold any trouble; of what is as bright as that a contrast is found."""
+    picture = render(ground(make_scene, (6, 4), film=film(3, threshold)))
+    assert picture.receipt.rays["camera"] == 7 * 5
+    bright = np.float32(3e38) * np.array([0, 1, 0, 0], np.float32)
+    functions = Functions(Effects(PROJECT / "solutions"), Subdivision(threshold, 0))
+    assert functions.divides(np.tile(bright[:, None], (3, 1, 1))) == (threshold < 3e38)
+
+
 @pytest.mark.parametrize("depth", [0, 1, 2, 3, 4, 5])
 def test_an_upright_edge_takes_as_many_rays_as_can_be_counted(
     make_scene: MakeScene, depth: int
