@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import signal
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -15,6 +16,10 @@ from course import Scene, load_scene
 
 MakeScene = Callable[..., Scene]
 PixelRays = Callable[[Scene], tuple[NDArray[np.float64], NDArray[np.float64]]]
+
+# A shell's background jobs begin with Ctrl-C ignored, and so would every process that a test interrupts.
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @pytest.fixture
