@@ -19,6 +19,7 @@ from course.scene.description.values import rgb
 from course.scene.emitters import emitter_parts
 from course.scene.environment_compiling import compile_environment
 from course.scene.frame import Frame, bounds_of, frame_of
+from course.scene.growth import check_growth
 from course.scene.instancing import CONVEX, object_mesh
 from course.scene.lens_compiling import compile_lens
 from course.scene.light_compiling import Lit, compile_lights
@@ -121,6 +122,7 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
         backdrop=scene.environment.seen_by == "camera",
         keeps=scene.integrator.into_surface == "keep",
     )
+    check_growth(loaded, columns.names, world)
     return Compiled(world, frame, tuple(len(mesh.triangles) for mesh in meshes), tuple(bounds))
 
 

@@ -39,8 +39,13 @@ def returned_share(material: MaterialDescription) -> Floats64:
     directions.
     """
     rest = base_color(material) * material.diffuse if has_body(material) else np.zeros(3)
+    return rest + handed_on(material)
+
+
+def handed_on(material: MaterialDescription) -> Floats64:
+    """(3,) float64 share of the light that mirror and glass return together."""
     # A dielectric reflects a part and lets the rest through, all in all 1.
-    return rest + rgb(material.mirror) + (1.0 if material.dielectric else 0.0)
+    return rgb(material.mirror) + (1.0 if material.dielectric else 0.0)
 
 
 def has_body(material: MaterialDescription) -> bool:

@@ -180,10 +180,12 @@ class PathBounce:
         way_taken = (u.take(other) * reach[-1] >= reach[:-1]).sum(axis=0)
         weight = np.zeros(ways[0].shape, np.float32)
         for number, way in enumerate(ways):
-            # Over its probability, odds / reach[-1].
-            scale = reach[-1] / np.maximum(odds[number], LEAST)
-            np.copyto(weight, way * scale, where=way_taken == number)
-        after[:, other] = weight
+            # Over its probability, odds / reach[-1]. A way is at most its odds, so that nothing
+            # overflows in this order, whatever the others carry.
+            np.copyto(
+                weight, way * (1 / np.maximum(odds[number], LEAST)), where=way_taken == number
+            )
+        after[:, other] = weight * reach[-1]
         kind[other] = way_taken
         return after, kind
 

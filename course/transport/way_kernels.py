@@ -45,19 +45,19 @@ def choose(other, beta, mirror, reflected, refracted, u, after, kind):
         level = u[j] * total
         if level < diffuse:
             kind[j] = DIFFUSE
-            scale = total / max(diffuse, LEAST)
+            scale = _ONE / max(diffuse, LEAST)
             for c in range(3):
-                after[c, j] *= scale
+                after[c, j] = after[c, j] * scale * total
         elif level < reach or not boundaries:
             kind[j] = MIRRORED
-            scale = total / max(back, LEAST)
+            scale = _ONE / max(back, LEAST)
             for c in range(3):
-                after[c, j] = (mirror[c, one] + more) * beta[c, k] * scale
+                after[c, j] = (mirror[c, one] + more) * beta[c, k] * scale * total
         else:
             kind[j] = REFRACTED
-            scale = total / max(through_most, LEAST)
+            scale = _ONE / max(through_most, LEAST)
             for c in range(3):
-                after[c, j] = through * beta[c, k] * scale
+                after[c, j] = through * beta[c, k] * scale * total
 
 
 @njit(
