@@ -10,7 +10,7 @@ from typing import Any
 
 from sphinx.application import Sphinx
 
-from sitebuild import captions, docstrings, mathematics, parts
+from sitebuild import captions, docstrings, mathematics, numbers, parts
 
 
 def setup(app: Sphinx) -> dict[str, Any]:
@@ -18,5 +18,6 @@ def setup(app: Sphinx) -> dict[str, Any]:
     captions.connect(app)
     docstrings.connect(app)
     mathematics.connect(app)
+    numbers.connect(app)
     parts.connect(app)
     return {"version": "1", "parallel_read_safe": False, "parallel_write_safe": True}

@@ -11,7 +11,8 @@ from PIL import Image
 pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')
 pytest.importorskip("latex2mathml", reason='the site needs: pip install -e ".[docs]"')
 
-from sitebuild import docstrings, key_headings, mathematics, parts, pictures
+from docutils import nodes
+from sitebuild import docstrings, key_headings, mathematics, numbers, parts, pictures
 
 SCENE = """\
 title: A ball
@@ -135,3 +136,31 @@ def test_formulas_keep_an_upright_d_and_room_around_functions() -> None:
     assert "<mtext>d</mtext>" in formula
     # A power belongs to the function, and nothing comes between.
     assert "<msup><mi>cos</mi>" in mathematics.mathml(r"\cos^2 x")
+
+
+@pytest.mark.parametrize(
+    ("cell", "joined"),
+    [
+        ("2.07e-03", ["2.07e-03"]),
+        ("1.85 .. 1.90", ["1.85 .. 1.90"]),
+        ("-0.57 (-0.60 .. -0.54)", ["-0.57", "(-0.60 .. -0.54)"]),
+        ("≤ 1.9", ["≤ 1.9"]),
+        ("4.180 (0.78)", []),
+        ("a well-known case", []),
+        ("+0.4% by 3e+2 of 5", ["+0.4%", "3e+2"]),
+    ],
+)
+def test_numbers_in_tables_are_not_broken(cell: str, joined: list[str]) -> None:
+    paragraph = nodes.paragraph("", cell)
+    table = nodes.table("", nodes.row("", nodes.entry("", paragraph)))
+    numbers.join_numbers(table)
+    assert paragraph.astext() == cell
+    found = [part.astext() for part in paragraph.findall(nodes.inline)]
+    assert found == joined
+
+
+def test_only_tables_and_no_code_have_numbers_joined() -> None:
+    code = nodes.entry("", nodes.paragraph("", "", nodes.literal("", "1e-3")))
+    page = nodes.section("", nodes.paragraph("", "from 1 .. 2"), nodes.row("", code))
+    numbers.join_numbers(page)
+    assert not list(page.findall(nodes.inline))
