@@ -9,6 +9,7 @@ from sphinx.application import Sphinx
 
 UNBROKEN = re.compile(
     r"\(?\S+ \.\. \S+"  # a range
+    r"|\(\d+, \d+\)"  # a pixel
     r"|[≤≥] \S+"  # a bound
     r"|\S*\de[-+]\d+\S*"  # a number with an exponent
     r"|\(?[-+]\d\S*"  # a number with a sign
