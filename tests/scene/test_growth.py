@@ -9,6 +9,7 @@ import pytest
 
 from course import Scene, render
 from course.errors import SceneError
+from course.geometry import packets
 
 MakeScene = Callable[..., Scene]
 
@@ -27,15 +28,22 @@ def _room(make_scene: MakeScene, max_depth: int, diffuse: float, **more: Any) ->
     )
 
 
+@pytest.fixture(params=[False, True], ids=["arrays", "loops"])
+def compiled(request: pytest.FixtureRequest) -> bool:
+    if request.param and not packets.available():
+        pytest.skip("Numba is not installed (pip install .[fast])")
+    return bool(request.param)
+
+
 def _series(share: float, bounces: int) -> float:
     return (share ** (bounces + 1) - 1) / (share - 1)
 
 
 @pytest.mark.parametrize(("diffuse", "bounces"), [(1.5, 66), (50.0, 11), (1e6, 3)])
 def test_the_deepest_paths_carry_what_the_series_says(
-    make_scene: MakeScene, diffuse: float, bounces: int
+    make_scene: MakeScene, diffuse: float, bounces: int, compiled: bool
 ) -> None:
-    picture = render(_room(make_scene, bounces, diffuse)).linear
+    picture = render(_room(make_scene, bounces, diffuse), compiled=compiled).linear
     assert picture == pytest.approx(_series(diffuse + 0.5, bounces), rel=1e-4)
 
 
@@ -48,13 +56,14 @@ def test_one_bounce_more_is_refused_and_the_most_is_named(
 
 
 def test_a_way_without_light_does_not_overflow_where_others_carry_much(
-    make_scene: MakeScene,
+    make_scene: MakeScene, compiled: bool
 ) -> None:
     """Where there is glass, opaque things have a third way, which is never taken."""
     glass = {"glass": {"color": 0, "dielectric": {}}}
     far = {"shape": "sphere", "material": "glass", "radius": 0.1}
     far["transform"] = [{"translate": [9, 0, 0]}]
-    picture = render(_room(make_scene, 8, 50.0, materials=glass, objects=[far])).linear
+    room = _room(make_scene, 8, 50.0, materials=glass, objects=[far])
+    picture = render(room, compiled=compiled).linear
     assert picture == pytest.approx(_series(50.5, 8), rel=1e-4)
 
 
