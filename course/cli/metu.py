@@ -3,24 +3,19 @@
 from __future__ import annotations
 
 import re
-import signal
-import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 import click
 
+from course.cli.temporary import temporary_folder
 from course.errors import CourseError, SceneError
 from course.scene.metu.suffixes import is_metu
 
 if TYPE_CHECKING:
     from course.scene.metu.converting import Converted
-
-ENDS = ("SIGTERM", "SIGHUP")
-"""Signals that end a process, and have no exception as Ctrl-C has; not every system has both."""
 
 
 def check_not_metu(scene: Path, command: str) -> None:
@@ -53,8 +48,8 @@ def converted(scene: Path, camera: str | None) -> Iterator[list[Converted]]:
     """
     from course.scene.metu.converting import convert
 
-    with told_to_end(), TemporaryDirectory(prefix="course-") as folder:
-        found, warnings = convert(scene, Path(folder, "scene.yaml"))
+    with temporary_folder() as folder:
+        found, warnings = convert(scene, folder / "scene.yaml")
         for warning in warnings:
             click.echo(f"warning: {warning}", err=True)
         chosen = [one for one in found if camera in (None, one.camera)]
@@ -80,23 +75,3 @@ def told_of(scene: Path, file: Path) -> Iterator[None]:
 def without_place(text: str, scene: Path, file: Path) -> str:
     """A text that names places in the converted file, which nobody sees, with the METU scene in their stead."""
     return re.sub(rf"{re.escape(str(file))}(:\d+)?", lambda _: str(scene), text)
-
-
-@contextmanager
-def told_to_end() -> Iterator[None]:
-    """A process that is told to end, or whose terminal is closed, ends by an exception, and so deletes its folder."""
-    known = [getattr(signal, name) for name in ENDS if hasattr(signal, name)]
-    # What is ignored, as under nohup, stays so.
-    taken = [number for number in known if signal.getsignal(number) is signal.SIG_DFL]
-    for number in taken:
-        signal.signal(number, _end)
-    try:
-        yield
-    finally:
-        for number in taken:
-            signal.signal(number, signal.SIG_DFL)
-
-
-def _end(number: int, _frame: object) -> None:
-    # As shells say it of a process that a signal has ended.
-    sys.exit(128 + number)

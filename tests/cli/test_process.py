@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import json
-import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -14,6 +13,7 @@ import pytest
 from PIL import Image
 
 from course.imaging.reading import read_picture
+from tests.cli.signalled import interrupted, started
 
 HEAVY = {"scipy", "skimage", "trimesh", "psutil", "OpenImageIO", "rich", "networkx", "solutions"}
 """What rendering one small scene to a PNG has no use for."""
@@ -151,27 +151,13 @@ def test_a_bad_scene_is_refused_without_traceback_or_file(
 
 def interrupted_after(seconds: float, folder: Path, *arguments: str) -> tuple[int, str]:
     """Exit code and stderr of a run that gets Ctrl-C so many seconds after its start."""
-    code = (
-        "import signal\n"
-        # A shell that runs tests in the background makes its children deaf to SIGINT.
-        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
-        "from course.cli.main import main\n"
-        "main()\n"
-    )
-    with subprocess.Popen(
-        [sys.executable, "-c", code, *arguments],
-        cwd=folder,
-        stderr=subprocess.PIPE,
-        text=True,
-    ) as process:
+    with started(folder, *arguments, stderr=subprocess.PIPE) as process:
         try:
             with contextlib.suppress(subprocess.TimeoutExpired):
                 process.wait(seconds)
-            process.send_signal(signal.SIGINT)
-            _, said = process.communicate(timeout=60.0)
+            return interrupted(process)
         finally:
             process.kill()
-    return process.returncode, said
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no SIGINT to send to another process")
