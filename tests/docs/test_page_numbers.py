@@ -35,15 +35,17 @@ NUMBER = r"(-?\d[\d,]*(?:\.\d+)?)"
 """A number as pages write it: -0.50, 16,384, 1.5."""
 
 
-def prose(module: str) -> str:
-    """A module's page on one line."""
-    return " ".join((DOCS / "modules" / f"{module}.md").read_text(encoding="utf-8").split())
+def prose(page: str) -> str:
+    """A page on one line; a module's is called by the module."""
+    paths = [DOCS / "modules" / f"{page}.md", DOCS / f"{page}.md"]
+    (path,) = [path for path in paths if path.exists()]
+    return " ".join(path.read_text(encoding="utf-8").split())
 
 
-def said(module: str, pattern: str) -> tuple[str, ...]:
-    """The numbers of a sentence of a module's page, in which each N stands for one."""
-    found = re.findall(pattern.replace("N", NUMBER), prose(module))
-    assert len(found) == 1, (module, pattern, "expected once", len(found))
+def said(page: str, pattern: str) -> tuple[str, ...]:
+    """The numbers of a sentence of a page, in which each N stands for one."""
+    found = re.findall(pattern.replace("N", NUMBER), prose(page))
+    assert len(found) == 1, (page, pattern, "expected once", len(found))
     return found[0] if isinstance(found[0], tuple) else (found[0],)
 
 
@@ -547,3 +549,26 @@ def test_glass_straight_on_and_at_brewster_s_angle() -> None:
     )
     assert told(f"{straight}%", ((1.5 - 1) / (1.5 + 1)) ** 2)
     assert told(angle, math.degrees(math.atan(1.5)))
+
+
+# ---------------------------------------------------------------- grading
+
+
+def test_what_grading_costs() -> None:
+    numbers = said(
+        "grading",
+        r"One submission takes N s with the six core modules and N s with all fifteen, .* A class of 200, made of N "
+        r"right and wrong submissions, takes N minutes with the core modules and N with all\. .* the N graded renders take N "
+        r"times as long with workers as without\. The worst single one takes N times as long \(`(.*?)`\)",
+    )
+    core, whole, kinds, core_class, whole_class, renders, pipe, worst, slowest = numbers
+    measured = {name: figure["value"] for name, figure in figures("grading").items()}
+    for text, name in (
+        (core, "6 core modules of one submission [s]"),
+        (whole, "all 15 modules of one submission [s]"),
+        (core_class, f"a class of 200, 6 core modules, from {kinds} submissions [min]"),
+        (whole_class, f"a class of 200, all 15 modules, from {kinds} submissions [min]"),
+        (pipe, f"graded renders through workers / without, all {renders} together"),
+        (worst, f"a single picture, the worst ({slowest})"),
+    ):
+        assert told(text, measured[name]), name
