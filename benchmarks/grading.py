@@ -14,7 +14,9 @@ from benchmarks.figures import Figure, summary
 from course.effects import COURSE, MODULES, PROJECT
 from course.grading.catalog import module_checks
 from course.grading.checks.check import Caller, Check, ModuleChecks
-from course.grading.checks.running import References, Status, run_checks
+from course.grading.checks.preparing import References
+from course.grading.checks.result import Status
+from course.grading.checks.running import run_checks
 from course.grading.grading import grade
 from course.grading.known import known
 from course.grading.pictures.whole import NAME

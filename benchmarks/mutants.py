@@ -19,11 +19,14 @@ import click
 from course.benchmarking.tables import NONE, Table
 from course.effects import COURSE
 from course.grading.catalog import module_checks
-from course.grading.checks.running import Status, prepared, run_checks
+from course.grading.checks.preparing import prepared
+from course.grading.checks.result import Status
+from course.grading.checks.running import run_checks
 from course.grading.known import Known, known
 from course.grading.mutants import Verdict, judge, matrix
 from course.grading.references import make_references, read_references, reference
-from course.grading.worker.client import Limits, Worker
+from course.grading.worker.client import Worker
+from course.grading.worker.limits import Limits
 
 CHANCE = ("distribution", "order")
 """Kinds of checks in which chance decides; bias is estimated from its own distribution, for it renders."""

@@ -17,7 +17,8 @@ from course.errors import CourseError
 
 if TYPE_CHECKING:
     from course.grading.checks.check import Check
-    from course.grading.checks.running import References, Result
+    from course.grading.checks.preparing import References
+    from course.grading.checks.result import Result
     from course.grading.report import Report
 
 POLL = 0.4

@@ -18,7 +18,9 @@ from course import __version__
 from course.effects import COURSE
 from course.grading.catalog import module_checks
 from course.grading.checks.check import Caller, Check, ModuleChecks
-from course.grading.checks.running import Status, prepared, run_checks
+from course.grading.checks.preparing import prepared
+from course.grading.checks.result import Status
+from course.grading.checks.running import run_checks
 from course.grading.checks.trusted import TrustedModule
 from course.grading.known import Known, known
 from course.grading.pictures.judging import ssim

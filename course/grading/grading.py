@@ -12,13 +12,16 @@ from course import __version__
 from course.effects import COURSE
 from course.grading.catalog import module_checks
 from course.grading.checks.check import Caller, Check
-from course.grading.checks.running import References, Result, Status, run_checks, unusable
+from course.grading.checks.preparing import References
+from course.grading.checks.result import Result, Status
+from course.grading.checks.running import run_checks, unusable
 from course.grading.errors import StudentError
 from course.grading.pictures.whole import ALL, NAME, Together
 from course.grading.references import SOLUTIONS, reference
 from course.grading.report import Report
 from course.grading.submissions import why_absent
-from course.grading.worker.client import Limits, Worker
+from course.grading.worker.client import Worker
+from course.grading.worker.limits import Limits
 from course.grading.worker.patience import Patience
 from course.grading.worker.sandbox import Sandbox, sandbox
 

@@ -8,7 +8,9 @@ from dataclasses import dataclass
 from course.effects import COURSE
 from course.grading.catalog import module_checks
 from course.grading.checks.check import Caller, Check
-from course.grading.checks.running import References, Result, Status, run_checks
+from course.grading.checks.preparing import References
+from course.grading.checks.result import Result, Status
+from course.grading.checks.running import run_checks
 from course.grading.known import Known
 
 WIDTH = max(map(len, COURSE)) + 2

@@ -16,7 +16,7 @@ from course.effects import COURSE, PROJECT, Effects
 from course.errors import CourseError
 from course.grading.catalog import module_checks
 from course.grading.checks.check import Array, Caller, Check
-from course.grading.checks.running import References, prepared
+from course.grading.checks.preparing import References, prepared
 from course.grading.checks.trusted import TrustedModule
 from course.grading.pictures.whole import ALL, NAME, Together
 from course.imaging.atomic import replacing

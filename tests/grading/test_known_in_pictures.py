@@ -13,7 +13,9 @@ import pytest
 from course.grading.calibration import trusted
 from course.grading.catalog import module_checks
 from course.grading.checks.check import ModuleChecks
-from course.grading.checks.running import References, Status, prepared, run_checks
+from course.grading.checks.preparing import References, prepared
+from course.grading.checks.result import Status
+from course.grading.checks.running import run_checks
 from course.grading.known import Known, known
 from course.grading.references import reference
 

@@ -13,7 +13,7 @@ import pytest
 from course.effects import COURSE
 from course.grading.calibration import trusted
 from course.grading.checks.check import Check
-from course.grading.checks.running import References, prepared
+from course.grading.checks.preparing import References, prepared
 from course.grading.known import Known, known
 from course.grading.mutants import Verdict, judge, matrix
 from course.grading.references import reference

@@ -9,7 +9,9 @@ import pytest
 
 from course.effects import COURSE, PROJECT, Effects
 from course.grading.checks.check import Check, Failure, ModuleChecks, Trial
-from course.grading.checks.running import Result, Status, generator, prepared, run_checks
+from course.grading.checks.preparing import generator, prepared
+from course.grading.checks.result import Result, Status
+from course.grading.checks.running import run_checks
 from course.grading.checks.trusted import TrustedModule
 from course.grading.pictures import rendered as rendered_module
 from course.grading.pictures.catalog import PICTURES

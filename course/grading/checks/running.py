@@ -8,110 +8,19 @@ not called again. What has been said of a function before is not said again: its
 from __future__ import annotations
 
 import traceback
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, replace
-from enum import StrEnum
-from functools import lru_cache, partial
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from functools import partial
 from time import perf_counter
 from zlib import crc32
 
 import numpy as np
 
-from course.grading.checks.check import (
-    Array,
-    Caller,
-    Check,
-    Failure,
-    Figure,
-    Mistake,
-    ModuleChecks,
-    Trial,
-)
+from course.grading.checks.check import Caller, Check, Failure, Mistake, ModuleChecks, Trial
+from course.grading.checks.preparing import References, generator
+from course.grading.checks.result import Result, Status, result_of, troubled
 from course.grading.errors import StudentError
 from course.grading.worker.patience import NOT_RUN
-
-
-class Status(StrEnum):
-    """How a check ended."""
-
-    PASSED = "passed"
-    FAILED = "failed"
-    NOT_ATTEMPTED = "not attempted"
-    TIMEOUT = "timeout"
-    CRASHED = "crashed"
-    GRADER_ERROR = "grader error"
-
-
-@dataclass(frozen=True)
-class Result:
-    """How one check ended.
-
-    Attributes
-    ----------
-    module, function, check, title : which one
-    kind : which sort of check it is
-    status : how
-    points, of : what it earned, and what it could; a grader's error earns all
-    expected, found, where, hint : what a failure says
-    mistake, says : the known mistake that the function makes, if it is one
-    seconds : it took
-    figures : what there is to draw
-    same_as : the id of an earlier result that says the same, with more about it; empty if this is the first
-    module_wide : whether it is about the whole module, of which no function could be called
-    """
-
-    module: str
-    function: str
-    check: str
-    title: str
-    kind: str
-    status: Status
-    points: float
-    of: float
-    expected: str = ""
-    found: str = ""
-    where: str = ""
-    hint: str = ""
-    mistake: str = ""
-    says: str = ""
-    seconds: float = 0.0
-    figures: tuple[Figure, ...] = ()
-    same_as: str = ""
-    module_wide: bool = False
-
-    @property
-    def id(self) -> str:
-        """Such as "thin_lens.point_on_disk/uniform"."""
-        return f"{self.module}.{self.function}/{self.check}"
-
-
-References = Callable[[str, Check], Mapping[str, Array]]
-"""(module, check) -> the arrays that the check's ``prepare`` made."""
-
-
-def generator(seed: int, module: str, check: Check) -> np.random.Generator:
-    """The numbers of one check: its own, whatever other checks there are."""
-    name = f"{module}.{check.function}/{check.name}"
-    return np.random.default_rng((seed, crc32(name.encode())))
-
-
-KEPT = 32
-"""Checks of which a maker of references keeps the arrays; a module has fewer that need any."""
-
-
-def prepared(reference: Caller, seed: int) -> References:
-    """References made on the spot with the reference solution's module, once for each check; they are read-only."""
-
-    @lru_cache(maxsize=KEPT)
-    def make(module: str, check: Check) -> Mapping[str, Array]:
-        assert check.prepare is not None
-        arrays = check.prepare(reference, generator(seed, module, check))
-        for array in arrays.values():
-            array.setflags(write=False)
-        return arrays
-
-    return lambda module, check: {} if check.prepare is None else make(module, check)
-
 
 Lenders = Callable[[str], Caller | None]
 """function -> the same student's module, with the reference's in place of the functions that come before it."""
@@ -147,7 +56,7 @@ def run_checks(
             found = first.found or NOT_WRITTEN
             if first.status is Status.TIMEOUT and not found.startswith(NOT_RUN):
                 found = OUT_OF_TIME
-            result = _result(checks.module, check, first.status, found=found)
+            result = result_of(checks.module, check, first.status, found=found)
             yield replace(result, same_as=first.id)
             continue
         started = perf_counter()
@@ -175,7 +84,7 @@ def unusable(
     first = ""
     for check in checks.checks:
         if only is None or only(check):
-            result = replace(_troubled(checks.module, check, error), expected="", module_wide=True)
+            result = replace(troubled(checks.module, check, error), expected="", module_wide=True)
             yield replace(result, where="", same_as=first) if first else result
             first = first or result.id
 
@@ -247,9 +156,9 @@ def _attempt(
         # The check's numbers begin where prepare's do.
         trial.references = references(module, check)
         check.run(trial)
-        result = _result(module, check, Status.PASSED, hint=" ".join(trial.notes))
+        result = result_of(module, check, Status.PASSED, hint=" ".join(trial.notes))
     except Failure as failure:
-        result = _result(
+        result = result_of(
             module,
             check,
             Status.FAILED,
@@ -259,9 +168,9 @@ def _attempt(
             hint=failure.hint,
         )
     except StudentError as error:
-        result, trouble = _troubled(module, check, error), error
+        result, trouble = troubled(module, check, error), error
     except Exception as error:  # noqa: BLE001 - the grader's own fault must not end the grading of others
-        result = _result(
+        result = result_of(
             module,
             check,
             Status.GRADER_ERROR,
@@ -287,42 +196,3 @@ def _matching(checks: ModuleChecks, function: str, caller: Caller, seed: int) ->
             except Exception:  # noqa: BLE001 - what comes back is too wrong to be this mistake
                 continue
     return None
-
-
-def _troubled(module: str, check: Check, error: StudentError) -> Result:
-    status = {
-        "not written": Status.NOT_ATTEMPTED,
-        "missing": Status.NOT_ATTEMPTED,
-        "timeout": Status.TIMEOUT,
-        "crashed": Status.CRASHED,
-    }.get(error.kind, Status.FAILED)
-    found = f"{error.type}: {error}" if error.kind == "raised" else str(error)
-    expected = "" if error.kind == "missing" else "a value"
-    return _result(module, check, status, expected=expected, found=found, where=error.traceback)
-
-
-def _result(
-    module: str,
-    check: Check,
-    status: Status,
-    *,
-    expected: str = "",
-    found: str = "",
-    where: str = "",
-    hint: str = "",
-) -> Result:
-    earned = check.points if status in (Status.PASSED, Status.GRADER_ERROR) else 0.0
-    return Result(
-        module,
-        check.function,
-        check.name,
-        check.title,
-        check.kind,
-        status,
-        earned,
-        check.points,
-        expected,
-        found,
-        where,
-        hint,
-    )

@@ -19,14 +19,15 @@ from course import __version__
 from course.effects import COURSE
 from course.errors import CourseError
 from course.grading.catalog import module_checks
-from course.grading.checks.running import References, Result, Status
+from course.grading.checks.preparing import References
+from course.grading.checks.result import Result, Status
 from course.grading.classes.bundle import REFERENCES
 from course.grading.classes.job import json_bytes, troubled, with_whole
 from course.grading.classes.submitted import read_one
 from course.grading.grading import grade
 from course.grading.references import read_references, references
 from course.grading.report import Report
-from course.grading.worker.client import Limits
+from course.grading.worker.limits import Limits
 from course.imaging.atomic import replacing
 
 LIMITS = Limits(call_seconds=20.0)

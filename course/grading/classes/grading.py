@@ -14,7 +14,7 @@ from pathlib import Path
 from course import __version__
 from course.effects import PROJECT
 from course.errors import CourseError, OutputError
-from course.grading.checks.running import Status
+from course.grading.checks.result import Status
 from course.grading.classes.job import Graded, Job, grade_job, report_files, troubled, with_whole
 from course.grading.classes.keeping import LAST, fingerprint, keep, kept
 from course.grading.classes.outcome import Engine

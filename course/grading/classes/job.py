@@ -14,7 +14,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from course import __version__
-from course.grading.checks.running import References
+from course.grading.checks.preparing import References
 from course.grading.grading import grade
 from course.grading.pictures.whole import ALL, NAME
 from course.grading.references import read_references

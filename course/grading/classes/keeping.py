@@ -14,7 +14,7 @@ from pathlib import Path
 
 from course import __version__
 from course.errors import OutputError
-from course.grading.checks.running import Result, Status
+from course.grading.checks.result import Result, Status
 from course.grading.classes.job import Graded, json_bytes
 from course.grading.report import Report
 from course.imaging.atomic import replacing

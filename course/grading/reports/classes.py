@@ -11,7 +11,7 @@ from pathlib import Path
 from statistics import fmean, median
 from urllib.parse import quote
 
-from course.grading.checks.running import Result, Status
+from course.grading.checks.result import Result, Status
 from course.grading.report import Report
 from course.grading.reports.grouping import grouped
 from course.grading.reports.templates import render

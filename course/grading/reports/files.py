@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from course.grading.checks.running import Result, Status
+from course.grading.checks.result import Result, Status
 from course.grading.report import Report, docs_page, reproduce
 from course.grading.reports.text import clean, finite
 from course.imaging.atomic import write_text

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from course.grading.checks.running import Result, Status
+from course.grading.checks.result import Result, Status
 from course.grading.report import Report, docs_page, reproduce
 from course.grading.reports.grouping import explained, grouped
 from course.grading.reports.text import clean, finite

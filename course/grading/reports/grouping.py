@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from course.grading.checks.running import Result, Status
+from course.grading.checks.result import Result, Status
 from course.grading.report import Report, Total, findings
 
 State = Literal["right", "wrong", "to do", "undecided"]

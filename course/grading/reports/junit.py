@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
-from course.grading.checks.running import Result, Status
+from course.grading.checks.result import Result, Status
 from course.grading.report import Report, docs_page, reproduce, unstarted
 from course.grading.reports.grouping import ModuleResults, explained, grouped
 from course.grading.reports.text import clean, finite

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from markupsafe import Markup
 
-from course.grading.checks.running import Status
+from course.grading.checks.result import Status
 from course.grading.report import Report, docs_page, reproduce, unstarted
 from course.grading.reports.drawing import draw
 from course.grading.reports.grouping import grouped

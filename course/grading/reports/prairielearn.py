@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from course.grading.checks.running import Status
+from course.grading.checks.result import Status
 from course.grading.report import Report, docs_page, reproduce
 from course.grading.reports.drawing import draw
 from course.grading.reports.grouping import explained

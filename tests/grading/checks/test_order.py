@@ -12,7 +12,8 @@ from course.effects import COURSE, PROJECT, Effects
 from course.grading.calibration import trusted
 from course.grading.checks.check import Check, ModuleChecks
 from course.grading.checks.order import ORDERS
-from course.grading.checks.running import Result, Status, run_checks
+from course.grading.checks.result import Result, Status
+from course.grading.checks.running import run_checks
 from course.grading.checks.trusted import TrustedModule
 from course.grading.known import known
 

@@ -8,7 +8,9 @@ import numpy as np
 import pytest
 
 from course.grading.checks.check import Array, Caller, Check, Failure, Mistake, ModuleChecks, Trial
-from course.grading.checks.running import KEPT, Status, generator, prepared, run_checks
+from course.grading.checks.preparing import KEPT, generator, prepared
+from course.grading.checks.result import Status
+from course.grading.checks.running import run_checks
 from course.grading.checks.trusted import TrustedModule
 from course.grading.errors import StudentError
 

@@ -9,7 +9,7 @@ import pytest
 
 from course.effects import COURSE
 from course.grading.checks.check import Check, Trial
-from course.grading.checks.running import generator
+from course.grading.checks.preparing import generator
 from course.grading.checks.speed import ROUNDS, SPEEDS
 from course.grading.checks.trusted import TrustedModule
 from course.grading.errors import StudentError

@@ -23,7 +23,7 @@ from click.testing import CliRunner, Result
 from course.cli.main import commands
 from course.effects import COURSE
 from course.errors import CourseError
-from course.grading.checks.running import Status
+from course.grading.checks.result import Status
 from course.grading.classes import grading
 from course.grading.classes.grading import ClassResult, grade_class
 from course.grading.classes.job import Graded, Job, grade_job, with_whole

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from course.grading.checks.check import Figure
-from course.grading.checks.running import Result, Status
+from course.grading.checks.result import Result, Status
 from course.grading.report import Report
 
 HOSTILE = "<script>alert(1)</script> \"quote\" 'quote' & \x00\x08\x1b[31mred\x1b[0m \ud800 \u202e ]]> {{ 7 * 7 }}"

@@ -15,7 +15,7 @@ import jsonschema
 import numpy as np
 import pytest
 
-from course.grading.checks.running import Status
+from course.grading.checks.result import Status
 from course.grading.report import Report
 from course.grading.reports import gradescope, prairielearn
 from course.grading.reports.classes import safe_cell, write_grades

@@ -15,7 +15,9 @@ import pytest
 from course.effects import COURSE
 from course.errors import OutputError
 from course.grading.catalog import module_checks
-from course.grading.checks.running import Result, prepared, run_checks
+from course.grading.checks.preparing import prepared
+from course.grading.checks.result import Result
+from course.grading.checks.running import run_checks
 from course.grading.checks.trusted import TrustedModule
 from course.grading.references import reference
 from course.grading.report import Report, docs_page, reproduce

@@ -18,11 +18,13 @@ import pytest
 from course.effects import PROJECT
 from course.grading.catalog import module_checks
 from course.grading.checks.check import Check
-from course.grading.checks.running import References, Status
+from course.grading.checks.preparing import References
+from course.grading.checks.result import Status
 from course.grading.grading import grade
 from course.grading.references import references
 from course.grading.report import Report
-from course.grading.worker.client import Limits, Worker
+from course.grading.worker.client import Worker
+from course.grading.worker.limits import Limits
 from course.grading.worker.sandbox import sandbox
 
 MODULE = "motion_blur"
@@ -250,7 +252,7 @@ def test_a_hidden_seed_needs_no_new_code() -> None:
 
 
 def test_checks_draw_the_same_numbers_whoever_is_graded() -> None:
-    from course.grading.checks.running import generator
+    from course.grading.checks.preparing import generator
 
     check = module_checks(MODULE).checks[0]
     assert np.array_equal(

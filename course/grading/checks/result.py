@@ -1,0 +1,104 @@
+"""How a check ended: what is shown, kept and counted of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+from course.grading.checks.check import Check, Figure
+from course.grading.errors import StudentError
+
+
+class Status(StrEnum):
+    """How a check ended."""
+
+    PASSED = "passed"
+    FAILED = "failed"
+    NOT_ATTEMPTED = "not attempted"
+    TIMEOUT = "timeout"
+    CRASHED = "crashed"
+    GRADER_ERROR = "grader error"
+
+
+@dataclass(frozen=True)
+class Result:
+    """How one check ended.
+
+    Attributes
+    ----------
+    module, function, check, title : which one
+    kind : which sort of check it is
+    status : how
+    points, of : what it earned, and what it could; a grader's error earns all
+    expected, found, where, hint : what a failure says
+    mistake, says : the known mistake that the function makes, if it is one
+    seconds : it took
+    figures : what there is to draw
+    same_as : the id of an earlier result that says the same, with more about it; empty if this is the first
+    module_wide : whether it is about the whole module, of which no function could be called
+    """
+
+    module: str
+    function: str
+    check: str
+    title: str
+    kind: str
+    status: Status
+    points: float
+    of: float
+    expected: str = ""
+    found: str = ""
+    where: str = ""
+    hint: str = ""
+    mistake: str = ""
+    says: str = ""
+    seconds: float = 0.0
+    figures: tuple[Figure, ...] = ()
+    same_as: str = ""
+    module_wide: bool = False
+
+    @property
+    def id(self) -> str:
+        """Such as "thin_lens.point_on_disk/uniform"."""
+        return f"{self.module}.{self.function}/{self.check}"
+
+
+def troubled(module: str, check: Check, error: StudentError) -> Result:
+    """The result of a check whose function gave no value."""
+    status = {
+        "not written": Status.NOT_ATTEMPTED,
+        "missing": Status.NOT_ATTEMPTED,
+        "timeout": Status.TIMEOUT,
+        "crashed": Status.CRASHED,
+    }.get(error.kind, Status.FAILED)
+    found = f"{error.type}: {error}" if error.kind == "raised" else str(error)
+    expected = "" if error.kind == "missing" else "a value"
+    return result_of(module, check, status, expected=expected, found=found, where=error.traceback)
+
+
+def result_of(
+    module: str,
+    check: Check,
+    status: Status,
+    *,
+    expected: str = "",
+    found: str = "",
+    where: str = "",
+    hint: str = "",
+) -> Result:
+    """The result of a check, with the points that the status earns."""
+    earned = check.points if status in (Status.PASSED, Status.GRADER_ERROR) else 0.0
+    return Result(
+        module,
+        check.function,
+        check.name,
+        check.title,
+        check.kind,
+        status,
+        earned,
+        check.points,
+        expected,
+        found,
+        where,
+        hint,
+    )

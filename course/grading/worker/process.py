@@ -1,0 +1,207 @@
+"""A worker's process and the pipes to it: messages that cross before a deadline, or the reason why they don't."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import select
+import signal
+import subprocess
+import threading
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from time import monotonic
+from typing import Any
+
+from course.grading.errors import StudentError
+from course.grading.worker.framing import BrokenMessage, unpack
+from course.grading.worker.limits import Limits
+from course.grading.worker.sandbox import Sandbox, program
+
+_STARTER = ThreadPoolExecutor(1, thread_name_prefix="starts-workers")
+"""All workers are started from one thread that lives as long as this process: a sandbox dies with the *thread* that
+started it, and threads that render come and go."""
+
+SHOWN = 4000
+"""Characters of what a student prints that are kept."""
+
+
+class Process:
+    """A process that can be started again when it has ended, and is ended by what goes wrong.
+
+    Parameters
+    ----------
+    shut_in : how it is started
+    limits : what it may use
+    """
+
+    def __init__(self, shut_in: Sandbox, limits: Limits) -> None:
+        self._sandbox = shut_in
+        self._limits = limits
+        self._process: subprocess.Popen[bytes] | None = None
+        self._replies = -1
+        self._printed = bytearray()
+        self._drain: threading.Thread | None = None
+
+    @property
+    def running(self) -> bool:
+        """Whether there is one."""
+        return self._process is not None and self._process.poll() is None
+
+    @property
+    def printed(self) -> str:
+        """What it and those before it have printed so far, cut."""
+        return bytes(self._printed).decode("utf-8", "replace")
+
+    def start(self) -> None:
+        """Start it; there must be none."""
+        self._replies, theirs = os.pipe()
+        settings = {
+            "path": self._sandbox.path,
+            "readable": self._sandbox.readable,
+            "reply": theirs,
+            "limits": {
+                "CPU": self._limits.cpu_seconds,
+                "AS": self._limits.memory,
+                "CORE": 0,
+                "FSIZE": 0,
+                "NOFILE": 64,
+            },
+        }
+        try:
+            self._process = _STARTER.submit(
+                subprocess.Popen,
+                [*self._sandbox.command, program(self._sandbox), json.dumps(settings)],
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.STDOUT,
+                pass_fds=(theirs,),
+                start_new_session=True,
+                cwd="/" if os.name == "posix" else None,
+                env={"OPENBLAS_NUM_THREADS": "1", "PYTHONHASHSEED": "0"},
+            ).result()
+        finally:
+            os.close(theirs)
+        assert self._process.stdin is not None
+        os.set_blocking(self._process.stdin.fileno(), False)
+        for pipe in (self._process.stdin.fileno(), self._replies):
+            _widen(pipe)
+        self._drain = threading.Thread(
+            target=self._keep_printed, args=(self._process.stdout,), daemon=True
+        )
+        self._drain.start()
+
+    def close(self) -> None:
+        """End the process, if there is one, and everything that it may have started."""
+        process, self._process = self._process, None
+        if process is None:
+            return
+        with contextlib.suppress(ProcessLookupError, PermissionError):
+            if hasattr(os, "killpg"):
+                os.killpg(process.pid, signal.SIGKILL)
+            else:
+                process.kill()
+        process.wait()
+        if process.stdin is not None:
+            with contextlib.suppress(OSError):
+                process.stdin.close()
+        os.close(self._replies)
+        if self._drain is not None:
+            # A daemon that escaped would keep the pipe open; nobody waits for it.
+            self._drain.join(0.5)
+
+    def write(self, message: bytes, deadline: float) -> None:
+        """Send a message.
+
+        Parameters
+        ----------
+        deadline : ``time.monotonic()`` at which the process is ended
+
+        Raises
+        ------
+        StudentError
+            It was not taken in time, or the process has ended.
+        """
+        assert self._process is not None
+        assert self._process.stdin is not None
+        data = memoryview(message)
+        pipe = self._process.stdin.fileno()
+        while data:
+            _, ready, _ = select.select([], [pipe], [], max(deadline - monotonic(), 0))
+            if not ready:
+                raise self._late()
+            try:
+                data = data[os.write(pipe, data) :]
+            except BlockingIOError:
+                continue
+            except OSError:
+                raise self.lost("the process is gone") from None
+
+    def read(self, deadline: float) -> tuple[dict[str, Any], list[Any]]:
+        """The head and the values of a reply.
+
+        Parameters
+        ----------
+        deadline : ``time.monotonic()`` at which the process is ended
+
+        Raises
+        ------
+        StudentError
+            There is none in time, or none that can be read.
+        """
+        try:
+            return unpack(self._reader(deadline))
+        except BrokenMessage as error:
+            raise self.lost(f"what it wrote is no reply ({error})") from None
+
+    def lost(self, why: str) -> StudentError:
+        """The error of a process that can't be used any more, and is ended; with what has ended it, if it had."""
+        code = None
+        if self._process is not None:
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                code = self._process.wait(0.5)
+        self.close()
+        meaning = {
+            -signal.SIGXCPU: f"; it used more than {self._limits.cpu_seconds} s of processor time",
+            -signal.SIGSEGV: "; a segmentation fault",
+            -signal.SIGKILL: "; it was killed",
+        }.get(code or 0, "")
+        return StudentError("crashed", f"{why}{meaning}")
+
+    def _late(self) -> StudentError:
+        self.close()
+        return StudentError("timeout", "no answer in time")
+
+    def _reader(self, deadline: float) -> Callable[[int], bytearray]:
+        def read(count: int) -> bytearray:
+            data = bytearray(count)
+            rest = memoryview(data)
+            while rest:
+                ready, _, _ = select.select([self._replies], [], [], max(deadline - monotonic(), 0))
+                if not ready:
+                    raise self._late()
+                got = os.readv(self._replies, [rest])
+                if not got:
+                    raise self.lost("the process has ended")
+                rest = rest[got:]
+            return data
+
+        return read
+
+    def _keep_printed(self, pipe: Any) -> None:
+        with pipe:
+            while data := pipe.read1(65536):
+                room = SHOWN - len(self._printed)
+                if room > 0:
+                    self._printed += data[:room]
+                    if len(data) > room:
+                        self._printed += b"\n... (more was printed)"
+
+
+def _widen(pipe: int) -> None:
+    """Room for a batch of rays, where the system allows it: fewer turns between the two processes."""
+    with contextlib.suppress(ImportError, AttributeError, OSError):
+        import fcntl
+
+        fcntl.fcntl(pipe, fcntl.F_SETPIPE_SZ, 1 << 20)
