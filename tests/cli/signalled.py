@@ -14,15 +14,18 @@ END = 60.0
 AGAIN = 10.0
 """Seconds after which somebody presses Ctrl-C again: Python may drop its exception in the midst of an import."""
 
-COMMAND = (
-    "import signal\n"
-    # Whoever runs the tests may be deaf to some signals, and its children are so too.
-    "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
-    "signal.signal(signal.SIGTERM, signal.SIG_DFL)\n"
-    "signal.signal(signal.SIGHUP, signal.SIG_DFL)\n"
-    "from course.cli.main import main\n"
-    "main()\n"
-)
+LISTENING = """
+import signal
+signal.signal(signal.SIGINT, signal.default_int_handler)
+signal.signal(signal.SIGTERM, signal.SIG_DFL)
+signal.signal(signal.SIGHUP, signal.SIG_DFL)
+"""
+"""What a process begins with: whoever runs the tests may ignore some signals, as under nohup, and its children too."""
+
+COMMAND = f"""{LISTENING}
+from course.cli.main import main
+main()
+"""
 
 
 def started(folder: Path, *arguments: str, **options: Any) -> subprocess.Popen[str]:

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from course.cli.temporary import temporary_folder
-from tests.cli.signalled import END, interrupted, started
+from tests.cli.signalled import END, LISTENING, interrupted, started
 
 if sys.platform == "win32":
     pytest.skip("no signals to send to another process", allow_module_level=True)
@@ -21,7 +21,7 @@ if sys.platform == "win32":
 SCENE = Path(__file__).parents[2] / "scenes" / "metu" / "showroom.xml"
 
 DEAF = """
-import os, signal, time
+import os, time
 from course.cli import temporary
 temporary.GRACE = {grace}
 with temporary.temporary_folder() as folder:
@@ -87,7 +87,7 @@ def test_a_process_that_does_not_end_by_the_exception_ends_by_the_signal(
     temporary: Path, number: signal.Signals, grace: float, times: int
 ) -> None:
     """In its time, or when told again."""
-    code = DEAF.format(grace=grace, numbers=[int(number)] * times)
+    code = LISTENING + DEAF.format(grace=grace, numbers=[int(number)] * times)
     ended = subprocess.run([sys.executable, "-c", code], timeout=END - 1, check=False)
     assert ended.returncode == -number
     assert list(temporary.iterdir()) == []
