@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 import signal
 import sys
@@ -23,7 +24,7 @@ def temporary_folder() -> Iterator[Path]:
 
     The process then ends by SystemExit, with the status that shells give it. Foreign code may drop an exception that
     comes out of a signal's handler (importlib does so in callbacks, msgspec when it looks up types), so what has not
-    ended after GRACE seconds, or is told again, ends by the signal itself.
+    ended after GRACE seconds, or is told again, ends at once, with the same status.
     """
     end = _End()
     with end.awaited(), TemporaryDirectory(prefix="course-") as folder:
@@ -41,7 +42,7 @@ class _End:
 
     def __init__(self) -> None:
         self.folder: str | None = None
-        self._told: int | None = None
+        self._status: int | None = None
 
     @contextmanager
     def awaited(self) -> Iterator[None]:
@@ -56,24 +57,23 @@ class _End:
         finally:
             for number in taken:
                 signal.signal(number, signal.SIG_DFL)
-            if self._told is not None and hasattr(signal, "setitimer"):
+            if self._status is not None and hasattr(signal, "setitimer"):
                 signal.setitimer(signal.ITIMER_REAL, 0.0)
                 signal.signal(signal.SIGALRM, signal.SIG_DFL)
 
     def _tell(self, number: int, _frame: object) -> None:
-        if self._told is not None:
+        if self._status is not None:
             self._force(number, None)
-        self._told = number
+        # As shells say it of a process that a signal has ended.
+        self._status = 128 + number
         # A timer of the system, for a thread can't be started in the midst of starting another.
         if hasattr(signal, "setitimer"):
             signal.signal(signal.SIGALRM, self._force)
             signal.setitimer(signal.ITIMER_REAL, GRACE)
-        # As shells say it of a process that a signal has ended.
-        sys.exit(128 + number)
+        sys.exit(self._status)
 
     def _force(self, _number: int, _frame: object) -> None:
-        assert self._told is not None
+        assert self._status is not None
         if self.folder is not None:
             shutil.rmtree(self.folder, ignore_errors=True)
-        signal.signal(self._told, signal.SIG_DFL)
-        signal.raise_signal(self._told)
+        os._exit(self._status)

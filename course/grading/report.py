@@ -6,8 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Protocol
 
-from course.grading.checks.result import Result, Status
-from course.grading.checks.running import NOT_WRITTEN
+from course.grading.checks.result import NOT_WRITTEN, Result, Status
 
 
 class Scored(Protocol):

@@ -16,7 +16,11 @@ References = Callable[[str, Check], Mapping[str, Array]]
 
 def generator(seed: int, module: str, check: Check) -> np.random.Generator:
     """The numbers of one check: its own, whatever other checks there are."""
-    name = f"{module}.{check.function}/{check.name}"
+    return named_generator(seed, f"{module}.{check.function}/{check.name}")
+
+
+def named_generator(seed: int, name: str) -> np.random.Generator:
+    """The numbers of whatever has that name, the same in every process."""
     return np.random.default_rng((seed, crc32(name.encode())))
 
 

@@ -8,6 +8,9 @@ from enum import StrEnum
 from course.grading.checks.check import Check, Figure
 from course.grading.errors import StudentError
 
+NOT_WRITTEN = "not written yet"
+"""Of a function that is still the stub's."""
+
 
 class Status(StrEnum):
     """How a check ended."""

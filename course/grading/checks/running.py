@@ -12,13 +12,10 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import partial
 from time import perf_counter
-from zlib import crc32
-
-import numpy as np
 
 from course.grading.checks.check import Caller, Check, Failure, Mistake, ModuleChecks, Trial
-from course.grading.checks.preparing import References, generator
-from course.grading.checks.result import Result, Status, result_of, troubled
+from course.grading.checks.preparing import References, generator, named_generator
+from course.grading.checks.result import NOT_WRITTEN, Result, Status, result_of, troubled
 from course.grading.errors import StudentError
 from course.grading.worker.patience import NOT_RUN
 
@@ -91,7 +88,6 @@ def unusable(
 
 STANDS_ON = "Right by itself: the check passes when the functions above it, which this one calls, are the course's own."
 
-NOT_WRITTEN = "not written yet"
 OUT_OF_TIME = "an earlier check of this function ran out of time"
 
 _Outcome = tuple[Result, StudentError | None]
@@ -184,9 +180,7 @@ def _attempt(
 def _matching(checks: ModuleChecks, function: str, caller: Caller, seed: int) -> Mistake | None:
     for mistake in checks.mistakes:
         if mistake.function == function:
-            trial = Trial(
-                function, caller, np.random.default_rng((seed, crc32(mistake.name.encode())))
-            )
+            trial = Trial(function, caller, named_generator(seed, mistake.name))
             try:
                 if mistake.matches(trial):
                     return mistake

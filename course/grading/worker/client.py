@@ -157,14 +157,7 @@ class Worker:
         if self._process.running:
             return
         self.close()
-        self._process.start()
-        # Python's own start is not the student's time.
-        self._exchange(
-            pack(
-                {"module": self.module, "lent": self._lent}, [np.frombuffer(self._source, np.uint8)]
-            ),
-            monotonic() + 60,
-        )
+        self._start()
         try:
             head, _ = self._process.read(monotonic() + self.limits.call_seconds)
             self._raise(head)
@@ -174,6 +167,14 @@ class Worker:
             self._broken = not_loaded(self.module, error, self.limits.call_seconds)
             raise self._broken from None
         self._names = head.get("names")
+
+    def _start(self) -> None:
+        """Start the process, up to where it imports the file: that is not the student's time."""
+        self._process.start()
+        source = np.frombuffer(self._source, np.uint8)
+        self._exchange(
+            pack({"module": self.module, "lent": self._lent}, [source]), monotonic() + 60
+        )
 
     def _exchange(self, message: bytes, deadline: float) -> tuple[dict[str, Any], list[Any]]:
         self._process.write(message, deadline)

@@ -25,7 +25,6 @@ from course.grading.report import Report
 from course.grading.worker.client import Worker
 from course.grading.worker.limits import Limits
 from course.grading.worker.patience import ALTOGETHER, NOT_RUN, Patience
-from course.grading.worker.process import Process
 
 MODULE = "motion_blur"
 # No function of it calls another.
@@ -66,16 +65,16 @@ def lost(monkeypatch: pytest.MonkeyPatch) -> list[float]:
 
 
 @pytest.fixture
-def starts(monkeypatch: pytest.MonkeyPatch) -> list[Process]:
-    """Every process as it is started, of students' and the reference's."""
-    found: list[Process] = []
-    usual = Process.start
+def starts(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """The modules of the processes that were started, of students' and the reference's."""
+    found: list[str] = []
+    usual = Worker._start
 
-    def start(process: Process) -> None:
-        found.append(process)
-        usual(process)
+    def start(worker: Worker) -> None:
+        found.append(worker.module)
+        usual(worker)
 
-    monkeypatch.setattr(Process, "start", start)
+    monkeypatch.setattr(Worker, "_start", start)
     return found
 
 
@@ -181,7 +180,7 @@ def test_a_picture_of_all_does_not_wait_again() -> None:
     ids=["loop", "exit", "syntax", "raises", "empty", "blank"],
 )
 def test_a_module_that_can_not_be_used_is_tried_once_and_told_once(
-    source: str, status: Status, says: str, starts: list[Process]
+    source: str, status: Status, says: str, starts: list[str]
 ) -> None:
     report = grade({MODULE: source.encode()}, arrays(), modules=[MODULE], limits=LIMITS)
     # All kinds of checks, those of speed too: none passes.
@@ -196,15 +195,13 @@ def test_a_module_that_can_not_be_used_is_tried_once_and_told_once(
 
 
 @pytest.mark.parametrize("source", [LOOP, EXIT, "1 / 0"], ids=["loop", "exit", "raises"])
-def test_nobody_imports_again_what_could_not_be_imported(
-    source: str, starts: list[Process]
-) -> None:
+def test_nobody_imports_again_what_could_not_be_imported(source: str, starts: list[str]) -> None:
     with Worker("m", source.encode(), Limits(call_seconds=0.5)) as worker:
         for ask in (worker.load, worker.load, lambda: worker.call("f")):
             with pytest.raises(StudentError) as error:
                 ask()
             assert error.value.module_wide
-    assert len(starts) == 1
+    assert starts == ["m"]
 
 
 def test_a_syntax_error_is_shown_with_its_line_and_a_caret() -> None:
