@@ -59,7 +59,7 @@ def jitter_refraction(direction, normal, roughness, u):
     normal : (3, N) floating
         Unit vectors on the incoming side, those that `refract` got.
     roughness : float >= 0
-        Side of the square, at distance 1. With 0 the result is direction, bit for bit.
+        Side of the square, at distance 1. With 0 the result is direction, to within 4 units in the last place.
     u : (2, N) floating in [0, 1)
 
     Returns

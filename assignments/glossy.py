@@ -42,7 +42,7 @@ def jitter_on_plane(direction, roughness, u):
     direction : (3, N) floating
         Unit vectors; a and b are the orthonormal basis about each.
     roughness : float >= 0
-        Side of the square, at distance 1. With 0 the result is direction, bit for bit.
+        Side of the square, at distance 1. With 0 the result is direction, to within 4 units in the last place.
     u : (2, N) floating in [0, 1)
 
     Returns
@@ -71,7 +71,7 @@ def jitter_in_ball(direction, glossiness, u):
     direction : (3, N) floating
         Unit vectors.
     glossiness : float in [0, 1)
-        Radius of the ball, at distance 1. With 0 the result is direction, bit for bit.
+        Radius of the ball, at distance 1. With 0 the result is direction, to within 4 units in the last place.
     u : (3, N) floating in [0, 1)
 
     Returns
@@ -134,7 +134,7 @@ def keep_above(direction, normal):
     Returns
     -------
     (3, N) unit vectors, of the dtype of direction and normal, or NumPy's promotion of the two
-        The directions that were above come back bit for bit.
+        The directions that were above come back as they were.
 
     Raises
     ------

@@ -92,7 +92,6 @@ def phong_lobe_pdf(cos, exponent):
     Returns
     -------
     (N,) [1/sr], of the dtype of cos
-        Finite however large the exponent is.
 
     Raises
     ------
@@ -158,8 +157,7 @@ def power_heuristic(a, b):
     Returns
     -------
     (N,) in [0, 1], of the dtype of a and b, or NumPy's promotion of the two
-        0 where a is 0. With a and b the other way round the weights are what is left to 1, unless both are 0. Neither
-        very large nor very small densities overflow or vanish on the way.
+        0 where a is 0. With a and b the other way round the weights are what is left to 1, unless both are 0.
 
     Raises
     ------

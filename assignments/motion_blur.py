@@ -72,7 +72,7 @@ def to_object_space(origins, velocity, time):
     ----------
     origins : (3, N) floating [m]
     velocity : (3,) [m/s]
-        Of the object. With (0, 0, 0) the origins come back bit for bit.
+        Of the object. With (0, 0, 0) the origins come back, to within 4 units in the last place.
     time : (N,) floating [s]
         Of each ray; at 0 the object is where the scene has put it.
 

@@ -143,7 +143,7 @@ def xorshift32(state):
     state : (N,) uint32
         The next state. All but 0 are passed through before the first comes back, 2^32 - 1 of them.
     random : (N,) float32 in [0, 1)
-        The next state / 2^32, to 2^-24.
+        The next state / 2^32, to 2^-24; never 1, to which the largest states would round.
 
     Raises
     ------

@@ -97,7 +97,7 @@ def gaussian_weights(offsets, sigma=1 / 6):
     offsets : (2, n, s) floating
         Where the samples lie in their pixels, in [0, 1).
     sigma : float > 0 [pixels]
-        The default puts the pixel's edge at 3 sigma. However small or large it is, the weights are finite.
+        The default puts the pixel's edge at 3 sigma.
 
     Returns
     -------

@@ -45,7 +45,8 @@ def lens_rays(origin, right, up, forward, directions, lens_points, focus_distanc
     directions : (3, N) floating
         Unit vectors of the pinhole's rays; dot(direction, forward) > 0.
     lens_points : (2, N) floating [m]
-        Positions on the lens along right and up. At (0, 0) the pinhole's ray comes back bit for bit.
+        Positions on the lens along right and up. At (0, 0) the pinhole's ray comes back, to within 4 units in the
+        last place.
     focus_distance : float > 0 [m]
         From the lens to the plane in focus, along forward.
 
@@ -110,7 +111,7 @@ def circle_of_confusion(depth, aperture_radius, focus_distance):
     Returns
     -------
     (N,) [m], of the dtype of depth
-        Measured in the plane in focus; the largest finite number for what would be larger.
+        Measured in the plane in focus.
 
     Raises
     ------

@@ -1,15 +1,20 @@
 """`make mutants`: the kill matrix of all known submissions, each graded in a worker as a student's would be.
 
-Exit code 1 when a wrong submission gets past the check meant for it, or a right one loses a point. ``--false-fail``
-estimates instead how often a right submission fails by chance: the statistical checks alone, for thousands of seeds.
-Both end with a table of the modules.
+Exit code 1 when a wrong submission gets past the check meant for it, or a right one loses a point. ``--record`` writes
+status, mistake and points of every check of every submission, and for the grader which checks a mistake explains;
+``--compare`` names all that has changed since, and ends with 1 where something has: the referee of changes that are to
+change no score. ``--varied`` prints what the checks' arguments have been, and what is never varied;
+``--habits`` what right functions lose that are written in other ways. ``--false-fail``
+estimates how often a right submission fails by chance: the statistical checks alone, for thousands of seeds. All end
+with a table of the modules.
 """
 
 from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Sequence
+import tempfile
+from collections.abc import Callable, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 from pathlib import Path
@@ -17,19 +22,30 @@ from pathlib import Path
 import click
 
 from course.benchmarking.tables import NONE, Table
-from course.effects import COURSE
+from course.effects import COURSE, PROJECT
 from course.grading.catalog import module_checks
 from course.grading.checks.preparing import prepared
 from course.grading.checks.result import Status
 from course.grading.checks.running import run_checks
-from course.grading.known import Known, known
-from course.grading.mutants import Verdict, judge, matrix
+from course.grading.habits import HABITS, lost_by
+from course.grading.known import Known, known, trusted
+from course.grading.mutants import Verdict, changes, explaining, judge, marks, matrix, recorded
 from course.grading.references import make_references, read_references, reference
+from course.grading.variants import variants
+from course.grading.varied import gaps
+from course.grading.varied import varied as varied_by_checks
 from course.grading.worker.client import Worker
 from course.grading.worker.limits import Limits
+from course.imaging.atomic import write_text
 
 CHANCE = ("distribution", "order")
 """Kinds of checks in which chance decides; bias is estimated from its own distribution, for it renders."""
+
+EXPLAINED = PROJECT / "course/grading/data/explained.json"
+"""Where the grader reads which checks a mistake explains."""
+
+RENDERED = ("picture", "bias", "speed")
+"""Kinds of checks that are left out for variants, of which there are many."""
 
 TOGETHER = "together"
 """The tables' last row."""
@@ -45,16 +61,40 @@ TOGETHER = "together"
     metavar="SEEDS",
     help="Estimate the false-fail rate over that many seeds.",
 )
+@click.option(
+    "--habits",
+    type=int,
+    metavar="SEEDS",
+    help="Check the reference, written by other habits, over that many seeds.",
+)
+@click.option("--varied", is_flag=True, help="Print what the checks vary, and what they never do.")
 @click.option("--json", "json_file", type=click.Path(path_type=Path), help="Write the results.")
+@click.option("--record", type=click.Path(path_type=Path), help="Write what became of each check.")
+@click.option("--compare", type=click.Path(path_type=Path, exists=True), help="With such a file.")
 def main(
-    modules: tuple[str, ...], seed: int, jobs: int, false_fail: int | None, json_file: Path | None
+    modules: tuple[str, ...],
+    seed: int,
+    jobs: int,
+    false_fail: int | None,
+    habits: int | None,
+    varied: bool,
+    json_file: Path | None,
+    record: Path | None,
+    compare: Path | None,
 ) -> None:
     """Print the matrix."""
     chosen = modules or tuple(COURSE)
-    with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
+    if varied:
+        sys.exit(_varied(chosen, json_file))
+    with (
+        ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool,
+        tempfile.TemporaryDirectory() as folder,
+    ):
         if false_fail is not None:
             sys.exit(_false_fail(pool, chosen, false_fail, json_file))
-        file = Path("out/mutants/references.npz")
+        if habits is not None:
+            sys.exit(_habits(pool, chosen, habits, json_file))
+        file = Path(folder) / "references.npz"
         make_references(chosen, seed, file)
         submissions = [submission for module in chosen for submission in known(module)]
         verdicts = []
@@ -63,11 +103,28 @@ def main(
         ):
             verdicts.append(verdict)
             print("\n".join(matrix([verdict])), flush=True)
-    faults = sum(bool(verdict.fault) for verdict in verdicts)
-    print(f"\n{kills(chosen, verdicts).markdown()}\n\n{faults} faults of the grader")
+        print(f"\n{kills(chosen, verdicts).markdown()}\n\n{fairness(chosen, verdicts).markdown()}")
+        others = [variant for module in chosen for variant in variants(module)]
+        others_judged = [
+            *pool.map(_by_function, others, [seed] * len(others), [file] * len(others))
+        ]
+    print(f"\n{variety(chosen, others_judged).markdown()}")
+    told_wrongly = [one for one in others_judged if one.told not in ("", one.submission.mistake)]
+    missed = [one for one in others_judged if not one.failed]
+    for one in (*told_wrongly, *missed):
+        print(f"{one.submission.module} {one.submission.name}: {one.told or 'not caught'}")
+    faults = sum(bool(verdict.fault) for verdict in verdicts) + len(told_wrongly) + len(missed)
+    print(f"\n{faults} faults of the grader")
     if json_file:
         json_file.write_text(json.dumps([_plain(verdict) for verdict in verdicts], indent=1))
-    sys.exit(1 if faults else 0)
+    found = recorded(verdicts)
+    if record:
+        write_text(record, json.dumps(found, indent=1) + "\n")
+        if set(chosen) == set(COURSE):
+            write_text(EXPLAINED, json.dumps(explaining(found, submissions), indent=1) + "\n")
+    changed = changes(json.loads(compare.read_text()), found) if compare else []
+    print(*changed, sep="\n", end="\n" if changed else "")
+    sys.exit(1 if faults or changed else 0)
 
 
 def _judged(submission: Known, seed: int, file: Path) -> Verdict:
@@ -78,6 +135,54 @@ def _judged(submission: Known, seed: int, file: Path) -> Verdict:
         return judge(submission, worker, arrays, seed)
 
 
+def _by_function(submission: Known, seed: int, file: Path) -> Verdict:
+    """A variant, by the checks of its function that render nothing."""
+    return judge(
+        submission,
+        trusted(submission),
+        read_references(file, seed),
+        seed,
+        lambda check: check.function == submission.function and check.kind not in RENDERED,
+    )
+
+
+def fairness(modules: Sequence[str], verdicts: Sequence[Verdict]) -> Table:
+    """What functions earn that are of no use, and those that are wrong in a corner only, as shares of their points."""
+
+    def row(name: str, some: Sequence[Verdict]) -> tuple[str, ...]:
+        found = [marks(verdict) for verdict in some if not verdict.submission.right]
+        useless = [one.share for one in found if one.useless]
+        corner = [one.share for one in found if one.right_elsewhere]
+        most = f"{max(useless):.0%}" if useless else NONE
+        least = f"{min(corner):.0%}" if corner else NONE
+        return name, str(len(useless)), most, str(len(corner)), least
+
+    columns = ("module", "of no use", "earn at most", "wrong in a corner", "earn at least")
+    return Table("", columns, (*_by_module(modules, verdicts, row), row(TOGETHER, verdicts)))
+
+
+def variety(modules: Sequence[str], verdicts: Sequence[Verdict]) -> Table:
+    """How many variants of wrong submissions are caught, and named as the originals are."""
+
+    def row(name: str, some: Sequence[Verdict]) -> tuple[str, ...]:
+        meant = [one for one in some if one.submission.mistake]
+        rightly = sum(one.told == one.submission.mistake for one in meant)
+        wrongly = sum(one.told not in ("", one.submission.mistake) for one in some)
+        caught = sum(bool(one.failed) for one in some)
+        return name, *map(str, (len(some), caught, len(meant), rightly, wrongly))
+
+    columns = ("module", "variants", "caught", "with a name", "named rightly", "named wrongly")
+    return Table("", columns, (*_by_module(modules, verdicts, row), row(TOGETHER, verdicts)))
+
+
+def _by_module(
+    modules: Sequence[str],
+    verdicts: Sequence[Verdict],
+    row: Callable[[str, Sequence[Verdict]], tuple[str, ...]],
+) -> list[tuple[str, ...]]:
+    return [row(name, [v for v in verdicts if v.submission.module == name]) for name in modules]
+
+
 def kills(modules: Sequence[str], verdicts: Sequence[Verdict]) -> Table:
     """How many right and wrong submissions of each module there are, and who is told the mistake."""
 
@@ -86,12 +191,51 @@ def kills(modules: Sequence[str], verdicts: Sequence[Verdict]) -> Table:
         told = sum(bool(verdict.told) for verdict in wrong)
         return name, *map(str, (len(some) - len(wrong), len(wrong), told))
 
-    rows = [
-        row(module, [verdict for verdict in verdicts if verdict.submission.module == module])
-        for module in modules
-    ]
+    rows = _by_module(modules, verdicts, row)
     columns = ("module", "right", "wrong", "of which told their mistake")
     return Table("", columns, (*rows, row(TOGETHER, verdicts)))
+
+
+def _habits(
+    pool: ProcessPoolExecutor, modules: tuple[str, ...], seeds: int, json_file: Path | None
+) -> int:
+    """Right functions by each habit in turn, a seed each: how many checks were made, and what failed."""
+    rows, failed = [], []
+    for module in modules:
+        wrong = [
+            one
+            for some in pool.map(_by_habit, [module] * seeds, range(seeds), chunksize=5)
+            for one in some
+        ]
+        rows.append((module, str(len(HABITS)), str(seeds), str(len(wrong))))
+        print(*wrong, sep="\n", end="\n" if wrong else "", flush=True)
+        failed += wrong
+    print(Table("", ("module", "habits", "seeds", "lost points"), tuple(rows)).markdown())
+    if json_file:
+        json_file.write_text(json.dumps({"seeds": seeds, "failed": failed}, indent=1) + "\n")
+    return 1 if failed else 0
+
+
+def _by_habit(module: str, seed: int) -> list[str]:
+    habit = [*HABITS][seed % len(HABITS)]
+    return [f"{habit}: {lost} seed {seed}" for lost in lost_by(module, habit, seed)]
+
+
+def _varied(modules: tuple[str, ...], json_file: Path | None) -> int:
+    """A table of what each argument has been, and a line for everything that is never varied."""
+    rows, missing = [], []
+    for module in modules:
+        seen = varied_by_checks(module)
+        missing += gaps(module, seen)
+        for function, called in seen.items():
+            for name, found in called.arguments.items():
+                rows.append((f"{module}.{function}", name, *found.row))
+    columns = ("function", "argument", "signs", "sizes", "octants", "dtypes", "layouts", "columns")
+    print(Table("", columns, tuple(rows)).markdown())
+    print(*missing, sep="\n")
+    if json_file:
+        json_file.write_text(json.dumps({"seen": rows, "never varied": missing}, indent=1) + "\n")
+    return 1 if missing else 0
 
 
 def _false_fail(

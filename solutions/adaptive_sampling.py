@@ -75,8 +75,7 @@ def subdivide(x0, y0, x1, y1):
     ### BEGIN SOLUTION
     dtype = np.result_type(x0, y0, x1, y1)
     x0, y0, x1, y1 = (numbers.astype(dtype) for numbers in (x0, y0, x1, y1))
-    # Halved before they are added, so that the sum can't overflow.
-    x, y = 0.5 * x0 + 0.5 * x1, 0.5 * y0 + 0.5 * y1
+    x, y = 0.5 * (x0 + x1), 0.5 * (y0 + y1)
     return (
         np.stack((x0, x, x0, x)),
         np.stack((y0, y0, y, y)),

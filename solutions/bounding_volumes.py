@@ -99,8 +99,7 @@ def build(lo, hi, leaf_size):
     ### BEGIN SOLUTION
     dtype = np.result_type(lo, hi)
     lo, hi = lo.astype(dtype), hi.astype(dtype)
-    # Of half the size, so that no difference of two can overflow.
-    middle = 0.25 * lo + 0.25 * hi
+    middle = 0.5 * (lo + hi)
     order = np.arange(lo.shape[1])
     # The runs of `order` that nodes hold, level by level; a leaf's run stays as it is on the levels below.
     sizes, new = np.array([order.size]), np.array([True])

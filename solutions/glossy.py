@@ -51,7 +51,7 @@ def jitter_on_plane(direction, roughness, u):
     direction : (3, N) floating
         Unit vectors; a and b are the orthonormal basis about each.
     roughness : float >= 0
-        Side of the square, at distance 1. With 0 the result is direction, bit for bit.
+        Side of the square, at distance 1. With 0 the result is direction, to within 4 units in the last place.
     u : (2, N) floating in [0, 1)
 
     Returns
@@ -69,11 +69,7 @@ def jitter_on_plane(direction, roughness, u):
     _check_batch("u", u, 2, np.shape(direction)[1])
     _check_not_negative("roughness", roughness)
     ### BEGIN SOLUTION
-    dtype = np.result_type(direction, u)
-    # Beyond that the directions lie in the plane, to rounding; and up to there squares don't overflow.
-    roughness = dtype.type(min(float(roughness), float(np.finfo(dtype).max) ** 0.5))
-    a = roughness * (u[0] - 0.5)
-    b = roughness * (u[1] - 0.5)
+    a, b = float(roughness) * (u - 0.5)
     # Pythagoras: a and b are measured at right angles to the direction, whose length is 1.
     scale = 1 / np.sqrt(1 + a * a + b * b)
     return _in_basis(direction, a * scale, b * scale, scale)
@@ -88,7 +84,7 @@ def jitter_in_ball(direction, glossiness, u):
     direction : (3, N) floating
         Unit vectors.
     glossiness : float in [0, 1)
-        Radius of the ball, at distance 1. With 0 the result is direction, bit for bit.
+        Radius of the ball, at distance 1. With 0 the result is direction, to within 4 units in the last place.
     u : (3, N) floating in [0, 1)
 
     Returns
@@ -107,23 +103,15 @@ def jitter_in_ball(direction, glossiness, u):
     if not 0 <= glossiness < 1:
         raise ValueError(f"glossiness must be >= 0 and < 1, got {glossiness}")
     ### BEGIN SOLUTION
-    dtype = np.result_type(direction, u)
-    if glossiness == 0:
-        return direction.astype(dtype)
     # The volume inside radius r grows with r^3; on a sphere, the height is uniform.
-    radius = dtype.type(glossiness) * np.cbrt(u[2])
+    radius = _within_1(glossiness, u.dtype) * np.cbrt(u[2])
     ring = radius * (2 * np.sqrt(u[0] * (1 - u[0])))
-    phi = dtype.type(2 * np.pi) * u[1]
-    jittered = np.stack((ring * np.cos(phi), ring * np.sin(phi), radius * (1 - 2 * u[0])))
-    jittered += direction
-    squared = np.einsum("ij,ij->j", jittered, jittered)
-    # By rounding a ball of almost radius 1 may reach the point that it must not: there, no jitter.
-    limits = np.finfo(dtype)
-    vanished = squared < limits.tiny / limits.eps
-    if vanished.any():
-        jittered = np.where(vanished, direction, jittered)
-        squared[vanished] = 1
-    jittered /= np.sqrt(squared)
+    phi = 2 * np.pi * u[1]
+    x, y, z = direction
+    jittered = np.stack(
+        (x + ring * np.cos(phi), y + ring * np.sin(phi), z + radius * (1 - 2 * u[0]))
+    )
+    jittered /= np.sqrt(np.einsum("ij,ij->j", jittered, jittered))
     return jittered
     ### END SOLUTION
 
@@ -155,14 +143,12 @@ def sample_phong_lobe(direction, exponent, u):
     _check_batch("u", u, 2, np.shape(direction)[1])
     _check_not_negative("exponent", exponent)
     ### BEGIN SOLUTION
-    dtype = np.result_type(direction, u)
     # The share of the lobe within alpha is 1 - cos(alpha)^(exponent + 1). Solved for the logarithm of cos(alpha),
     # since the sines of a narrow lobe would drown in the rounding of 1 - cos^2.
-    power = dtype.type(max(1 / (float(exponent) + 1), float(np.finfo(dtype).tiny)))
     with np.errstate(divide="ignore"):  # u may have been rounded to 1, where cos(alpha) is 0
-        log_cos = np.log1p(-u[0]) * power
+        log_cos = np.log1p(-u[0]) * (1 / (float(exponent) + 1))
     sin = np.sqrt(-np.expm1(2 * log_cos))
-    phi = dtype.type(2 * np.pi) * u[1]
+    phi = 2 * np.pi * u[1]
     return _in_basis(direction, sin * np.cos(phi), sin * np.sin(phi), np.exp(log_cos))
     ### END SOLUTION
 
@@ -178,7 +164,7 @@ def keep_above(direction, normal):
     Returns
     -------
     (3, N) unit vectors, of the dtype of direction and normal, or NumPy's promotion of the two
-        The directions that were above come back bit for bit.
+        The directions that were above come back as they were.
 
     Raises
     ------
@@ -198,6 +184,11 @@ def keep_above(direction, normal):
 
 
 ### BEGIN SOLUTION
+def _within_1(radius, dtype):
+    """A radius < 1 that rounding does not make 1: a ball of radius 1 would reach the point that has no direction."""
+    return min(float(radius), 1 - 4 * float(np.finfo(dtype).eps))
+
+
 def _in_basis(w, a, b, c):
     """Take a u + b v + c w in the orthonormal basis about w, without u and v ever being in memory."""
     x, y, z = w

@@ -33,7 +33,7 @@ def uniform_hemisphere(u):
     # Archimedes: on a sphere the height is uniform.
     z = u[0]
     ring = np.sqrt((1 - z) * (1 + z))
-    phi = u.dtype.type(2 * np.pi) * u[1]
+    phi = 2 * np.pi * u[1]
     return np.stack((ring * np.cos(phi), ring * np.sin(phi), z))
     ### END SOLUTION
 
@@ -59,7 +59,7 @@ def cosine_hemisphere(u):
     _check_rows("u", u, 2)
     ### BEGIN SOLUTION
     r = np.sqrt(u[0])
-    phi = u.dtype.type(2 * np.pi) * u[1]
+    phi = 2 * np.pi * u[1]
     return np.stack((r * np.cos(phi), r * np.sin(phi), np.sqrt(1 - u[0])))
     ### END SOLUTION
 
@@ -84,7 +84,7 @@ def cosine_hemisphere_pdf(cos):
     """
     _check_numbers("cos", cos)
     ### BEGIN SOLUTION
-    return np.maximum(cos, 0) * cos.dtype.type(1 / np.pi)
+    return np.maximum(cos, 0) / np.pi
     ### END SOLUTION
 
 
@@ -101,7 +101,6 @@ def phong_lobe_pdf(cos, exponent):
     Returns
     -------
     (N,) [1/sr], of the dtype of cos
-        Finite however large the exponent is.
 
     Raises
     ------
@@ -115,11 +114,9 @@ def phong_lobe_pdf(cos, exponent):
     if not exponent >= 0:
         raise ValueError(f"exponent must be >= 0, got {exponent}")
     ### BEGIN SOLUTION
-    largest = float(np.finfo(cos.dtype).max)
-    exponent = min(float(exponent), largest)
-    # A cosine may be rounded to more than 1, which a large exponent would take far.
-    lobe = np.clip(cos, 0, 1) ** cos.dtype.type(exponent)
-    return np.where(cos < 0, 0, cos.dtype.type((exponent + 1) / (2 * np.pi)) * lobe)
+    exponent = float(exponent)
+    lobe = (exponent + 1) / (2 * np.pi) * np.maximum(cos, 0) ** exponent
+    return np.where(cos < 0, 0, lobe)
     ### END SOLUTION
 
 
@@ -179,8 +176,7 @@ def power_heuristic(a, b):
     Returns
     -------
     (N,) in [0, 1], of the dtype of a and b, or NumPy's promotion of the two
-        0 where a is 0. With a and b the other way round the weights are what is left to 1, unless both are 0. Neither
-        very large nor very small densities overflow or vanish on the way.
+        0 where a is 0. With a and b the other way round the weights are what is left to 1, unless both are 0.
 
     Raises
     ------
@@ -195,9 +191,9 @@ def power_heuristic(a, b):
     _check_not_negative("a", a)
     _check_not_negative("b", b)
     ### BEGIN SOLUTION
-    with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
-        ratio = b / a
-        return np.where(a > 0, 1 / (1 + ratio * ratio), 0).astype(ratio.dtype)
+    a, b = a * a, b * b
+    both = a + b
+    return a / np.where(both > 0, both, 1)
     ### END SOLUTION
 
 

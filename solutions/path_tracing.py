@@ -37,12 +37,12 @@ def diffuse_bounce(normal, u):
     _check_batch("u", u, 2, np.shape(normal)[1])
     ### BEGIN SOLUTION
     # Malley: a uniform point (a, b) of the unit disk, lifted to the hemisphere.
-    phi = u.dtype.type(2 * np.pi) * u[1]
+    phi = 2 * np.pi * u[1]
     r = np.sqrt(u[0])
     a, b, c = r * np.cos(phi), r * np.sin(phi), np.sqrt(1 - u[0])
     # In the basis about the normal of Duff et al., 2017, as in glossy.
     x, y, z = normal
-    sign = np.copysign(normal.dtype.type(1), z)
+    sign = np.copysign(1.0, z)
     sunk = sign * x * a + y * b
     rest = c - sunk / (sign + z)
     return np.stack((x * rest + a, y * rest + sign * b, c * z - sunk))

@@ -59,7 +59,7 @@ def disk_by_polar(u):
     ### BEGIN SOLUTION
     # The area within radius r grows with r^2.
     r = np.sqrt(u[0])
-    phi = u.dtype.type(2 * np.pi) * u[1]
+    phi = 2 * np.pi * u[1]
     return np.stack((r * np.cos(phi), r * np.sin(phi)))
     ### END SOLUTION
 
@@ -152,7 +152,7 @@ def xorshift32(state):
     state : (N,) uint32
         The next state. All but 0 are passed through before the first comes back, 2^32 - 1 of them.
     random : (N,) float32 in [0, 1)
-        The next state / 2^32, to 2^-24.
+        The next state / 2^32, to 2^-24; never 1, to which the largest states would round.
 
     Raises
     ------
@@ -189,7 +189,7 @@ def _by_rejection(rows, n, acceptance, rng):
 
 def _on_sphere(u):
     """The height is uniform; the ring at that height is as wide as it leaves."""
-    phi = u.dtype.type(2 * np.pi) * u[1]
+    phi = 2 * np.pi * u[1]
     ring = 2 * np.sqrt(u[0] * (1 - u[0]))
     return np.stack((ring * np.cos(phi), ring * np.sin(phi), 1 - 2 * u[0]))
 

@@ -95,11 +95,11 @@ def point_on_sphere(center, radius, u):
     _check_batch("u", u, 2)
     _check_radius(radius)
     ### BEGIN SOLUTION
-    radius = u.dtype.type(radius)
+    radius = float(radius)
     z = radius * (1 - 2 * u[0])
     # The circle at that height: r^2 = radius^2 - z^2, without the cancellation near the poles.
-    r = radius * (2 * np.sqrt(u[0] * (1 - u[0])))
-    phi = u.dtype.type(2 * np.pi) * u[1]
+    r = 2 * radius * np.sqrt(u[0] * (1 - u[0]))
+    phi = 2 * np.pi * u[1]
     points = np.stack((r * np.cos(phi), r * np.sin(phi), z))
     points += _column(center, u.dtype)
     return points
@@ -131,8 +131,8 @@ def point_in_ball(center, radius, u):
     _check_radius(radius)
     ### BEGIN SOLUTION
     # The volume inside radius r grows with r^3.
-    points = point_on_sphere((0, 0, 0), 1, u[:2])
-    points *= u.dtype.type(radius) * np.cbrt(u[2])
+    points = point_on_sphere(np.zeros(3), 1, u[:2])
+    points *= float(radius) * np.cbrt(u[2])
     points += _column(center, u.dtype)
     return points
     ### END SOLUTION
@@ -167,17 +167,15 @@ def point_on_facing_disk(center, radius, point, u):
     _check_radius(radius)
     ### BEGIN SOLUTION
     dtype = np.result_type(point, u)
-    # Halved before the difference, and scaled before the squares: neither overflows.
-    axis = _column(center, dtype) / 2 - point / dtype.type(2)
-    largest = np.abs(axis).max(axis=0)
-    axis /= np.where(largest > 0, largest, 1)
+    axis = _column(center, dtype) - point
     length = np.sqrt((axis * axis).sum(axis=0))
-    x, y, z = axis / np.where(length > 0, length, 1)
+    axis /= np.where(length > 0, length, 1)
+    x, y, z = axis
     # The disk in its own plane, and its (a, b, 0) in the basis of Duff et al. about (x, y, z).
-    r = dtype.type(radius) * np.sqrt(u[0])
-    phi = dtype.type(2 * np.pi) * u[1]
+    r = float(radius) * np.sqrt(u[0])
+    phi = 2 * np.pi * u[1]
     a, b = r * np.cos(phi), r * np.sin(phi)
-    sign = np.copysign(dtype.type(1), z)
+    sign = np.copysign(1.0, z)
     down = sign * x * a + y * b
     share = down / (sign + z)
     points = np.stack((a - x * share, sign * b - y * share, -down))

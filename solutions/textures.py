@@ -77,10 +77,10 @@ def sphere_uv(p, center):
     _check_point("center", center)
     ### BEGIN SOLUTION
     x, y, z = p - np.asarray(center, p.dtype)[:, None]
-    u = np.arctan2(-z, x) / p.dtype.type(2 * np.pi)
+    u = np.arctan2(-z, x) / (2 * np.pi)
     # As an arcus tangent, since an arcus cosine loses half its digits at the poles.
-    v = np.arctan2(y, np.hypot(x, z)) / p.dtype.type(np.pi)
-    return np.stack((u + (u < 0), v + p.dtype.type(0.5)))
+    v = np.arctan2(y, np.hypot(x, z)) / np.pi + 0.5
+    return np.stack((u + (u < 0), v))
     ### END SOLUTION
 
 

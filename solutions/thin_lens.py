@@ -32,7 +32,7 @@ def point_on_disk(u):
     ### BEGIN SOLUTION
     # The area within radius r grows with r^2.
     r = np.sqrt(u[0])
-    phi = u.dtype.type(2 * np.pi) * u[1]
+    phi = 2 * np.pi * u[1]
     return np.stack((r * np.cos(phi), r * np.sin(phi)))
     ### END SOLUTION
 
@@ -49,7 +49,8 @@ def lens_rays(origin, right, up, forward, directions, lens_points, focus_distanc
     directions : (3, N) floating
         Unit vectors of the pinhole's rays; dot(direction, forward) > 0.
     lens_points : (2, N) floating [m]
-        Positions on the lens along right and up. At (0, 0) the pinhole's ray comes back bit for bit.
+        Positions on the lens along right and up. At (0, 0) the pinhole's ray comes back, to within 4 units in the
+        last place.
     focus_distance : float > 0 [m]
         From the lens to the plane in focus, along forward.
 
@@ -72,24 +73,13 @@ def lens_rays(origin, right, up, forward, directions, lens_points, focus_distanc
     _check_positive("focus_distance", focus_distance)
     ### BEGIN SOLUTION
     dtype = np.result_type(directions, lens_points)
-    tiny, largest = float(np.finfo(dtype).tiny), float(np.finfo(dtype).max)
     origin, right, up, forward = (_column(x, dtype) for x in (origin, right, up, forward))
-    focus_distance = dtype.type(min(max(float(focus_distance), tiny), largest))
-    directions = directions.astype(dtype, copy=False)
     offset = right * lens_points[0] + up * lens_points[1]
-    origins = origin + offset
-    # Seen from the centre of the lens the point in focus is directions * focus_distance / cos. Divided by that
-    # distance it is directions again; where the offset vanishes nothing is left to be rounded.
-    with np.errstate(over="ignore"):
-        offset /= focus_distance
-    # Beyond that the rays lie in the lens's plane, to rounding; and up to there squares don't overflow.
-    steepest = largest**0.5 / 4
-    np.clip(offset, -steepest, steepest, out=offset)
-    offset *= _dot(forward, directions)
-    toward = np.subtract(directions, offset, out=offset)
-    # To the length that the pinhole's ray had, which is 1 but for rounding: bit for bit where nothing changed.
-    toward *= np.sqrt(_dot(directions, directions) / _dot(toward, toward))
-    return origins, toward
+    # To the point in focus from the centre of the lens, and from the offset: so a far origin rounds neither.
+    toward = directions * (float(focus_distance) / _dot(forward, directions))
+    toward -= offset
+    toward /= np.sqrt(_dot(toward, toward))
+    return origin + offset, toward
     ### END SOLUTION
 
 
@@ -117,12 +107,12 @@ def image_distance(focal_length, object_distance):
     _check_positive("focal_length", focal_length)
     _check_positive("object_distance", object_distance)
     ### BEGIN SOLUTION
-    near, far = sorted((float(focal_length), float(object_distance)))
-    if near == far:
+    f, distance = float(focal_length), float(object_distance)
+    if distance == f:
         return np.inf
-    # The product of both over their difference, in the order in which nothing overflows or vanishes on the way.
-    distance = near * (far / (far - near)) if far < np.inf else near
-    return distance if focal_length == near else -distance
+    if distance == np.inf:
+        return f
+    return f * distance / (distance - f)
     ### END SOLUTION
 
 
@@ -139,7 +129,7 @@ def circle_of_confusion(depth, aperture_radius, focus_distance):
     Returns
     -------
     (N,) [m], of the dtype of depth
-        Measured in the plane in focus; the largest finite number for what would be larger.
+        Measured in the plane in focus.
 
     Raises
     ------
@@ -157,13 +147,7 @@ def circle_of_confusion(depth, aperture_radius, focus_distance):
         raise ValueError(f"aperture_radius must be >= 0, got {aperture_radius}")
     _check_positive("focus_distance", focus_distance)
     ### BEGIN SOLUTION
-    largest = float(np.finfo(depth.dtype).max)
-    aperture = depth.dtype.type(min(2 * float(aperture_radius), largest))
-    focus = depth.dtype.type(min(float(focus_distance), largest))
-    depth = np.minimum(depth, largest)
-    with np.errstate(over="ignore"):
-        spread = np.minimum(np.abs(focus - depth) / depth, largest)
-        return np.minimum(aperture * spread, largest)
+    return 2 * float(aperture_radius) * np.abs(float(focus_distance) - depth) / depth
     ### END SOLUTION
 
 

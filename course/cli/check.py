@@ -43,6 +43,15 @@ SHORT = 100
 @click.option(
     "--seed", type=click.IntRange(0), default=0, help="Chooses the parameters of scenes and checks."
 )
+@click.option(
+    "--hint",
+    "rungs",
+    type=click.IntRange(1, 3),
+    default=1,
+    show_default=True,
+    help="How much to be told of what is wrong: 1 which law is broken, 2 also the smallest input that breaks it, "
+    "3 also which known mistake it looks like. Never the code.",
+)
 @click.option("--watch", is_flag=True, help="Check again whenever a file is saved, until Ctrl-C.")
 @click.option(
     "--html",
@@ -62,13 +71,14 @@ def check(
     folder: Path,
     only: str | None,
     seed: int,
+    rungs: int,
     watch: bool,
     html: Path | None,
     json_file: Path | None,
 ) -> None:
     """Check your functions: all of them, or those of some modules.
 
-    Each function is checked by itself, so that one mistake costs once. The exit code is 0 when everything is right.
+    Each function is checked by itself. The exit code is 0 when everything is right.
     """
     from course.grading.references import references
 
@@ -78,7 +88,7 @@ def check(
     arrays = references(seed)
     while True:
         seen = _times(folder, modules)
-        report = _check(folder, modules, only, seed, arrays)
+        report = _check(folder, modules, only, seed, arrays, rungs)
         if html is not None:
             from course.grading.reports.page import write_page
 
@@ -90,33 +100,49 @@ def check(
             write_json(report, json_file)
             click.echo(f"{json_file} written")
         if not watch:
-            ctx.exit(0 if report.points == report.of else FAILED)
+            ctx.exit(0 if report.points == report.of and not report.broken else FAILED)
         click.echo("watching; Ctrl-C ends it", err=True)
         while _times(folder, modules) == seen:
             time.sleep(POLL)
 
 
 def _check(
-    folder: Path, modules: tuple[str, ...], only: str | None, seed: int, arrays: References
+    folder: Path,
+    modules: tuple[str, ...],
+    only: str | None,
+    seed: int,
+    arrays: References,
+    rungs: int,
 ) -> Report:
     from course.grading.grading import grade
+    from course.grading.references import has_references
     from course.grading.submissions import find_modules, read_found
+    from course.grading.worker.sandbox import plain
 
     paths = find_modules(folder, modules)
     for path in paths.values():
         if path.parent != folder:
             click.echo(f"{folder / path.name} is missing; {path} is checked in its place", err=True)
-    shown = _Printer(seed)
+    chosen = _chooser(only)
+    if not has_references(seed):
+        chosen = _without_references(chosen, seed)
+    shown = _Printer(seed, rungs)
     report = grade(
         read_found(folder, paths),
         arrays,
         seed=seed,
         modules=modules,
-        only=_chooser(only),
+        only=chosen,
         each=shown.result,
+        # One's own code needs no walls, and starts sooner without.
+        shut_in=plain(),
         folder=folder,
     )
     if not report.results:
+        if not has_references(seed):
+            raise CourseError(
+                f"only checks that compare with references are asked for: leave --seed {seed} out"
+            )
         raise CourseError(f"--only {only}: no check of {', '.join(modules)} has that name")
     shown.end(report)
     return report
@@ -127,6 +153,18 @@ def _chooser(only: str | None) -> Callable[[Check], bool] | None:
         return None
     function, _, name = only.partition("/")
     return lambda check: check.function == function and name in ("", check.name)
+
+
+def _without_references(
+    chosen: Callable[[Check], bool] | None, seed: int
+) -> Callable[[Check], bool]:
+    """Only checks that need no references, which is told."""
+    click.echo(
+        f"this copy has no references for the seed {seed}: checks that need some, such as those of pictures, "
+        "are left out; without --seed they are made",
+        err=True,
+    )
+    return lambda check: check.prepare is None and (chosen is None or chosen(check))
 
 
 def _times(folder: Path, modules: tuple[str, ...]) -> list[int]:
@@ -142,8 +180,8 @@ def _times(folder: Path, modules: tuple[str, ...]) -> list[int]:
 class _Printer:
     """Prints results as they come: a line for each function, and what went wrong under it."""
 
-    def __init__(self, seed: int) -> None:
-        self._seed = seed
+    def __init__(self, seed: int, rungs: int) -> None:
+        self._seed, self._rungs = seed, rungs
         self._module = ""
         self._pending: list[Result] = []
 
@@ -196,26 +234,28 @@ class _Printer:
         )
         if results[0].module_wide:
             return
-        told: set[str] = set()
         grouped = FunctionResults(self._module, function, tuple(results))
-        for result in grouped.told:
-            self._tell(result, told)
+        for number, result in enumerate(grouped.told):
+            # What is found first mostly explains the rest, which is told in full when it is asked for.
+            if number:
+                _line("also", f"{result.check}: {result.title}")
+            else:
+                self._tell(result)
         for found, repeated in grouped.repeated:
             names = ", ".join(result.check for result in repeated)
             click.echo(f"      {count(len(repeated), 'check')} more: {_short(found)}")
             _line("these", names)
 
-    def _tell(self, result: Result, told: set[str]) -> None:
-        from course.grading.report import docs_page, findings, reproduce
+    def _tell(self, result: Result) -> None:
+        from course.grading.report import docs_page, ending, findings, reproduce
 
-        what = "" if result.status == "failed" else f" [{result.status}]"
+        what = "" if ending(result) == "failed" else f" [{ending(result)}]"
         click.echo(f"      {click.style(result.check, bold=True)}{what}: {result.title}")
-        if result.says and result.mistake not in told:
-            told.add(result.mistake)
-            _line("looks like", click.style(result.says, fg="cyan"))
-        for label, text in findings(result):
-            _line(label, text)
-        _line("again", reproduce(result, self._seed))
+        for label, text in findings(result, self._rungs):
+            _line(label, click.style(text, fg="cyan") if label == "looks like" else text)
+        below = len(findings(result)) > len(findings(result, self._rungs))
+        more = f" --hint {self._rungs + 1}" if below else ""
+        _line("more" if below else "again", f"{reproduce(result, self._seed)}{more}")
         _line("read", docs_page(result))
 
 

@@ -29,6 +29,7 @@ COMMANDS = (
     "calibrate",
     "references",
     "grade",
+    "regrade",
     "bundle",
 )
 """Each is the command of that name in the module of that name beside this file."""

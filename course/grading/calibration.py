@@ -11,18 +11,14 @@ import json
 from collections.abc import Callable, Iterable
 from math import sqrt
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 
 from course import __version__
-from course.effects import COURSE
 from course.grading.catalog import module_checks
 from course.grading.checks.check import Caller, Check, ModuleChecks
 from course.grading.checks.preparing import prepared
-from course.grading.checks.result import Status
 from course.grading.checks.running import run_checks
-from course.grading.checks.trusted import TrustedModule
-from course.grading.known import Known, known
+from course.grading.known import Known, known, trusted
 from course.grading.pictures.judging import ssim
 from course.grading.pictures.whole import ALL, NAME, Together
 from course.grading.references import reference
@@ -37,16 +33,6 @@ tolerance stays away from either by the root of it, a factor of 2.4."""
 
 MARGIN = 5.0
 """Where no wrong submission is near, the tolerance stays this many times farther from 1 than the right ones."""
-
-
-def trusted(submission: Known) -> TrustedModule:
-    """A known submission's functions, in this process."""
-    module = ModuleType(submission.name)
-    exec(
-        compile(submission.source, f"{submission.name}.py", "exec", dont_inherit=True),
-        module.__dict__,
-    )
-    return TrustedModule({name: getattr(module, name) for name in COURSE[submission.module]})
 
 
 def calibrate(
@@ -136,10 +122,10 @@ def _calibrated_whole(seeds: int) -> dict[str, Any]:
 
 def _similarity(module: str, check: Check, caller: Caller, seed: int, references: Any) -> float:
     """SSIM of one picture; -1 where there is none."""
-    alone = ModuleChecks(module, (check,), ())
+    alone = ModuleChecks(module, (check,))
     (result,) = run_checks(alone, caller, lambda *_: references, seed)
-    if result.status is Status.GRADER_ERROR:
-        raise RuntimeError(f"seed {seed}: {result.found}\n{result.where}")
+    if result.broken:
+        raise RuntimeError(f"seed {seed}: {result.found}\n{result.instructor}")
     if not result.figures:
         return -1.0
     arrays = result.figures[0].arrays

@@ -1,18 +1,22 @@
-"""Everything that is checked in a module: its own checks, its convergence, its pictures and its speed."""
+"""Everything that is checked in a module: what is declared of its functions, and their pictures."""
 
 from __future__ import annotations
 
-from importlib import import_module
+from dataclasses import replace
+from functools import cache
 
 from course.effects import COURSE
 from course.errors import CourseError
+from course.grading.checks.building import declared
 from course.grading.checks.check import ModuleChecks
-from course.grading.checks.order import ORDERS
-from course.grading.checks.speed import SPEEDS
+from course.grading.checks.declarations import declarations
+from course.grading.checks.declare import Module
+from course.grading.checks.weights import weighted
 from course.grading.pictures.catalog import PICTURES
 from course.grading.pictures.whole import NAME, WHOLE
 
 
+@cache
 def module_checks(module: str) -> ModuleChecks:
     """The checks of a module, function by function in the order of the course.
 
@@ -25,14 +29,9 @@ def module_checks(module: str) -> ModuleChecks:
         return WHOLE
     if module not in COURSE:
         raise CourseError(f"no module {module!r}; the modules are {', '.join(COURSE)}")
-    own: ModuleChecks = import_module(f"course.grading.checks.{module}").CHECKS
-    found = (
-        *own.checks,
-        *ORDERS.get(module, ()),
-        *PICTURES.get(module, ()),
-        *SPEEDS.get(module, ()),
-    )
+    own = declared(Module(module, declarations(module)))
     place = {name: number for number, name in enumerate(COURSE[module])}
-    return ModuleChecks(
-        module, tuple(sorted(found, key=lambda check: place[check.function])), own.mistakes
+    checks = sorted(
+        (*own.checks, *PICTURES.get(module, ())), key=lambda check: place[check.function]
     )
+    return replace(own, checks=weighted(checks))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from difflib import get_close_matches
 from typing import Literal
@@ -32,6 +33,8 @@ class StudentError(CourseError):
     type : the exception's class where one was raised
     traceback : of the student's own lines, cut
     module_wide : whether no function of the module can be called
+    arguments : of the call, in a line; empty where they say nothing
+    remedy : what to do, where the exception is one that many have met
     """
 
     def __init__(
@@ -42,13 +45,20 @@ class StudentError(CourseError):
         traceback: str = "",
         *,
         module_wide: bool = False,
+        arguments: str = "",
+        remedy: str = "",
     ) -> None:
         super().__init__(message)
         self.kind, self.type, self.traceback = kind, type, traceback
         self.module_wide = module_wide
+        self.arguments, self.remedy = arguments, remedy
 
     @property
     def cause(self) -> str:
-        """The same for two errors that have one cause: an exception is known by the lines that it came through."""
+        """The same for two errors that have one cause, however many columns they came with.
+
+        An exception is known by the lines that it came through, anything else by its text without the numbers.
+        """
         frames = [line for line in self.traceback.splitlines() if line.startswith(" ")]
-        return "\n".join((self.kind, self.type, *(frames or [str(self)])))
+        frames = [line for line in frames if not line.startswith("  [Previous line repeated")]
+        return "\n".join((self.kind, self.type, *(frames or [re.sub(r"\d+", "#", str(self))])))

@@ -3,7 +3,8 @@
 ``solutions/wrong/MODULE/NAME.py`` holds the functions that somebody has written wrongly; the rest of that submission
 is the reference solution. Its docstring says what the mistake is, and three constants what must come of it:
 ``FUNCTION``, the function that is wrong; ``CAUGHT_BY``, the name of the check meant for it; ``MISTAKE``, the name of
-the mistake that the student is told, or None where no message is meant. ``solutions/right/MODULE/NAME.py`` is a right
+the mistake that the student is told, or None where no message is meant. A fourth, ``SAYS``, is what the student is
+told; one of the submissions that make a mistake says it. ``solutions/right/MODULE/NAME.py`` is a right
 submission written differently.
 """
 
@@ -12,9 +13,11 @@ from __future__ import annotations
 import ast
 from dataclasses import dataclass
 from pathlib import Path
+from types import ModuleType
 
-from course.effects import PROJECT
+from course.effects import COURSE, PROJECT
 from course.errors import CourseError
+from course.grading.checks.trusted import TrustedModule
 
 
 @dataclass(frozen=True)
@@ -28,6 +31,7 @@ class Known:
     about : first line of its docstring
     source : the whole submission, a module's text
     function, caught_by, mistake : of a wrong one, else empty
+    says : what the student is told who makes that mistake; one of several submissions that make it says it
     """
 
     module: str
@@ -38,6 +42,17 @@ class Known:
     function: str = ""
     caught_by: str = ""
     mistake: str = ""
+    says: str = ""
+
+
+def trusted(submission: Known) -> TrustedModule:
+    """A known submission's functions, in this process."""
+    module = ModuleType(submission.name)
+    exec(
+        compile(submission.source, f"{submission.name}.py", "exec", dont_inherit=True),
+        module.__dict__,
+    )
+    return TrustedModule({name: getattr(module, name) for name in COURSE[submission.module]})
 
 
 def known(module: str, folder: Path = PROJECT / "solutions") -> list[Known]:
@@ -84,4 +99,5 @@ def _read(path: Path, module: str, solution: str, *, right: bool) -> Known:
         str(constants["FUNCTION"]),
         str(constants["CAUGHT_BY"]),
         str(constants["MISTAKE"] or ""),
+        str(constants.get("SAYS", "")),
     )

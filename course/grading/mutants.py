@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from course.effects import COURSE
 from course.grading.catalog import module_checks
 from course.grading.checks.check import Caller, Check
+from course.grading.checks.declarations import declared_function
 from course.grading.checks.preparing import References
 from course.grading.checks.result import Result, Status
 from course.grading.checks.running import run_checks
-from course.grading.known import Known
+from course.grading.known import Known, trusted
+from course.grading.references import reference
+from course.grading.severity import is_right_elsewhere, is_useless
 
 WIDTH = max(map(len, COURSE)) + 2
 """Characters of the matrix's column of modules."""
@@ -27,12 +30,14 @@ class Verdict:
     failed : checks that it failed, "point_on_disk/uniform"
     told : the mistake that the student was told at the check meant for it
     fault : what is wrong with the grader; empty if nothing is
+    results : of all checks, without what there was to draw
     """
 
     submission: Known
     failed: tuple[str, ...]
     told: str
     fault: str
+    results: tuple[Result, ...] = ()
 
 
 def judge(
@@ -51,12 +56,95 @@ def judge(
         for result in wrong
         if result.function == submission.function and result.check == submission.caught_by
     ]
-    told = meant[0].mistake if meant else ""
-    return Verdict(submission, failed, told, _fault(submission, wrong, meant))
+    told = next((result.mistake for result in meant or wrong if result.mistake), "")
+    bare = tuple(replace(result, figures=()) for result in results)
+    return Verdict(submission, failed, told, _fault(submission, wrong, meant), bare)
+
+
+@dataclass(frozen=True)
+class Marks:
+    """What a wrong submission earned for the function that it gets wrong.
+
+    Attributes
+    ----------
+    share : of the function's points
+    useless : whether most of what the function gives is wrong, in its picture as well where it has one
+    right_elsewhere : whether it is wrong in a corner only
+    """
+
+    share: float
+    useless: bool
+    right_elsewhere: bool
+
+
+def marks(verdict: Verdict) -> Marks:
+    """Those of a wrong submission, all of whose checks were run."""
+    known = verdict.submission
+    function = declared_function(known.module, known.function)
+    own = [result for result in verdict.results if result.function == known.function]
+    pictures = [result for result in own if result.kind == "picture"]
+    callers = trusted(known), reference(known.module)
+    shown = all(result.status is not Status.PASSED for result in pictures)
+    return Marks(
+        sum(result.points for result in own) / sum(result.of for result in own),
+        shown and is_useless(function, *callers),
+        is_right_elsewhere(function, *callers),
+    )
+
+
+Record = dict[str, dict[str, dict[str, list[str | float]]]]
+"""module -> submission -> check that it doesn't pass -> status, mistake, points earned; under "points" what every check
+is worth."""
+
+
+def recorded(verdicts: Iterable[Verdict]) -> Record:
+    """The matrix as data."""
+    found: Record = {}
+    for verdict in verdicts:
+        known = verdict.submission
+        rows: dict[str, list[str | float]] = {}
+        worth = found.setdefault(known.module, {"points": {}})["points"]
+        for result in verdict.results:
+            check = f"{result.function}/{result.check}"
+            worth[check] = [result.of]
+            if result.status is not Status.PASSED:
+                rows[check] = [str(result.status), result.mistake, result.points]
+        found[known.module][f"{'right' if known.right else 'wrong'}/{known.name}"] = rows
+    return found
+
+
+def explaining(record: Record, submissions: Iterable[Known]) -> dict[str, list[str]]:
+    """Which checks each named mistake fails: "thin_lens.point_on_disk/crowded-centre" -> names of checks."""
+    found: dict[str, set[str]] = {}
+    for known in submissions:
+        rows = record.get(known.module, {}).get(f"wrong/{known.name}")
+        if known.mistake and rows is not None:
+            name = f"{known.module}.{known.function}/{known.mistake}"
+            own = (check.split("/") for check in rows)
+            found.setdefault(name, set()).update(
+                check for function, check in own if function == known.function
+            )
+    return {name: sorted(checks) for name, checks in sorted(found.items())}
+
+
+def changes(before: Record, after: Record) -> list[str]:
+    """A line for everything that differs, of the modules that both have."""
+    lines = []
+    for module in (name for name in before if name in after):
+        old, new = before[module], after[module]
+        for name in sorted({*old, *new}):
+            if name not in old or name not in new:
+                lines.append(f"{module} {name}: only {'now' if name in new else 'before'}")
+                continue
+            for check in sorted({*old[name], *new[name]}):
+                was, now = old[name].get(check), new[name].get(check)
+                if was != now:
+                    lines.append(f"{module} {name} {check}: {was or 'passed'} -> {now or 'passed'}")
+    return lines
 
 
 def _fault(submission: Known, wrong: list[Result], meant: list[Result]) -> str:
-    broken = [result for result in wrong if result.status is Status.GRADER_ERROR]
+    broken = [result for result in wrong if result.broken]
     if broken:
         return f"the grader's own error in {broken[0].id}: {broken[0].found}"
     if submission.right:

@@ -19,10 +19,8 @@ from course.grading.checks.check import Array, Caller, Check
 from course.grading.checks.preparing import References, prepared
 from course.grading.checks.trusted import TrustedModule
 from course.grading.pictures.whole import ALL, NAME, Together
+from course.grading.report import USUAL_SEED
 from course.imaging.atomic import replacing
-
-USUAL_SEED = 0
-"""Of checks whose references a student's copy has."""
 
 SOLUTIONS = PROJECT / "solutions"
 
@@ -46,7 +44,8 @@ def make_references(modules: Iterable[str], seed: int, out: Path) -> int:
     arrays: dict[str, Array] = {}
     for module in modules:
         make = prepared(reference(module), seed)
-        for check in module_checks(module).checks:
+        checks = module_checks(module)
+        for check in (*checks.checks, *checks.prints.values()):
             for name, array in make(module, check).items():
                 arrays[f"{_key(module, check)}/{name}"] = array
     arrays["seed"] = np.array(seed)
@@ -111,7 +110,28 @@ def references(seed: int = USUAL_SEED) -> References:
             raise CourseError(
                 "this copy has neither solutions nor references; get the course's archive anew"
             )
+        if seed != USUAL_SEED:
+            return _missing(seed)
         return read_references(path, seed)
+
+
+def has_references(seed: int) -> bool:
+    """Whether checks that need references can be made here: with any seed where the solutions are, else with one."""
+    return SOLUTIONS.is_dir() or seed == USUAL_SEED
+
+
+def _missing(seed: int) -> References:
+    """References of a seed for which there are none: only for checks that need none."""
+
+    def find(module: str, check: Check) -> Mapping[str, Array]:
+        if check.prepare is None:
+            return {}
+        raise CourseError(
+            f"{_key(module, check)} compares with a reference, and this copy has those for the seed "
+            f"{USUAL_SEED} only, not {seed}"
+        )
+
+    return find
 
 
 def _key(module: str, check: Check) -> str:

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Protocol
 
+from course.effects import COURSE
 from course.grading.checks.result import NOT_WRITTEN, Result, Status
+
+USUAL_SEED = 0
+"""Of checks whose references a student's copy has."""
 
 
 class Scored(Protocol):
@@ -41,6 +45,10 @@ class Total:
         return sum(part.of for part in self.parts())
 
 
+UNPROTECTED = "NOT PROTECTED"
+"""How the protection begins that says what a submission's code could have done, where some are missing."""
+
+
 @dataclass(frozen=True)
 class Report(Total):
     """All results of one submission.
@@ -51,7 +59,8 @@ class Report(Total):
     results : in the order of the course
     printed : module -> what its code printed
     protections : what kept the grader safe from the code
-    seed, version : with which the result can be had again
+    seed : with which the result can be had again; None where whoever reads it is not to know it
+    version : likewise
     seconds : wall clock of it all
     trouble : why the submission could not be graded; empty if it was
     """
@@ -60,7 +69,7 @@ class Report(Total):
     results: tuple[Result, ...]
     printed: Mapping[str, str] = field(default_factory=dict)
     protections: Sequence[str] = ()
-    seed: int = 0
+    seed: int | None = 0
     version: str = ""
     seconds: float = 0.0
     trouble: str = ""
@@ -74,21 +83,65 @@ class Report(Total):
         """Share from 0 to 1; 0 where there is nothing to earn."""
         return self.points / self.of if self.of else 0.0
 
+    @property
+    def unprotected(self) -> str:
+        """What the code could have done to the grader, and so to this report; empty if nothing."""
+        return next((one for one in self.protections if one.startswith(UNPROTECTED)), "")
+
+    @property
+    def broken(self) -> tuple[Result, ...]:
+        """Results of the checks that broke, whatever points they gave: somebody has to look at these."""
+        return tuple(
+            result
+            for result in self.results
+            if result.broken or result.status is Status.GRADER_ERROR
+        )
+
     def count(self, status: Status) -> int:
         """Checks that ended so."""
         return sum(result.status is status for result in self.results)
 
 
-def findings(result: Result) -> list[tuple[str, str]]:
-    """What a check that didn't pass has found, as labels with their text; what is empty is left out."""
-    found = (
-        ("expected", result.expected),
-        ("found", result.found),
-        ("where", result.where),
-        ("the same as", result.same_as),
-        ("hint", result.hint),
+RUNGS = 3
+"""Of the ladder: what is broken, the smallest input that breaks it, and which mistake that looks like."""
+
+
+def findings(result: Result, rungs: int = RUNGS) -> list[tuple[str, str]]:
+    """What a check that didn't pass has found, as labels with their text; what is empty is left out.
+
+    Parameters
+    ----------
+    rungs : of the ladder, how many to go down: the first says which law is broken, the second shows the smallest
+        input that breaks it, the third says which known mistake it looks like
+    """
+    smallest = result.example if result.example != result.where else ""
+    ladder = (
+        (
+            ("expected", result.expected),
+            ("found", result.found),
+            # Where there is a smaller input that shows it, the worst one of thousands says no more.
+            ("where", "" if smallest else result.where),
+            ("the same as", result.same_as),
+            ("hint", result.hint),
+        ),
+        (("smallest", smallest),),
+        (("looks like", result.says),),
     )
-    return [(label, text) for label, text in found if text]
+    return [(label, text) for rung in ladder[:rungs] for label, text in rung if text]
+
+
+def ending(result: Result) -> str:
+    """How a check ended, and whether it broke."""
+    return f"{result.status}, the check broke" if result.broken else str(result.status)
+
+
+def broke(report: Report) -> str:
+    """That checks broke, in a sentence with a blank before it; empty where none did."""
+    number = len(report.broken)
+    if not number:
+        return ""
+    many = "1 check" if number == 1 else f"{number} checks"
+    return f" {many} broke: whoever graded this has been told."
 
 
 def unstarted(result: Result) -> str:
@@ -96,11 +149,21 @@ def unstarted(result: Result) -> str:
     return "" if result.found.endswith(NOT_WRITTEN) else result.found
 
 
-def reproduce(result: Result, seed: int) -> str:
-    """The one line that runs this check again."""
-    return f"course check {result.module} --only {result.function}/{result.check} --seed {seed}"
+def reproduce(result: Result, seed: int | None) -> str:
+    """The one line that runs this check again; where the seed is hidden, with that of one's own copy."""
+    # The check of all modules together is made when all of them are checked.
+    module = f" {result.module}" if result.module in COURSE else ""
+    told = "" if seed is None else f" --seed {seed}"
+    return f"course check{module} --only {result.function}/{result.check}{told}"
 
 
 def docs_page(result: Result) -> str:
     """The page of the docs that explains the function."""
+    if result.module not in COURSE:
+        return "docs/grading.md#for-students"
     return f"docs/modules/{result.module}.md#{result.function}"
+
+
+def for_students(report: Report) -> Report:
+    """The report as its student may have it: a seed that isn't everybody's is what keeps the tests hidden."""
+    return report if report.seed == USUAL_SEED else replace(report, seed=None)

@@ -10,6 +10,9 @@ from course.scene.scene import Scene
 from course.scene.world import Settings
 from course.transport.tracing import Tracer, make_tracer
 
+NARROWEST = 1e-6
+"""Deviation [pixels] of a Gaussian that sees no sample beside the centre; the function is asked for no less."""
+
 
 def bind(scene: Scene, settings: Settings) -> Tracer:
     """Bind a scene to its settings and to the functions that place and weigh its samples."""
@@ -21,7 +24,7 @@ def bind(scene: Scene, settings: Settings) -> Tracer:
         effects.function("supersampling", "gaussian_weights")
         if film.filter == "gaussian"
         else None,
-        film.sigma,
+        max(film.sigma, NARROWEST),
     )
     compiled = scene.compiled
     sampler = make_sampler(settings.sampler, settings.seed, *functions)

@@ -28,15 +28,20 @@ from course.scene.expected import (
 )
 
 
-def find_mistake(document: Document) -> SceneError | None:
+def find_mistake(document: Document, kind: type = SceneDescription) -> SceneError | None:
     """Find the first value that breaks the format, in the order of the description classes.
+
+    Parameters
+    ----------
+    kind : type
+        The description class of the whole file.
 
     Returns
     -------
     SceneError or None
         The error to raise; None where every value is of the right type and within its range.
     """
-    return _Walk(document).check(inspect.type_info(SceneDescription), (), document.data)
+    return _Walk(document).check(inspect.type_info(kind), (), document.data)
 
 
 class _Walk:

@@ -20,6 +20,10 @@ DISKS = {
 """The module and name of the function that each value of ``samples`` asks for."""
 
 
+NEAREST = 1e-6
+"""Least distance of the plane in focus, in sizes of the scene: the functions of the course are asked for no less."""
+
+
 def compile_lens(loaded: Loaded, frame: Frame, effects: Effects) -> Lens | None:
     """The lens, or None for a pinhole (no lens, or an aperture of 0).
 
@@ -48,6 +52,9 @@ def compile_lens(loaded: Loaded, frame: Frame, effects: Effects) -> Lens | None:
     if lens.aperture_radius == 0:
         return None
     radius, focus = lens.aperture_radius / frame.scale, distance / frame.scale
+    if focus < NEAREST:
+        # The rays' directions hang on the ratio alone, and squares of lengths must not vanish.
+        radius, focus = NEAREST * (lens.aperture_radius / distance), NEAREST
     in_reach(np.array(radius), loaded, (*path, "aperture_radius"), "the aperture's size")
     in_reach(np.array(focus), loaded, (*path, key), "the focus's distance")
     return Lens(

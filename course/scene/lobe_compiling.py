@@ -12,6 +12,9 @@ from course.effects import Effects
 from course.scene import description as d
 from course.scene.description.values import rgb
 
+FLAT = 1e6
+"""A roughness from which a square's directions lie in its plane, to rounding; the functions are asked for no more."""
+
 
 def lobe_function(material: d.MaterialDescription, cutoff: float) -> str | None:
     """Name of the glossy function that a material calls; None where its reflection is a mirror's, or too weak to see.
@@ -51,8 +54,8 @@ def compile_lobes(
         if name is None or integrator.max_depth == 0:
             continue
         match material.gloss:
-            case d.PlaneLobe(roughness=parameter):
-                width = 2
+            case d.PlaneLobe(roughness=roughness):
+                width, parameter = 2, min(roughness, FLAT)
             case d.BallLobe(glossiness=parameter):
                 width = 3
             case d.PhongLobe(exponent=parameter):

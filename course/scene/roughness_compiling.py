@@ -11,7 +11,7 @@ from course.appearance.lobes import Lobe
 from course.appearance.rough_glass import RoughGlass
 from course.effects import Effects
 from course.scene import description as d
-from course.scene.lobe_compiling import as_it_is
+from course.scene.lobe_compiling import FLAT, as_it_is
 
 FUNCTIONS = ("refract", "fresnel", "jitter_refraction")
 """What rough glass calls of the blurred_transparency module."""
@@ -46,7 +46,7 @@ def with_rough_glass(
         mirrored = found.get(number, Lobe(number, 0, 0.0, as_it_is, as_it_is))
         found[number] = RoughGlass(
             **{field.name: getattr(mirrored, field.name) for field in fields(mirrored)},
-            roughness=material.dielectric.roughness,
+            roughness=min(material.dielectric.roughness, FLAT),
             refract=refract,
             jitter_refraction=jitter,
             fresnel=fresnel,

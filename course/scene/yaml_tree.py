@@ -20,11 +20,12 @@ from course.scene.tree_builder import TreeBuilder
 LARGEST_FILE: Final = 16 * 2**20  # bytes
 
 _NOT_TEXT = re.compile("[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+_SCENE_KEYS = "keys such as camera, materials, lights and objects"
 _Loader: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 
-def read_document(path: Path) -> Document:
-    """Read a YAML file.
+def read_document(path: Path, what: str = "scene") -> Document:
+    """Read a YAML file; `what` is what it describes, for messages.
 
     Raises
     ------
@@ -35,10 +36,10 @@ def read_document(path: Path) -> Document:
     name = str(path)
     # A file's name may hold line breaks, or bytes that are no text; messages are one line of text.
     file = name if name.isprintable() else name.encode("unicode_escape").decode("ascii")
-    return parse_document(_read(path, file), file)
+    return parse_document(_read(path, file, what), file, what)
 
 
-def parse_document(content: bytes, file: str) -> Document:
+def parse_document(content: bytes, file: str, what: str = "scene") -> Document:
     """Parse the content of a YAML file; `file` is its name in messages. Raises as read_document."""
     text = _decode(content, file)
     builder = TreeBuilder(file)
@@ -50,22 +51,22 @@ def parse_document(content: bytes, file: str) -> Document:
     except yaml.YAMLError as error:
         raise SceneError(f"{file}: not valid YAML: {' '.join(str(error).split())}") from None
     if builder.root is None:
-        raise SceneError(f"{file}: the file is empty: expected a scene")
+        raise SceneError(f"{file}: the file is empty: expected a {what}")
     if not isinstance(builder.root, dict):
         raise SceneError(
             f"{file}:{builder.root_line}: the file is {_kind(builder.root)}: expected a map with "
-            "keys such as camera, materials, lights and objects"
+            + (_SCENE_KEYS if what == "scene" else f"the keys of a {what}")
         )
     return Document(file, builder.root, builder.lines)
 
 
-def _read(path: Path, file: str) -> bytes:
+def _read(path: Path, file: str, what: str) -> bytes:
     try:
         if path.is_dir():
-            raise SceneError(f"{file}: is a folder: expected a scene file")
+            raise SceneError(f"{file}: is a folder: expected a {what} file")
         # A pipe or device might never end, or never begin.
         if path.exists() and not path.is_file():
-            raise SceneError(f"{file}: is not a regular file: expected a scene file")
+            raise SceneError(f"{file}: is not a regular file: expected a {what} file")
         with path.open("rb") as stream:
             content = stream.read(LARGEST_FILE + 1)
     except FileNotFoundError:
@@ -74,7 +75,7 @@ def _read(path: Path, file: str) -> bytes:
         reason = getattr(error, "strerror", None) or str(error)
         raise SceneError(f"{file}: can't be read: {reason}") from None
     if len(content) > LARGEST_FILE:
-        raise SceneError(f"{file}: more than {LARGEST_FILE >> 20} MB: too large for a scene file")
+        raise SceneError(f"{file}: more than {LARGEST_FILE >> 20} MB: too large for a {what} file")
     return content
 
 

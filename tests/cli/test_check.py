@@ -11,6 +11,7 @@ from click.testing import Result
 
 from course.cli.options import FAILED
 from course.effects import COURSE, PROJECT
+from course.grading.known import known as known_submissions
 
 Run = Callable[..., Result]
 
@@ -162,3 +163,23 @@ def test_reports_are_looked_at_before_the_checks(run: Run, folder: Path, tmp_pat
         assert words in result.stderr
         assert not result.stdout
     assert list(tmp_path.iterdir()) == [folder]
+
+
+@pytest.mark.parametrize("rungs", [1, 2, 3])
+def test_a_failure_is_told_on_three_rungs_and_never_shows_the_code(
+    run: Run, tmp_path: Path, rungs: int
+) -> None:
+    known = {one.name: one for one in known_submissions("thin_lens")}
+    (tmp_path / "thin_lens.py").write_text(known["wrong_cosine"].source, encoding="utf-8")
+    arguments = ("check", "thin_lens", "--folder", tmp_path, "--only", "lens_rays", "--hint", rungs)
+    said = run(*arguments).stdout
+    assert "plane_in_focus: Rays meet the pinhole's rays on the plane in focus" in said
+    smallest, looks = "smallest    lens_rays(origin = [", known["wrong_cosine"].says
+    assert (smallest in said) == (rungs >= 2)
+    assert (looks in said) == (rungs >= 3)
+    # The next rung is offered once, and other checks that fail by the same mistake in a line each.
+    assert said.count(f"--hint {rungs + 1}") == (rungs < 3)
+    assert said.count("    also  ") >= 3
+    solution = (PROJECT / "solutions" / "thin_lens.py").read_text(encoding="utf-8")
+    written = solution.partition("### BEGIN SOLUTION")[2].partition("### END SOLUTION")[0]
+    assert not any(line.strip() in said for line in written.splitlines() if len(line.strip()) > 20)

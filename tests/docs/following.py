@@ -166,6 +166,9 @@ class Page:
                 return self._line(f"{block.text} --help" if bare else block.text)
             case "python":
                 return self._python(block.text)
+            case "yaml" | "text" if name := _other_file(block):
+                Path(name).write_text(block.text, encoding="utf-8")
+                return "saved"
             case "yaml":
                 return self._yaml(block)
         raise FollowingError(f"nothing is known of code of the kind {block.kind!r}")
@@ -193,7 +196,7 @@ class Page:
                 return f"not run ({NOT_RUN['activate']})"
             case ["activate"]:
                 return f"not run ({NOT_RUN['activate']})"
-            case ["apt", "install", "bubblewrap"]:
+            case ["apt", "install", "bubblewrap" | "libseccomp2"]:
                 return f"not run ({NOT_RUN['apt']})"
             case ["python", "-m", "pytest"]:
                 return f"not run ({NOT_RUN['pytest']})"
@@ -216,7 +219,9 @@ class Page:
         written = self._written(words)
         for path in written:
             _remove(path)
-        words += SHORTER.get(name, [])
+        words += (
+            [] if name in ("bundle", "grade") and "--modules" in words else SHORTER.get(name, [])
+        )
         if "--error" in words:
             # An error can be aimed at with 8 samples or more.
             words += ["--spp", "8"]
@@ -247,7 +252,9 @@ class Page:
         found = [Path(value) for option, value in pairs if option in OUTPUTS]
         if words[0] == "render" and not found and words[1].endswith(".yaml"):
             found.append(Path(f"{Path(words[1]).stem}.png"))
-        return [] if "--effects" in words and "assignments" in words else found
+        # What is graded again has been graded before.
+        kept = words[0] == "regrade" or ("--effects" in words and "assignments" in words)
+        return [] if kept else found
 
     def _start_cluster(self) -> bool:
         try:
@@ -331,6 +338,12 @@ class Page:
     def _render(self, text: str, path: Path) -> None:
         path.write_text(text, encoding="utf-8")
         _run(["render", str(path), "-o", "part.png", *SHORTER["render"]])
+
+
+def _other_file(block: Block) -> str:
+    """The name under which a page has a file saved that is no scene; a command below reads it."""
+    name = re.search(r"Save this as `([\w.]+)`", block.before)
+    return name[1] if name and "camera:" not in block.text else ""
 
 
 def _without_comment(line: str) -> str:

@@ -25,7 +25,12 @@ PAGES = [
     PROJECT / "CONTRIBUTING.md",
     PROJECT / "scenes" / "README.md",
 ]
-FOLLOWED = [path.relative_to(PROJECT).as_posix() for path in PAGES if blocks(path)]
+FOLLOWED = [
+    path.relative_to(PROJECT).as_posix()
+    for path in PAGES
+    # tests/grading/test_new_module.py builds what the page on new modules shows.
+    if blocks(path) and path.name != "new_module.md"
+]
 
 KNOWN_SUBMISSIONS = 3
 """Right and wrong submissions of a module that are kept for `course calibrate`."""

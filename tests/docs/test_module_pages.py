@@ -40,5 +40,7 @@ def test_every_file_that_is_named_is_there(path: Path) -> None:
     text = path.read_text(encoding="utf-8")
     folders = "assignments|benchmarks|course|docs|scenes|solutions|tests"
     for name in re.findall(rf"`((?:{folders})/[\w/.]*)`", text):
-        if "NAME" not in name and name != "scenes/scene.schema.json":
+        # The module that a reader is shown how to add isn't there.
+        made = "NAME" in name or "vignetting" in name or name == "scenes/scene.schema.json"
+        if not made:
             assert (PROJECT / name).exists(), name

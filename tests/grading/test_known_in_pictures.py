@@ -46,7 +46,7 @@ def statuses(submission: Known, kind: str) -> dict[str, Status]:
         for check in module_checks(module).checks
         if check.kind == kind and submission.function in ("", check.function)
     ]
-    alone = ModuleChecks(module, tuple(checks), ())
+    alone = ModuleChecks(module, tuple(checks))
     results = run_checks(alone, trusted(submission), arrays(module), 0)
     return {result.function: result.status for result in results}
 

@@ -18,7 +18,6 @@ from course.grading.pictures.catalog import PICTURES
 from course.grading.pictures.judging import BLOCKS, check_bias, ssim
 from course.grading.pictures.rendered import BIAS_REFERENCES, loaded, rendered
 from course.grading.pictures.scenes import moving
-from course.grading.pictures.shapes import SHAPES
 from course.grading.pictures.whole import WHOLE, Together
 from course.grading.references import reference
 from course.scene.scene import Scene, load_scene
@@ -38,7 +37,7 @@ def solution(module: str, **others: Any) -> TrustedModule:
 
 
 def judged(module: str, check: Check, caller: TrustedModule) -> Result:
-    alone = ModuleChecks(module, (check,), ())
+    alone = ModuleChecks(module, (check,))
     (result,) = run_checks(alone, caller, prepared(reference(module), 0), 0)
     return result
 
@@ -114,12 +113,6 @@ def test_a_scene_that_was_rendered_before_gives_the_same_picture() -> None:
     again = rendered(scene, spp=16, seed=5)
     assert not np.array_equal(before, again)
     assert again.tobytes() == rendered(afresh, spp=16, seed=5).tobytes()
-
-
-def test_every_function_that_is_rendered_has_its_shape() -> None:
-    drawn = {f"{module}.{check.function}" for module, check in LOOKS}
-    # The lens's points are only in the picture of all effects.
-    assert drawn | {"thin_lens.point_on_disk"} == set(SHAPES)
 
 
 def test_a_mistake_before_or_after_a_function_costs_nothing_there() -> None:

@@ -11,7 +11,7 @@ from itertools import product
 import numpy as np
 import pytest
 
-from tests.solutions.batches import CHECKS, DTYPES, Call, directions
+from tests.solutions.batches import DTYPES, directions
 from tests.solutions.contract import SOLUTIONS, Array, assert_mean, frozen, scattered
 
 face_and_uv = SOLUTIONS.function("cube_map", "face_and_uv")
@@ -30,21 +30,6 @@ sizes = pytest.mark.parametrize("size", SIZES)
 
 def random_faces(size: int, dtype: type = np.float32, seed: int = 0) -> Array:
     return np.random.default_rng(seed).random((6, size, size, 3), dtype)
-
-
-CALLS = {
-    "face_and_uv": Call(face_and_uv, {"direction": directions}, result=((), (), ())),
-    **{
-        name: Call(function, {"direction": directions}, {"faces": random_faces(8)}, tolerance=1e-5)
-        for name, function in LOOKUPS.items()
-    },
-}
-
-
-@pytest.mark.parametrize("check", CHECKS)
-@pytest.mark.parametrize("name", CALLS)
-def test_contract_of_batches(name: str, check: str) -> None:
-    CHECKS[check](CALLS[name])
 
 
 # ---------------------------------------------------------------- OpenGL's table, a direction at a time

@@ -8,18 +8,14 @@ import numpy as np
 import pytest
 
 from tests.solutions.batches import (
-    CHECKS,
     DTYPES,
-    Call,
     assert_unit,
     directions,
     every_pair,
-    numbers,
     worst_directions,
 )
 from tests.solutions.contract import (
     SOLUTIONS,
-    Array,
     assert_mean,
     assert_uniform,
     frozen,
@@ -35,26 +31,6 @@ russian_roulette = SOLUTIONS.function(MODULE, "russian_roulette")
 N = 100_000
 
 dtypes = pytest.mark.parametrize("dtype", DTYPES)
-
-
-def left_by_roulette(beta: Array, u: Array) -> Array:
-    """`russian_roulette` without the mask."""
-    return russian_roulette(beta, u)[1]
-
-
-CALLS = {
-    "diffuse_bounce": Call(diffuse_bounce, {"normal": directions, "u": numbers(2)}),
-    "throughput": Call(throughput, {"beta": numbers(3, 0, 2), "albedo": numbers(3)}),
-    "russian_roulette": Call(
-        left_by_roulette, {"beta": numbers(3, 0.1, 1.5), "u": numbers(None)}, tolerance=1e-5
-    ),
-}
-
-
-@pytest.mark.parametrize("check", CHECKS)
-@pytest.mark.parametrize("name", CALLS)
-def test_contract_of_batches(name: str, check: str) -> None:
-    CHECKS[check](CALLS[name])
 
 
 # ---------------------------------------------------------------- diffuse_bounce

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from scipy.special import ndtri
 
-from tests.solutions.batches import CHECKS, DTYPES, Call, assert_unit, numbers
+from tests.solutions.batches import DTYPES, assert_unit
 from tests.solutions.contract import (
     FALSE_FAIL,
     SOLUTIONS,
@@ -35,18 +35,6 @@ dtypes = pytest.mark.parametrize("dtype", DTYPES)
 rejections = pytest.mark.parametrize(
     ("function", "rows"), [(disk_by_rejection, 2), (ball_by_rejection, 3)]
 )
-
-CALLS = {
-    "disk_by_polar": Call(disk_by_polar, {"u": numbers(2)}, result=((2,),)),
-    "ball_by_polar": Call(ball_by_polar, {"u": numbers(3)}),
-    "sphere_by_polar": Call(sphere_by_polar, {"u": numbers(2)}),
-}
-
-
-@pytest.mark.parametrize("check", CHECKS)
-@pytest.mark.parametrize("name", CALLS)
-def test_contract_of_batches(name: str, check: str) -> None:
-    CHECKS[check](CALLS[name])
 
 
 class Counting(np.random.Generator):

@@ -7,7 +7,7 @@ import re
 import numpy as np
 import pytest
 
-from tests.solutions.batches import CHECKS, DTYPES, Call, directions, numbers, worst_directions
+from tests.solutions.batches import DTYPES, directions, worst_directions
 from tests.solutions.contract import SOLUTIONS, Array, frozen, unit
 
 rectangle_uv = SOLUTIONS.function("textures", "rectangle_uv")
@@ -22,38 +22,7 @@ IMAGE = np.random.default_rng(0).random((4, 7, 3))
 
 CORNERS = {"uv0": np.array((0.1, 0.2)), "uv1": np.array((0.9, 0.3)), "uv2": np.array((0.4, 0.8))}
 
-CALLS = {
-    "rectangle_uv": Call(
-        rectangle_uv, {"p": numbers(3, -2, 2)}, {"p1": P1, "p2": P2, "p3": P3}, result=((2,),)
-    ),
-    "sphere_uv": Call(
-        sphere_uv, {"p": directions}, {"center": np.array((0.1, -0.2, 0.05))}, result=((2,),)
-    ),
-    "triangle_uv": Call(triangle_uv, {"barycentric": numbers(3)}, CORNERS, result=((2,),)),
-    "triangle_uv, each its own": Call(
-        triangle_uv,
-        {"barycentric": numbers(3), "uv0": numbers(2), "uv1": numbers(2), "uv2": numbers(2)},
-        result=((2,),),
-    ),
-    "texture_lookup": Call(
-        texture_lookup, {"uv": numbers(2, -2, 2)}, {"image": IMAGE}, tolerance=1e-5
-    ),
-}
-
-# Corners may be (2,) as well, so the message about their shape is another.
-PAIRS = [
-    (name, check)
-    for name in CALLS
-    for check in CHECKS
-    if check != "shapes_are_refused" or "uv0" not in CALLS[name].batches
-]
-
 dtypes = pytest.mark.parametrize("dtype", DTYPES)
-
-
-@pytest.mark.parametrize(("name", "check"), PAIRS)
-def test_contract_of_batches(name: str, check: str) -> None:
-    CHECKS[check](CALLS[name])
 
 
 @pytest.mark.parametrize("shape", [(), (3,), (2, 4), (2, 1), (5, 2), (2, 5, 1)])

@@ -43,6 +43,24 @@ def sizes(dtype: type, largest: float | None = None) -> Strategy:
     return st.one_of(st.sampled_from([x for x in worst if x <= most]), spread, anything)
 
 
+SHORTEST, LONGEST = 1e-6, 1e6
+"""The engine hands over normalised scenes: a length that isn't 0 lies between these."""
+
+
+def lengths(dtype: type) -> Strategy:
+    """Numbers >= 0 that a length of a scene may have."""
+    spread = st.floats(math.log10(SHORTEST), math.log10(LONGEST)).map(lambda e: 10.0**e)
+    between = st.floats(SHORTEST, LONGEST)
+    worst = st.sampled_from([0.0, SHORTEST, 1.0, LONGEST])
+    return st.one_of(worst, spread, between).map(lambda x: float(dtype(x)))
+
+
+def coordinates(dtype: type) -> Strategy:
+    """The same of either sign."""
+    both = st.tuples(lengths(dtype), st.sampled_from((1.0, -1.0)))
+    return both.map(lambda pair: pair[0] * pair[1])
+
+
 def signed(dtype: type, largest: float | None = None) -> Strategy:
     """Numbers of any size and sign."""
     both = st.tuples(sizes(dtype, largest), st.sampled_from((1.0, -1.0)))

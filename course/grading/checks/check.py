@@ -15,6 +15,8 @@ from numpy.typing import NDArray
 
 Array = NDArray[Any]
 Kind = Literal["contract", "property", "distribution", "picture", "bias", "order", "speed", "whole"]
+Role = Literal["core", "corner", "convention"]
+"""Of a check: a function of no use fails what is "core"; one that is right elsewhere may fail a "corner"."""
 
 
 @dataclass(frozen=True)
@@ -47,6 +49,8 @@ class Failure(Exception):  # noqa: N818 - it is no error of the program
     def __init__(self, expected: str, found: str, where: str = "", hint: str = "") -> None:
         super().__init__(f"expected {expected}, found {found}" + (f" ({where})" if where else ""))
         self.expected, self.found, self.where, self.hint = expected, found, where, hint
+        self.example = ""
+        """The smallest input that shows it, with what came and what must hold."""
 
 
 class Caller(Protocol):
@@ -125,6 +129,7 @@ class Check:
     points : its weight
     false_fail : probability that a right function fails by chance; 0 for checks without chance
     prepare : makes the arrays that a student's copy can't; None if the check needs none
+    role : what it is worth
     """
 
     function: str
@@ -135,30 +140,24 @@ class Check:
     points: float = 1.0
     false_fail: float = 0.0
     prepare: Prepare | None = None
-
-
-@dataclass(frozen=True)
-class Mistake:
-    """A mistake that students make, and how to tell it from the others.
-
-    Attributes
-    ----------
-    function : where it is made
-    name : short and unique within the module: "crowded-centre"
-    says : what the student is told; names the mistake without the code that mends it
-    matches : True when the student's function does just that; called only after a check of the function has failed
-    """
-
-    function: str
-    name: str
-    says: str
-    matches: Callable[[Trial], bool]
+    role: Role = "core"
 
 
 @dataclass(frozen=True)
 class ModuleChecks:
-    """Everything that is checked in one module."""
+    """Everything that is checked in one module.
+
+    Attributes
+    ----------
+    module : its name
+    checks : in the order in which they run
+    prints : by function, a check whose arrays tell which known mistake somebody makes
+    named : by function, (caller, those arrays) -> the mistake's name and what the student is told; None for none
+    """
 
     module: str
     checks: tuple[Check, ...]
-    mistakes: tuple[Mistake, ...]
+    prints: Mapping[str, Check] = field(default_factory=dict)
+    named: Mapping[str, Callable[[Caller, Mapping[str, Array]], tuple[str, str] | None]] = field(
+        default_factory=dict
+    )

@@ -15,12 +15,8 @@ References = Callable[[str, Check], Mapping[str, Array]]
 
 
 def generator(seed: int, module: str, check: Check) -> np.random.Generator:
-    """The numbers of one check: its own, whatever other checks there are."""
-    return named_generator(seed, f"{module}.{check.function}/{check.name}")
-
-
-def named_generator(seed: int, name: str) -> np.random.Generator:
-    """The numbers of whatever has that name, the same in every process."""
+    """The numbers of one check: its own, whatever other checks there are, and the same in every process."""
+    name = f"{module}.{check.function}/{check.name}"
     return np.random.default_rng((seed, crc32(name.encode())))
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 from course.grading.checks.check import Check, Figure
@@ -34,11 +34,14 @@ class Result:
     status : how
     points, of : what it earned, and what it could; a grader's error earns all
     expected, found, where, hint : what a failure says
+    example : the smallest input that shows it, with what came and what must hold
     mistake, says : the known mistake that the function makes, if it is one
     seconds : it took
     figures : what there is to draw
     same_as : the id of an earlier result that says the same, with more about it; empty if this is the first
     module_wide : whether it is about the whole module, of which no function could be called
+    broken : whether the check itself broke, whatever came of it
+    instructor : how it broke; for those who write checks, and in nothing that students see
     """
 
     module: str
@@ -59,6 +62,9 @@ class Result:
     figures: tuple[Figure, ...] = ()
     same_as: str = ""
     module_wide: bool = False
+    example: str = ""
+    broken: bool = False
+    instructor: str = ""
 
     @property
     def id(self) -> str:
@@ -76,7 +82,48 @@ def troubled(module: str, check: Check, error: StudentError) -> Result:
     }.get(error.kind, Status.FAILED)
     found = f"{error.type}: {error}" if error.kind == "raised" else str(error)
     expected = "" if error.kind == "missing" else "a value"
-    return result_of(module, check, status, expected=expected, found=found, where=error.traceback)
+    where = "\n".join(
+        filter(
+            None, (error.traceback.rstrip(), error.arguments and f"arguments: {error.arguments}")
+        )
+    )
+    return result_of(
+        module, check, status, expected=expected, found=found, where=where, hint=error.remedy
+    )
+
+
+BROKEN = "the check itself broke"
+
+
+def broken(module: str, check: Check, reference_too: bool | None, last: str) -> Result:
+    """The result of a check that broke.
+
+    Parameters
+    ----------
+    reference_too : whether it breaks with the reference as well; None where there is none to try
+    last : what the student's function had returned before
+    """
+    if reference_too:
+        result = result_of(
+            module,
+            check,
+            Status.GRADER_ERROR,
+            found=f"{BROKEN}, as it does with the course's own function",
+            hint="This is no fault of yours, and its points are given; please pass it on.",
+        )
+    else:
+        why = "With the course's own function it doesn't."
+        if reference_too is None:
+            why = "Whose fault it is can't be told in a copy without solutions: here it gives no points."
+        result = result_of(
+            module,
+            check,
+            Status.FAILED,
+            expected="a result that the check can work with",
+            found=last,
+            hint=f"On this {BROKEN}. {why}",
+        )
+    return replace(result, broken=True)
 
 
 def result_of(

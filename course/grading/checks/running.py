@@ -1,26 +1,34 @@
 """Run the checks of a module on somebody's functions.
 
-One result for each check, whatever happens: a mistake costs the checks that it concerns, and an exception in a check
-itself is the grader's error, with its points given. A function that has run out of time once, or isn't written yet, is
-not called again. What has been said of a function before is not said again: its later results name the first.
+One result for each check, whatever happens: a mistake costs the checks that it concerns. An exception in a check itself
+is the grader's error, with its points given, if it breaks with the reference in the student's place as well; else it
+has broken on what the student's function gave, and counts as failed. A function that has run out of time once, or isn't
+written yet, is not called again. What has been said of a function before is not said again: its later results name the
+first.
 """
 
 from __future__ import annotations
 
 import traceback
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import partial
 from time import perf_counter
 
-from course.grading.checks.check import Caller, Check, Failure, Mistake, ModuleChecks, Trial
-from course.grading.checks.preparing import References, generator, named_generator
-from course.grading.checks.result import NOT_WRITTEN, Result, Status, result_of, troubled
+from course.grading.checks.check import Array, Caller, Check, Failure, ModuleChecks, Trial
+from course.grading.checks.explaining import explains
+from course.grading.checks.gate import Gate
+from course.grading.checks.preparing import References, generator
+from course.grading.checks.result import NOT_WRITTEN, Result, Status, broken, result_of, troubled
 from course.grading.errors import StudentError
 from course.grading.worker.patience import NOT_RUN
 
 Lenders = Callable[[str], Caller | None]
 """function -> the same student's module, with the reference's in place of the functions that come before it."""
+
+
+Standard = Callable[[], Caller]
+"""Makes the reference's module."""
 
 
 def run_checks(
@@ -31,6 +39,7 @@ def run_checks(
     only: Callable[[Check], bool] | None = None,
     yardstick: Caller | None = None,
     lenders: Lenders = lambda _: None,
+    standard: Standard | None = None,
 ) -> Iterator[Result]:
     """Results in the order of the checks, each as soon as it is there.
 
@@ -38,11 +47,13 @@ def run_checks(
     ----------
     yardstick : the reference, to compare times with
     lenders : who is asked again when a check fails, so that a function pays for no other function's mistake
+    standard : the reference in this process, for checks that break; None where there is no solution
     """
     given_up: dict[str, Result] = {}
-    matched: dict[str, Mistake | None] = {}
+    matched: dict[str, tuple[str, str] | None] = {}
     told: dict[tuple[str, str], str] = {}
-    attempt = partial(_attempt, checks.module, references=references, seed=seed)
+    wrong: dict[str, None] = {}
+    attempt = partial(_attempt, checks.module, references=references, seed=seed, standard=standard)
     for check in checks.checks:
         if only is not None and not only(check):
             continue
@@ -61,12 +72,17 @@ def run_checks(
         result, error, asked = _asked(attempt, check, caller, yardstick, lenders, lent_first=hung)
         if result.status in (Status.TIMEOUT, Status.NOT_ATTEMPTED):
             given_up[check.function] = result
-        if result.status is Status.FAILED:
+        above = _above(check.function, wrong, asked) if lenders(check.function) is None else ""
+        if result.status is Status.FAILED and above:
+            result = replace(result, hint=f"{BEGIN.format(above)} {result.hint}".strip())
+        elif result.status is Status.FAILED:
             if check.function not in matched:
-                matched[check.function] = _matching(checks, check.function, asked, seed)
+                matched[check.function] = _matching(checks, check.function, asked, references)
             mistake = matched[check.function]
-            if mistake is not None:
-                result = replace(result, mistake=mistake.name, says=mistake.says)
+            if mistake is not None and explains(checks.module, check, mistake[0]):
+                result = replace(result, mistake=mistake[0], says=mistake[1])
+        if result.status is Status.FAILED:
+            wrong.setdefault(check.function)
         if error is not None:
             first_id = told.setdefault((check.function, error.cause), result.id)
             if first_id != result.id:
@@ -88,9 +104,17 @@ def unusable(
 
 STANDS_ON = "Right by itself: the check passes when the functions above it, which this one calls, are the course's own."
 
+BEGIN = "Begin with {}: this function calls it, and it is wrong."
+
 OUT_OF_TIME = "an earlier check of this function ran out of time"
 
 _Outcome = tuple[Result, StudentError | None]
+
+
+def _above(function: str, wrong: Iterable[str], caller: Caller) -> str:
+    """The first of the functions found wrong that this one calls; empty if there is none."""
+    calls = getattr(caller, "calls", None)
+    return next((o for o in wrong if calls and o != function and calls(function, o)), "")
 
 
 def _asked(
@@ -144,13 +168,38 @@ def _attempt(
     references: References,
     seed: int,
     yardstick: Caller | None,
+    standard: Standard | None,
 ) -> _Outcome:
+    def trial_of(whose: Caller) -> Trial:
+        return Trial(check.function, whose, generator(seed, module, check), yardstick=yardstick)
+
+    trial = trial_of(Gate(module, caller))
+    try:
+        return _ended(module, check, trial, references)
+    except Exception:  # noqa: BLE001 - it may be that memory or disk were short: once more tells
+        gate = Gate(module, caller)
+        trial = trial_of(gate)
+    try:
+        return _ended(module, check, trial, references)
+    except Exception:  # noqa: BLE001 - what breaks a check must not end the grading of others
+        how = traceback.format_exc()
+    try:
+        right = None if standard is None else standard()
+    except Exception:  # noqa: BLE001 - nobody to compare with
+        right = None
+    verdict = None
+    if right is not None:
+        verdict = _breaks(module, check, trial_of(Gate(module, right)), references)
+    result = broken(module, check, verdict, gate.last)
+    return replace(result, figures=tuple(trial.figures), instructor=how), None
+
+
+def _ended(module: str, check: Check, trial: Trial, references: References) -> _Outcome:
+    """How a check ended; whatever it raises beside is its own fault."""
     trouble: StudentError | None = None
-    trial = Trial(check.function, caller, generator(seed, module, check))
-    trial.yardstick = yardstick
     try:
         # The check's numbers begin where prepare's do.
-        trial.references = references(module, check)
+        trial.references = _prepared(module, check, references)
         check.run(trial)
         result = result_of(module, check, Status.PASSED, hint=" ".join(trial.notes))
     except Failure as failure:
@@ -163,30 +212,36 @@ def _attempt(
             where=failure.where,
             hint=failure.hint,
         )
+        result = replace(result, example=failure.example)
     except StudentError as error:
         result, trouble = troubled(module, check, error), error
-    except Exception as error:  # noqa: BLE001 - the grader's own fault must not end the grading of others
-        result = result_of(
-            module,
-            check,
-            Status.GRADER_ERROR,
-            found=f"{type(error).__name__}: {error}",
-            where=traceback.format_exc(limit=-3),
-            hint="This is no fault of yours; please pass it on.",
-        )
     return replace(result, figures=tuple(trial.figures)), trouble
 
 
-def _matching(checks: ModuleChecks, function: str, caller: Caller, seed: int) -> Mistake | None:
-    for mistake in checks.mistakes:
-        if mistake.function == function:
-            trial = Trial(function, caller, named_generator(seed, mistake.name))
-            try:
-                if mistake.matches(trial):
-                    return mistake
-            except StudentError as error:
-                if error.kind == "timeout":
-                    return None  # The next one would be waited for too.
-            except Exception:  # noqa: BLE001 - what comes back is too wrong to be this mistake
-                continue
-    return None
+def _prepared(module: str, check: Check, references: References) -> Mapping[str, Array]:
+    try:
+        return references(module, check)
+    except (Failure, StudentError) as error:
+        raise RuntimeError("the check's references can't be made") from error
+
+
+def _breaks(module: str, check: Check, trial: Trial, references: References) -> bool:
+    """Whether it breaks with these functions."""
+    try:
+        _ended(module, check, trial, references)
+    except Exception:  # noqa: BLE001 - in whatever way
+        return True
+    return False
+
+
+def _matching(
+    checks: ModuleChecks, function: str, caller: Caller, references: References
+) -> tuple[str, str] | None:
+    """The known mistake that the function makes, and what the student is told; None for none."""
+    if function not in checks.named:
+        return None
+    prints = references(checks.module, checks.prints[function])
+    try:
+        return checks.named[function](caller, prints)
+    except StudentError:
+        return None  # It doesn't end, or ends its process; the next call would be waited for, too.

@@ -6,23 +6,15 @@ independent numbers, so the checks draw theirs from ``Trial.rng``.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from math import sqrt
 
 import numpy as np
 from scipy.special import chdtri, ndtri
 
-from course.grading.checks.check import Array, Check, Failure, Trial
+from course.grading.checks.check import Array, Failure
 
 FALSE_FAIL = 1e-7
 """Of each comparison: a hundred in an assignment stay under 1e-5."""
-
-
-def distribution_check(
-    function: str, name: str, title: str, run: Callable[[Trial], None], comparisons: int
-) -> Check:
-    """A check that makes so many comparisons, and fails a right function as rarely as they do together."""
-    return Check(function, name, title, run, "distribution", false_fail=comparisons * FALSE_FAIL)
 
 
 def check_uniform(values: Array, cells: tuple[int, ...], what: str, hint: str = "") -> None:
@@ -75,14 +67,3 @@ def check_mean(values: Array, mean: float, variance: float, what: str, hint: str
     bound = -float(ndtri(FALSE_FAIL / 2)) * sqrt(variance / values.size)
     if not abs(found - mean) <= bound:
         raise Failure(f"{what}: {mean:.6g} within {bound:.2g}", f"{found:.6g}", "", hint)
-
-
-CLOSE = 0.06
-"""Two batches of 4000 of the same distribution are closer than that, but for one time in a hundred thousand."""
-
-
-def apart(values: Array, others: Array) -> float:
-    """The largest distance between two empirical distributions (Kolmogorov and Smirnov)."""
-    both = np.concatenate((values, others))
-    below = [np.searchsorted(np.sort(x), both, "right") / x.size for x in (values, others)]
-    return float(np.abs(below[0] - below[1]).max())

@@ -1,14 +1,12 @@
-"""Vector arrays (3, N) as checks need them: unit ones to call with, and what is asked of those that come back."""
+"""Vector arrays (3, N) as checks need them: unit ones to call with, and products of those that come back."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
 from course.grading.checks.check import Array
-from course.grading.checks.contract import check_close
 
 UNIT = 1e-5
 """What a unit vector's length may be off by, and what else follows from it."""
@@ -39,13 +37,9 @@ def cross(a: Array, b: Array) -> Array:
     return np.cross(a.T.astype(np.float64), b.T).T
 
 
-def check_unit(
-    value: Array, arguments: Callable[[int], str], what: str, hint: str = "Normalise at the end."
-) -> None:
-    """All columns are of length 1, to ``UNIT``.
-
-    Raises
-    ------
-    Failure
-    """
-    check_close(np.linalg.norm(value, axis=0), np.ones(value.shape[1]), UNIT, what, arguments, hint)
+def turn_about(axis: Array, direction: Array) -> Array:
+    """Of each direction about its axis, 0 to 1: from anywhere, but for the same axis always from there."""
+    side = np.where(np.abs(axis[2]) < 0.7, 0.0, 1.0)
+    first = normalized(cross(axis, np.stack((side, np.zeros_like(side), 1 - side))))
+    second = cross(axis, first)
+    return np.asarray(np.arctan2(dot(direction, second), dot(direction, first)) / (2 * np.pi) % 1)

@@ -47,8 +47,9 @@ find_python() {
 
 if command -v apt-get >/dev/null; then
     apt-get update || echo "no lists of packages: going on with what is installed"
-    # Shuts students' code in where the image allows it; grading goes on without.
-    apt-get install -y --no-install-recommends bubblewrap || echo "no bubblewrap: grading without it"
+    # Either shuts students' code in: where the image doesn't allow the first, the other does.
+    apt-get install -y --no-install-recommends bubblewrap || echo "no bubblewrap: going on without it"
+    apt-get install -y --no-install-recommends libseccomp2 || echo "no libseccomp: going on without it"
     find_python >/dev/null \\
         || apt-get install -y --no-install-recommends python3 python3-venv && find_python >/dev/null \\
         || apt-get install -y --no-install-recommends python3.12 python3.12-venv && find_python >/dev/null \\
@@ -57,18 +58,27 @@ fi
 python=$(find_python) || { echo "no Python 3.11 or newer with venv; choose a newer base image" >&2; exit 1; }
 "$python" -m venv .venv
 .venv/bin/python -m pip --disable-pip-version-check install --editable ./penumbra
+# Students' code runs as a user of its own, which owns nothing: the course with its solutions is root's alone.
+chown -R 0:0 penumbra references.npz
+chmod -R go-rwx penumbra references.npz
+.venv/bin/python -m course.grading.classes.gradescope_run --root .. --walls
 """
 
 RUN = """\
 #!/usr/bin/env bash
 # Gradescope runs this for each submission.
 exec /autograder/source/.venv/bin/python -m course.grading.classes.gradescope_run \\
-    --root /autograder --seed {seed} --modules {modules}
+    --root /autograder --seed {seed} --modules {modules}{trusted}
 """
 
 
 def write_gradescope_bundle(
-    project: Path, out: Path, seed: int, modules: Sequence[str] = tuple(COURSE)
+    project: Path,
+    out: Path,
+    seed: int,
+    modules: Sequence[str] = tuple(COURSE),
+    *,
+    trusted: bool = False,
 ) -> int:
     """Write the archive; the number of its files.
 
@@ -77,13 +87,14 @@ def write_gradescope_bundle(
     project : the course with its solutions
     out : the .zip file
     seed, modules : what to check; the references for them are made now
+    trusted : whether to grade where the code can't be kept from doing harm, too
 
     Raises
     ------
     OutputError
         The file can't be written.
     """
-    contents = gradescope_contents(project, seed, modules)
+    contents = gradescope_contents(project, seed, modules, trusted=trusted)
     with replacing(out) as temporary, zipfile.ZipFile(temporary, "w") as file:
         for name, content in contents.items():
             # A fixed date: the same course gives the same archive.
@@ -95,9 +106,12 @@ def write_gradescope_bundle(
     return len(contents)
 
 
-def gradescope_contents(project: Path, seed: int, modules: Sequence[str]) -> dict[str, bytes]:
+def gradescope_contents(
+    project: Path, seed: int, modules: Sequence[str], *, trusted: bool = False
+) -> dict[str, bytes]:
     """Path in the archive -> content."""
-    run = RUN.format(seed=seed, modules=",".join(modules))
+    trust = " --trust-submissions" if trusted else ""
+    run = RUN.format(seed=seed, modules=",".join(modules), trusted=trust)
     contents = {"setup.sh": SETUP.encode(), "run_autograder": run.encode()}
     for name in FILES:
         contents[f"penumbra/{name}"] = (project / name).read_bytes()

@@ -7,6 +7,7 @@ earned until then counts. Whatever has not been reached stands in them with its 
 from __future__ import annotations
 
 import argparse
+import contextlib
 import json
 import sys
 import traceback
@@ -28,6 +29,7 @@ from course.grading.grading import grade
 from course.grading.references import read_references, references
 from course.grading.report import Report
 from course.grading.worker.limits import Limits
+from course.grading.worker.sandbox import NotProtected, protected, sandbox
 from course.imaging.atomic import replacing
 
 LIMITS = Limits(call_seconds=20.0)
@@ -47,7 +49,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--root", type=Path, default=Path("/autograder"))
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--modules", default=",".join(COURSE))
+    parser.add_argument("--trust-submissions", action="store_true")
+    parser.add_argument("--walls", action="store_true", help="only say what keeps submissions in")
     options = parser.parse_args(arguments)
+    if options.walls:
+        return _tell_walls(options.root)
     writer = _Writer(
         options.root / "results" / "results.json",
         _student(options.root / "submission_metadata.json"),
@@ -55,7 +61,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         options.modules.split(","),
     )
     try:
-        return _grade(options.root, writer)
+        return _grade(options.root, writer, trusted=options.trust_submissions)
     except Exception:  # noqa: BLE001 - whatever it is, it is no mistake of the student's
         traceback.print_exc()
         # Without results Gradescope says that the autograder has failed; with some, they would be a grade.
@@ -63,7 +69,25 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 1
 
 
-def _grade(root: Path, writer: _Writer) -> int:
+def _tell_walls(root: Path) -> int:
+    """Say when the image is built what would otherwise be found out by the first submission."""
+    try:
+        protections = protected(_secrets(root)).protections
+    except NotProtected as error:
+        protections = (f"Submissions will not be graded: {error}",)
+    sys.stdout.write("\n".join((*protections, "")))
+    return 0
+
+
+def _secrets(root: Path) -> tuple[Path, ...]:
+    """What students' code must not read: there is no other submission, and the solutions are known."""
+    return (root / "results", root / "source" / REFERENCES)
+
+
+def _grade(root: Path, writer: _Writer, *, trusted: bool) -> int:
+    writer.close()
+    shut_in = sandbox(secrets=_secrets(root)) if trusted else protected(_secrets(root))
+    writer.protections = shut_in.protections
     submission = read_one(writer.student, (root / "submission").resolve(), writer.modules)
     if submission.trouble:
         writer.fail(submission.trouble)
@@ -76,9 +100,13 @@ def _grade(root: Path, writer: _Writer) -> int:
         modules=writer.modules,
         student=writer.student,
         limits=LIMITS,
+        shut_in=shut_in,
         each=writer.add,
     )
     writer.write(report)
+    for result in report.broken:
+        # What is printed here only instructors see.
+        sys.stderr.write(f"{result.id} broke:\n{result.instructor}\n")
     return 0
 
 
@@ -90,6 +118,13 @@ class _Writer:
         self._path = path
         self._started = perf_counter()
         self._results: list[Result] = []
+        self.protections: tuple[str, ...] = ()
+
+    def close(self) -> None:
+        """Keep the folder of the results from everybody else; where it isn't ours, others must do that."""
+        self._path.parent.mkdir(parents=True, exist_ok=True)
+        with contextlib.suppress(OSError):
+            self._path.parent.chmod(0o700)
 
     def add(self, result: Result) -> None:
         """Write with one result more."""
@@ -110,7 +145,13 @@ class _Writer:
 
         if report is None:
             all_results = (*self._results, *unreached(self.modules, self._results))
-            report = Report(self.student, all_results, seed=self.seed, version=__version__)
+            report = Report(
+                self.student,
+                all_results,
+                protections=self.protections,
+                seed=self.seed,
+                version=__version__,
+            )
         seconds = round(perf_counter() - self._started, 3)
         self._path.parent.mkdir(parents=True, exist_ok=True)
         with replacing(self._path) as temporary:

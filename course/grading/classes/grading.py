@@ -8,26 +8,34 @@ others go on.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from course import __version__
-from course.effects import PROJECT
 from course.errors import CourseError, OutputError
-from course.grading.checks.result import Status
-from course.grading.classes.job import Graded, Job, grade_job, report_files, troubled, with_whole
-from course.grading.classes.keeping import LAST, fingerprint, keep, kept
+from course.grading.classes.finishing import Finished, Terms, finish
+from course.grading.classes.job import (
+    RESULTS,
+    Graded,
+    Job,
+    grade_job,
+    report_files,
+    troubled,
+    with_whole,
+)
+from course.grading.classes.keeping import INSTRUCTOR, fingerprint, keep, kept
 from course.grading.classes.outcome import Engine
-from course.grading.classes.similarity import Similar, find_similar
+from course.grading.classes.settings import settings_of, write_settings
 from course.grading.classes.submitted import Submission, find_submissions
-from course.grading.references import SOLUTIONS, make_references
-from course.grading.release.stubs import make_stub
+from course.grading.references import make_references
 from course.grading.report import Report
+from course.grading.worker.sandbox import protected
 
 FAULT = "grader error"
 """How the trouble of a report begins that is no fault of the student's."""
 
 ClassEngine = Engine[Job, Path | bytes, Graded]
+Progress = Callable[[int, int], None]
 
 
 @dataclass(frozen=True)
@@ -36,18 +44,20 @@ class ClassResult:
 
     Attributes
     ----------
-    reports : of all students, in the order of their names
+    submissions : in the order of their names
+    reports : of all of them, in the same order
     graded : how many of them this run has graded
     faults : students whom a fault of the grader has left without a grade
-    doubtful : students of whom a check ended in an error of its own; its points are given
-    similar : pairs of submissions that are too much alike
+    doubtful : students of whom a check broke; its points are given if it breaks with the reference as well
+    finished : what came of the class as a whole
     """
 
+    submissions: tuple[Submission, ...]
     reports: tuple[Report, ...]
     graded: int
     faults: tuple[str, ...]
     doubtful: tuple[str, ...]
-    similar: tuple[Similar, ...]
+    finished: Finished = field(default_factory=Finished)
 
 
 def grade_class(
@@ -57,105 +67,133 @@ def grade_class(
     *,
     seed: int,
     modules: Sequence[str],
+    terms: Terms | None = None,
     send_references: bool = False,
-    progress: Callable[[int, int], None] | None = None,
+    trusted: bool = False,
+    progress: Progress | None = None,
 ) -> ClassResult:
     """Grade every submission in a folder.
 
     Parameters
     ----------
-    folder : holds the submissions, folders and zip files
-    out : gets a folder for each student, ``grades.csv`` and ``class.html``
+    folder : holds the submissions, as `find_submissions` reads them
+    out : gets a folder for each student, and the class's tables and page
     engine : does the work
     seed, modules : what to check
+    terms : what makes grades of points; nothing but the points if not given
     send_references : whether the engine's workers can't read files of this machine
+    trusted : whether to grade where the code can't be kept from doing harm, too
     progress : called with the number of submissions that are done, and of all
 
     Raises
     ------
+    NotProtected
+        The code can't be kept from doing harm here, and isn't trusted.
     CourseError
-        There are no submissions or two with one name, or nothing can be written to ``out``.
+        There are no submissions, or nothing can be written to ``out``.
     """
-    from course.grading.reports.classes import write_class_page, write_grades
-
-    modules = tuple(modules)
-    submissions = find_submissions(folder, modules)
+    modules, terms = tuple(modules), terms or Terms()
     if folder.resolve() in (out.resolve(), out.resolve().parent):
         raise CourseError(f"{out}: lies where the submissions are; choose a folder elsewhere")
+    # Before hours of grading.
+    if not trusted and not send_references:
+        protected((folder, out))
+    rules, roster = terms.read(modules)
+    result = grade_all(
+        find_submissions(folder, modules),
+        out,
+        engine,
+        seed=seed,
+        modules=modules,
+        send_references=send_references,
+        trusted=trusted,
+        progress=progress,
+    )
+    finished = finish(result.submissions, result.reports, out, modules, rules, roster, terms.title)
+    write_settings(settings_of(seed, modules, terms), out)
+    return replace(result, finished=finished)
+
+
+def grade_all(
+    submissions: Sequence[Submission],
+    out: Path,
+    engine: ClassEngine,
+    *,
+    seed: int,
+    modules: tuple[str, ...],
+    code: str = "",
+    send_references: bool = False,
+    trusted: bool = False,
+    progress: Progress | None = None,
+) -> ClassResult:
+    """Grade submissions, and write a folder for each student.
+
+    Parameters
+    ----------
+    code : what else a result that was kept must have been made with
+    """
     try:
-        out.mkdir(parents=True, exist_ok=True)
+        (out / INSTRUCTOR).mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise OutputError(f"{out}: can't be written: {error.strerror}") from error
     marks = {
-        one.student: fingerprint(one.sources, one.trouble, seed, modules) for one in submissions
+        one.student: fingerprint(one.sources, one.trouble, seed, modules, code)
+        for one in submissions
     }
-    reports: dict[str, Report] = {}
-    for one in submissions:
-        report = kept(out / one.student, marks[one.student])
-        if report is not None:
-            reports[one.student] = report
+    reports = {
+        one.student: report
+        for one in submissions
+        if (report := kept(out, one.student, marks[one.student])) is not None
+        and (trusted or not report.unprotected)
+    }
     jobs = [
-        Job(one.student, one.sources, one.trouble, seed, modules)
+        Job(one.student, one.sources, one.trouble, seed, modules, trusted)
         for one in submissions
         if one.student not in reports
     ]
-    faults = []
+    faults: list[str] = []
     if progress is not None:
         progress(len(reports), len(submissions))
     if jobs:
-        references = out / f"references_{seed}.npz"
+        references = out / INSTRUCTOR / f"references_{seed}.npz"
         make_references(with_whole(modules), seed, references)
         shared = references.read_bytes() if send_references else references
         outcomes = engine(grade_job, jobs, shared)
         try:
             for outcome in outcomes:
                 student = outcome.item.student
-                fault, graded = outcome.fault, outcome.value
-                if graded is not None and graded.report.version != __version__:
-                    fault = f"graded by version {graded.report.version}, not {__version__}"
-                if fault or graded is None:
-                    faults.append(student)
-                    reports[student] = _keep_fault(out / student, student, fault, seed)
-                else:
-                    # The next run grades it again if a check had an error of its own.
-                    doubtful = graded.report.count(Status.GRADER_ERROR) > 0
-                    keep(out / student, graded, "" if doubtful else marks[student])
-                    reports[student] = graded.report
+                report = _keep(out, student, outcome.value, outcome.fault, marks[student], seed)
+                reports[student] = report
+                faults += [student] if report.trouble.startswith(FAULT) else []
                 if progress is not None:
                     progress(len(reports), len(submissions))
         finally:
             outcomes.close()
     ordered = tuple(reports[one.student] for one in submissions)
-    similar = _similar(submissions, modules)
-    write_grades(ordered, out / "grades.csv")
-    write_class_page(
-        ordered,
-        [(pair.first, pair.second, pair.module, pair.share) for pair in similar],
-        out / "class.html",
-    )
-    with_errors = tuple(report.student for report in ordered if report.count(Status.GRADER_ERROR))
-    return ClassResult(ordered, len(jobs), tuple(sorted(faults)), with_errors, similar)
+    doubtful = tuple(report.student for report in ordered if report.broken)
+    return ClassResult(tuple(submissions), ordered, len(jobs), tuple(sorted(faults)), doubtful)
 
 
-def _keep_fault(folder: Path, student: str, fault: str, seed: int) -> Report:
-    """Write what there is to say; the file that would stop another try is left out."""
+def _keep(
+    out: Path, student: str, graded: Graded | None, fault: str, mark: str, seed: int
+) -> Report:
+    """Write what came of one submission."""
+    if graded is not None and graded.report.version != __version__:
+        fault = f"graded by version {graded.report.version}, not {__version__}"
+    if fault or graded is None:
+        return _keep_fault(out, student, fault, seed)
+    # The next run grades it again if a check had an error of its own.
+    keep(out, graded, "" if graded.report.broken else mark)
+    return graded.report
+
+
+def _keep_fault(out: Path, student: str, fault: str, seed: int) -> Report:
+    """Write what there is to say; the record that would stop another try is left out."""
     report = troubled(student, f"{FAULT}: {fault}", seed)
     try:
         files = report_files(report)
-        del files[LAST]
+        del files[RESULTS]
     except Exception:  # noqa: BLE001 - it may be the reports that are at fault
         files = {}
-    keep(folder, Graded(report, files), "")
+    keep(out, Graded(report, files), None)
     return report
-
-
-def _similar(submissions: Sequence[Submission], modules: Sequence[str]) -> tuple[Similar, ...]:
-    found: list[Similar] = []
-    for module in modules:
-        path = SOLUTIONS / f"{module}.py"
-        stub = make_stub(
-            path.read_text(encoding="utf-8"), module, str(path.relative_to(PROJECT))
-        ).text
-        sources = {one.student: one.sources[module] for one in submissions if module in one.sources}
-        found += find_similar(module, sources, stub)
-    return tuple(found)

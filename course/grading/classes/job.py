@@ -18,7 +18,11 @@ from course.grading.checks.preparing import References
 from course.grading.grading import grade
 from course.grading.pictures.whole import ALL, NAME
 from course.grading.references import read_references
-from course.grading.report import Report
+from course.grading.report import Report, for_students
+from course.grading.worker.sandbox import protected, sandbox
+
+RESULTS = "results.json"
+"""The file that holds everything that was found."""
 
 
 @dataclass(frozen=True)
@@ -31,6 +35,7 @@ class Job:
     sources : module -> the student's file
     trouble : why there are none
     seed, modules : what to check
+    trusted : whether to grade it where its code can't be kept from doing harm, too
     """
 
     student: str
@@ -38,6 +43,7 @@ class Job:
     trouble: str
     seed: int
     modules: tuple[str, ...]
+    trusted: bool = False
 
 
 @dataclass(frozen=True)
@@ -70,6 +76,7 @@ def grade_job(job: Job, references: Path | bytes) -> Graded:
             seed=job.seed,
             modules=job.modules,
             student=job.student,
+            shut_in=sandbox() if job.trusted else protected(),
         )
     return Graded(without_figures(report), report_files(report))
 
@@ -90,7 +97,8 @@ def without_figures(report: Report) -> Report:
 
 
 def report_files(report: Report) -> dict[str, bytes]:
-    """Everything that is written for one student, by file name."""
+    """Everything that is written for one student to read, by file name: a hidden seed is in none of it."""
+    report = for_students(report)
     from course.grading.reports import gradescope, prairielearn
     from course.grading.reports.files import as_json
     from course.grading.reports.junit import write_junit
@@ -104,7 +112,7 @@ def report_files(report: Report) -> dict[str, bytes]:
     return files | {
         "gradescope.json": json_bytes(gradescope.results(report)),
         "prairielearn.json": json_bytes(prairielearn.results(report)),
-        "results.json": json_bytes(as_json(report)),
+        RESULTS: json_bytes(as_json(report)),
     }
 
 

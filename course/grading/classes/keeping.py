@@ -1,6 +1,7 @@
-"""Each student's folder of reports: written so that what is there is whole, and found again by a later run.
+"""What is kept of each student: reports to hand out, and a record by which a later run finds them.
 
-``results.json`` comes last and names what it was made from. Where it stands, all the other files stand too, and a run
+``STUDENT/`` may be handed out. The record is the instructor's: it holds the seed, and a fingerprint of what was graded
+from which the seed could be found by trying. It comes last; where it stands, all the other files stand too, and a run
 with the same submission, seed, version and modules need not grade it again.
 """
 
@@ -15,52 +16,63 @@ from pathlib import Path
 from course import __version__
 from course.errors import OutputError
 from course.grading.checks.result import Result, Status
-from course.grading.classes.job import Graded, json_bytes
+from course.grading.classes.job import RESULTS, Graded, json_bytes
 from course.grading.report import Report
 from course.imaging.atomic import replacing
 
-LAST = "results.json"
+INSTRUCTOR = "instructor"
+"""Folder beside those of the students for what they are not to see."""
+
 
 _REPORT = [field.name for field in fields(Report)]
-_RESULT = [field.name for field in fields(Result) if field.name != "figures"]
+_RESULT = [field.name for field in fields(Result) if field.name not in ("figures", "instructor")]
 
 
 def fingerprint(
-    sources: Mapping[str, bytes], trouble: str, seed: int, modules: tuple[str, ...]
+    sources: Mapping[str, bytes],
+    trouble: str,
+    seed: int,
+    modules: tuple[str, ...],
+    code: str = "",
 ) -> str:
-    """One line that changes whenever the result may: with submission, seed, version or modules."""
-    parts = [__version__, seed, modules, trouble]
+    """One line that changes whenever the result may: with submission, seed, version, modules or the grader's code."""
+    parts = [__version__, seed, modules, trouble, *([code] if code else [])]
     files = [(name, hashlib.sha256(sources[name]).hexdigest()) for name in sorted(sources)]
     return hashlib.sha256(json.dumps([*parts, files]).encode()).hexdigest()
 
 
-def keep(folder: Path, graded: Graded, mark: str) -> None:
-    """Write a student's files, the one that says that all are there last.
+def keep(out: Path, graded: Graded, mark: str | None) -> None:
+    """Write a student's files, and the record that says that all are there last.
 
     Parameters
     ----------
-    folder : of this student
-    mark : the fingerprint of what was graded; empty if the next run is to grade it again
+    out : of the class
+    mark : the fingerprint of what was graded; empty if the next run is to grade it again, None for no record
     """
+    from course.grading.reports.files import as_json
+
+    folder, record = out / graded.report.student, _record(out, graded.report.student)
     try:
-        folder.mkdir(parents=True, exist_ok=True)
+        for path in (folder, record.parent):
+            path.mkdir(parents=True, exist_ok=True)
         # Until the new files are there, the folder is nobody's result.
-        (folder / LAST).unlink(missing_ok=True)
+        for path in (record, folder / RESULTS):
+            path.unlink(missing_ok=True)
     except OSError as error:
         raise OutputError(f"{folder}: can't be written: {error.strerror}") from error
     for name, content in graded.files.items():
-        if name != LAST:
-            _write(folder / name, content)
-    if LAST in graded.files:
-        results = json.loads(graded.files[LAST])
-        _write(folder / LAST, json_bytes(results | {"fingerprint": mark}))
+        _write(folder / name, content)
+    if mark is not None:
+        how = {result.id: result.instructor for result in graded.report.broken}
+        kept_with = {"fingerprint": mark, "broken": how}
+        _write(record, json_bytes(as_json(graded.report) | kept_with))
 
 
-def kept(folder: Path, mark: str) -> Report | None:
-    """The report of an earlier run on the very same; None if there is none."""
+def kept(out: Path, student: str, mark: str | None = None) -> Report | None:
+    """The report of an earlier run, on the very same if its fingerprint is given; None if there is none."""
     try:
-        found = json.loads((folder / LAST).read_bytes())
-        if found["fingerprint"] != mark:
+        found = json.loads(_record(out, student).read_bytes())
+        if mark is not None and found["fingerprint"] != mark:
             return None
         results = tuple(
             Result(
@@ -71,6 +83,21 @@ def kept(folder: Path, mark: str) -> Report | None:
         return Report(**{name: found[name] for name in _REPORT} | {"results": results})
     except (OSError, ValueError, KeyError, TypeError):
         return None  # Not there, or not ours.
+
+
+def recorded(out: Path) -> tuple[str, ...]:
+    """Students of whom an earlier run has kept something, in the order of their names."""
+    return tuple(sorted(path.stem for path in _record(out, "").parent.glob("*.json")))
+
+
+def kept_files(out: Path, report: Report) -> Graded:
+    """What an earlier run has kept of a student, to be kept elsewhere."""
+    files = {path.name: path.read_bytes() for path in (out / report.student).iterdir()}
+    return Graded(report, files)
+
+
+def _record(out: Path, student: str) -> Path:
+    return out / INSTRUCTOR / "records" / f"{student}.json"
 
 
 def _write(path: Path, content: bytes) -> None:

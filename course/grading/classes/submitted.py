@@ -1,36 +1,33 @@
-"""The submissions of a class: a folder of folders and zip files, each named after its student.
+"""The submissions of a class: whatever lies in a folder, each told whose it is or why that can't be told.
 
-Nobody knows what students hand in, so whatever is wrong with one of them is kept as its trouble and stops nothing.
+A folder, an archive or a file named after its student is a submission, and so is what Canvas and Moodle name in their
+own way. Nobody knows what students hand in, so whatever is wrong with one of them is kept as its trouble and stops
+nothing; and nothing is left out but what a file manager has made.
 """
 
 from __future__ import annotations
 
-import unicodedata
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
-from pathlib import Path
-from urllib.parse import quote
+from pathlib import Path, PurePosixPath
 
 from course.effects import COURSE
 from course.errors import CourseError
-from course.grading.submissions import read_submission
+from course.grading.classes.choosing import choose, module_defined
+from course.grading.classes.entries import (
+    LARGEST_ARCHIVE,
+    Entry,
+    archive_suffix,
+    file_reader,
+    folder_entries,
+    too_large,
+    unfolded,
+)
+from course.grading.classes.file_names import read_name, sent
+from course.grading.classes.naming import safe_name, same_name, short_name
+from course.grading.submissions import LARGEST_FILE, SubmissionError
 
-LARGEST_ZIP = 50_000_000
-"""Bytes of a zip file, as it lies on the disk."""
-
-LONGEST_NAME = 150
-"""Characters of a student's name, quoted."""
-
-_PLAIN = " -_@+,()'."
-_DEVICES = {
-    "con",
-    "prn",
-    "aux",
-    "nul",
-    *(f"{port}{n}" for port in ("com", "lpt") for n in "123456789"),
-}
-_OUTPUTS = ("grades.csv", "class.html", "references_")
-_IGNORED = ("__MACOSX", "__pycache__")
+_IGNORED = ("__MACOSX", "__pycache__", "Thumbs.db", "desktop.ini")
 
 
 @dataclass(frozen=True)
@@ -40,92 +37,183 @@ class Submission:
     Attributes
     ----------
     student : the name, safe as the name of a folder on every system
-    path : where it lies
+    paths : where it lies
     sources : module -> the student's file
-    trouble : why it can't be read; empty if it could
+    trouble : why it can't be graded; empty if it can
+    remarks : what was guessed, and what was left out
+    names : by which lists of a learning system or the instructor may know the student
     """
 
     student: str
-    path: Path
+    paths: tuple[Path, ...]
     sources: dict[str, bytes] = field(default_factory=dict)
     trouble: str = ""
+    remarks: tuple[str, ...] = ()
+    names: tuple[str, ...] = ()
+
+
+@dataclass
+class _Handed:
+    """What lies in the folder of a class under one student's name, before it is read.
+
+    Attributes
+    ----------
+    owner : the student, as the names say it
+    parts : path, and the name of the file in the submission; "" for what is a submission as a whole
+    names : as in `Submission`
+    """
+
+    owner: str
+    parts: list[tuple[Path, str]] = field(default_factory=list)
+    trouble: str = ""
+    remarks: list[str] = field(default_factory=list)
+    names: tuple[str, ...] = ()
 
 
 def find_submissions(folder: Path, modules: Iterable[str] = tuple(COURSE)) -> list[Submission]:
-    """Every folder and zip file directly in a folder, in the order of the names, read.
+    """Everything in a folder, in the order of the names, read.
 
     Parameters
     ----------
-    modules : of these; whatever else a submission holds is left alone
+    modules : of these; files of other modules are left alone
 
     Raises
     ------
     CourseError
-        There is no such folder or nothing in it, or two submissions have one name; names both.
+        There is no such folder or nothing in it.
     """
+    modules = tuple(modules)
     try:
-        entries = sorted(folder.iterdir())
+        paths = sorted(path for path in folder.iterdir() if not _is_file_manager_s(path.name))
     except OSError as error:
         raise CourseError(f"{folder}: can't be read: {error.strerror}") from error
-    by_name: dict[str, Path] = {}
-    found = []
-    for path in entries:
-        if not _is_submission(path):
-            continue
-        student = safe_name(path.name[:-4] if _is_zip(path) else path.name)
-        if len(student) > LONGEST_NAME:
-            raise CourseError(f"{folder}: the name {student[:40]}... is too long; rename it")
-        # Some file systems take names for the same that differ in case or in how accents are written.
-        same = unicodedata.normalize("NFC", path.stem if _is_zip(path) else path.name).casefold()
-        if same in by_name:
-            raise CourseError(
-                f"{by_name[same]} and {path} are both submissions of {student}; remove one"
-            )
-        by_name[same] = path
-        found.append(read_one(student, path, modules))
+    found: dict[tuple[str, str], _Handed] = {}
+    for path in paths:
+        key, handed = _handed(path, modules)
+        if key in found:
+            found[key].parts += handed.parts
+            found[key].remarks += handed.remarks
+        else:
+            found[key] = handed
     if not found:
-        raise CourseError(f"{folder}: holds no submissions (folders or .zip files)")
-    return found
-
-
-def safe_name(name: str) -> str:
-    """A name that is safe as the name of a folder, different for different names.
-
-    Letters, digits, spaces and some signs stay; all else becomes %XX, as it does in addresses of the web.
-    """
-    safe = "".join(
-        sign if sign.isalnum() or sign in _PLAIN else quote(sign, safe="", errors="surrogateescape")
-        for sign in name
-    )
-    start = safe[:1]
-    stem = safe.partition(".")[0].rstrip().casefold()
-    if start in ("", ".", " ", "-") or stem in _DEVICES or safe.casefold().startswith(_OUTPUTS):
-        safe = "".join(f"%{byte:02X}" for byte in start.encode()) + safe[1:] or "%00"
-    if safe[-1:] in (".", " "):
-        safe = f"{safe[:-1]}%{ord(safe[-1]):02X}"
-    return safe
-
-
-def _is_zip(path: Path) -> bool:
-    return path.name.lower().endswith(".zip") and not (path.is_dir() and not path.is_symlink())
-
-
-def _is_submission(path: Path) -> bool:
-    if path.name in _IGNORED:
-        return False
-    # A file manager's own folders are hidden ones; a zip file is never one of those.
-    return _is_zip(path) or (path.is_dir() and not path.name.startswith("."))
+        raise CourseError(f"{folder}: holds no submissions (folders, archives or files)")
+    _mark_clashes([*found.values()])
+    submissions = []
+    taken: set[str] = set()
+    for one in found.values():
+        student = _own_name(one.owner, taken)
+        if student != safe_name(one.owner):
+            one.remarks.append(f"the name {one.owner} is shortened or numbered here")
+        submissions.append(_read(student, one, modules))
+    return sorted(submissions, key=lambda one: one.student)
 
 
 def read_one(student: str, path: Path, modules: Iterable[str] = tuple(COURSE)) -> Submission:
-    """One submission; whatever is wrong with it is its trouble."""
+    """One submission, a folder or an archive; whatever is wrong with it is its trouble."""
+    return _read(student, _Handed(student, [(path, "")]), tuple(modules))
+
+
+def _is_file_manager_s(name: str) -> bool:
+    # Its own files and folders are hidden ones; an archive is never one of those.
+    hidden = name.startswith(".") and (not archive_suffix(name) or name.startswith("._"))
+    return hidden or name in _IGNORED
+
+
+def _handed(path: Path, modules: tuple[str, ...]) -> tuple[tuple[str, str], _Handed]:
+    """What lies at one path, and what tells whose it is: parts of one submission have the same."""
+    if by := sent(path.name):
+        handed = _Handed(by.owner, [(path, by.file)], names=(by.name, by.id))
+        handed.remarks += [f"{by.file or path.name}: {by.remark}"] if by.remark else []
+        return ("sent", by.owner), handed
+    if path.is_dir() or path.is_symlink():
+        return ("whole", path.name), _Handed(path.name, [(path, "")], names=(path.name,))
+    named = read_name(path.name, modules)
+    if suffix := archive_suffix(path.name):
+        stem = path.name[: -len(suffix)]
+        owner = read_name(f"{stem}.py", modules).owner or stem
+        return ("whole", path.name), _Handed(owner, [(path, "")], names=(owner,))
+    if named.suffix and named.owner:
+        module = named.module or _module_of(path, modules)
+        inner = f"{module}{named.suffix}" if module else path.name
+        handed = _Handed(named.owner, [(path, inner)], names=(named.owner,))
+        if not named.module and module:
+            handed.remarks.append(f"{path.name} was graded as {module}.py")
+        return ("file", named.owner), handed
+    told = (
+        f"nothing in the name says whose it is: rename it STUDENT_{path.name}, "
+        "or put it into a folder named after the student"
+        if named.suffix
+        else "is no folder, archive, .py file or notebook"
+    )
+    return ("none", path.name), _Handed(path.name, [(path, path.name)], trouble=told)
+
+
+def _module_of(path: Path, modules: tuple[str, ...]) -> str:
+    """The module of a file whose name is the student's: the only one that is graded, or by what it defines."""
+    if len(modules) == 1:
+        return modules[0]
     try:
-        if path.is_symlink():
-            return Submission(student, path, trouble="it is a link; submit the files themselves")
-        if path.is_file() and path.stat().st_size > LARGEST_ZIP:
-            return Submission(student, path, trouble="it is too large to be a submission")
-        return Submission(student, path, read_submission(path, modules))
+        return module_defined(file_reader(path)(LARGEST_FILE), modules)
+    except SubmissionError:
+        return ""
+
+
+def _mark_clashes(found: list[_Handed]) -> None:
+    """Tell of submissions that may be one student's or two students': who they are is not for the grader to guess."""
+    by_name: dict[str, list[_Handed]] = {}
+    for one in found:
+        by_name.setdefault(same_name(safe_name(one.owner)), []).append(one)
+    for group in by_name.values():
+        if len(group) > 1:
+            listed = " and ".join(one.parts[0][0].name for one in group)
+            for one in group:
+                one.trouble = f"{listed} go by one name: remove or rename one"
+                one.owner = one.parts[0][0].name
+
+
+def _own_name(owner: str, taken: set[str]) -> str:
+    """A name for the student's folder that nobody has yet."""
+    name = short_name(safe_name(owner))
+    number = 2
+    while same_name(name) in taken:
+        name = f"{short_name(safe_name(owner))} ({number})"
+        number += 1
+    taken.add(same_name(name))
+    return name
+
+
+def _read(student: str, handed: _Handed, modules: tuple[str, ...]) -> Submission:
+    paths = tuple(path for path, _ in handed.parts)
+    remarks: list[str] = []
+    sources: dict[str, bytes] = {}
+    trouble = handed.trouble
+    try:
+        if not trouble:
+            chosen = choose([*unfolded(_entries(handed), remarks)], modules, remarks)
+            sources, remarks = chosen.sources, chosen.remarks
     except CourseError as error:
-        # The folders above are the grader's business, not the student's.
-        told = str(error).replace(f"{path}: ", "").replace(f"{path}/", "")
-        return Submission(student, path, trouble=told)
+        trouble, remarks = str(error), []
+    trouble, *told = (_without_folders(text, handed) for text in (trouble, *remarks))
+    return Submission(
+        student, paths, sources, trouble, (*handed.remarks, *told), (student, *handed.names)
+    )
+
+
+def _entries(handed: _Handed) -> Iterator[Entry]:
+    """Files of all parts of a submission."""
+    for path, inner in handed.parts:
+        if path.is_symlink():
+            raise SubmissionError("it is a link; submit the files themselves")
+        if path.is_dir():
+            yield from folder_entries(path)
+        else:
+            if archive_suffix(path.name) and path.stat().st_size > LARGEST_ARCHIVE:
+                raise too_large(path.name)
+            yield Entry(PurePosixPath(inner or path.name), file_reader(path))
+
+
+def _without_folders(text: str, handed: _Handed) -> str:
+    """The folders above are the grader's business, not the student's."""
+    for path, _ in handed.parts:
+        text = text.replace(f"{path}: ", "").replace(f"{path}/", "").replace(f"{path.parent}/", "")
+    return text

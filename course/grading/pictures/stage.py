@@ -1,8 +1,8 @@
 """The pipeline around one student function: what else a small scene needs of the same module is not the student's.
 
-So one mistake costs once. What comes before the function on a ray's way is replayed from a tape that the reference
-solution has recorded: it doesn't depend on the student's result. What comes after it has a stand-in that needs no
-solution: the same for the reference picture, so that only the function in question can make a difference.
+So a picture is wrong for one function only. What comes before the function on a ray's way is replayed from a tape that
+the reference solution has recorded: it doesn't depend on the student's result. What comes after it has a stand-in that
+needs no solution: the same for the reference picture, so that only the function in question can make a difference.
 """
 
 from __future__ import annotations

@@ -81,7 +81,6 @@ WHOLE = ModuleChecks(
             prepare=_prepare,
         ),
     ),
-    (),
 )
 """Needs all of the modules in ``ALL``."""
 

@@ -14,9 +14,10 @@ from pathlib import Path
 from course.effects import COURSE
 from course.errors import CourseError, OutputError
 from course.grading.pictures.whole import NAME
-from course.grading.references import USUAL_SEED, make_references
+from course.grading.references import make_references
 from course.grading.release.regions import find_regions
 from course.grading.release.stubs import make_stubs
+from course.grading.report import USUAL_SEED
 from course.imaging.atomic import replacing
 
 FOLDERS = {
@@ -34,10 +35,13 @@ FOLDERS = {
         ".glb",
         ".md",
     },
+    # What reports tell students to read.
+    "docs/modules": {".md"},
+    "docs/guides": {".md"},
 }
 """Folders that students get, and the kinds of file in them."""
 
-FILES = ("README.md", "LICENSE", "pyproject.toml", "Makefile")
+FILES = ("README.md", "LICENSE", "pyproject.toml", "Makefile", "docs/grading.md")
 
 REFERENCES = "course/grading/data/references.npz"
 

@@ -4,19 +4,25 @@ from __future__ import annotations
 
 import csv
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from io import StringIO
 from pathlib import Path
 from statistics import fmean, median
+from types import MappingProxyType
 from urllib.parse import quote
 
 from course.grading.checks.result import Result, Status
-from course.grading.report import Report
+from course.grading.classes.marks import Mark
+from course.grading.classes.roster import Matched
+from course.grading.report import Report, ending
 from course.grading.reports.grouping import grouped
 from course.grading.reports.templates import render
 from course.grading.reports.text import clean, finite
 from course.imaging.atomic import write_text
+
+MARKS = ("raw", "adjusted", "final")
+"""Columns of the score by a policy."""
 
 BARS = 10
 """Of the histogram of scores."""
@@ -26,10 +32,34 @@ _FORMULA = tuple("=+-@\t\r\n\uff1d\uff0b\uff0d\uff20")
 """What makes a spreadsheet take a text for a formula: the four signs, full-width ones too, and blanks before them."""
 
 
-def write_grades(reports: Sequence[Report], path: Path) -> None:
-    """Write grades.csv: student, score, points, of, then the points of each function.
+@dataclass(frozen=True)
+class Line:
+    """What there is to say of a student besides what was found.
+
+    Attributes
+    ----------
+    remarks : what was guessed of the submission, and what of it was left out
+    mark : the score by the policy; None where there is no policy, or no grade
+    """
+
+    remarks: tuple[str, ...] = ()
+    mark: Mark | None = None
+
+
+def write_grades(
+    reports: Sequence[Report],
+    path: Path,
+    lines: Mapping[str, Line] = MappingProxyType({}),
+    total: float | None = None,
+) -> None:
+    """Write grades.csv: student, score, points, of, which checks broke, remarks, then the points of each function.
 
     A submission that could not be graded has no numbers: a 0 would look like a grade.
+
+    Parameters
+    ----------
+    lines : student -> what else there is to say
+    total : score of who has earned all; with it come the columns raw, adjusted and final
 
     Raises
     ------
@@ -48,13 +78,26 @@ def write_grades(reports: Sequence[Report], path: Path) -> None:
         tables.append(points)
     buffer = StringIO()
     writer = csv.writer(buffer, lineterminator="\n")
-    writer.writerow(["student", "score", "points", "of", *(safe_cell(name) for name in functions)])
+    head = ["student", "score", "points", "of", *([] if total is None else MARKS)]
+    head += ["broken checks", "remarks"]
+    writer.writerow([*head, *(safe_cell(name) for name in functions)])
     for report, points in zip(reports, tables, strict=True):
-        grades = (report.score, report.points, report.of)
+        line = lines.get(report.student, Line())
+        score = line.mark
+        grades = [report.score, report.points, report.of]
+        if total is not None:
+            grades += [0.0] * 3 if score is None else [score.raw, score.adjusted, score.final]
+        why = () if score is None else score.why
         writer.writerow(
             [
                 safe_cell(report.student),
                 *("" if report.trouble else f"{finite(grade):g}" for grade in grades),
+                safe_cell(" ".join(result.id for result in report.broken)),
+                safe_cell(
+                    "; ".join(
+                        filter(None, (report.unprotected, report.trouble, *why, *line.remarks))
+                    )
+                ),
                 *(f"{finite(points[name]):g}" if name in points else "" for name in functions),
             ]
         )
@@ -88,13 +131,23 @@ class _Row:
 
 
 def write_class_page(
-    reports: Sequence[Report], similar: Sequence[tuple[str, str, str, float]], path: Path
+    reports: Sequence[Report],
+    similar: Sequence[tuple[str, str, str, float]],
+    path: Path,
+    lines: Mapping[str, Line] = MappingProxyType({}),
+    total: float | None = None,
+    *,
+    not_compared: Sequence[tuple[str, str]] = (),
+    matched: Matched | None = None,
 ) -> None:
     """Write the instructor's page; it links to each student's ``STUDENT/report.html`` beside it.
 
     Parameters
     ----------
     similar : student, student, module, and the share of it that the two have in common
+    lines, total : as for `write_grades`
+    not_compared : student and module of files that were not looked at for likeness
+    matched : whose submission is whose; None without a roster
 
     Raises
     ------
@@ -107,7 +160,10 @@ def write_class_page(
     page = render(
         "classes.html.jinja",
         reports=reports,
+        unprotected=[report for report in reports if report.unprotected],
         ungraded=[report for report in reports if report.trouble],
+        broken=[(report.student, report.broken) for report in graded if report.broken],
+        ending=ending,
         scores=scores,
         mean=fmean(scores) if scores else 0.0,
         median=median(scores) if scores else 0.0,
@@ -120,8 +176,17 @@ def write_class_page(
         ],
         similar=sorted(similar, key=lambda pair: -pair[3]),
         students=students,
+        remarked=[
+            (student, (*(line.mark.why if line.mark else ()), *line.remarks))
+            for student, line in lines.items()
+            if line.remarks or (line.mark and line.mark.why)
+        ],
+        lines=lines,
+        total=total,
+        not_compared=not_compared,
+        matched=matched,
         undecided=any(states["undecided"] for _, states in students),
-        seeds=sorted({report.seed for report in reports}),
+        seeds=sorted({report.seed for report in reports if report.seed is not None}),
         versions=sorted({report.version for report in reports if report.version}),
         seconds=sum(finite(report.seconds) for report in reports),
         link=_link,

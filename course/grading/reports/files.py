@@ -57,7 +57,7 @@ def as_json(report: Report) -> dict[str, Any]:
     }
 
 
-def _result(result: Result, seed: int) -> dict[str, Any]:
+def _result(result: Result, seed: int | None) -> dict[str, Any]:
     return {
         "id": clean(result.id),
         "module": clean(result.module),
@@ -72,10 +72,12 @@ def _result(result: Result, seed: int) -> dict[str, Any]:
         "found": clean(result.found),
         "where": clean(result.where),
         "hint": clean(result.hint),
+        "example": clean(result.example),
         "mistake": clean(result.mistake),
         "says": clean(result.says),
         "same_as": clean(result.same_as),
         "module_wide": result.module_wide,
+        "broken": result.broken,
         "seconds": finite(result.seconds),
         "reproduce": clean(reproduce(result, seed)),
         "docs": clean(docs_page(result)),

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from course.grading.checks.result import Result, Status
-from course.grading.report import Report, docs_page, reproduce
+from course.grading.report import Report, broke, docs_page, ending, for_students, reproduce
 from course.grading.reports.grouping import explained, grouped
 from course.grading.reports.text import clean, finite
 
@@ -14,15 +14,18 @@ from course.grading.reports.text import clean, finite
 def results(report: Report) -> dict[str, Any]:
     """What Gradescope reads.
 
-    A check that was not attempted is a failed test with 0 points: left out, it would raise the score.
+    A check that was not attempted is a failed test with 0 points: left out, it would raise the score. Students read
+    this file, so a hidden seed is left out.
     """
+    report = for_students(report)
     if report.trouble:
         output = f"This submission could not be graded: {report.trouble}"
     else:
         output = (
             f"{report.count(Status.PASSED)} of {len(report.results)} checks passed, "
-            f"{report.points:g} of {report.of:g} points."
+            f"{report.points:g} of {report.of:g} points.{broke(report)}"
         )
+    output = "\n".join(filter(None, (report.unprotected, output)))
     return {
         "score": finite(report.points),
         "execution_time": finite(report.seconds),
@@ -30,7 +33,7 @@ def results(report: Report) -> dict[str, Any]:
         "output_format": "text",
         "visibility": "visible",
         "stdout_visibility": "hidden",
-        "extra_data": {"seed": report.seed, "version": clean(report.version)},
+        "extra_data": {"version": clean(report.version)},
         "tests": list(_tests(report)),
     }
 
@@ -42,10 +45,8 @@ def _tests(report: Report) -> Iterator[dict[str, Any]]:
                 yield {
                     "score": finite(result.points),
                     "max_score": finite(result.of),
-                    # A grader's error has its points, and counts against nobody.
-                    "status": "passed"
-                    if result.status in (Status.PASSED, Status.GRADER_ERROR)
-                    else "failed",
+                    # A grader's error has its points, and is marked nonetheless: nobody has seen it pass.
+                    "status": "passed" if result.status is Status.PASSED else "failed",
                     "name": clean(f"{module.name}.{function.name}: {result.title}"),
                     "number": f"{m}.{f}.{c}",
                     "output": clean(_output(result, report.seed)),
@@ -60,9 +61,9 @@ def _tests(report: Report) -> Iterator[dict[str, Any]]:
                 }
 
 
-def _output(result: Result, seed: int) -> str:
+def _output(result: Result, seed: int | None) -> str:
     if result.status is Status.PASSED:
         return ""
-    lines = [] if result.status is Status.FAILED else [str(result.status)]
+    lines = [] if ending(result) == Status.FAILED else [ending(result)]
     lines += [explained(result)] if explained(result) else []
     return "\n".join([*lines, f"again: {reproduce(result, seed)}", f"read: {docs_page(result)}"])

@@ -11,6 +11,12 @@ from typing import Literal
 from course.grading.checks.result import Result, Status
 from course.grading.report import Report, Total, findings
 
+_LAST = ("untouched", "refuses", "layouts", "columns")
+"""Checks whose failures say the least where others have failed as well."""
+
+_DRAWN = ("picture", "bias", "order", "speed")
+"""Kinds that say that something is wrong, and not what."""
+
 State = Literal["right", "wrong", "to do", "undecided"]
 
 
@@ -50,8 +56,15 @@ class FunctionResults(Total):
 
     @property
     def told(self) -> tuple[Result, ...]:
-        """Those of the others that have something of their own to say."""
-        return tuple(result for result in self.others if not result.same_as)
+        """Those of the others that have something of their own to say, the most telling ones first."""
+        told = [result for result in self.others if not result.same_as]
+        # A stub comes with its refusals: what is wrong with the mathematics is what a student wants to know.
+        return tuple(
+            sorted(
+                told,
+                key=lambda r: (r.check in _LAST, r.kind in _DRAWN, r.check != "contract", -r.of),
+            )
+        )
 
     @property
     def repeated(self) -> tuple[tuple[str, tuple[Result, ...]], ...]:
@@ -114,5 +127,4 @@ def grouped(report: Report) -> tuple[ModuleResults, ...]:
 
 def explained(result: Result) -> str:
     """What a check that didn't pass has to say, as lines of plain text."""
-    looks = [("looks like", result.says)] if result.says else []
-    return "\n".join(f"{label}: {text.rstrip()}" for label, text in (*looks, *findings(result)))
+    return "\n".join(f"{label}: {text.rstrip()}" for label, text in findings(result))

@@ -6,7 +6,7 @@ from pathlib import Path
 from xml.etree import ElementTree as ET
 
 from course.grading.checks.result import Result, Status
-from course.grading.report import Report, docs_page, reproduce, unstarted
+from course.grading.report import Report, docs_page, ending, reproduce, unstarted
 from course.grading.reports.grouping import ModuleResults, explained, grouped
 from course.grading.reports.text import clean, finite
 from course.imaging.atomic import write_text
@@ -33,7 +33,8 @@ def as_xml(report: Report) -> str:
         case = _element("testcase", suite, classname="submission", name="can be graded")
         _element("error", case, type="not graded", message=report.trouble)
         suites.append(suite)
-    root = _element("testsuites", name=f"Penumbra {report.student}", time=finite(report.seconds))
+    name = ": ".join(filter(None, (f"Penumbra {report.student}", report.unprotected)))
+    root = _element("testsuites", name=name, time=finite(report.seconds))
     for key in ("tests", "failures", "errors", "skipped"):
         root.set(key, str(sum(int(suite.get(key, "0")) for suite in suites)))
     root.extend(suites)
@@ -48,13 +49,14 @@ def _suite(module: ModuleResults, report: Report) -> ET.Element:
         "testsuite",
         name=module.name,
         tests=len(results),
-        failures=statuses.count(Status.FAILED),
-        errors=sum(status in _ERRORS for status in statuses),
+        failures=sum(_tag(result) == "failure" for result in results),
+        errors=sum(_tag(result) == "error" for result in results),
         skipped=statuses.count(Status.NOT_ATTEMPTED),
         time=finite(sum(result.seconds for result in results)),
     )
     properties = _element("properties", suite)
-    _element("property", properties, name="seed", value=report.seed)
+    if report.seed is not None:
+        _element("property", properties, name="seed", value=report.seed)
     _element("property", properties, name="version", value=report.version)
     for result in results:
         _case(suite, result, report.seed)
@@ -64,7 +66,7 @@ def _suite(module: ModuleResults, report: Report) -> ET.Element:
     return suite
 
 
-def _case(suite: ET.Element, result: Result, seed: int) -> None:
+def _case(suite: ET.Element, result: Result, seed: int | None) -> None:
     case = _element(
         "testcase",
         suite,
@@ -80,11 +82,18 @@ def _case(suite: ET.Element, result: Result, seed: int) -> None:
     message = result.says or (
         f"expected {result.expected}, found {result.found}" if result.expected else result.found
     )
-    tag = "error" if result.status in _ERRORS else "failure"
-    trouble = _element(tag, case, type=result.mistake or str(result.status), message=message)
+    kind = result.mistake or ending(result)
+    trouble = _element(_tag(result), case, type=kind, message=message)
     trouble.text = clean(
         f"{explained(result)}\nagain: {reproduce(result, seed)}\nread: {docs_page(result)}"
     )
+
+
+def _tag(result: Result) -> str:
+    """What a test case that didn't pass holds; empty for one that did, or wasn't made."""
+    if result.status in (Status.PASSED, Status.NOT_ATTEMPTED):
+        return ""
+    return "error" if result.broken or result.status in _ERRORS else "failure"
 
 
 def _element(tag: str, parent: ET.Element | None = None, **attributes: object) -> ET.Element:

@@ -8,7 +8,7 @@ from pathlib import Path
 from markupsafe import Markup
 
 from course.grading.checks.result import Status
-from course.grading.report import Report, docs_page, reproduce, unstarted
+from course.grading.report import Report, docs_page, ending, findings, reproduce, unstarted
 from course.grading.reports.drawing import draw
 from course.grading.reports.grouping import grouped
 from course.grading.reports.plots import with_own_ids
@@ -49,5 +49,7 @@ def as_page(report: Report) -> str:
         plot=plot,
         reproduce=reproduce,
         docs_page=docs_page,
+        findings=findings,
         unstarted=unstarted,
+        ending=ending,
     )

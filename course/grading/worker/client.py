@@ -11,14 +11,14 @@ from typing import Any
 
 import numpy as np
 
-from course.grading.checks.check import Caller
 from course.grading.errors import StudentError
-from course.grading.worker.framing import pack
+from course.grading.worker.budget import Budget
+from course.grading.worker.framing import BrokenMessage, generator, pack
 from course.grading.worker.limits import Limits
 from course.grading.worker.patience import Patience
 from course.grading.worker.process import Process
 from course.grading.worker.sandbox import Sandbox, sandbox
-from course.grading.worker.wording import no_such, not_loaded, replied
+from course.grading.worker.wording import no_such, not_loaded, replied, said
 
 LARGEST_SOURCE = 1_000_000
 """Bytes; a file that is larger was not written by a student."""
@@ -37,8 +37,9 @@ class Worker:
     limits : what it may use; the usual if not given
     shut_in : how it is started; the best that the machine has if not given
     lender, lent : functions of the module, by name, that take the place of the student's own when other functions of
-        the module call them; they are worked out by ``lender``, on this side of the pipe
+        the module call them; they are worked out by ``lender``, a worker of the course's own, which is closed with this
     patience : shared by all workers of the module; one of its own if not given
+    budget : shared by all workers of the submission; one of its own if not given
     trouble : why there is nothing to import; None if there is
     """
 
@@ -48,9 +49,10 @@ class Worker:
         source: bytes,
         limits: Limits | None = None,
         shut_in: Sandbox | None = None,
-        lender: Caller | None = None,
+        lender: Worker | None = None,
         lent: Sequence[str] = (),
         patience: Patience | None = None,
+        budget: Budget | None = None,
         trouble: StudentError | None = None,
     ) -> None:
         self.module = module
@@ -58,12 +60,14 @@ class Worker:
         self.limits = limits or Limits()
         self.sandbox = shut_in or sandbox()
         self._source = source
-        self._process = Process(self.sandbox, self.limits)
+        self._budget = budget or Budget(self.limits)
+        self._process = Process(self.sandbox, self.limits, self._budget)
         self._deaths: Counter[str] = Counter()
         self._broken = trouble
         self._patience = patience or Patience(self.limits.call_seconds)
         self._answered: set[str] = set()
         self._names: Any = []
+        self._calls: frozenset[str] = frozenset()
         self._lock = threading.Lock()
         if len(source) > LARGEST_SOURCE:
             self._broken = StudentError(
@@ -113,92 +117,178 @@ class Worker:
     def call_and_look(self, function: str, *arguments: Any) -> tuple[Any, list[Any], bool]:
         """The value, the arguments as they are after the call, and whether NumPy's global random state moved."""
         values, head = self._ask(function, arguments, {}, look=True)
-        return values[0], values[1:], bool(head.get("moved"))
+        pairs = zip(arguments, values[1:], strict=True)
+        try:
+            after = [
+                generator(came) if isinstance(went, np.random.Generator) else came
+                for went, came in pairs
+            ]
+        except BrokenMessage as error:
+            raise self._process.lost(f"what it wrote is no reply ({error})") from None
+        return values[0], after, bool(head.get("moved"))
+
+    def lend(self, deadline: float, function: str, *arguments: Any, **named: Any) -> Any:
+        """The function's value, for another worker whose call has to end at the deadline.
+
+        Raises
+        ------
+        StudentError
+            "timeout": it took longer; nobody's patience is lost.
+        """
+        with self._lock:
+            self._ready()
+            return self._once(function, arguments, named, False, deadline)[0][0]
+
+    def calls(self, function: str, other: str) -> bool:
+        """Whether the student's function calls another of the same file; as the worker says, so good for a hint."""
+        return f"{function}>{other}" in self._calls
 
     def close(self) -> None:
-        """End the process and everything that it may have started."""
+        """End the process and everything that it may have started; the next call starts another."""
         self._process.close()
+        if self._lender is not None:
+            self._lender.close()
 
     def _ask(
         self, function: str, arguments: tuple[Any, ...], named: dict[str, Any], *, look: bool
     ) -> tuple[list[Any], dict[str, Any]]:
+        """The values and the head of a reply.
+
+        A call that ends its process is made once more in a fresh one, for something else may have ended it: where
+        memory is short the system kills whom it likes.
+        """
         with self._lock:
-            if self._deaths[function] >= self.limits.deaths:
-                raise StudentError(
-                    "crashed",
-                    f"it has ended its process {self._deaths[function]} times; it isn't called again",
-                )
-            self._ready()
-            limit = self._patience.limit(function in self._answered)
-            head = {"function": function, "names": [*named], "look": look}
-            message = pack(head, [*arguments, *named.values()])
             try:
-                head, values = self._exchange(message, monotonic() + limit)
-                if head.get("error") == "missing":
-                    raise no_such(self.module, function, self._names)
-                self._raise(head)
-                if len(values) != 1 + (len(arguments) if look else 0):
-                    raise self._process.lost("its replies are not replies to calls")
+                return self._counted(function, arguments, named, look)
             except StudentError as error:
-                if error.kind == "crashed":
-                    self._deaths[function] += 1
-                if error.kind != "timeout":
+                if error.kind != "crashed" or error.module_wide or self._process.ended:
                     raise
-                why = str(self._patience)
-                self._patience.lose(limit)
-                raise StudentError("timeout", f"no answer within {limit:.3g} s{why}") from None
-            self._answered.add(function)
-            return values, head
+                if self._deaths[function] >= self.limits.deaths:
+                    raise
+                return self._counted(function, arguments, named, look)
+
+    def _counted(
+        self, function: str, arguments: tuple[Any, ...], named: dict[str, Any], look: bool
+    ) -> tuple[list[Any], dict[str, Any]]:
+        """One call, and what it costs: of the function's deaths and of the module's patience."""
+        if self._deaths[function] >= self.limits.deaths:
+            raise StudentError(
+                "crashed",
+                f"it has ended its process {self._deaths[function]} times; it isn't called again",
+            )
+        self._ready()
+        limit = self._budget.at_most(self._patience.limit(function in self._answered))
+        try:
+            values, head = self._once(function, arguments, named, look, monotonic() + limit)
+        except StudentError as error:
+            if error.kind == "crashed":
+                self._deaths[function] += 1
+            if error.kind != "timeout":
+                raise
+            why = str(self._patience)
+            self._patience.lose(limit)
+            raise StudentError("timeout", f"no answer within {limit:.3g} s{why}") from None
+        self._answered.add(function)
+        return values, head
+
+    def _once(
+        self,
+        function: str,
+        arguments: tuple[Any, ...],
+        named: dict[str, Any],
+        look: bool,
+        deadline: float,
+    ) -> tuple[list[Any], dict[str, Any]]:
+        head = {"function": function, "names": [*named], "look": look}
+        head, values = self._exchange(pack(head, [*arguments, *named.values()]), deadline)
+        if head.get("error") == "missing":
+            raise no_such(self.module, function, self._names)
+        if "error" in head:
+            self._raise(head, said(f"{self.module}.{function}", arguments, named))
+        if len(values) != 1 + (len(arguments) if look else 0):
+            raise self._process.lost("its replies are not replies to calls")
+        return values, head
 
     def _ready(self) -> None:
-        """Start the process if there is none."""
+        """Start the process if there is none; once more if it ends in importing the file."""
         if self._broken is not None:
             raise self._broken
         if self._process.running:
             return
-        self.close()
-        self._start()
-        try:
-            head, _ = self._process.read(monotonic() + self.limits.call_seconds)
-            self._raise(head)
-        except StudentError as error:
-            self.close()
-            # No call tries again: it would be waited for as long, and end no better.
-            self._broken = not_loaded(self.module, error, self.limits.call_seconds)
-            raise self._broken from None
+        for last in (False, True):
+            seconds = self._budget.at_most(self.limits.call_seconds)
+            try:
+                head = self._started(seconds)
+                break
+            except StudentError as error:
+                self._process.close()
+                if error.kind == "crashed" and not last and not self._process.ended:
+                    continue
+                # No call tries again: it would be waited for as long, and end no better.
+                self._broken = not_loaded(self.module, error, seconds)
+                raise self._broken from None
         self._names = head.get("names")
+        calls = head.get("calls")
+        self._calls = frozenset(calls if isinstance(calls, list) else [])
+
+    def _started(self, seconds: float) -> dict[str, Any]:
+        """What a new process says when it has imported the file."""
+        self._process.close()
+        self._start()
+        head, _ = self._process.read(monotonic() + seconds)
+        self._raise(head)
+        return head
 
     def _start(self) -> None:
         """Start the process, up to where it imports the file: that is not the student's time."""
         self._process.start()
         source = np.frombuffer(self._source, np.uint8)
         self._exchange(
-            pack({"module": self.module, "lent": self._lent}, [source]), monotonic() + 60
+            pack({"module": self.module, "lent": [*self._lent]}, [source]), monotonic() + 60
         )
 
     def _exchange(self, message: bytes, deadline: float) -> tuple[dict[str, Any], list[Any]]:
         self._process.write(message, deadline)
         head, values = self._process.read(deadline)
+        if "borrowed" in head:
+            # To start the lender is not the student's time.
+            deadline += self._lender_ready()
         while "borrowed" in head:
-            self._process.write(self._worked_out(head, values), deadline)
+            self._process.write(self._worked_out(head, values, deadline), deadline)
             head, values = self._process.read(deadline)
         return head, values
 
-    def _worked_out(self, head: dict[str, Any], values: list[Any]) -> bytes:
+    def _lender_ready(self) -> float:
+        """How long that took [s]."""
+        started = monotonic()
+        if self._lender is not None:
+            self._lender.load()
+        return monotonic() - started
+
+    def _worked_out(self, head: dict[str, Any], values: list[Any], deadline: float) -> bytes:
+        """What a function gives that the worker has been lent; within the time and memory of the call that asks."""
         name, names = head["borrowed"], head.get("names")
-        if self._lender is None or name not in self._lent or not isinstance(names, list):
+        if (
+            self._lender is None
+            or name not in self._lent
+            or type(names) is not list
+            or len(names) > len(values)
+        ):
             raise self._process.lost("it asks for what it hasn't been lent")
         split = len(values) - len(names)
-        named = dict(zip(map(str, names), values[split:], strict=False))
+        named = dict(zip(names, values[split:], strict=True))
         try:
-            return pack({}, [self._lender.call(name, *values[:split], **named)])
+            return pack({}, [self._lender.lend(deadline, name, *values[:split], **named)])
         except StudentError as error:
+            if error.kind == "timeout":
+                self._process.close()
+                raise
             return pack({"error": error.kind, "type": error.type, "message": str(error)}, [])
 
-    def _raise(self, head: dict[str, Any]) -> None:
+    def _raise(self, head: dict[str, Any], arguments: str = "") -> None:
         kind = head.get("error")
         if kind is None:
             return
         if kind not in ("not written", "raised", "bad value"):
             raise self._process.lost("its replies are not replies to calls")
-        raise replied(kind, head)
+        raise replied(kind, head, arguments)

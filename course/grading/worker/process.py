@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import itertools
 import json
 import os
 import select
@@ -11,20 +12,31 @@ import subprocess
 import threading
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from time import monotonic
 from typing import Any
 
 from course.grading.errors import StudentError
+from course.grading.worker.budget import Budget
 from course.grading.worker.framing import BrokenMessage, unpack
 from course.grading.worker.limits import Limits
-from course.grading.worker.sandbox import Sandbox, program
+from course.grading.worker.sandbox import Sandbox, program, worker_user
 
 _STARTER = ThreadPoolExecutor(1, thread_name_prefix="starts-workers")
 """All workers are started from one thread that lives as long as this process: a sandbox dies with the *thread* that
 started it, and threads that render come and go."""
 
+_NUMBERS = itertools.count()
+"""Of workers that this process starts: each has a user of its own."""
+
 SHOWN = 4000
 """Characters of what a student prints that are kept."""
+
+MOST_PRINTED = 1 << 26
+"""Bytes that one process may print: to read more would keep the grader itself busy."""
+
+GRACE = 1.0
+"""Seconds after a deadline for what is already under way: the grader may look late, where the machine is busy."""
 
 
 class Process:
@@ -34,11 +46,15 @@ class Process:
     ----------
     shut_in : how it is started
     limits : what it may use
+    budget : what it shares with the other workers of a submission
     """
 
-    def __init__(self, shut_in: Sandbox, limits: Limits) -> None:
+    def __init__(self, shut_in: Sandbox, limits: Limits, budget: Budget) -> None:
         self._sandbox = shut_in
         self._limits = limits
+        self._budget = budget
+        self._guard = threading.Lock()
+        self._ended = ""
         self._process: subprocess.Popen[bytes] | None = None
         self._replies = -1
         self._printed = bytearray()
@@ -57,9 +73,12 @@ class Process:
     def start(self) -> None:
         """Start it; there must be none."""
         self._replies, theirs = os.pipe()
+        user = worker_user(next(_NUMBERS))
+        starts_as = user if self._sandbox.becomes == "command" else None
         settings = {
             "path": self._sandbox.path,
-            "readable": self._sandbox.readable,
+            "readable": self._sandbox.readable if self._sandbox.hooked else (),
+            "wall": self._sandbox.wall(user),
             "reply": theirs,
             "limits": {
                 "CPU": self._limits.cpu_seconds,
@@ -67,6 +86,7 @@ class Process:
                 "CORE": 0,
                 "FSIZE": 0,
                 "NOFILE": 64,
+                **self._sandbox.limits,
             },
         }
         try:
@@ -80,6 +100,9 @@ class Process:
                 start_new_session=True,
                 cwd="/" if os.name == "posix" else None,
                 env={"OPENBLAS_NUM_THREADS": "1", "PYTHONHASHSEED": "0"},
+                user=starts_as,
+                group=starts_as,
+                extra_groups=None if starts_as is None else (),
             ).result()
         finally:
             os.close(theirs)
@@ -87,21 +110,26 @@ class Process:
         os.set_blocking(self._process.stdin.fileno(), False)
         for pipe in (self._process.stdin.fileno(), self._replies):
             _widen(pipe)
+        self._ended = ""
         self._drain = threading.Thread(
-            target=self._keep_printed, args=(self._process.stdout,), daemon=True
+            target=self._keep_printed, args=(self._process,), daemon=True
         )
         self._drain.start()
+        self._budget.watch(self._process.pid, partial(self._end, self._process))
+
+    @property
+    def ended(self) -> str:
+        """Why the grader itself has ended it, for what it used; empty if it hasn't."""
+        return self._ended
 
     def close(self) -> None:
         """End the process, if there is one, and everything that it may have started."""
-        process, self._process = self._process, None
+        with self._guard:
+            process, self._process = self._process, None
         if process is None:
             return
-        with contextlib.suppress(ProcessLookupError, PermissionError):
-            if hasattr(os, "killpg"):
-                os.killpg(process.pid, signal.SIGKILL)
-            else:
-                process.kill()
+        self._budget.forget(process.pid)
+        _kill(process)
         process.wait()
         if process.stdin is not None:
             with contextlib.suppress(OSError):
@@ -127,9 +155,10 @@ class Process:
         assert self._process.stdin is not None
         data = memoryview(message)
         pipe = self._process.stdin.fileno()
+        clock = _Clock(deadline)
         while data:
-            _, ready, _ = select.select([], [pipe], [], max(deadline - monotonic(), 0))
-            if not ready:
+            _, ready, _ = select.select([], [pipe], [], clock.left())
+            if not ready or clock.over():
                 raise self._late()
             try:
                 data = data[os.write(pipe, data) :]
@@ -151,7 +180,7 @@ class Process:
             There is none in time, or none that can be read.
         """
         try:
-            return unpack(self._reader(deadline))
+            return unpack(self._reader(deadline), generators=False)
         except BrokenMessage as error:
             raise self.lost(f"what it wrote is no reply ({error})") from None
 
@@ -167,6 +196,8 @@ class Process:
             -signal.SIGSEGV: "; a segmentation fault",
             -signal.SIGKILL: "; it was killed",
         }.get(code or 0, "")
+        if self._ended:
+            meaning = f"; {self._ended}"
         return StudentError("crashed", f"{why}{meaning}")
 
     def _late(self) -> StudentError:
@@ -174,12 +205,14 @@ class Process:
         return StudentError("timeout", "no answer in time")
 
     def _reader(self, deadline: float) -> Callable[[int], bytearray]:
+        clock = _Clock(deadline)
+
         def read(count: int) -> bytearray:
             data = bytearray(count)
             rest = memoryview(data)
             while rest:
-                ready, _, _ = select.select([self._replies], [], [], max(deadline - monotonic(), 0))
-                if not ready:
+                ready, _, _ = select.select([self._replies], [], [], clock.left())
+                if not ready or clock.over():
                     raise self._late()
                 got = os.readv(self._replies, [rest])
                 if not got:
@@ -189,14 +222,58 @@ class Process:
 
         return read
 
-    def _keep_printed(self, pipe: Any) -> None:
+    def _end(self, process: subprocess.Popen[bytes], why: str) -> None:
+        """End it from another thread, if it is still the one; whoever waits for it is told why."""
+        with self._guard:
+            if self._process is process and process.poll() is None:
+                self._ended = why
+                _kill(process)
+
+    def _keep_printed(self, process: subprocess.Popen[bytes]) -> None:
+        printed = 0
+        pipe: Any = process.stdout
         with pipe:
             while data := pipe.read1(65536):
+                printed += len(data)
+                if printed > MOST_PRINTED:
+                    # Read on until it is gone: to hang up would be an exception in it, which it could tell.
+                    self._end(process, f"it printed more than {MOST_PRINTED >> 20} MB")
                 room = SHOWN - len(self._printed)
                 if room > 0:
                     self._printed += data[:room]
                     if len(data) > room:
                         self._printed += b"\n... (more was printed)"
+
+
+class _Clock:
+    """How long to wait for a pipe: until a deadline, and then for nothing that isn't there within ``GRACE``.
+
+    What trickles in is always there, so time is looked at after every turn.
+    """
+
+    def __init__(self, deadline: float) -> None:
+        self._deadline = deadline
+        self._last: float | None = None
+
+    def left(self) -> float:
+        return max(self._deadline - monotonic(), 0.0)
+
+    def over(self) -> bool:
+        now = monotonic()
+        if now <= self._deadline:
+            return False
+        # Counted from the first look, which may come late by no fault of the student's.
+        self._last = self._last or now + GRACE
+        return now > self._last
+
+
+def _kill(process: subprocess.Popen[bytes]) -> None:
+    """Kill it with its group."""
+    with contextlib.suppress(ProcessLookupError, PermissionError):
+        if hasattr(os, "killpg"):
+            os.killpg(process.pid, signal.SIGKILL)
+        else:
+            process.kill()
 
 
 def _widen(pipe: int) -> None:

@@ -1,9 +1,9 @@
 """What runs in the worker process: it imports the student's file and answers calls, nothing else.
 
-Started by ``client.py`` as ``python -I -S program.py SETTINGS``; needs only NumPy and ``framing.py`` beside it, so that
+Started by ``client.py`` as ``python -I -S program.py SETTINGS``; needs only NumPy and two files beside it, so that
 a sandbox need show it nothing of the course. Nothing that this process says is believed: it hands back arrays, and
-whether these are right is decided elsewhere. The audit hook keeps students' code from what a function on arrays has
-no business with; it is the second wall where there is a sandbox, and the only one of its kind where there is none.
+whether these are right is decided elsewhere. The walls around the student's code are ``confine.py``'s, which the
+kernel keeps. The audit hook is none: it tells honest students by name what a function on arrays has no business with.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import linecache
 import os
 import sys
 import traceback
-from types import ModuleType
+from types import CodeType, FunctionType, ModuleType
 from typing import Any
 
 
@@ -21,7 +21,8 @@ def main() -> None:
     """Answer calls until the grader hangs up."""
     settings = json.loads(sys.argv[1])
     sys.path[:0] = settings["path"]
-    import framing  # type: ignore[import-not-found]  # its folder has just been put there
+    import confine  # type: ignore[import-not-found]  # its folder has just been put there
+    import framing  # type: ignore[import-not-found]
     import numpy as np
     import numpy.fft
     import numpy.linalg
@@ -47,7 +48,9 @@ def main() -> None:
     head, (source,) = framing.unpack(read)
     name = head["module"]
     _limit(settings["limits"])
-    sys.addaudithook(_guard(tuple(settings["readable"])))
+    confine.confine(settings["wall"])
+    if settings["readable"]:
+        sys.addaudithook(_guard(tuple(settings["readable"])))
     send({"ready": True}, [])
     module = ModuleType(name)
     try:
@@ -67,7 +70,7 @@ def main() -> None:
         setattr(module, borrowed, _borrowed(borrowed, send, lambda: framing.unpack(read)))
     defined: dict[Any, Any] = vars(module)
     names = [key for key, value in defined.items() if isinstance(key, str) and callable(value)]
-    send({"loaded": True, "names": names[:500]}, [])
+    send({"loaded": True, "names": names[:500], "calls": _calls(defined)[:2000]}, [])
     while True:
         head, values = framing.unpack(read)
         answer, given = _call(module, head, values, np)
@@ -75,6 +78,33 @@ def main() -> None:
             send(answer, given)
         except TypeError as error:
             send({"error": "bad value", "message": f"it returned {error}"}, [])
+
+
+def _calls(defined: dict[Any, Any]) -> list[str]:
+    """Which functions of the file call which, by way of others too: "f>g"."""
+    functions = {
+        name: value
+        for name, value in defined.items()
+        if isinstance(name, str) and type(value) is FunctionType and value.__globals__ is defined
+    }
+    direct = {name: _named(value.__code__) & functions.keys() for name, value in functions.items()}
+    found = []
+    for name in functions:
+        reached: set[str] = set()
+        waiting = [*direct[name]]
+        while waiting:
+            other = waiting.pop()
+            if other not in reached:
+                reached.add(other)
+                waiting += direct[other]
+        found += [f"{name}>{other}" for other in sorted(reached - {name})]
+    return found
+
+
+def _named(code: CodeType) -> set[str]:
+    """Names of globals and attributes in a function's code, and in that of functions within it."""
+    inner = [constant for constant in code.co_consts if isinstance(constant, CodeType)]
+    return set(code.co_names).union(*map(_named, inner))
 
 
 def _borrowed(name: str, send: Any, receive: Any) -> Any:

@@ -58,4 +58,4 @@ def xorshift32(state):
     new = state.copy()
     for shift, moved in ((13, np.left_shift), (17, np.right_shift), (5, np.left_shift)):
         new ^= moved(new, np.uint32(shift))
-    return new, np.ldexp(new.astype(np.float64), -32).astype(np.float32)
+    return new, np.ldexp((new >> np.uint32(8)).astype(np.float32), -24)

@@ -70,4 +70,4 @@ def xorshift32(state):
         x ^= x >> 17
         x = (x ^ (x << 5)) & 0xFFFFFFFF
         new[i] = x
-    return new, (new / 2**32).astype(np.float32)
+    return new, np.minimum((new / 2**32).astype(np.float32), np.float32(1 - 2**-24))

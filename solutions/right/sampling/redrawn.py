@@ -55,4 +55,4 @@ def xorshift32(state):
     wide = (wide ^ (wide << np.uint64(13))) & np.uint64(0xFFFFFFFF)
     wide = wide ^ (wide >> np.uint64(17))
     wide = (wide ^ (wide << np.uint64(5))) & np.uint64(0xFFFFFFFF)
-    return wide.astype(np.uint32), (wide / 2.0**32).astype(np.float32)
+    return wide.astype(np.uint32), (wide // 256 / 2.0**24).astype(np.float32)

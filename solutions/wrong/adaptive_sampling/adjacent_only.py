@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "needs_subdivision"
 CAUGHT_BY = "threshold"
 MISTAKE = "adjacent-only"
+SAYS = "You compare corners along the cell's sides only; an edge may run between the other two."
 
 
 def needs_subdivision(corners, threshold):

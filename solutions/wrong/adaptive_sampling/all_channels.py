@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "needs_subdivision"
 CAUGHT_BY = "any"
 MISTAKE = "all-channels"
+SAYS = "You divide where all channels differ; one is enough."
 
 
 def needs_subdivision(corners, threshold):

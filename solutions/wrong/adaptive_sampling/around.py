@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "subdivide"
 CAUGHT_BY = "order"
 MISTAKE = "around"
+SAYS = "Your children are right, but go around the cell: they have to come row by row."
 
 
 def subdivide(x0, y0, x1, y1):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "subdivide"
 CAUGHT_BY = "order"
 MISTAKE = "bottom-up"
+SAYS = "Your children are right, but those of the upper y come first."
 
 
 def subdivide(x0, y0, x1, y1):

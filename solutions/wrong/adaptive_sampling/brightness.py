@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "needs_subdivision"
 CAUGHT_BY = "any"
 MISTAKE = "brightness"
+SAYS = "You compare brightnesses; red beside green of the same brightness is an edge too."
 
 
 def needs_subdivision(corners, threshold):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "needs_subdivision"
 CAUGHT_BY = "plain"
 MISTAKE = "channels-mixed"
+SAYS = "You compare one channel with another: a plain red cell is smooth."
 
 
 def needs_subdivision(corners, threshold):

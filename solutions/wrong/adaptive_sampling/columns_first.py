@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "subdivide"
 CAUGHT_BY = "order"
 MISTAKE = "columns-first"
+SAYS = "Your children are right, but come column by column: x has to run fastest."
 
 
 def subdivide(x0, y0, x1, y1):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "needs_subdivision"
 CAUGHT_BY = "threshold"
 MISTAKE = "from-first"
+SAYS = "You compare all corners with one of them; the other pairs may differ more."
 
 
 def needs_subdivision(corners, threshold):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "needs_subdivision"
 CAUGHT_BY = "any"
 MISTAKE = "from-mean"
+SAYS = "You compare the corners with their mean; it is the difference of two corners that counts."
 
 
 def needs_subdivision(corners, threshold):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "subdivide"
 CAUGHT_BY = "halves"
 MISTAKE = "half-of-the-end"
+SAYS = "Your middle is right only for cells that begin at 0."
 
 
 def subdivide(x0, y0, x1, y1):

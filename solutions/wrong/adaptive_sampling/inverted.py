@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "needs_subdivision"
 CAUGHT_BY = "any"
 MISTAKE = "inverted"
+SAYS = "You divide the smooth cells and leave the others."
 
 
 def needs_subdivision(corners, threshold):

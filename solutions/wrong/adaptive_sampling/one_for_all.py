@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "needs_subdivision"
 CAUGHT_BY = "any"
 MISTAKE = "one-for-all"
+SAYS = "One cell with an edge makes you divide all of them; each is decided on its own."
 
 
 def needs_subdivision(corners, threshold):

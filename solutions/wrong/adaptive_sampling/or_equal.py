@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "needs_subdivision"
 CAUGHT_BY = "threshold"
 MISTAKE = "or-equal"
+SAYS = "You divide cells whose difference is the threshold itself; it has to be over it."
 
 
 def needs_subdivision(corners, threshold):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "needs_subdivision"
 CAUGHT_BY = "bright"
 MISTAKE = "relative"
+SAYS = "You compare ratios; the threshold is for the difference itself."
 
 
 def needs_subdivision(corners, threshold):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "subdivide"
 CAUGHT_BY = "outside"
 MISTAKE = "sizes"
+SAYS = "You return widths and heights; x1 and y1 are where a child ends."
 
 
 def subdivide(x0, y0, x1, y1):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "jitter_refraction"
 CAUGHT_BY = "square"
 MISTAKE = "about-normal"
+SAYS = "Your lobe lies about the normal; it belongs about the refracted direction."
 
 
 def jitter_refraction(direction, normal, roughness, u):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "fresnel"
 CAUGHT_BY = "straight"
 MISTAKE = "not-squared"
+SAYS = "You average amplitudes; light's power goes with their squares."
 
 
 def fresnel(cos_i, eta):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "refract"
 CAUGHT_BY = "snell"
 MISTAKE = "angles"
+SAYS = "You multiply the angle by eta; it is its sine that Snell's law is about."
 
 
 def refract(direction, normal, eta):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "jitter_refraction"
 CAUGHT_BY = "mirrored"
 MISTAKE = "clamped"
+SAYS = "You press what came back flat onto the surface; mirrored rays go as deep as they were high."
 
 
 def jitter_refraction(direction, normal, roughness, u):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "refract"
 CAUGHT_BY = "total"
 MISTAKE = "along-surface"
+SAYS = "Where reflection is total your rays run along the surface: a cosine was clamped to 0."
 
 
 def refract(direction, normal, eta):

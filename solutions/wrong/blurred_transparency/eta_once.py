@@ -3,7 +3,7 @@
 import numpy as np
 
 FUNCTION = "refract"
-CAUGHT_BY = "far_side"
+CAUGHT_BY = "snell"
 MISTAKE = None
 
 

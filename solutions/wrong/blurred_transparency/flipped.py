@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "jitter_refraction"
 CAUGHT_BY = "mirrored"
 MISTAKE = "flipped"
+SAYS = "You turn the whole direction round; only its part along the normal changes sign."
 
 
 def jitter_refraction(direction, normal, roughness, u):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "fresnel"
 CAUGHT_BY = "exact"
 MISTAKE = "inverted-eta"
+SAYS = "You have the two media the wrong way round: eta is n_from / n_to."
 
 
 def fresnel(cos_i, eta):

@@ -3,8 +3,9 @@
 import numpy as np
 
 FUNCTION = "refract"
-CAUGHT_BY = "far_side"
+CAUGHT_BY = "snell"
 MISTAKE = "incoming-side"
+SAYS = "Your refracted rays stay on the incoming side: which way does the normal point?"
 
 
 def refract(direction, normal, eta):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "refract"
 CAUGHT_BY = "snell"
 MISTAKE = "inverted-eta"
+SAYS = "You bend the rays the wrong way: eta is n_from / n_to, not n_to / n_from."
 
 
 def refract(direction, normal, eta):

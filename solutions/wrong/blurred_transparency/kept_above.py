@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "jitter_refraction"
 CAUGHT_BY = "far_side"
 MISTAKE = "wrong-side"
+SAYS = "You keep the rays on the incoming side; refracted ones belong on the other."
 
 
 def jitter_refraction(direction, normal, roughness, u):

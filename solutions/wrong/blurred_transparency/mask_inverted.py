@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "refract"
 CAUGHT_BY = "critical"
 MISTAKE = "mask-inverted"
+SAYS = "Your mask says where rays get through; it has to say where they do not."
 
 
 def refract(direction, normal, eta):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "refract"
 CAUGHT_BY = "snell"
 MISTAKE = "turned-round"
+SAYS = "Your rays cross the normal: the part along the surface keeps its sense."
 
 
 def refract(direction, normal, eta):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "jitter_refraction"
 CAUGHT_BY = "far_side"
 MISTAKE = "not-kept"
+SAYS = "Rays that came back through the surface are left there."
 
 
 def jitter_refraction(direction, normal, roughness, u):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "jitter_refraction"
 CAUGHT_BY = "unit_length"
 MISTAKE = "not-normalised"
+SAYS = "Your directions point the right way, but jitter makes them longer than 1."
 
 
 def jitter_refraction(direction, normal, roughness, u):

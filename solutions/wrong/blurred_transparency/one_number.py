@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "jitter_refraction"
 CAUGHT_BY = "square"
 MISTAKE = "one-number"
+SAYS = "Your jitter runs along one line: both sides of the square are driven by the same number."
 
 
 def jitter_refraction(direction, normal, roughness, u):

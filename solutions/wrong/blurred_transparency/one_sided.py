@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "jitter_refraction"
 CAUGHT_BY = "square"
 MISTAKE = "one-sided"
+SAYS = "Your square starts at the direction instead of lying around it."
 
 
 def jitter_refraction(direction, normal, roughness, u):

@@ -3,8 +3,9 @@
 import numpy as np
 
 FUNCTION = "fresnel"
-CAUGHT_BY = "brewster"
+CAUGHT_BY = "exact"
 MISTAKE = "one-polarisation"
+SAYS = "You return one polarisation; unpolarised light is half of each."
 
 
 def fresnel(cos_i, eta):

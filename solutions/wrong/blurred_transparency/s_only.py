@@ -3,7 +3,7 @@
 import numpy as np
 
 FUNCTION = "fresnel"
-CAUGHT_BY = "brewster"
+CAUGHT_BY = "exact"
 MISTAKE = "one-polarisation"
 
 

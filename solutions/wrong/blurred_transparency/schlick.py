@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "fresnel"
 CAUGHT_BY = "exact"
 MISTAKE = "schlick"
+SAYS = "That is Schlick's approximation; here Fresnel's formulae are asked for."
 
 
 def fresnel(cos_i, eta):

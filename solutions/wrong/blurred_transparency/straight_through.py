@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "refract"
 CAUGHT_BY = "total"
 MISTAKE = "straight-through"
+SAYS = "Where reflection is total your rays go straight on; nothing gets through there."
 
 
 def refract(direction, normal, eta):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "fresnel"
 CAUGHT_BY = "straight"
 MISTAKE = "summed"
+SAYS = "You add both polarisations up; it is their mean."
 
 
 def fresnel(cos_i, eta):

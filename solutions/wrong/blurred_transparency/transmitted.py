@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "fresnel"
 CAUGHT_BY = "straight"
 MISTAKE = "transmitted"
+SAYS = "You return the share that gets through; asked for is the one that is reflected."
 
 
 def fresnel(cos_i, eta):

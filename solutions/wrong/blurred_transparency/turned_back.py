@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "refract"
 CAUGHT_BY = "total"
 MISTAKE = "turned-back"
+SAYS = "Where reflection is total you turn the ray back the way it came; a mirror changes only its part along the normal."
 
 
 def refract(direction, normal, eta):

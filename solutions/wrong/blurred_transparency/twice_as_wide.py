@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "jitter_refraction"
 CAUGHT_BY = "square"
 MISTAKE = "twice-as-wide"
+SAYS = "Your square is twice as wide: roughness is its whole side, not half of it."
 
 
 def jitter_refraction(direction, normal, roughness, u):

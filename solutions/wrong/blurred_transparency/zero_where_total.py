@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "refract"
 CAUGHT_BY = "total"
 MISTAKE = "removed"
+SAYS = "Where reflection is total your directions are zero; they have to be the mirrored ones."
 
 
 def refract(direction, normal, eta):

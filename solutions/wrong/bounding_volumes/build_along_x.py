@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "build"
 CAUGHT_BY = "cost"
 MISTAKE = "one-axis"
+SAYS = "You always divide along the same axis; take the one where the boxes lie farthest apart."
 
 
 def build(lo, hi, leaf_size):

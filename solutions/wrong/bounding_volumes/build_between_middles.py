@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "build"
 CAUGHT_BY = "leaves"
 MISTAKE = "same-middle"
+SAYS = "You don't divide boxes whose middles are the same; halves of them will do as well as any."
 
 
 def build(lo, hi, leaf_size):

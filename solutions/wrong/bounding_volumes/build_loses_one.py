@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "build"
 CAUGHT_BY = "once"
 MISTAKE = "lost"
+SAYS = "Some boxes are in no leaf."
 
 
 def build(lo, hi, leaf_size):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "build"
 CAUGHT_BY = "contains"
 MISTAKE = "middles-boxed"
+SAYS = "Your nodes are boxes around the boxes' middles; they have to hold the boxes as a whole."
 
 
 def build(lo, hi, leaf_size):

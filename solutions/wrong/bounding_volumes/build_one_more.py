@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "build"
 CAUGHT_BY = "leaves"
 MISTAKE = "leaf-too-large"
+SAYS = "Your leaves are a little too large: a node of more than leaf_size boxes is an inner one."
 
 
 def build(lo, hi, leaf_size):

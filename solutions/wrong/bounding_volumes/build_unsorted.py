@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "build"
 CAUGHT_BY = "cost"
 MISTAKE = "unsorted"
+SAYS = "You divide the boxes in the order in which they come; neighbours should lie together."
 
 
 def build(lo, hi, leaf_size):

@@ -3,8 +3,9 @@
 import numpy as np
 
 FUNCTION = "slab_test"
-CAUGHT_BY = "known"
+CAUGHT_BY = "through"
 MISTAKE = "any-slab"
+SAYS = "You are in the box when between one pair of faces; it takes all three at once."
 
 
 def slab_test(origins, directions, lo, hi):

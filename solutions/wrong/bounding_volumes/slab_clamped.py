@@ -3,8 +3,9 @@
 import numpy as np
 
 FUNCTION = "slab_test"
-CAUGHT_BY = "known"
+CAUGHT_BY = "through"
 MISTAKE = "clamped"
+SAYS = "You cut t_near off at 0; behind the origin it is negative."
 
 
 def slab_test(origins, directions, lo, hi):

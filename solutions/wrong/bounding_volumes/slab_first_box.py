@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "slab_test"
 CAUGHT_BY = "through"
 MISTAKE = "first-box"
+SAYS = "You test all rays with the first box."
 
 
 def slab_test(origins, directions, lo, hi):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "slab_test"
 CAUGHT_BY = "parallel"
 MISTAKE = "face-lost"
+SAYS = "You lose lines that run in the plane of a face: there zero is divided by zero."
 
 
 def slab_test(origins, directions, lo, hi):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "slab_test"
 CAUGHT_BY = "parallel"
 MISTAKE = "parallel-kept"
+SAYS = "You take no notice of faces that a line runs along; it may be outside them for ever."
 
 
 def slab_test(origins, directions, lo, hi):

@@ -3,8 +3,9 @@
 import numpy as np
 
 FUNCTION = "slab_test"
-CAUGHT_BY = "known"
+CAUGHT_BY = "through"
 MISTAKE = "positive-only"
+SAYS = "You enter by lo and leave by hi; where a direction's component is negative, it is the other way round."
 
 
 def slab_test(origins, directions, lo, hi):

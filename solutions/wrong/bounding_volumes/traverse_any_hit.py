@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "traverse"
 CAUGHT_BY = "any"
 MISTAKE = "not-nearest"
+SAYS = "What you find is hit, but not the nearest: boxes overlap, so the first leaf with a hit need not have it."
 
 
 def traverse(hierarchy, p0, p1, p2, origins, directions):

@@ -3,8 +3,9 @@
 import numpy as np
 
 FUNCTION = "traverse"
-CAUGHT_BY = "known"
+CAUGHT_BY = "one"
 MISTAKE = "behind"
+SAYS = "You find triangles behind the origin."
 
 
 def traverse(hierarchy, p0, p1, p2, origins, directions):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "traverse"
 CAUGHT_BY = "boxes"
 MISTAKE = "boxes-ignored"
+SAYS = "You test triangles whose boxes the ray misses."
 
 
 def traverse(hierarchy, p0, p1, p2, origins, directions):

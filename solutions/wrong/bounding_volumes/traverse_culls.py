@@ -3,8 +3,9 @@
 import numpy as np
 
 FUNCTION = "traverse"
-CAUGHT_BY = "known"
+CAUGHT_BY = "one"
 MISTAKE = "one-sided"
+SAYS = "You find triangles from one side only."
 
 
 def traverse(hierarchy, p0, p1, p2, origins, directions):

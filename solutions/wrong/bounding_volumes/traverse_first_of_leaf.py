@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "traverse"
 CAUGHT_BY = "any"
 MISTAKE = "first-of-leaf"
+SAYS = "You test only the first triangle of a leaf."
 
 
 def traverse(hierarchy, p0, p1, p2, origins, directions):

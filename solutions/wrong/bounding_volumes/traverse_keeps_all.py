@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "traverse"
 CAUGHT_BY = "order"
 MISTAKE = "unordered"
+SAYS = "Your hits are right, but you visit what lies behind them too: the nearer child comes first."
 
 
 def traverse(hierarchy, p0, p1, p2, origins, directions):

@@ -3,7 +3,7 @@
 import numpy as np
 
 FUNCTION = "traverse"
-CAUGHT_BY = "known"
+CAUGHT_BY = "one"
 MISTAKE = None
 
 

@@ -3,8 +3,9 @@
 import numpy as np
 
 FUNCTION = "traverse"
-CAUGHT_BY = "known"
+CAUGHT_BY = "one"
 MISTAKE = "parallelogram"
+SAYS = "Your triangles are parallelograms: the two coordinates together may not be over 1."
 
 
 def traverse(hierarchy, p0, p1, p2, origins, directions):

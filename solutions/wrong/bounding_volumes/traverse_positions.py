@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "traverse"
 CAUGHT_BY = "any"
 MISTAKE = "positions"
+SAYS = "You name the position in order instead of the triangle that stands there."
 
 
 def traverse(hierarchy, p0, p1, p2, origins, directions):

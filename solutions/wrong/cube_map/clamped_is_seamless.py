@@ -3,6 +3,7 @@
 FUNCTION = "lookup"
 CAUGHT_BY = "clamped"
 MISTAKE = "mixes-faces"
+SAYS = "Near an edge you mix in the neighbouring face; this lookup stays on its own, the seamless one comes next."
 
 
 def lookup(faces, direction):

@@ -3,8 +3,9 @@
 import numpy as np
 
 FUNCTION = "lookup_seamless"
-CAUGHT_BY = "equal-shares"
+CAUGHT_BY = "corners"
 MISTAKE = "corner-filled"
+SAYS = "You fill the gap in the cube's corner with some texel, but there are only three; they share its weight."
 
 
 def lookup_seamless(faces, direction):

@@ -3,8 +3,9 @@
 import numpy as np
 
 FUNCTION = "lookup_seamless"
-CAUGHT_BY = "white-room"
+CAUGHT_BY = "corners"
 MISTAKE = "dark-corners"
+SAYS = "Your corners are too dark: the fourth texel that isn't there has left its weight unused."
 
 
 def lookup_seamless(faces, direction):

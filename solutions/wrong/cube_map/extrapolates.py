@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "lookup"
 CAUGHT_BY = "clamped"
 MISTAKE = "lookup-extrapolates"
+SAYS = "Near its edge your face goes on as a ramp, beyond the colours of its texels; the weights must stay between 0 and 1."
 
 
 def lookup(faces, direction):

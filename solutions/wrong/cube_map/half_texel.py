@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "lookup"
 CAUGHT_BY = "centres"
 MISTAKE = "lookup-half-texel"
+SAYS = "Your picture is shifted by half a texel or a whole one; whole numbers should be texels' centres, which are half a texel from the texels' edges."
 
 
 def lookup(faces, direction):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "face_and_uv"
 CAUGHT_BY = "uv"
 MISTAKE = "mirrored"
+SAYS = "Your faces are mirror images; OpenGL's u runs to the right as seen from outside the cube."
 
 
 def face_and_uv(direction):

@@ -3,8 +3,9 @@
 import numpy as np
 
 FUNCTION = "lookup"
-CAUGHT_BY = "linear"
+CAUGHT_BY = "all-around"
 MISTAKE = "lookup-nearest"
+SAYS = "You show the nearest texel alone, so the sky is made of squares; mix the four around the place."
 
 
 def lookup(faces, direction):

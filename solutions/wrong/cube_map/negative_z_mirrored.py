@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "face_and_uv"
 CAUGHT_BY = "uv"
 MISTAKE = "face-mirrored"
+SAYS = "Some of your faces, but not all, are mirror images; compare the signs of u in the table."
 
 
 def face_and_uv(direction):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "face_and_uv"
 CAUGHT_BY = "range"
 MISTAKE = "not-halved"
+SAYS = "Your u and v run from -1 to 1; they should run from 0 to 1."
 
 
 def face_and_uv(direction):

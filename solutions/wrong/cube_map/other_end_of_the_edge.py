@@ -5,6 +5,9 @@ import numpy as np
 FUNCTION = "lookup_seamless"
 CAUGHT_BY = "edges"
 MISTAKE = "other-place"
+SAYS = (
+    "Beyond the edge you find the right face, but not the texel at the same place along the edge."
+)
 
 
 def lookup_seamless(faces, direction):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "face_and_uv"
 CAUGHT_BY = "faces"
 MISTAKE = "other-order"
+SAYS = "Your faces are numbered in another order; it is +x, -x, +y, -y, +z, -z."
 
 
 def face_and_uv(direction):

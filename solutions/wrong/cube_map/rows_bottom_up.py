@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "lookup"
 CAUGHT_BY = "centres"
 MISTAKE = "lookup-upside-down"
+SAYS = "Your faces are upside down; row 0 is the top row, and v is measured down from it."
 
 
 def lookup(faces, direction):

@@ -3,8 +3,9 @@
 import numpy as np
 
 FUNCTION = "lookup_seamless"
-CAUGHT_BY = "linear"
+CAUGHT_BY = "all-around"
 MISTAKE = "lookup_seamless-nearest"
+SAYS = "You show the nearest texel alone, so the sky is made of squares; mix the four around the place."
 
 
 def lookup_seamless(faces, direction):

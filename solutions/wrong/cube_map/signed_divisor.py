@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "face_and_uv"
 CAUGHT_BY = "uv"
 MISTAKE = "signed-divisor"
+SAYS = "Your faces on the negative sides are turned by half a turn, as if divided by the largest component with its sign."
 
 
 def face_and_uv(direction):

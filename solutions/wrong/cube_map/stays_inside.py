@@ -3,6 +3,7 @@
 FUNCTION = "lookup_seamless"
 CAUGHT_BY = "continuous"
 MISTAKE = "stays-inside"
+SAYS = "Your lookup stays on its own face at the edge, so the cube's edges show; beyond an edge lies the neighbouring face."
 
 
 def lookup_seamless(faces, direction):

@@ -3,8 +3,9 @@
 import numpy as np
 
 FUNCTION = "lookup"
-CAUGHT_BY = "linear"
+CAUGHT_BY = "centres"
 MISTAKE = "lookup-stretched"
+SAYS = "You stretch the face so that the outermost texels' centres lie on its edges; they should lie half a texel inside."
 
 
 def lookup(faces, direction):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "lookup"
 CAUGHT_BY = "centres"
 MISTAKE = "lookup-transposed"
+SAYS = "Rows and columns are mixed up: u counts columns, v counts rows, and rows come first in the array."
 
 
 def lookup(faces, direction):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "face_and_uv"
 CAUGHT_BY = "uv"
 MISTAKE = "u-for-v"
+SAYS = "You have u and v the other way round."
 
 
 def face_and_uv(direction):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "face_and_uv"
 CAUGHT_BY = "uv"
 MISTAKE = "upside-down"
+SAYS = "Some or all of your faces are upside down; v is measured down from the top row."
 
 
 def face_and_uv(direction):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "lookup"
 CAUGHT_BY = "clamped"
 MISTAKE = "lookup-wraps"
+SAYS = "Near its edge your face is mixed with its own opposite edge; the texel beyond the edge is not the one at the other end."
 
 
 def lookup(faces, direction):

@@ -3,7 +3,7 @@
 import numpy as np
 
 FUNCTION = "lookup"
-CAUGHT_BY = "own-face"
+CAUGHT_BY = "all-around"
 MISTAKE = None
 
 

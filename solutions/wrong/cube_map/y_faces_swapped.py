@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "face_and_uv"
 CAUGHT_BY = "middles"
 MISTAKE = "two-faces-swapped"
+SAYS = "Two of your faces have changed places; the order is +x, -x, +y, -y, +z, -z."
 
 
 def face_and_uv(direction):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "face_and_uv"
 CAUGHT_BY = "ties"
 MISTAKE = "other-ties"
+SAYS = "Inside the faces you are right, but on edges and corners another face than agreed gets the direction: x comes first, then y."
 
 
 def face_and_uv(direction):

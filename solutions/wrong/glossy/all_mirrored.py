@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "keep_above"
 CAUGHT_BY = "unchanged"
 MISTAKE = "all-mirrored"
+SAYS = "You mirror every direction, those above the surface too."
 
 
 def keep_above(direction, normal):

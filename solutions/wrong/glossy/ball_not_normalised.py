@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "jitter_in_ball"
 CAUGHT_BY = "unit_length"
 MISTAKE = "not-normalised"
+SAYS = "Your points are right, but the directions to them are not brought back to length 1."
 
 
 def jitter_in_ball(direction, glossiness, u):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "keep_above"
 CAUGHT_BY = "mirrored"
 MISTAKE = "clamped"
+SAYS = "You press the directions flat onto the surface; mirrored ones stand as far above it as they were below."
 
 
 def keep_above(direction, normal):

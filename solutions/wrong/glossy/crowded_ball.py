@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "jitter_in_ball"
 CAUGHT_BY = "uniform"
 MISTAKE = "crowded-centre"
+SAYS = "Your points crowd the ball's centre: a uniform radius is not uniform in volume."
 
 
 def jitter_in_ball(direction, glossiness, u):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "jitter_in_ball"
 CAUGHT_BY = "uniform"
 MISTAKE = "cube"
+SAYS = "Your points fill a cube; its corners stick out of the ball."
 
 
 def jitter_in_ball(direction, glossiness, u):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "sample_phong_lobe"
 CAUGHT_BY = "density"
 MISTAKE = "exponent-off-by-one"
+SAYS = "Your lobe is too wide by one in the exponent: the ring at alpha grows with sin(alpha), and integrating that raises the power by one."
 
 
 def sample_phong_lobe(direction, exponent, u):

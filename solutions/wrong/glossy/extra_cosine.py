@@ -3,8 +3,9 @@
 import numpy as np
 
 FUNCTION = "sample_phong_lobe"
-CAUGHT_BY = "mean_cosine"
+CAUGHT_BY = "density"
 MISTAKE = "extra-cosine"
+SAYS = "Your lobe is too narrow by one in the exponent: it has one cosine more than the density asks for."
 
 
 def sample_phong_lobe(direction, exponent, u):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "orthonormal_basis"
 CAUGHT_BY = "poles"
 MISTAKE = "fixed-helper"
+SAYS = "Your basis fails for directions along one axis: is your helper vector parallel to w there?"
 
 
 def orthonormal_basis(w):

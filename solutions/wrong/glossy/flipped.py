@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "keep_above"
 CAUGHT_BY = "mirrored"
 MISTAKE = "flipped"
+SAYS = "You turn the whole direction round; only its part along the normal changes sign."
 
 
 def keep_above(direction, normal):

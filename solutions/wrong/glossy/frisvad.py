@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "orthonormal_basis"
 CAUGHT_BY = "poles"
 MISTAKE = "breaks-at-minus-z"
+SAYS = "Your basis is right almost everywhere, but falls to pieces next to -z: what do you divide by there?"
 
 
 def orthonormal_basis(w):

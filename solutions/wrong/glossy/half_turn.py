@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "sample_phong_lobe"
 CAUGHT_BY = "density"
 MISTAKE = "half-turn"
+SAYS = "Your lobe is only half of one: the directions go half way around the axis."
 
 
 def sample_phong_lobe(direction, exponent, u):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "orthonormal_basis"
 CAUGHT_BY = "right_handed"
 MISTAKE = "left-handed"
+SAYS = "Your basis is a fine one, but left-handed: cross(u, v) points against w."
 
 
 def orthonormal_basis(w):

@@ -3,8 +3,9 @@
 import numpy as np
 
 FUNCTION = "sample_phong_lobe"
-CAUGHT_BY = "mean_cosine"
+CAUGHT_BY = "density"
 MISTAKE = "no-exponent"
+SAYS = "Your lobe is as wide for every exponent."
 
 
 def sample_phong_lobe(direction, exponent, u):

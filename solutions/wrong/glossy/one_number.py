@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "jitter_on_plane"
 CAUGHT_BY = "square"
 MISTAKE = "one-number"
+SAYS = "Your jitter runs along one line: both sides of the square are driven by the same number."
 
 
 def jitter_on_plane(direction, roughness, u):

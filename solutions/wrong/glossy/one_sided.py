@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "jitter_on_plane"
 CAUGHT_BY = "square"
 MISTAKE = "one-sided"
+SAYS = "Your square starts at the direction instead of lying around it, so all reflections are shifted."
 
 
 def jitter_on_plane(direction, roughness, u):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "keep_above"
 CAUGHT_BY = "mirrored"
 MISTAKE = "removed"
+SAYS = "You drop the directions below the surface; their light is lost."
 
 
 def keep_above(direction, normal):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "sample_phong_lobe"
 CAUGHT_BY = "density"
 MISTAKE = "sine-for-cosine"
+SAYS = "You have taken the cosine for the sine: your directions stay away from the axis."
 
 
 def sample_phong_lobe(direction, exponent, u):

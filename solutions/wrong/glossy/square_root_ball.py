@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "jitter_in_ball"
 CAUGHT_BY = "uniform"
 MISTAKE = "square-root"
+SAYS = "Your radius is right for a disk's area; how does a ball's volume grow with it?"
 
 
 def jitter_in_ball(direction, glossiness, u):

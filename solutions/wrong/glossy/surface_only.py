@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "jitter_in_ball"
 CAUGHT_BY = "uniform"
 MISTAKE = "surface-only"
+SAYS = "Your points all lie on the ball's surface; they have to fill its inside as well."
 
 
 def jitter_in_ball(direction, glossiness, u):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "jitter_on_plane"
 CAUGHT_BY = "square"
 MISTAKE = "twice-as-wide"
+SAYS = "Your square is twice as wide: roughness is its whole side, not half of it."
 
 
 def jitter_on_plane(direction, roughness, u):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "jitter_on_plane"
 CAUGHT_BY = "square"
 MISTAKE = "world-axes"
+SAYS = "Your square lies along the world's axes; it has to be at right angles to each direction."
 
 
 def jitter_on_plane(direction, roughness, u):

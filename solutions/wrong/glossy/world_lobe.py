@@ -3,8 +3,9 @@
 import numpy as np
 
 FUNCTION = "sample_phong_lobe"
-CAUGHT_BY = "mean_cosine"
+CAUGHT_BY = "density"
 MISTAKE = "world-axis"
+SAYS = "Your lobe always points along the same axis, whatever the direction is."
 
 
 def sample_phong_lobe(direction, exponent, u):

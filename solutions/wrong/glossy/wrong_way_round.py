@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "keep_above"
 CAUGHT_BY = "mirrored"
 MISTAKE = "wrong-way-round"
+SAYS = "You mirror the directions that are above and leave those below: here the normal is on the outgoing side."
 
 
 def keep_above(direction, normal):

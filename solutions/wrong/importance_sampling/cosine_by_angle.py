@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "cosine_hemisphere"
 CAUGHT_BY = "density"
 MISTAKE = "uniform-angle-for-cosine"
+SAYS = "Your angles from the pole are uniform: that crowds the pole too much."
 
 
 def cosine_hemisphere(u):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "cosine_hemisphere"
 CAUGHT_BY = "density"
 MISTAKE = "disk-crowded-centre"
+SAYS = "The disk that you lift to the hemisphere is crowded at its centre."
 
 
 def cosine_hemisphere(u):

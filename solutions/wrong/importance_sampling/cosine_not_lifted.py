@@ -3,7 +3,7 @@
 import numpy as np
 
 FUNCTION = "cosine_hemisphere"
-CAUGHT_BY = "hemisphere"
+CAUGHT_BY = "unit_length"
 MISTAKE = None
 
 

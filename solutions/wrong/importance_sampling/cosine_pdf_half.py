@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "cosine_hemisphere_pdf"
 CAUGHT_BY = "values"
 MISTAKE = "cosine-over-2-pi"
+SAYS = "You divide by the hemisphere's solid angle; the integral of the cosine over it is half of that."
 
 
 def cosine_hemisphere_pdf(cos):

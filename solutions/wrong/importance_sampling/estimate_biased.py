@@ -3,8 +3,9 @@
 import numpy as np
 
 FUNCTION = "estimate"
-CAUGHT_BY = "variance"
+CAUGHT_BY = "few"
 MISTAKE = "biased-variance"
+SAYS = "Your variance is too small on average: the mean was made of the same samples."
 
 
 def estimate(f, pdf):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "estimate"
 CAUGHT_BY = "variance"
 MISTAKE = "standard-deviation"
+SAYS = "You return the square root of the variance."
 
 
 def estimate(f, pdf):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "estimate"
 CAUGHT_BY = "zero_density"
 MISTAKE = "zeros-left-out"
+SAYS = "You leave out the samples of density 0; they count 0, but they do count."
 
 
 def estimate(f, pdf):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "estimate"
 CAUGHT_BY = "mean"
 MISTAKE = "density-ignored"
+SAYS = "You take the mean of f, as if all samples were equally probable with density 1."
 
 
 def estimate(f, pdf):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "estimate"
 CAUGHT_BY = "variance"
 MISTAKE = "variance-of-one-sample"
+SAYS = "Your variance is that of a single sample; the mean of N varies less."
 
 
 def estimate(f, pdf):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "estimate"
 CAUGHT_BY = "mean"
 MISTAKE = "sum-over-sum"
+SAYS = "You divide the sum of f by the sum of the densities: a ratio of means is not the mean of ratios."
 
 
 def estimate(f, pdf):

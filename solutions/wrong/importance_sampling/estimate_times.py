@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "estimate"
 CAUGHT_BY = "mean"
 MISTAKE = "times-density"
+SAYS = "You multiply by the density, so samples count more the more probable they are."
 
 
 def estimate(f, pdf):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "phong_lobe_pdf"
 CAUGHT_BY = "below"
 MISTAKE = "lobe-below-horizon"
+SAYS = "Below the horizon your density is not 0; even powers hide the sign of the cosine."
 
 
 def phong_lobe_pdf(cos, exponent):

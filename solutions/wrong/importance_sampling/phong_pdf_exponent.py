@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "phong_lobe_pdf"
 CAUGHT_BY = "values"
 MISTAKE = "exponent-off-by-one"
+SAYS = "Your density is scaled by the exponent instead of one more."
 
 
 def phong_lobe_pdf(cos, exponent):

@@ -3,8 +3,9 @@
 import numpy as np
 
 FUNCTION = "phong_lobe_pdf"
-CAUGHT_BY = "normalised"
+CAUGHT_BY = "values"
 MISTAKE = "lobe-not-normalised"
+SAYS = "Your density is the power of the cosine itself: its integral is not 1."
 
 
 def phong_lobe_pdf(cos, exponent):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "phong_lobe_pdf"
 CAUGHT_BY = "values"
 MISTAKE = "reflectance-for-density"
+SAYS = "You divide by the integral of cos^(n + 1): that belongs to the reflectance, not to the density."
 
 
 def phong_lobe_pdf(cos, exponent):

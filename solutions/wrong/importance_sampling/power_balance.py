@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "power_heuristic"
 CAUGHT_BY = "values"
 MISTAKE = "balance-heuristic"
+SAYS = "You weigh by the densities themselves, not by their squares: that is the balance heuristic."
 
 
 def power_heuristic(a, b):

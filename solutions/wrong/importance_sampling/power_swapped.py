@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "power_heuristic"
 CAUGHT_BY = "values"
 MISTAKE = "weights-swapped"
+SAYS = "You return the weight of the sample drawn with b."
 
 
 def power_heuristic(a, b):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "uniform_hemisphere"
 CAUGHT_BY = "density"
 MISTAKE = "uniform-angle"
+SAYS = "Your directions crowd the pole: what is uniform is the height, not the angle."
 
 
 def uniform_hemisphere(u):

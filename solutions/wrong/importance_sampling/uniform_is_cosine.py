@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "uniform_hemisphere"
 CAUGHT_BY = "density"
 MISTAKE = "cosine-for-uniform"
+SAYS = "Your directions have the density cos / pi instead of a constant one."
 
 
 def uniform_hemisphere(u):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "uniform_hemisphere"
 CAUGHT_BY = "hemisphere"
 MISTAKE = "whole-sphere"
+SAYS = "Your directions cover the whole sphere."
 
 
 def uniform_hemisphere(u):

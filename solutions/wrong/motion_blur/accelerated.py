@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "displacement"
 CAUGHT_BY = "linear"
 MISTAKE = "accelerated"
+SAYS = "Your object gets faster with the square of the time; here the velocity is constant."
 
 
 def displacement(velocity, time):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "shutter_times"
 CAUGHT_BY = "rising"
 MISTAKE = "backwards"
+SAYS = "Your times run from close back to open; they should rise with u."
 
 
 def shutter_times(open, close, u):  # noqa: A002

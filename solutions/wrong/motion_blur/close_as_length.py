@@ -3,8 +3,9 @@
 import numpy as np
 
 FUNCTION = "shutter_times"
-CAUGHT_BY = "even"
+CAUGHT_BY = "uniform"
 MISTAKE = "close-as-length"
+SAYS = "You take `close` for the length of the exposure, but it is the time at which it ends."
 
 
 def shutter_times(open, close, u):  # noqa: A002

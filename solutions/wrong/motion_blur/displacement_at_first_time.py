@@ -3,8 +3,9 @@
 import numpy as np
 
 FUNCTION = "displacement"
-CAUGHT_BY = "own-time"
+CAUGHT_BY = "linear"
 MISTAKE = "gone-at-first-time"
+SAYS = "You use the first ray's time for all rays; each has its own."
 
 
 def displacement(velocity, time):

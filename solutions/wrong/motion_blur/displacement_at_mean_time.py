@@ -3,8 +3,9 @@
 import numpy as np
 
 FUNCTION = "displacement"
-CAUGHT_BY = "own-time"
+CAUGHT_BY = "linear"
 MISTAKE = "gone-at-mean-time"
+SAYS = "You use the mean time for all rays, which moves the object but leaves no streak; each ray has a time of its own."
 
 
 def displacement(velocity, time):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "displacement"
 CAUGHT_BY = "one-second"
 MISTAKE = "against-velocity"
+SAYS = "Your object moves against its velocity; a sign is the wrong way round."
 
 
 def displacement(velocity, time):

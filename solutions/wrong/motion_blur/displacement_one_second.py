@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "displacement"
 CAUGHT_BY = "linear"
-MISTAKE = None
+MISTAKE = "gone-at-once"
+SAYS = "Your object has gone the way of one second at every time."
 
 
 def displacement(velocity, time):

@@ -3,8 +3,11 @@
 import numpy as np
 
 FUNCTION = "shutter_times"
-CAUGHT_BY = "even"
+CAUGHT_BY = "uniform"
 MISTAKE = "u-unused"
+SAYS = (
+    "Your times are a row that doesn't depend on u, so that every batch shows the same few ghosts."
+)
 
 
 def shutter_times(open, close, u):  # noqa: A002

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "to_object_space"
 CAUGHT_BY = "travels-along"
 MISTAKE = "wrong-way"
+SAYS = "You move the rays along with the object; seen from an object that moves to the right, the rest of the world moves to the left."
 
 
 def to_object_space(origins, velocity, time):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "to_object_space"
 CAUGHT_BY = "at-start"
 MISTAKE = "other-difference"
+SAYS = "Your difference is the wrong way round: it is the object as the ray sees it, not the ray as the object sees it."
 
 
 def to_object_space(origins, velocity, time):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "shutter_times"
 CAUGHT_BY = "uniform"
 MISTAKE = "one-time"
+SAYS = "All rays got one and the same moment, so a moving object is sharp, only somewhere else; every ray needs a moment of its own."
 
 
 def shutter_times(open, close, u):  # noqa: A002

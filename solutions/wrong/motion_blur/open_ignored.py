@@ -3,8 +3,9 @@
 import numpy as np
 
 FUNCTION = "shutter_times"
-CAUGHT_BY = "even"
+CAUGHT_BY = "uniform"
 MISTAKE = "open-ignored"
+SAYS = "Your exposure starts at time 0; the shutter opens at `open`, which may be any time."
 
 
 def shutter_times(open, close, u):  # noqa: A002

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "to_object_space"
 CAUGHT_BY = "travels-along"
 MISTAKE = "seen-at-first-time"
+SAYS = "You use the first ray's time for all rays; each has its own."
 
 
 def to_object_space(origins, velocity, time):

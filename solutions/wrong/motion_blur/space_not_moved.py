@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "to_object_space"
 CAUGHT_BY = "travels-along"
-MISTAKE = None
+MISTAKE = "not-moved"
+SAYS = "You hand the origins back as they came, so the object never moves."
 
 
 def to_object_space(origins, velocity, time):

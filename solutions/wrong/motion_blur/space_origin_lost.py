@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "to_object_space"
 CAUGHT_BY = "at-start"
-MISTAKE = None
+MISTAKE = "origins-lost"
+SAYS = "You hand back how far the object has gone, but the ray's own origin is missing."
 
 
 def to_object_space(origins, velocity, time):

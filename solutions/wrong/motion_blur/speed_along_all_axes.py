@@ -5,6 +5,9 @@ import numpy as np
 FUNCTION = "displacement"
 CAUGHT_BY = "one-second"
 MISTAKE = "speed-only"
+SAYS = (
+    "You use only how large the velocity is, and lose in which direction it points along each axis."
+)
 
 
 def displacement(velocity, time):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "shutter_times"
 CAUGHT_BY = "uniform"
 MISTAKE = "uneven"
+SAYS = "Your times fill the exposure, but some moments come more often than others, so the streak has a bright end."
 
 
 def shutter_times(open, close, u):  # noqa: A002

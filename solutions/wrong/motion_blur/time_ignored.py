@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "to_object_space"
 CAUGHT_BY = "own-time"
 MISTAKE = "seen-at-once"
+SAYS = "You move every ray by the way of one whole second, whatever its time is."
 
 
 def to_object_space(origins, velocity, time):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "displacement"
 CAUGHT_BY = "one-second"
 MISTAKE = "unit-speed"
+SAYS = "Your object always moves at 1 m/s; the velocity's length is its speed and must stay."
 
 
 def displacement(velocity, time):

@@ -3,8 +3,9 @@
 import numpy as np
 
 FUNCTION = "shutter_times"
-CAUGHT_BY = "even"
+CAUGHT_BY = "uniform"
 MISTAKE = "unit-time"
+SAYS = "Your times run from 0 to 1 whatever the shutter does; u still has to be stretched and shifted to the exposure."
 
 
 def shutter_times(open, close, u):  # noqa: A002

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "diffuse_bounce"
 CAUGHT_BY = "density"
 MISTAKE = "uniform-angle"
+SAYS = "Your angles from the normal are uniform: that crowds it too much."
 
 
 def diffuse_bounce(normal, u):

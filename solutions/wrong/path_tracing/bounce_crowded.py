@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "diffuse_bounce"
 CAUGHT_BY = "density"
 MISTAKE = "disk-crowded-centre"
+SAYS = "The disk that you lift to the hemisphere is crowded at its centre."
 
 
 def diffuse_bounce(normal, u):

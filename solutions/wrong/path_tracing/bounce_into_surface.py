@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "diffuse_bounce"
 CAUGHT_BY = "hemisphere"
 MISTAKE = "into-surface"
+SAYS = "Your directions go into the surface; the normal is on the side that the light comes from."
 
 
 def diffuse_bounce(normal, u):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "diffuse_bounce"
 CAUGHT_BY = "hemisphere"
 MISTAKE = "bounce-not-normalised"
+SAYS = "Your directions are not of unit length."
 
 
 def diffuse_bounce(normal, u):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "diffuse_bounce"
 CAUGHT_BY = "density"
 MISTAKE = "uniform-for-cosine"
+SAYS = "Your directions are uniform: grazing ones come as often as steep ones."
 
 
 def diffuse_bounce(normal, u):

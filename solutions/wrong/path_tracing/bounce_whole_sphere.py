@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "diffuse_bounce"
 CAUGHT_BY = "hemisphere"
 MISTAKE = "whole-sphere"
+SAYS = "Your directions cover the whole sphere; half of them go into the surface."
 
 
 def diffuse_bounce(normal, u):

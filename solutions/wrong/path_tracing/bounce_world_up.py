@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "diffuse_bounce"
 CAUGHT_BY = "hemisphere"
 MISTAKE = "normal-ignored"
+SAYS = "Your directions don't depend on the normal: they are about an axis of the world."
 
 
 def diffuse_bounce(normal, u):

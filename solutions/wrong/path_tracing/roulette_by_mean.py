@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "russian_roulette"
 CAUGHT_BY = "survival"
 MISTAKE = "mean-for-largest"
+SAYS = "You take the mean of the channels for the probability; a path of one pure colour ends too soon."
 
 
 def russian_roulette(beta, u):

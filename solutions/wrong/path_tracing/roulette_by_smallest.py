@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "russian_roulette"
 CAUGHT_BY = "survival"
 MISTAKE = "smallest-for-largest"
+SAYS = "You take the smallest channel for the probability; what little survives is much too bright."
 
 
 def russian_roulette(beta, u):

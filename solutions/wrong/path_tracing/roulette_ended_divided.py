@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "russian_roulette"
 CAUGHT_BY = "values"
 MISTAKE = "ended-divided"
+SAYS = "Paths that end are divided by the probability too, as if they had survived."
 
 
 def russian_roulette(beta, u):

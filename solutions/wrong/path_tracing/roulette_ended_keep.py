@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "russian_roulette"
 CAUGHT_BY = "values"
 MISTAKE = "ended-keep"
+SAYS = "Survivors are right, but the paths that end keep their throughput."
 
 
 def russian_roulette(beta, u):

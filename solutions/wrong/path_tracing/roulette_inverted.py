@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "russian_roulette"
 CAUGHT_BY = "survival"
 MISTAKE = "inverted"
+SAYS = "Bright paths end and dark ones survive: it is the other way round."
 
 
 def russian_roulette(beta, u):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "russian_roulette"
 CAUGHT_BY = "values"
 MISTAKE = "not-divided"
+SAYS = "Survivors keep the throughput that they had, so the light of those that end is lost."
 
 
 def russian_roulette(beta, u):

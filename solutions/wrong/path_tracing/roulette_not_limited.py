@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "russian_roulette"
 CAUGHT_BY = "certain"
 MISTAKE = "not-limited"
+SAYS = "You divide by a probability over 1: bright paths lose light."
 
 
 def russian_roulette(beta, u):

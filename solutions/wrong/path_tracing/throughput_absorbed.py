@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "throughput"
 CAUGHT_BY = "values"
 MISTAKE = "absorbed-for-returned"
+SAYS = "You keep the share that the surface swallows instead of the one that it returns."
 
 
 def throughput(beta, albedo):

@@ -3,8 +3,9 @@
 import numpy as np
 
 FUNCTION = "throughput"
-CAUGHT_BY = "values"
-MISTAKE = None
+CAUGHT_BY = "bright"
+MISTAKE = "clipped"
+SAYS = "You cut throughputs at 1; paths may bring more."
 
 
 def throughput(beta, albedo):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "throughput"
 CAUGHT_BY = "values"
 MISTAKE = "before-forgotten"
+SAYS = "You forget what the path had lost before: its throughput is a product over all bounces."
 
 
 def throughput(beta, albedo):

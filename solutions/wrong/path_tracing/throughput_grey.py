@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "throughput"
 CAUGHT_BY = "values"
 MISTAKE = "grey"
+SAYS = "You take the mean of the albedo's channels: no wall will colour another."
 
 
 def throughput(beta, albedo):

@@ -3,7 +3,7 @@
 import numpy as np
 
 FUNCTION = "throughput"
-CAUGHT_BY = "furnace"
+CAUGHT_BY = "values"
 MISTAKE = None
 
 

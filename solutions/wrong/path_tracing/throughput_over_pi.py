@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "throughput"
 CAUGHT_BY = "values"
 MISTAKE = "over-pi"
+SAYS = "You divide by pi once too often: the density of the directions has it, too."
 
 
 def throughput(beta, albedo):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "throughput"
 CAUGHT_BY = "values"
 MISTAKE = "times-pi"
+SAYS = "You multiply by pi: the reflectance distribution is the albedo over pi."
 
 
 def throughput(beta, albedo):

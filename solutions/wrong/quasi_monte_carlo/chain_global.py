@@ -4,7 +4,7 @@ import numpy as np
 
 FUNCTION = "chain"
 CAUGHT_BY = "untouched"
-MISTAKE = None
+MISTAKE = "own-generator"
 
 
 def chain(patterns, ids, rng):

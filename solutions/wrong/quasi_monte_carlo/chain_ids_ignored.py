@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "chain"
 CAUGHT_BY = "by_id"
 MISTAKE = "ids-ignored"
+SAYS = "Rays of the same id take different samples: the id doesn't decide."
 
 
 def chain(patterns, ids, rng):

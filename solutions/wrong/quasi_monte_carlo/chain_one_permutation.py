@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "chain"
 CAUGHT_BY = "decorrelated"
 MISTAKE = "one-permutation"
+SAYS = "All patterns have the same permutation, so the effects are as tied to each other as before."
 
 
 def chain(patterns, ids, rng):

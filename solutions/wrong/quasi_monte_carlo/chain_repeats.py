@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "chain"
 CAUGHT_BY = "once"
 MISTAKE = "with-repeats"
+SAYS = "You draw samples with repetition: a pixel takes some twice and others never."
 
 
 def chain(patterns, ids, rng):

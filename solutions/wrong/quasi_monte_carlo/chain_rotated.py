@@ -3,8 +3,9 @@
 import numpy as np
 
 FUNCTION = "chain"
-CAUGHT_BY = "uniform"
+CAUGHT_BY = "decorrelated"
 MISTAKE = "only-rotated"
+SAYS = "Your patterns are rotated by a random number of samples: neighbours stay neighbours."
 
 
 def chain(patterns, ids, rng):

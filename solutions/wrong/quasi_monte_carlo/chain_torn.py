@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "chain"
 CAUGHT_BY = "samples"
 MISTAKE = "coordinates-torn-apart"
+SAYS = "Each row has a permutation of its own, which tears the coordinates of a sample apart."
 
 
 def chain(patterns, ids, rng):

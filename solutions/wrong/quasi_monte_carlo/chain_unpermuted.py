@@ -5,6 +5,9 @@ import numpy as np
 FUNCTION = "chain"
 CAUGHT_BY = "from_rng"
 MISTAKE = "not-permuted"
+SAYS = (
+    "Your ray takes the sample of its own id from each pattern: the effects are tied to each other."
+)
 
 
 def chain(patterns, ids, rng):

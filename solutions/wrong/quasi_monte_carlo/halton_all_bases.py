@@ -5,6 +5,9 @@ import numpy as np
 FUNCTION = "halton"
 CAUGHT_BY = "exact"
 MISTAKE = "bases-not-prime"
+SAYS = (
+    "Your bases are 2, 3, 4, 5, ...: where they share a factor, coordinates are tied to each other."
+)
 
 
 def halton(i, dims):

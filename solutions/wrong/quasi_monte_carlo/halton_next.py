@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "halton"
 CAUGHT_BY = "exact"
 MISTAKE = "next-point"
+SAYS = "You give the point that follows: point 0 has all coordinates 0."
 
 
 def halton(i, dims):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "halton"
 CAUGHT_BY = "exact"
 MISTAKE = "odd-bases"
+SAYS = "Your bases are 2 and the odd numbers; 9 is one, but it is no prime."
 
 
 def halton(i, dims):

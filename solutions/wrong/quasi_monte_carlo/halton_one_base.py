@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "halton"
 CAUGHT_BY = "exact"
 MISTAKE = "one-base"
+SAYS = "All your coordinates have the same base, so the points lie on the diagonal."
 
 
 def halton(i, dims):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "halton"
 CAUGHT_BY = "exact"
 MISTAKE = "first-prime-missing"
+SAYS = "Your primes begin with 3; they begin with 2."
 
 
 def halton(i, dims):

@@ -3,8 +3,9 @@
 import numpy as np
 
 FUNCTION = "hammersley"
-CAUGHT_BY = "exact"
+CAUGHT_BY = "first"
 MISTAKE = "centred"
+SAYS = "Your first coordinate is (i + 1/2) / n; here it is i / n."
 
 
 def hammersley(n, dims):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "hammersley"
 CAUGHT_BY = "exact"
 MISTAKE = "halton-instead"
+SAYS = "These are Halton's points: the first coordinate should be i / n."
 
 
 def hammersley(n, dims):

@@ -3,8 +3,9 @@
 import numpy as np
 
 FUNCTION = "hammersley"
-CAUGHT_BY = "exact"
+CAUGHT_BY = "first"
 MISTAKE = "up-to-1"
+SAYS = "Your first coordinate is i / (n - 1), which reaches 1."
 
 
 def hammersley(n, dims):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "hammersley"
 CAUGHT_BY = "exact"
 MISTAKE = "base-2-skipped"
+SAYS = "You skip base 2: after the coordinate that counts, the primes begin with 2."
 
 
 def hammersley(n, dims):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "radical_inverse"
 CAUGHT_BY = "exact"
 MISTAKE = "always-base-2"
+SAYS = "Your base is 2, whichever is asked for."
 
 
 def radical_inverse(base, i):

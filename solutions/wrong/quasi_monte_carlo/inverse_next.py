@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "radical_inverse"
 CAUGHT_BY = "exact"
 MISTAKE = "one-too-far"
+SAYS = "You give the radical inverse of i + 1."
 
 
 def radical_inverse(base, i):

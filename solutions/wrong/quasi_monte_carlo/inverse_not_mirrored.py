@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "radical_inverse"
 CAUGHT_BY = "exact"
 MISTAKE = "not-mirrored"
+SAYS = "Your digits stand behind the point in the order in which they stood before it."
 
 
 def radical_inverse(base, i):

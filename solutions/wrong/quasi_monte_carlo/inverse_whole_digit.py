@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "radical_inverse"
 CAUGHT_BY = "exact"
 MISTAKE = "first-digit-whole"
+SAYS = "Your first digit stands before the point: the numbers are base times too large."
 
 
 def radical_inverse(base, i):

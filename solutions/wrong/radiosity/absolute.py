@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "needs_split"
 CAUGHT_BY = "scale"
 MISTAKE = "absolute"
+SAYS = "You compare the difference itself with the threshold, not its share of the largest value."
 
 
 def needs_split(patch_radiosity, threshold):

@@ -3,8 +3,9 @@
 import numpy as np
 
 FUNCTION = "gather"
-CAUGHT_BY = "converges"
+CAUGHT_BY = "fixed"
 MISTAKE = "added-up"
+SAYS = "You add to the radiosity so far: what was gathered before is gathered again."
 
 
 def gather(radiosity, emission, reflectance, form_factors):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "shoot"
 CAUGHT_BY = "received"
 MISTAKE = "areas-forgotten"
+SAYS = "You leave out the areas: a large patch shoots more, and a small one gets brighter."
 
 
 def shoot(radiosity, unshot, reflectance, areas, form_factors, shooter):

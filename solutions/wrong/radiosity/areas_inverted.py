@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "shoot"
 CAUGHT_BY = "energy"
 MISTAKE = "areas-inverted"
+SAYS = "You have the ratio of the areas upside down."
 
 
 def shoot(radiosity, unshot, reflectance, areas, form_factors, shooter):

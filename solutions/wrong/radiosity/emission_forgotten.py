@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "gather"
 CAUGHT_BY = "dark"
 MISTAKE = "emission-forgotten"
+SAYS = "You leave out what patches emit by themselves."
 
 
 def gather(radiosity, emission, reflectance, form_factors):

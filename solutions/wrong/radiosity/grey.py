@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "needs_split"
 CAUGHT_BY = "contrast"
 MISTAKE = "grey"
+SAYS = "You mix the channels first: red beside green of the same brightness is a contrast."
 
 
 def needs_split(patch_radiosity, threshold):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "hemicube_form_factors"
 CAUGHT_BY = "side"
 MISTAKE = "height-forgotten"
+SAYS = "Your sides lack the cosine at the patch, which is smaller the lower the cell is."
 
 
 def hemicube_form_factors(k):

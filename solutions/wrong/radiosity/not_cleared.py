@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "shoot"
 CAUGHT_BY = "cleared"
 MISTAKE = "not-cleared"
+SAYS = "The shooter keeps its unshot light, and will shoot it again and again."
 
 
 def shoot(radiosity, unshot, reflectance, areas, form_factors, shooter):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "shoot"
 CAUGHT_BY = "unshot"
 MISTAKE = "not-passed-on"
+SAYS = "Receivers don't get anything to shoot: light is reflected once only."
 
 
 def shoot(radiosity, unshot, reflectance, areas, form_factors, shooter):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "hemicube_form_factors"
 CAUGHT_BY = "top"
 MISTAKE = "not-squared"
+SAYS = "Your factors fall off with r^2 only; the two cosines bring another 1 / r^2."
 
 
 def hemicube_form_factors(k):

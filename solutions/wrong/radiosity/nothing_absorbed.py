@@ -3,8 +3,9 @@
 import numpy as np
 
 FUNCTION = "shoot"
-CAUGHT_BY = "converges"
+CAUGHT_BY = "received"
 MISTAKE = "nothing-absorbed"
+SAYS = "You leave out the reflectance of the receivers."
 
 
 def shoot(radiosity, unshot, reflectance, areas, form_factors, shooter):

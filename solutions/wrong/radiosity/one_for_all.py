@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "needs_split"
 CAUGHT_BY = "contrast"
 MISTAKE = "one-for-all"
+SAYS = "You divide by the largest value of all patches; each has its own."
 
 
 def needs_split(patch_radiosity, threshold):

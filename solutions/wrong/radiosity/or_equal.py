@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "needs_split"
 CAUGHT_BY = "threshold"
 MISTAKE = "or-equal"
+SAYS = "You divide patches whose contrast is the threshold, too."
 
 
 def needs_split(patch_radiosity, threshold):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "needs_split"
 CAUGHT_BY = "contrast"
 MISTAKE = "own-channel"
+SAYS = "You compare each channel with its own largest value; a dark one has much contrast and little light."
 
 
 def needs_split(patch_radiosity, threshold):

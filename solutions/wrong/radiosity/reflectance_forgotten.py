@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "gather"
 CAUGHT_BY = "values"
 MISTAKE = "reflectance-forgotten"
+SAYS = "You leave out the reflectance: patches return all light that reaches them."
 
 
 def gather(radiosity, emission, reflectance, form_factors):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "gather"
 CAUGHT_BY = "fixed"
 MISTAKE = "reflected-at-sender"
+SAYS = "You use the reflectance of the patch that the light comes from, instead of the one that it reaches."
 
 
 def gather(radiosity, emission, reflectance, form_factors):

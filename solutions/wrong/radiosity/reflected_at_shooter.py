@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "shoot"
 CAUGHT_BY = "received"
 MISTAKE = "reflected-at-shooter"
+SAYS = "You use the shooter's reflectance; the receiver's counts."
 
 
 def shoot(radiosity, unshot, reflectance, areas, form_factors, shooter):

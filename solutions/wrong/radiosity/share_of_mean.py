@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "needs_split"
 CAUGHT_BY = "contrast"
 MISTAKE = "share-of-mean"
+SAYS = "You divide by the mean; contrast is a share of the largest value."
 
 
 def needs_split(patch_radiosity, threshold):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "shoot"
 CAUGHT_BY = "received"
 MISTAKE = "shooter-darkened"
+SAYS = "You take the light that is shot away from the shooter's radiosity: it stays bright."
 
 
 def shoot(radiosity, unshot, reflectance, areas, form_factors, shooter):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "shoot"
 CAUGHT_BY = "received"
 MISTAKE = "shoots-everything"
+SAYS = "You shoot the whole radiosity again, with what has been shot before."
 
 
 def shoot(radiosity, unshot, reflectance, areas, form_factors, shooter):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "gather"
 CAUGHT_BY = "values"
 MISTAKE = "transposed"
+SAYS = "You take columns of the form factors for rows: they tell what others send, not what arrives per area."
 
 
 def gather(radiosity, emission, reflectance, form_factors):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "hemicube_form_factors"
 CAUGHT_BY = "sum"
 MISTAKE = "unit-area"
+SAYS = "Your cells have a fourth of their area: the top is 2 x 2, not 1 x 1."
 
 
 def hemicube_form_factors(k):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "hemicube_form_factors"
 CAUGHT_BY = "side"
 MISTAKE = "upside-down"
+SAYS = "Your sides are upside down: row 0 is the lowest."
 
 
 def hemicube_form_factors(k):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "hemicube_form_factors"
 CAUGHT_BY = "sum"
 MISTAKE = "without-area"
+SAYS = "Your cells lack their area: that is the density, not the share."
 
 
 def hemicube_form_factors(k):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "hemicube_form_factors"
 CAUGHT_BY = "sum"
 MISTAKE = "without-pi"
+SAYS = "Your factors are pi times too large."
 
 
 def hemicube_form_factors(k):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "ball_by_polar"
 CAUGHT_BY = "uniform"
 MISTAKE = "ball-crowded-centre"
+SAYS = "Your points crowd the centre: a uniform radius is not uniform in volume."
 
 
 def ball_by_polar(u):

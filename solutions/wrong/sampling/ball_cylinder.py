@@ -3,7 +3,7 @@
 import numpy as np
 
 FUNCTION = "ball_by_rejection"
-CAUGHT_BY = "within"
+CAUGHT_BY = "inside"
 MISTAKE = None
 
 

@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "ball_by_polar"
 CAUGHT_BY = "uniform"
-MISTAKE = None
+MISTAKE = "ball-one-number"
+SAYS = "One row of u has no effect: radius, height and turn each need a number of their own."
 
 
 def ball_by_polar(u):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "ball_by_rejection"
 CAUGHT_BY = "from_rng"
 MISTAKE = "ball-own-generator"
+SAYS = "Nothing is drawn from rng: your random numbers come from elsewhere."
 
 
 def ball_by_rejection(n, rng):

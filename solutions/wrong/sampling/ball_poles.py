@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "ball_by_polar"
 CAUGHT_BY = "uniform"
 MISTAKE = "ball-crowded-poles"
+SAYS = "Your points crowd the poles: what is uniform is the height, not the angle from the pole."
 
 
 def ball_by_polar(u):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "ball_by_rejection"
 CAUGHT_BY = "uniform"
 MISTAKE = "ball-left-at-centre"
+SAYS = "Where a point was rejected you leave the centre of the ball instead of drawing anew."
 
 
 def ball_by_rejection(n, rng):

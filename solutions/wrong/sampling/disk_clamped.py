@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "disk_by_rejection"
 CAUGHT_BY = "uniform"
 MISTAKE = "disk-pushed-to-rim"
+SAYS = "Points outside the disk are moved to its rim instead of being drawn anew, so the rim is crowded."
 
 
 def disk_by_rejection(n, rng):

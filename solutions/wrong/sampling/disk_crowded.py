@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "disk_by_polar"
 CAUGHT_BY = "uniform"
 MISTAKE = "disk-crowded-centre"
+SAYS = "Your points crowd the centre: a uniform radius is not uniform in area."
 
 
 def disk_by_polar(u):

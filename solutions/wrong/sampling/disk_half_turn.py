@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "disk_by_polar"
 CAUGHT_BY = "uniform"
 MISTAKE = "disk-half-turn"
+SAYS = "Your points stay on one half of the disk: the angle covers half a turn."
 
 
 def disk_by_polar(u):

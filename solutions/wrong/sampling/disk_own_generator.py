@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "disk_by_rejection"
 CAUGHT_BY = "from_rng"
-MISTAKE = None
+MISTAKE = "disk-own-generator"
+SAYS = "Nothing is drawn from rng: your random numbers come from elsewhere."
 
 _from_rng = disk_by_rejection
 

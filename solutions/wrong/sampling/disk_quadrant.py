@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "disk_by_rejection"
 CAUGHT_BY = "uniform"
 MISTAKE = "disk-one-corner"
+SAYS = "All coordinates are positive: your square reaches from 0 to 1, not from -1."
 
 
 def disk_by_rejection(n, rng):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "disk_by_polar"
 CAUGHT_BY = "uniform"
 MISTAKE = "disk-one-number"
+SAYS = "One row of u has no effect: radius and angle each need a number of their own."
 
 
 def disk_by_polar(u):

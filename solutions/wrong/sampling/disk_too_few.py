@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "disk_by_rejection"
 CAUGHT_BY = "contract"
 MISTAKE = "disk-too-few"
+SAYS = "You draw n candidates and return those that are accepted: fewer than n."
 
 
 def disk_by_rejection(n, rng):

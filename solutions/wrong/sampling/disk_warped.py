@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "disk_by_rejection"
 CAUGHT_BY = "acceptance"
 MISTAKE = "disk-no-rejection"
+SAYS = "Your points are uniform, but you draw too few numbers to have rejected any: this is a warp."
 
 
 def disk_by_rejection(n, rng):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "xorshift32"
 CAUGHT_BY = "random"
 MISTAKE = "random-of-the-old-state"
+SAYS = "The random number is made of the state before the step; it should be made of the new one."
 
 
 def xorshift32(state):

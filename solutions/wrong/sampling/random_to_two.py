@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "xorshift32"
 CAUGHT_BY = "random"
 MISTAKE = "divided-by-2^31"
+SAYS = "Your random numbers reach 2: an unsigned number of 32 bits has 2^32 values."
 
 
 def xorshift32(state):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "xorshift32"
 CAUGHT_BY = "known"
 MISTAKE = "all-from-the-first"
+SAYS = "All three shifts start from the state as it came; each has to start from what the one before left."
 
 
 def xorshift32(state):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "xorshift32"
 CAUGHT_BY = "known"
 MISTAKE = "other-order"
+SAYS = "Your shifts are the right ones in another order."
 
 
 def xorshift32(state):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "xorshift32"
 CAUGHT_BY = "known"
 MISTAKE = "wrong-way-shifts"
+SAYS = "Your shifts go the wrong way: it is left by 13, right by 17, left by 5."
 
 
 def xorshift32(state):

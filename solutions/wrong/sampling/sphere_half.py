@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "sphere_by_polar"
 CAUGHT_BY = "uniform"
 MISTAKE = "sphere-upper-half"
+SAYS = "Your points cover the upper half alone: the height runs from -1 to 1."
 
 
 def sphere_by_polar(u):

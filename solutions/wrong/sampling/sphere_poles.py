@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "sphere_by_polar"
 CAUGHT_BY = "uniform"
 MISTAKE = "sphere-crowded-poles"
+SAYS = "Your points crowd the poles: what is uniform is the height, not the angle from the pole."
 
 
 def sphere_by_polar(u):

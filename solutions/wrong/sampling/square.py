@@ -3,8 +3,9 @@
 import numpy as np
 
 FUNCTION = "disk_by_rejection"
-CAUGHT_BY = "within"
+CAUGHT_BY = "inside"
 MISTAKE = "disk-not-rejected"
+SAYS = "Your points fill the whole square: those outside the disk are never rejected."
 
 
 def disk_by_rejection(n, rng):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "xorshift32"
 CAUGHT_BY = "contract"
 MISTAKE = "more-than-32-bits"
+SAYS = "Your state is wider than 32 bits, so bits that should fall off on the left stay."
 
 
 def xorshift32(state):

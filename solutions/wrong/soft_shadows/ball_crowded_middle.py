@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "point_in_ball"
 CAUGHT_BY = "uniform"
 MISTAKE = "crowded-middle"
+SAYS = "Your distance from the centre is uniform, so the points crowd in the middle: an inner shell holds less volume than an outer one."
 
 
 def point_in_ball(center, radius, u):

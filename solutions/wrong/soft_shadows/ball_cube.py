@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "point_in_ball"
 CAUGHT_BY = "inside"
 MISTAKE = "cube"
+SAYS = "Your points fill a cube around the ball, so some lie outside of it."
 
 
 def point_in_ball(center, radius, u):

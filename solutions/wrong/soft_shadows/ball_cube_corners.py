@@ -3,8 +3,9 @@
 import numpy as np
 
 FUNCTION = "point_in_ball"
-CAUGHT_BY = "directions"
+CAUGHT_BY = "uniform"
 MISTAKE = "cube-corners"
+SAYS = "Your directions are those of points in a cube, which crowd towards its eight corners."
 
 
 def point_in_ball(center, radius, u):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "point_in_ball"
 CAUGHT_BY = "uniform"
 MISTAKE = "shared-number"
+SAYS = "The same random number gives the direction and the distance, so the points lie on a surface within the ball; each of the three coordinates needs a number of its own."
 
 
 def point_in_ball(center, radius, u):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "point_in_ball"
 CAUGHT_BY = "uniform"
 MISTAKE = "square-root"
+SAYS = "Your radii would be right for a disk: in a ball it is the third power that counts, not the second."
 
 
 def point_in_ball(center, radius, u):

@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "point_in_ball"
 CAUGHT_BY = "uniform"
-MISTAKE = None
+MISTAKE = "ball-surface-only"
+SAYS = "All your points lie on the surface; the ball's inside gives light too."
 
 
 def point_in_ball(center, radius, u):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "point_on_facing_disk"
 CAUGHT_BY = "inside"
 MISTAKE = "around-the-point"
+SAYS = "Your disk lies around the shading point; it belongs around the light's centre."
 
 
 def point_on_facing_disk(center, radius, point, u):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "point_on_facing_disk"
 CAUGHT_BY = "uniform"
 MISTAKE = "crowded-centre"
+SAYS = "A uniform radius is not uniform in area: your points crowd in the disk's middle."
 
 
 def point_on_facing_disk(center, radius, point, u):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "point_on_facing_disk"
 CAUGHT_BY = "columns"
 MISTAKE = "fixed-disk"
+SAYS = "Your disk has the same orientation for all shading points; it should turn to face each of them."
 
 
 def point_on_facing_disk(center, radius, point, u):

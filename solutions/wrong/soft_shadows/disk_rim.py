@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "point_on_facing_disk"
 CAUGHT_BY = "uniform"
-MISTAKE = None
+MISTAKE = "ring"
+SAYS = "All your points lie on the disk's rim; its inside gives light too."
 
 _whole_disk = point_on_facing_disk
 

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "point_on_facing_disk"
 CAUGHT_BY = "inside"
 MISTAKE = "square"
+SAYS = "Your points fill a square; its corners stick out of the disk."
 
 
 def point_on_facing_disk(center, radius, point, u):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "light_grid"
 CAUGHT_BY = "centres"
 MISTAKE = "grid-at-corners"
+SAYS = "Your point lights stand at the corners of the cells, so the light as a whole is shifted; they belong in the middle of each cell."
 
 
 def light_grid(corner, edge_u, edge_v, k):

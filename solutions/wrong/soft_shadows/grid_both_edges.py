@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "light_grid"
 CAUGHT_BY = "centres"
 MISTAKE = "grid-both-edges"
+SAYS = "Your grid goes from edge to edge of the light; its outermost points should be half a cell inside."
 
 
 def light_grid(corner, edge_u, edge_v, k):

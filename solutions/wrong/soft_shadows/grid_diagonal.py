@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "light_grid"
 CAUGHT_BY = "centres"
 MISTAKE = "grid-diagonal"
+SAYS = "All your point lights lie on the light's diagonal: each cell needs a pair of steps, one for each edge."
 
 
 def light_grid(corner, edge_u, edge_v, k):

@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "light_grid"
 CAUGHT_BY = "centres"
-MISTAKE = None
+MISTAKE = "grid-edges-as-points"
+SAYS = "You take the edges for corners of the light; they are vectors that leave the first corner."
 
 
 def light_grid(corner, edge_u, edge_v, k):

@@ -3,8 +3,9 @@
 import numpy as np
 
 FUNCTION = "point_on_rectangle"
-CAUGHT_BY = "plane"
+CAUGHT_BY = "inside"
 MISTAKE = "corner-as-centre"
+SAYS = "You spread the points about the corner, as if it were the light's centre."
 
 
 def point_on_rectangle(corner, edge_u, edge_v, u):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "point_on_rectangle"
 CAUGHT_BY = "plane"
 MISTAKE = "rectangle-edges-as-points"
+SAYS = "You take the edges for corners of the light; they are vectors that leave the first corner."
 
 
 def point_on_rectangle(corner, edge_u, edge_v, u):

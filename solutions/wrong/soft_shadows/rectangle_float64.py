@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "point_on_rectangle"
 CAUGHT_BY = "contract"
 MISTAKE = "point-on-rectangle-float64"
+SAYS = "Your result is float64 for float32 numbers; see what single points and constants do to the dtype."
 
 
 def point_on_rectangle(corner, edge_u, edge_v, u):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "point_on_rectangle"
 CAUGHT_BY = "uniform"
 MISTAKE = "rectangle-same-number"
+SAYS = "You use one random number for both edges, so all points lie on a diagonal of the light."
 
 
 def point_on_rectangle(corner, edge_u, edge_v, u):

@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "point_on_rectangle"
 CAUGHT_BY = "uniform"
-MISTAKE = None
+MISTAKE = "triangle"
+SAYS = "Your points fill one half of the parallelogram only, a triangle."
 
 
 def point_on_rectangle(corner, edge_u, edge_v, u):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "point_on_sphere"
 CAUGHT_BY = "radius"
 MISTAKE = "sphere-centre-forgotten"
+SAYS = "Your points lie about the origin of the scene; the light is somewhere else."
 
 
 def point_on_sphere(center, radius, u):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "point_on_sphere"
 CAUGHT_BY = "uniform"
 MISTAKE = "crowded-poles"
+SAYS = "Your polar angle is uniform, so the points crowd at the two poles; near them a step of the angle covers less area."
 
 
 def point_on_sphere(center, radius, u):

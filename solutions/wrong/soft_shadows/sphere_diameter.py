@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "point_on_sphere"
 CAUGHT_BY = "radius"
 MISTAKE = "sphere-half-as-large"
+SAYS = "Your light is half as large as it should be: you take the radius for a diameter."
 
 
 def point_on_sphere(center, radius, u):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "point_on_sphere"
 CAUGHT_BY = "uniform"
 MISTAKE = "half-sphere"
+SAYS = "Only one half of the sphere gets points."
 
 
 def point_on_sphere(center, radius, u):

@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "gaussian_weights"
 CAUGHT_BY = "formula"
-MISTAKE = None
+MISTAKE = "density"
+SAYS = "You scale the weights to a probability density; here the pixel's middle has weight 1."
 
 
 def gaussian_weights(offsets, sigma=1 / 6):

@@ -5,6 +5,9 @@ import numpy as np
 FUNCTION = "gaussian_weights"
 CAUGHT_BY = "default"
 MISTAKE = "from-corner"
+SAYS = (
+    "You measure the distance from the pixel's corner; the weight should be largest in its middle."
+)
 
 
 def gaussian_weights(offsets, sigma=1 / 6):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "gaussian_weights"
 CAUGHT_BY = "formula"
 MISTAKE = "half-missing"
+SAYS = "Your Gaussian is too narrow by the square root of two: the exponent lacks its factor of one half."
 
 
 def gaussian_weights(offsets, sigma=1 / 6):

@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "gaussian_weights"
 CAUGHT_BY = "formula"
-MISTAKE = None
+MISTAKE = "distance-not-squared"
+SAYS = "The distance in your exponent is not squared, which gives a peak with a kink, not a bell."
 
 
 def gaussian_weights(offsets, sigma=1 / 6):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "gaussian_weights"
 CAUGHT_BY = "formula"
 MISTAKE = "sigma-as-variance"
+SAYS = "You use sigma where its square belongs: sigma is the standard deviation, not the variance."
 
 
 def gaussian_weights(offsets, sigma=1 / 6):

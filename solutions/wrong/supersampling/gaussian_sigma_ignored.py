@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "gaussian_weights"
 CAUGHT_BY = "formula"
-MISTAKE = None
+MISTAKE = "sigma-ignored"
+SAYS = "You use the default sigma whatever is asked for."
 
 
 def gaussian_weights(offsets, sigma=1 / 6):

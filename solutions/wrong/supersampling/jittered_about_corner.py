@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "jittered"
 CAUGHT_BY = "cells"
 MISTAKE = "jitter-about-corner"
+SAYS = "Your jitter goes to both sides of a cell's corner, so most points leave their cells."
 
 
 def jittered(k, n, rng):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "jittered"
 CAUGHT_BY = "order"
 MISTAKE = "jittered-columns"
+SAYS = "Your cells come column by column; x should grow first, then y."
 
 
 def jittered(k, n, rng):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "jittered"
 CAUGHT_BY = "cells"
 MISTAKE = "jitter-from-centre"
+SAYS = "Your jitter goes from a cell's centre to one side, so half of the points leave their cells."
 
 
 def jittered(k, n, rng):

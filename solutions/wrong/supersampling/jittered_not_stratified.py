@@ -3,6 +3,7 @@
 FUNCTION = "jittered"
 CAUGHT_BY = "cells"
 MISTAKE = "not-stratified"
+SAYS = "Your points are uniform in the whole pixel, so some cells get several and others none."
 
 
 def jittered(k, n, rng):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "jittered"
 CAUGHT_BY = "uniform"
 MISTAKE = "jittered-same-axes"
+SAYS = "You use the same random number for x and for y, so the points lie on a diagonal."
 
 
 def jittered(k, n, rng):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "jittered"
 CAUGHT_BY = "samples"
 MISTAKE = "jittered-same-cells"
+SAYS = "All cells of a pixel get the same jitter, so your points are a regular grid that is shifted as a whole."
 
 
 def jittered(k, n, rng):

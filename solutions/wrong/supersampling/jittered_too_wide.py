@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "jittered"
 CAUGHT_BY = "cells"
 MISTAKE = "jitter-too-wide"
+SAYS = "Your jitter is as wide as the whole pixel; it should be as wide as one cell."
 
 
 def jittered(k, n, rng):

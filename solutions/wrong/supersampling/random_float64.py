@@ -3,6 +3,9 @@
 FUNCTION = "random"
 CAUGHT_BY = "contract"
 MISTAKE = "random-float64"
+SAYS = (
+    "Your result is float64; the course's pictures are float32, and so should the result be here."
+)
 
 
 def random(k, n, rng):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "random"
 CAUGHT_BY = "untouched"
 MISTAKE = "random-own-generator"
+SAYS = "Two generators with the same seed give you different points: the numbers come from somewhere other than the generator that is handed in."
 
 
 def random(k, n, rng):  # noqa: ARG001

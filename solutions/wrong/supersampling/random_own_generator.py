@@ -3,7 +3,7 @@
 import numpy as np
 
 FUNCTION = "random"
-CAUGHT_BY = "seeded"
+CAUGHT_BY = "from_rng"
 MISTAKE = "random-own-generator"
 
 

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "random"
 CAUGHT_BY = "uniform"
 MISTAKE = "random-same-axes"
+SAYS = "You use the same random number for x and for y, so the points lie on a diagonal."
 
 
 def random(k, n, rng):

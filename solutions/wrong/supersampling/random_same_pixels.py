@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "random"
 CAUGHT_BY = "pixels"
 MISTAKE = "random-same-pixels"
+SAYS = "Every pixel gets the same points, which shows as a repeating pattern; each needs random numbers of its own."
 
 
 def random(k, n, rng):

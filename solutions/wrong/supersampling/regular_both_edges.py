@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "regular"
 CAUGHT_BY = "centres"
 MISTAKE = "both-edges"
+SAYS = "Your grid goes from one edge of the pixel to the other, so neighbouring pixels share points; the outermost points should be half a cell inside."
 
 
 def regular(k, n):

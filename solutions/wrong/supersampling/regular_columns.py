@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "regular"
 CAUGHT_BY = "order"
 MISTAKE = "regular-columns"
+SAYS = "Your cells come column by column; x should grow first, then y."
 
 
 def regular(k, n):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "regular"
 CAUGHT_BY = "centres"
 MISTAKE = "corners-of-cells"
+SAYS = "Your points stand at the corners of the cells; they belong in the middle of each."
 
 
 def regular(k, n):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "resolve"
 CAUGHT_BY = "scale"
 MISTAKE = "divided-by-count"
+SAYS = "You divide by the number of samples; it should be by the sum of their weights."
 
 
 def resolve(radiance, weights):

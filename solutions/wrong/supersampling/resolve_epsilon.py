@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "resolve"
 CAUGHT_BY = "scale"
 MISTAKE = "small-weights-dark"
+SAYS = "Pixels whose weights are all small come out too dark: you add something to the weights' sum, or take a small sum for zero."
 
 
 def resolve(radiance, weights):

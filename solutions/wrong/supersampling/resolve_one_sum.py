@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "resolve"
 CAUGHT_BY = "mean"
-MISTAKE = None
+MISTAKE = "divided-by-all-weights"
+SAYS = "You divide by the sum of all weights of the picture; each pixel has a sum of its own."
 
 
 def resolve(radiance, weights):

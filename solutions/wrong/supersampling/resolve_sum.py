@@ -5,6 +5,9 @@ import numpy as np
 FUNCTION = "resolve"
 CAUGHT_BY = "mean"
 MISTAKE = "sum-not-mean"
+SAYS = (
+    "You sum the weighted samples but never divide, so pixels brighten with the number of samples."
+)
 
 
 def resolve(radiance, weights):

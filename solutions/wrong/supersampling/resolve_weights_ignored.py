@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "resolve"
 CAUGHT_BY = "mean"
 MISTAKE = "weights-ignored"
+SAYS = "All your samples count alike: the weights are not used."
 
 
 def resolve(radiance, weights):

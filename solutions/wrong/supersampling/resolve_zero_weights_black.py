@@ -5,6 +5,9 @@ import numpy as np
 FUNCTION = "resolve"
 CAUGHT_BY = "zero-weights"
 MISTAKE = "zero-weights-black"
+SAYS = (
+    "Where all weights of a pixel are zero your pixel is black; it should be the plain mean there."
+)
 
 
 def resolve(radiance, weights):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "resolve"
 CAUGHT_BY = "zero-weights"
 MISTAKE = "zero-weights-nan"
+SAYS = "Where all weights of a pixel are zero you divide zero by zero."
 
 
 def resolve(radiance, weights):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "sphere_uv"
 CAUGHT_BY = "everywhere"
 MISTAKE = "centre-ignored"
+SAYS = "You take no notice of the centre."
 
 
 def sphere_uv(p, center):

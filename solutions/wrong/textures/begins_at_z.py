@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "sphere_uv"
 CAUGHT_BY = "known"
 MISTAKE = "turned"
+SAYS = "Your picture is turned about y: u begins at +x."
 
 
 def sphere_uv(p, center):

@@ -15,10 +15,10 @@ def rectangle_uv(p, p1, p2, p3):
     for name, point in (("p2", p2), ("p3", p3)):
         if np.array_equal(point, p1):
             raise ValueError(f"{name} must be another point than p1, got {point}")
-    p1, p2, p3 = (np.asarray(point, p.dtype) for point in (p1, p2, p3))
+    p1, p2, p3 = (np.asarray(point, float) for point in (p1, p2, p3))
     a, b = p2 - p1, p3 - p1
     q = p - p1[:, None]
     u, v = a @ q / (a @ a), b @ q / (b @ b)
     q2 = (q * q).sum(axis=0)
     u = np.sign(u) * np.sqrt(np.maximum(q2 - v * v * (b @ b), 0) / (a @ a))
-    return np.stack((u, v))
+    return np.stack((u, v)).astype(p.dtype)

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "texture_lookup"
 CAUGHT_BY = "repeats"
 MISTAKE = "not-repeated"
+SAYS = "Beyond its edges your picture ends; it has to be repeated."
 
 
 def texture_lookup(image, uv):

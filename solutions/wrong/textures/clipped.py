@@ -3,8 +3,9 @@
 import numpy as np
 
 FUNCTION = "rectangle_uv"
-CAUGHT_BY = "inside"
+CAUGHT_BY = "beyond"
 MISTAKE = "kept-inside"
+SAYS = "You keep u and v within 0 and 1; beyond the edges they go on, for the lookup repeats the picture."
 
 
 def rectangle_uv(p, p1, p2, p3):

@@ -3,8 +3,9 @@
 import numpy as np
 
 FUNCTION = "triangle_uv"
-CAUGHT_BY = "corners"
+CAUGHT_BY = "inside"
 MISTAKE = "corner-forgotten"
+SAYS = "You go along the edges from corner 0, but do not begin there."
 
 
 def triangle_uv(barycentric, uv0, uv1, uv2):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "texture_lookup"
 CAUGHT_BY = "centers"
 MISTAKE = "half-texel"
+SAYS = "You look half a texel beside: a texel's centre is half a texel from its border."
 
 
 def texture_lookup(image, uv):

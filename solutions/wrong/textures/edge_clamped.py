@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "texture_lookup"
 CAUGHT_BY = "wraps"
 MISTAKE = "edge-clamped"
+SAYS = "At the picture's edge only its own texels count; the opposite ones have to mix in."
 
 
 def texture_lookup(image, uv):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "triangle_uv"
 CAUGHT_BY = "each"
 MISTAKE = "first-triangle"
+SAYS = "You use the first triangle for all points."
 
 
 def triangle_uv(barycentric, uv0, uv1, uv2):

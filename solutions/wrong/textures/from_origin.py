@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "rectangle_uv"
 CAUGHT_BY = "inside"
 MISTAKE = "from-origin"
+SAYS = "You measure from the world's origin; places on the rectangle are measured from p1."
 
 
 def rectangle_uv(p, p1, p2, p3):

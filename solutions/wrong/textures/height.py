@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "sphere_uv"
 CAUGHT_BY = "everywhere"
 MISTAKE = "height-for-angle"
+SAYS = "Your v grows evenly with the height; it has to with the angle."
 
 
 def sphere_uv(p, center):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "rectangle_uv"
 CAUGHT_BY = "inside"
 MISTAKE = "in-units"
+SAYS = "Your u and v are distances; they have to be 1 at the edges' ends, however long those are."
 
 
 def rectangle_uv(p, p1, p2, p3):

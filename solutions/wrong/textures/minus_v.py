@@ -3,8 +3,9 @@
 import numpy as np
 
 FUNCTION = "rectangle_uv"
-CAUGHT_BY = "corners"
+CAUGHT_BY = "inside"
 MISTAKE = "v-turned"
+SAYS = "Your v runs the other way: it is 0 at p1 and 1 at p3."
 
 
 def rectangle_uv(p, p1, p2, p3):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "texture_lookup"
 CAUGHT_BY = "repeats"
 MISTAKE = "mirror-repeat"
+SAYS = "Every other repetition of your picture is mirrored; all of them are the same."
 
 
 def texture_lookup(image, uv):

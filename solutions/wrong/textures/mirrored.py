@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "sphere_uv"
 CAUGHT_BY = "known"
 MISTAKE = "mirrored"
+SAYS = "Your picture is mirrored: seen from outside, u grows to the right."
 
 
 def sphere_uv(p, center):

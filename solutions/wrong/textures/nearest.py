@@ -3,8 +3,9 @@
 import numpy as np
 
 FUNCTION = "texture_lookup"
-CAUGHT_BY = "ramp"
+CAUGHT_BY = "picture"
 MISTAKE = "nearest"
+SAYS = "You take the nearest texel; colours between texels are mixed from four."
 
 
 def texture_lookup(image, uv):

@@ -3,8 +3,9 @@
 import numpy as np
 
 FUNCTION = "sphere_uv"
-CAUGHT_BY = "contract"
+CAUGHT_BY = "range"
 MISTAKE = "negative"
+SAYS = "Half of your u are negative; they have to be from 0 to 1."
 
 
 def sphere_uv(p, center):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "sphere_uv"
 CAUGHT_BY = "known"
 MISTAKE = "half-around"
+SAYS = "Your u goes half way around only: a quotient does not know the quadrant."
 
 
 def sphere_uv(p, center):

@@ -5,6 +5,9 @@ import numpy as np
 FUNCTION = "rectangle_uv"
 CAUGHT_BY = "inside"
 MISTAKE = "not-divided"
+SAYS = (
+    "Your u and v grow with the square of the edges' lengths: a dot product has both lengths in it."
+)
 
 
 def rectangle_uv(p, p1, p2, p3):

@@ -3,7 +3,7 @@
 import numpy as np
 
 FUNCTION = "texture_lookup"
-CAUGHT_BY = "ramp"
+CAUGHT_BY = "picture"
 MISTAKE = None
 
 

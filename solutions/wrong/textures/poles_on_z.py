@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "sphere_uv"
 CAUGHT_BY = "known"
 MISTAKE = "poles-on-z"
+SAYS = "Your poles are on z; they belong on y."
 
 
 def sphere_uv(p, center):

@@ -3,8 +3,9 @@
 import numpy as np
 
 FUNCTION = "triangle_uv"
-CAUGHT_BY = "corners"
+CAUGHT_BY = "inside"
 MISTAKE = "order"
+SAYS = "Your weights go with the wrong corners."
 
 
 def triangle_uv(barycentric, uv0, uv1, uv2):

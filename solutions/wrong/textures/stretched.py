@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "texture_lookup"
 CAUGHT_BY = "centers"
 MISTAKE = "stretched"
+SAYS = "You stretch the picture from the first texel's centre to the last one's; it goes from border to border."
 
 
 def texture_lookup(image, uv):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "texture_lookup"
 CAUGHT_BY = "centers"
 MISTAKE = "top-down"
+SAYS = "Your picture is upside down: row 0 is on top, where v is 1."
 
 
 def texture_lookup(image, uv):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "texture_lookup"
 CAUGHT_BY = "centers"
 MISTAKE = "transposed"
+SAYS = "You have rows and columns the wrong way round: u goes along a row."
 
 
 def texture_lookup(image, uv):

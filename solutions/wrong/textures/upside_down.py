@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "sphere_uv"
 CAUGHT_BY = "known"
 MISTAKE = "upside-down"
+SAYS = "Your picture is upside down: v is 0 at -y and 1 at +y."
 
 
 def sphere_uv(p, center):

@@ -3,8 +3,9 @@
 import numpy as np
 
 FUNCTION = "rectangle_uv"
-CAUGHT_BY = "corners"
+CAUGHT_BY = "inside"
 MISTAKE = "swapped"
+SAYS = "You have u and v the wrong way round: u goes from p1 to p2."
 
 
 def rectangle_uv(p, p1, p2, p3):

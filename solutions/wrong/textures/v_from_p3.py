@@ -3,7 +3,7 @@
 import numpy as np
 
 FUNCTION = "rectangle_uv"
-CAUGHT_BY = "corners"
+CAUGHT_BY = "inside"
 MISTAKE = "v-turned"
 
 

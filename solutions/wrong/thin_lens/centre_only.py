@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "lens_rays"
 CAUGHT_BY = "on_lens"
 MISTAKE = "unchanged-origins"
+SAYS = "You change the directions, but all rays still start at the lens's centre."
 
 
 def lens_rays(origin, right, up, forward, directions, lens_points, focus_distance):

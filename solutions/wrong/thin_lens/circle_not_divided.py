@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "circle_of_confusion"
 CAUGHT_BY = "behind"
 MISTAKE = "not-divided"
+SAYS = "Your circle grows with the distance from the plane in focus only; how far is the point from the lens?"
 
 
 def circle_of_confusion(depth, aperture_radius, focus_distance):

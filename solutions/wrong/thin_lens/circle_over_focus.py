@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "circle_of_confusion"
 CAUGHT_BY = "behind"
 MISTAKE = "relative-to-focus"
+SAYS = "You divide by the distance in focus; the similar triangles have their tip at the point."
 
 
 def circle_of_confusion(depth, aperture_radius, focus_distance):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "circle_of_confusion"
 CAUGHT_BY = "behind"
 MISTAKE = "radius-for-diameter"
+SAYS = "Your circle is half as wide: you return its radius, or take the aperture's radius for its diameter."
 
 
 def circle_of_confusion(depth, aperture_radius, focus_distance):

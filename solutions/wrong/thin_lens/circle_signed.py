@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "circle_of_confusion"
 CAUGHT_BY = "behind"
 MISTAKE = "signed"
+SAYS = "Your diameter changes its sign at the plane in focus; a width is never negative."
 
 
 def circle_of_confusion(depth, aperture_radius, focus_distance):

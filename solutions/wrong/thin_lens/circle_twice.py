@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "circle_of_confusion"
 CAUGHT_BY = "behind"
 MISTAKE = "diameter-for-radius"
+SAYS = "Your circle is twice as wide: the aperture is given by its radius."
 
 
 def circle_of_confusion(depth, aperture_radius, focus_distance):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "point_on_disk"
 CAUGHT_BY = "uniform"
 MISTAKE = "crowded-centre"
+SAYS = "Your points crowd the centre: a uniform radius is not uniform in area."
 
 
 def point_on_disk(u):

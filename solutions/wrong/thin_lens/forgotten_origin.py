@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "lens_rays"
 CAUGHT_BY = "plane_in_focus"
 MISTAKE = "forgotten-origin"
+SAYS = "Your point in focus is measured from the world's origin, not from the camera."
 
 
 def lens_rays(origin, right, up, forward, directions, lens_points, focus_distance):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "point_on_disk"
 CAUGHT_BY = "moments"
 MISTAKE = "half-as-wide"
+SAYS = "Your disk has the diameter 1; the unit disk has the radius 1."
 
 
 def point_on_disk(u):

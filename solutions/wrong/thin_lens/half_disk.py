@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "point_on_disk"
 CAUGHT_BY = "uniform"
 MISTAKE = "half-turn"
+SAYS = "Your points fill half a disk: the angle goes only half way round."
 
 
 def point_on_disk(u):

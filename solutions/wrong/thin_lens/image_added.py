@@ -3,6 +3,7 @@
 FUNCTION = "image_distance"
 CAUGHT_BY = "real"
 MISTAKE = "added"
+SAYS = "You add the reciprocal of the object's distance where the lens formula has a difference."
 
 
 def image_distance(focal_length, object_distance):

@@ -3,6 +3,7 @@
 FUNCTION = "image_distance"
 CAUGHT_BY = "limits"
 MISTAKE = "limits"
+SAYS = "Your formula is right, but it breaks where a distance or a difference is infinite or zero."
 
 
 def image_distance(focal_length, object_distance):

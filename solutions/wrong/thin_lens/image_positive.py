@@ -3,6 +3,7 @@
 FUNCTION = "image_distance"
 CAUGHT_BY = "virtual"
 MISTAKE = "always-positive"
+SAYS = "You make every distance positive; a virtual image is on the object's own side, so it is negative."
 
 
 def image_distance(focal_length, object_distance):

@@ -3,6 +3,7 @@
 FUNCTION = "image_distance"
 CAUGHT_BY = "real"
 MISTAKE = "reciprocal"
+SAYS = "What you return is the reciprocal of the image's distance."
 
 
 def image_distance(focal_length, object_distance):

@@ -3,6 +3,7 @@
 FUNCTION = "image_distance"
 CAUGHT_BY = "real"
 MISTAKE = "wrong-sign"
+SAYS = "Your sign is the wrong way round: real images are positive, virtual ones negative."
 
 
 def image_distance(focal_length, object_distance):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "lens_rays"
 CAUGHT_BY = "on_lens"
 MISTAKE = "lens-at-world-origin"
+SAYS = "Your lens lies at the world's origin instead of the camera's."
 
 
 def lens_rays(origin, right, up, forward, directions, lens_points, focus_distance):

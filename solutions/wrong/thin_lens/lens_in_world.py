@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "lens_rays"
 CAUGHT_BY = "on_lens"
 MISTAKE = "world-axes"
+SAYS = "Your lens lies along the world's axes; it turns with the camera."
 
 
 def lens_rays(origin, right, up, forward, directions, lens_points, focus_distance):

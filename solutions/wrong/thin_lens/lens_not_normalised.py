@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "lens_rays"
 CAUGHT_BY = "unit_length"
 MISTAKE = "not-normalised"
+SAYS = "Your rays go through the right points, but their directions are not of length 1."
 
 
 def lens_rays(origin, right, up, forward, directions, lens_points, focus_distance):

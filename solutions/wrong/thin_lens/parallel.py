@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "lens_rays"
 CAUGHT_BY = "plane_in_focus"
 MISTAKE = "unchanged-directions"
+SAYS = "You move the origins but keep the pinhole's directions, so nothing is in focus."
 
 
 def lens_rays(origin, right, up, forward, directions, lens_points, focus_distance):

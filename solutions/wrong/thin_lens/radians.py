@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "point_on_disk"
 CAUGHT_BY = "uniform"
 MISTAKE = "part-turn"
+SAYS = "Your points fill a narrow slice: does your angle go all the way round, in radians?"
 
 
 def point_on_disk(u):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "point_on_disk"
 CAUGHT_BY = "uniform"
 MISTAKE = "radius-squared"
+SAYS = "Your points crowd the centre even more than a uniform radius would: you warp it the wrong way round."
 
 
 def point_on_disk(u):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "point_on_disk"
 CAUGHT_BY = "uniform"
 MISTAKE = "rim-only"
+SAYS = "Your points all lie on the rim; they have to fill the disk."
 
 
 def point_on_disk(u):

@@ -5,6 +5,9 @@ import numpy as np
 FUNCTION = "lens_rays"
 CAUGHT_BY = "plane_in_focus"
 MISTAKE = "sphere"
+SAYS = (
+    "You focus on a sphere around the lens: measure the distance along forward, not along the ray."
+)
 
 
 def lens_rays(origin, right, up, forward, directions, lens_points, focus_distance):

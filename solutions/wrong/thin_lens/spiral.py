@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "point_on_disk"
 CAUGHT_BY = "uniform"
 MISTAKE = "one-number"
+SAYS = "You use one of the two numbers only, so your points lie on a spiral."
 
 
 def point_on_disk(u):

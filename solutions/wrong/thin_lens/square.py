@@ -3,6 +3,7 @@
 FUNCTION = "point_on_disk"
 CAUGHT_BY = "inside"
 MISTAKE = "square"
+SAYS = "Your points fill a square, and its corners stick out of the disk."
 
 
 def point_on_disk(u):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "lens_rays"
 CAUGHT_BY = "on_lens"
 MISTAKE = "swapped-axes"
+SAYS = "You have swapped right and up."
 
 
 def lens_rays(origin, right, up, forward, directions, lens_points, focus_distance):

@@ -5,6 +5,7 @@ import numpy as np
 FUNCTION = "lens_rays"
 CAUGHT_BY = "plane_in_focus"
 MISTAKE = "wrong-cosine"
+SAYS = "Your points in focus come nearer towards the picture's corners: the cosine belongs on the other side."
 
 
 def lens_rays(origin, right, up, forward, directions, lens_points, focus_distance):

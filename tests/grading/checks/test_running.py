@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 
-from course.grading.checks.check import Array, Caller, Check, Failure, Mistake, ModuleChecks, Trial
+from course.grading.checks.check import Array, Caller, Check, Failure, ModuleChecks, Trial
 from course.grading.checks.preparing import KEPT, generator, prepared
-from course.grading.checks.result import Status
+from course.grading.checks.result import Result, Status
 from course.grading.checks.running import run_checks
 from course.grading.checks.trusted import TrustedModule
 from course.grading.errors import StudentError
@@ -74,18 +76,22 @@ def fails(_trial: Trial) -> None:
     raise Failure("2", "1")
 
 
-def test_a_mistake_that_can_not_look_at_what_came_back_is_not_it() -> None:
-    checks = ModuleChecks(
-        "module",
-        (Check("it", "value", "It is 2", fails),),
-        (
-            Mistake("it", "of-no-dtype", "Never told", lambda trial: trial.call().dtype == float),
-            Mistake("it", "one", "You return 1.", lambda trial: trial.call() == 1),
-        ),
-    )
+def test_a_mistake_is_told_with_the_check_that_fails_for_it() -> None:
+    checks = telling(lambda caller, _: ("one", "You return 1.") if caller.call("it") == 1 else None)
     (result,) = run_checks(checks, MODULE, prepared(MODULE, 0), 0)
     assert result.status is Status.FAILED
     assert (result.mistake, result.says) == ("one", "You return 1.")
+
+
+def telling(named: Any) -> ModuleChecks:
+    """A check that fails, of a function whose mistakes are told so."""
+    prints = check(None, "mistakes")
+    return ModuleChecks(
+        "module",
+        (Check("it", "value", "It is 2", fails),),
+        prints={"it": prints},
+        named={"it": named},
+    )
 
 
 class Hangs:
@@ -104,8 +110,7 @@ class Hangs:
 
 def test_mistakes_are_not_waited_for_one_after_the_other() -> None:
     caller = Hangs()
-    mistakes = tuple(Mistake("it", f"{k}", "", lambda trial: trial.call()) for k in range(5))
-    checks = ModuleChecks("module", (Check("it", "value", "It is 2", fails),), mistakes)
+    checks = telling(lambda caller, _: tuple(caller.call("it") for _ in range(5)))
     (result,) = run_checks(checks, caller, prepared(MODULE, 0), 0)
     assert (result.status, result.mistake) == (Status.FAILED, "")
     assert caller.times == 1
@@ -123,7 +128,6 @@ def test_whoever_stands_below_a_function_that_hangs_is_asked_with_the_reference_
     checks = ModuleChecks(
         "module",
         tuple(Check(name, f"{k}", "", calls) for name in ("above", "below") for k in range(2)),
-        (),
     )
     right = TrustedModule({"below": lambda: 1})
     results = list(
@@ -140,3 +144,78 @@ def test_whoever_stands_below_a_function_that_hangs_is_asked_with_the_reference_
     assert [result.status for result in results[2:]] == [expected] * 2
     # What hangs is waited for once, and what calls it not at all.
     assert own.times == (1 if lent else 2)
+
+
+def looks_inside(trial: Trial) -> None:
+    trial.call()["numbers"]
+
+
+def always_breaks(trial: Trial) -> None:
+    trial.call()
+    raise IndexError("secret of the check")
+
+
+def one(run: Callable[[Trial], None], caller: Caller, **options: Any) -> Result:
+    checks = ModuleChecks("module", (Check("it", "value", "It is", run, points=2),))
+    (result,) = run_checks(checks, caller, prepared(MODULE, 0), 0, **options)
+    return result
+
+
+def told_to_students(result: Result) -> str:
+    return f"{result.expected} {result.found} {result.where} {result.hint} {result.says}"
+
+
+RIGHT = TrustedModule({"it": lambda: {"numbers": 1}})
+
+
+def test_a_check_that_breaks_on_what_came_back_is_failed_and_says_what_that_was() -> None:
+    result = one(looks_inside, MODULE, standard=lambda: RIGHT)
+    assert (result.status, result.points, result.broken) == (Status.FAILED, 0, True)
+    assert result.found == "it returned 1 for no arguments"
+    assert "With the course's own function it doesn't." in result.hint
+    assert "TypeError" in result.instructor
+    assert "TypeError" not in told_to_students(result)
+
+
+def test_a_check_that_breaks_with_the_reference_too_pays() -> None:
+    result = one(always_breaks, MODULE, standard=lambda: RIGHT)
+    assert (result.status, result.points, result.broken) == (Status.GRADER_ERROR, 2, True)
+    assert "secret of the check" in result.instructor
+    assert "secret" not in told_to_students(result)
+    assert "Traceback" not in told_to_students(result)
+
+
+def test_without_a_solution_a_check_that_breaks_gives_no_points_and_says_so() -> None:
+    for run in (looks_inside, always_breaks):
+        result = one(run, MODULE)
+        assert (result.status, result.points, result.broken) == (Status.FAILED, 0, True)
+        assert "a copy without solutions: here it gives no points" in result.hint
+
+
+def test_what_is_short_for_a_moment_costs_nothing() -> None:
+    calls: list[int] = []
+
+    def run(trial: Trial) -> None:
+        trial.call()
+        calls.append(1)
+        if len(calls) == 1:
+            raise MemoryError
+
+    assert one(run, MODULE, standard=lambda: RIGHT).status is Status.PASSED
+
+
+def test_references_that_can_not_be_made_are_nobodys_mistake() -> None:
+    def references(*_: object) -> dict[str, Array]:
+        raise StudentError("raised", "by the reference")
+
+    checks = ModuleChecks("module", (Check("it", "value", "It is", calls),))
+    (result,) = run_checks(checks, MODULE, references, 0, standard=lambda: RIGHT)
+    assert (result.status, result.points) == (Status.GRADER_ERROR, 1)
+
+
+def test_an_exception_on_the_way_to_a_verdict_ends_no_grading() -> None:
+    def standard() -> Caller:
+        raise OSError("no disk")
+
+    result = one(looks_inside, MODULE, standard=standard)
+    assert (result.status, result.points, result.broken) == (Status.FAILED, 0, True)

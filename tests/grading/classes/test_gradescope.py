@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 import stat
 import subprocess
 import sys
 import zipfile
+from dataclasses import replace
 from pathlib import Path
 from time import sleep
 from typing import Any
@@ -16,8 +18,11 @@ import pytest
 from click.testing import CliRunner
 
 from course.cli.main import commands
+from course.grading.catalog import module_checks
 from course.grading.classes import gradescope_run
+from course.grading.classes.bundle import RUN
 from course.grading.known import known
+from course.grading.worker.sandbox import NotProtected, plain
 
 PROJECT = Path(__file__).parents[3]
 RIGHT = (PROJECT / "solutions" / "motion_blur.py").read_text("utf-8")
@@ -84,7 +89,7 @@ def test_the_archive_holds_what_grading_needs_and_no_more(bundle: Path) -> None:
         assert modes[name] & stat.S_IXUSR
         assert modes[name] & stat.S_IXOTH
     assert "penumbra/solutions/motion_blur.py" in modes
-    assert "penumbra/course/grading/checks/motion_blur.py" in modes
+    assert "penumbra/course/grading/modules/motion_blur.py" in modes
     assert "penumbra/pyproject.toml" in modes
     assert "references.npz" in modes
     for folder in ("tests", "docs", "benchmarks", "assignments", "solutions/wrong", "out"):
@@ -102,9 +107,11 @@ def test_the_scripts_are_bash(root: Path, script: str) -> None:
 
 def test_right_wrong_and_untouched(root: Path) -> None:
     right = grade(root, RIGHT)
-    assert right["score"] == of(right) > 0
+    assert right["score"] == pytest.approx(of(right))
+    assert of(right) > 0
     assert right["execution_time"] > 0
-    assert right["extra_data"]["seed"] == 7
+    # Students read this file.
+    assert "seed" not in right["extra_data"]
 
     wrong = grade(root, WRONG.source)
     assert 0 < wrong["score"] < of(wrong) == of(right)
@@ -120,19 +127,20 @@ def test_results_are_whole_after_every_check_and_stay_after_a_kill(root: Path) -
     (root / "submission" / "motion_blur.py").write_text(SLOW)
     process = start(root)
     path = root / "results" / "results.json"
+    points = pytest.approx(sum(check.points for check in module_checks("motion_blur").checks))
     scores: list[float] = []
     while process.poll() is None and len(set(scores)) < 6:
         if path.exists():
             found = json.loads(path.read_text())
             scores.append(found["score"])
-            assert of(found) == 27.5
+            assert of(found) == points
         sleep(0.01)
     process.kill()
     process.communicate()
     assert sorted(scores) == scores
     assert len(set(scores)) == 6
     kept = json.loads(path.read_text())
-    assert 0 < kept["score"] < 27.5
+    assert 0 < kept["score"] < of(kept)
     assert any("time was over" in test["output"] for test in kept["tests"])
     assert [one.name for one in path.parent.iterdir() if not one.name.startswith(".")] == [
         "results.json"
@@ -153,6 +161,7 @@ def test_a_fault_of_the_grader_gives_no_grade(root: Path, monkeypatch: pytest.Mo
     def fail(*_: object, **__: object) -> None:
         raise ZeroDivisionError
 
+    (root / "submission" / "motion_blur.py").write_text(RIGHT)
     monkeypatch.setattr(gradescope_run, "grade", fail)
     assert gradescope_run.main(["--root", str(root), "--modules", "motion_blur", "--seed=7"]) == 1
     assert not (root / "results" / "results.json").exists()
@@ -166,3 +175,63 @@ def test_names_come_from_the_metadata_if_it_is_there(tmp_path: Path) -> None:
         assert gradescope_run._student(path) == ""
     path.write_text('{"users": [{"name": "Ada"}, {"email": "b@example.org"}]}')
     assert gradescope_run._student(path) == "Ada, b@example.org"
+
+
+@pytest.mark.skipif(
+    os.name == "nt" or os.geteuid() != 0 or shutil.which("setpriv") is None,
+    reason="only root can set an image up",
+)
+def test_the_image_keeps_the_course_from_every_user_but_root(root: Path) -> None:
+    setup = (root / "source" / "setup.sh").read_text()
+    # What follows the installation, without what runs the image's own Python.
+    lines = [line for line in setup.splitlines() if line.startswith(("chown", "chmod"))]
+    assert len(lines) == 2
+    subprocess.run(["bash", "-ec", "\n".join(lines)], cwd=root / "source", check=True)
+    # Whoever reaches the folder all the same, as every user does in a container.
+    for folder in (root, *root.parents):
+        if folder.stat().st_uid == os.geteuid() and folder != Path("/"):
+            folder.chmod(folder.stat().st_mode | 0o111)
+    nobody = ["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"]
+    for name in ("penumbra/solutions/motion_blur.py", "penumbra/solutions", "references.npz"):
+        look = [*nobody, "ls" if name.endswith("solutions") else "cat", str(root / "source" / name)]
+        assert subprocess.run(look, capture_output=True, check=False).returncode, name
+    assert not subprocess.run([*nobody, "ls", str(root / "source")], check=False).returncode
+    assert grade(root, RIGHT)["score"] > 0
+
+
+def test_the_image_says_when_it_is_built_what_will_hold(
+    root: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(*_: object) -> None:
+        raise NotProtected("code could read solutions; --trust-submissions")
+
+    assert gradescope_run.main(["--root", str(root), "--walls"]) == 0
+    monkeypatch.setattr(gradescope_run, "protected", refuse)
+    assert gradescope_run.main(["--root", str(root), "--walls"]) == 0
+    assert "will not be graded: code could read solutions" in capsys.readouterr().out
+
+
+def test_without_protection_nothing_is_graded_unless_it_is_asked_for(
+    root: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(*_: object) -> None:
+        raise NotProtected("code could read solutions")
+
+    unprotected = "NOT PROTECTED: student code could read solutions"
+    (root / "submission" / "motion_blur.py").write_text(STUB)
+    monkeypatch.setattr(gradescope_run, "protected", refuse)
+    monkeypatch.setattr(
+        gradescope_run, "sandbox", lambda **_: replace(plain(), protections=(unprotected,))
+    )
+    arguments = ["--root", str(root), "--modules", "motion_blur", "--seed=7"]
+    assert gradescope_run.main(arguments) == 1
+    results = root / "results" / "results.json"
+    assert not results.exists()
+    assert gradescope_run.main([*arguments, "--trust-submissions"]) == 0
+    assert unprotected in json.loads(results.read_text())["output"]
+
+
+def test_trust_is_bundled_only_when_it_is_asked_for(root: Path) -> None:
+    assert "--trust" not in (root / "source" / "run_autograder").read_text()
+    run = RUN.format(seed=1, modules="motion_blur", trusted=" --trust-submissions")
+    assert run.rstrip().endswith("--modules motion_blur --trust-submissions")

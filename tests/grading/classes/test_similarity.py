@@ -3,13 +3,20 @@
 from __future__ import annotations
 
 import ast
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from course.effects import COURSE
-from course.grading.classes import similarity
-from course.grading.classes.similarity import Given, find_similar, shingles, statements
+from course.grading.classes import comparing, shingling
+from course.grading.classes.apart import apart
+from course.grading.classes.comparing import compare
+from course.grading.classes.shingling import LARGEST, shingles, statements
+from course.grading.classes.similarity import Similar, as_shingles
+from course.grading.classes.similarity import find_similar as similar_of
+from course.grading.classes.submitted import Submission
 from course.grading.known import known
 from course.grading.release.stubs import make_stub
 
@@ -18,6 +25,14 @@ STUBS = {
     module: make_stub((SOLUTIONS / f"{module}.py").read_text("utf-8"), module, module).text
     for module in COURSE
 }
+
+
+def find_similar(
+    module: str, sources: Mapping[str, bytes], stub: str, threshold: float = 0.7
+) -> list[Similar]:
+    given = statements(stub)
+    found = {name: as_shingles(shingles(module, text, given)) for name, text in sources.items()}
+    return similar_of(module, found, threshold)
 
 
 def right(module: str) -> dict[str, bytes]:
@@ -117,20 +132,77 @@ def test_what_is_no_python_is_nobody_s_copy() -> None:
     assert not find_similar("motion_blur", sources, STUBS["motion_blur"])
 
 
-def test_of_a_class_of_200_each_file_is_read_once_and_the_copies_are_found(
-    monkeypatch: pytest.MonkeyPatch,
+def test_of_a_class_of_200_each_text_is_read_once_and_the_copies_are_found(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    read: list[bytes] = []
-
-    def counted(module: str, source: bytes, given: Given) -> set[int]:
-        read.append(source)
-        return shingles(module, source, given)
-
-    monkeypatch.setattr(similarity, "shingles", counted)
     variants = [*right("thin_lens").values()]
-    class_ = {f"{i:03}": variants[i % len(variants)] for i in range(200)}
-    found = find_similar("thin_lens", class_, STUBS["thin_lens"])
-    assert len(read) == 200
-    assert {(pair.first, pair.second) for pair in found} == {
+    class_ = [
+        Submission(f"{i:03}", (), {"thin_lens": variants[i % len(variants)]}) for i in range(200)
+    ]
+    read: list[int] = []
+    apart = comparing.apart
+
+    def counted(function: Any, items: Sequence[Any], jobs: int) -> Any:
+        read.append(len(items))
+        return apart(function, items, jobs)
+
+    monkeypatch.setattr(comparing, "apart", counted)
+    kept = tmp_path / "kept.npz"
+    found = compare(class_, ["thin_lens"], kept)
+    assert {(pair.first, pair.second) for pair in found.similar} == {
         (f"{j:03}", f"{i:03}") for i in range(200) for j in range(i) if (i - j) % len(variants) == 0
     }
+    # What is kept needs no process, and what has changed is read alone.
+    assert compare(class_, ["thin_lens"], kept) == found
+    changed = [*class_[:-1], Submission("199", (), {"thin_lens": variants[0] + b"#"})]
+    compare(changed, ["thin_lens"], kept)
+    assert read == [len(variants), 0, 1]
+    kept.write_bytes(b"PK, but damaged")
+    assert compare(class_, ["thin_lens"], kept) == found
+
+
+def slow(_: object) -> None:
+    while True:
+        pass
+
+
+def test_a_text_that_takes_too_long_costs_only_itself() -> None:
+    assert apart(slow, ["a", "b"], seconds=0.5) == {0: None, 1: None}
+
+
+def hungry(size: int) -> int:
+    return len(bytearray(size))
+
+
+def test_a_text_that_takes_too_much_memory_costs_only_itself() -> None:
+    assert apart(hungry, [10_000_000_000, 10]) == {0: None, 1: 10}
+
+
+def test_a_file_that_is_too_large_is_told(tmp_path: Path) -> None:
+    source = right("thin_lens")["solution"]
+    large = source + b"#" * LARGEST
+    class_ = [
+        Submission("ada", (), {"thin_lens": source}),
+        Submission("bob", (), {"thin_lens": large}),
+    ]
+    assert compare(class_, ["thin_lens"], tmp_path / "kept.npz").left_out == (("bob", "thin_lens"),)
+
+
+def test_each_node_of_a_nested_file_is_looked_at_twice_and_no_more(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    # Every statement lies in all those before it: what is done for each must not look at all that is in it.
+    depth = 90
+    nested = "".join(f"{' ' * i}if u:\n" for i in range(1, depth))
+    source = f"def point_on_disk(u):\n{nested}{' ' * depth}u = [{'u,' * 3000}]\n return u\n"
+    given = statements(STUBS["thin_lens"])
+    looked: list[ast.AST] = []
+    token = shingling._token
+
+    def counted(node: ast.AST) -> str:
+        looked.append(node)
+        return token(node)
+
+    monkeypatch.setattr(shingling, "_token", counted)
+    assert shingles("thin_lens", source.encode(), given)
+    assert len(looked) <= 2 * sum(1 for _ in ast.walk(ast.parse(source)))

@@ -11,7 +11,8 @@ from pathlib import Path
 import pytest
 
 from course.errors import CourseError
-from course.grading.classes.submitted import find_submissions, safe_name
+from course.grading.classes.naming import safe_name
+from course.grading.classes.submitted import find_submissions
 
 STUB = (Path(__file__).parents[3] / "assignments" / "motion_blur.py").read_bytes()
 
@@ -35,8 +36,12 @@ def test_folders_and_zip_files_are_submissions(tmp_path: Path) -> None:
     (tmp_path / ".git").mkdir()
     (tmp_path / "__MACOSX").mkdir()
     (tmp_path / "list.csv").write_text("ada")
-    found = {one.student: one.sources for one in find_submissions(tmp_path)}
-    assert found == {"Ada Lovelace": {"motion_blur": STUB}, "bob": {"motion_blur": b"pass"}}
+    found = {one.student: one for one in find_submissions(tmp_path)}
+    assert found["Ada Lovelace"].sources == {"motion_blur": STUB}
+    assert found["bob"].sources == {"motion_blur": b"pass"}
+    # What nobody can have handed in is told all the same.
+    assert found["list.csv"].trouble == "is no folder, archive, .py file or notebook"
+    assert len(found) == 3
 
 
 def test_a_declared_bomb(tmp_path: Path) -> None:
@@ -133,15 +138,32 @@ def test_the_trouble_is_told_without_the_grader_s_folders(tmp_path: Path) -> Non
 
 
 @pytest.mark.parametrize(("first", "second"), [("ada", "ada.zip"), ("Ada", "ada.zip")])
-def test_two_submissions_with_one_name_are_both_named(
+def test_two_submissions_with_one_name_stop_only_themselves(
     tmp_path: Path, first: str, second: str
 ) -> None:
-    (tmp_path / first).mkdir()
+    for name in (first, "bob"):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "motion_blur.py").write_bytes(STUB)
     zipped(tmp_path / second, **{"motion_blur.py": STUB})
-    with pytest.raises(CourseError) as error:
-        find_submissions(tmp_path)
-    assert str(tmp_path / first) in str(error.value)
-    assert str(tmp_path / second) in str(error.value)
+    found = {one.student: one for one in find_submissions(tmp_path)}
+    assert set(found) == {first, second, "bob"}
+    for name in (first, second):
+        assert found[name].trouble == f"{first} and {second} go by one name: remove or rename one"
+        assert not found[name].sources
+    assert found["bob"].sources
+
+
+def test_a_name_too_long_for_a_folder_is_graded_under_a_shorter_one(tmp_path: Path) -> None:
+    # 81 letters of three bytes each: the file system takes them, and no two dozen signs more.
+    for end in ("一", "二"):
+        folder = tmp_path / ("李" * 80 + end)
+        folder.mkdir()
+        (folder / "motion_blur.py").write_bytes(STUB)
+    first, second = find_submissions(tmp_path)
+    assert first.sources == second.sources == {"motion_blur": STUB}
+    assert first.student != second.student
+    assert max(len(one.student.encode()) for one in (first, second)) <= 150
+    assert "shortened" in first.remarks[0]
 
 
 @pytest.mark.parametrize(

@@ -9,8 +9,12 @@ from pathlib import Path
 
 import pytest
 
-from course.effects import PROJECT
+from course.effects import COURSE, PROJECT
+from course.grading.catalog import module_checks
+from course.grading.checks.result import Status, result_of
+from course.grading.pictures.whole import NAME
 from course.grading.release.archive import write_archive
+from course.grading.report import docs_page, reproduce
 
 
 @pytest.fixture(scope="module")
@@ -53,7 +57,34 @@ def test_what_a_student_writes_is_checked_with_pictures(copy: Path) -> None:
     assert "1 of 1 check passed" in again.stdout
 
 
-def test_another_seed_needs_the_solutions(copy: Path) -> None:
+def test_another_seed_makes_the_checks_that_need_no_references(copy: Path) -> None:
+    (copy / "assignments" / "motion_blur.py").write_bytes(
+        (PROJECT / "solutions" / "motion_blur.py").read_bytes()
+    )
     ended = check(copy, "motion_blur", "--seed", "7")
-    assert ended.returncode == 1
-    assert "references for the seed 0, not 7" in ended.stderr
+    assert ended.returncode == 0, ended.stdout + ended.stderr
+    assert "no references for the seed 7" in ended.stderr
+    assert "right    displacement" in ended.stdout
+    picture = check(copy, "motion_blur", "--seed", "7", "--only", "displacement/picture")
+    assert picture.returncode == 1
+    assert "leave --seed 7 out" in picture.stderr
+
+
+def test_what_a_report_tells_to_run_and_to_read_is_in_the_copy(copy: Path) -> None:
+    for module in (*COURSE, NAME):
+        for one in module_checks(module).checks:
+            result = result_of(module, one, Status.FAILED)
+            page, _, anchor = docs_page(result).partition("#")
+            text = (copy / page).read_text(encoding="utf-8")
+            anchors = {
+                line.lstrip("#").strip().lower().replace(" ", "-")
+                for line in text.splitlines()
+                if line.startswith("#")
+            }
+            assert anchor in anchors, (page, anchor)
+    # The one check that is nobody's module's is found by its line, too.
+    whole = module_checks(NAME).checks[0]
+    line = reproduce(result_of(NAME, whole, Status.FAILED), None)
+    assert line == "course check --only scene/picture"
+    ended = check(copy, *line.split()[2:])
+    assert "0 of 3 points" in ended.stdout

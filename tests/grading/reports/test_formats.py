@@ -16,9 +16,10 @@ import numpy as np
 import pytest
 
 from course.grading.checks.result import Status
+from course.grading.classes.marks import Mark
 from course.grading.report import Report
 from course.grading.reports import gradescope, prairielearn
-from course.grading.reports.classes import safe_cell, write_grades
+from course.grading.reports.classes import Line, safe_cell, write_grades
 from course.grading.reports.files import as_json, write_document, write_json
 from course.grading.reports.junit import as_xml, write_junit
 
@@ -58,9 +59,12 @@ OURS = exactly(
             **dict.fromkeys(
                 ("id", "module", "function", "check", "title", "kind", "mistake", "says"), TEXT
             ),
-            **dict.fromkeys(("expected", "found", "where", "hint", "reproduce", "docs"), TEXT),
+            **dict.fromkeys(
+                ("expected", "found", "where", "hint", "example", "reproduce", "docs"), TEXT
+            ),
             same_as=TEXT,
             module_wide={"type": "boolean"},
+            broken={"type": "boolean"},
             status={"enum": [str(status) for status in Status]},
             points=NUMBER,
             of=NUMBER,
@@ -75,7 +79,7 @@ GRADESCOPE = exactly(
     output_format={"enum": ["text", "html", "simple_format", "md", "ansi"]},
     visibility={"enum": ["visible", "hidden", "after_due_date", "after_published"]},
     stdout_visibility={"enum": ["visible", "hidden", "after_due_date", "after_published"]},
-    extra_data=exactly(seed={"type": "integer"}, version=TEXT),
+    extra_data=exactly(version=TEXT),
     tests=listing(
         exactly(
             score=NUMBER,
@@ -93,6 +97,7 @@ GRADESCOPE = exactly(
 )
 PRAIRIELEARN = exactly(
     gradable={"type": "boolean"},
+    format_errors=listing(TEXT),
     score={"type": "number", "minimum": 0, "maximum": 1},
     message=TEXT,
     output=TEXT,
@@ -170,12 +175,22 @@ def test_gradescope_scores_add_up_and_nothing_is_left_out(report: Report) -> Non
         "failed": "failed",
         "timeout": "failed",
         "crashed": "failed",
-        "grader error": "passed",
+        "grader error": "failed",
         "not attempted": "failed",
     }
     (focus,) = [test for test in tests if "focus" in test["extra_data"]["id"]]
-    for text in ("0.25 within", "0.75", "u = 0.5", "sphere", "--only lens_rays/focus --seed 7"):
+    for text in ("0.25 within", "0.75", "u = 0.5", "sphere", "--only lens_rays/focus"):
         assert text in focus["output"]
+
+
+def test_systems_that_students_read_hide_a_seed_that_is_not_everybody_s(report: Report) -> None:
+    assert report.seed == 7
+    for results in (gradescope.results, prairielearn.results):
+        shown = json.dumps(results(report))
+        assert "seed" not in shown
+        assert "course check thin_lens --only lens_rays/focus" in shown
+        # That of everybody's copy is no secret.
+        assert "--only lens_rays/focus --seed 0" in json.dumps(results(replace(report, seed=0)))
 
 
 def test_prairielearn_scores_are_shares(report: Report) -> None:
@@ -189,6 +204,17 @@ def test_prairielearn_scores_are_shares(report: Report) -> None:
     broken = prairielearn.results(Report("ada", (), trouble="no zip file"))
     assert not broken["gradable"]
     assert "no zip file" in broken["message"]
+    assert broken["format_errors"] == ["no zip file"]
+
+
+def test_prairielearn_texts_stay_below_its_limit(report: Report) -> None:
+    long = replace(report.results[1], found="\u20ac" * 30_000)
+    many = replace(report, results=(long,) * 600)
+    document = prairielearn.results(many)
+    assert len(json.dumps(document)) < 1_000_000
+    assert sum(test["max_points"] for test in document["tests"]) == 600 * long.of
+    # The line that finds it again is there for each.
+    assert all("again: course check thin_lens" in test["output"] for test in document["tests"])
 
 
 def test_prairielearn_images_stay_below_its_limit(with_figure: Callable[..., Report]) -> None:
@@ -258,6 +284,8 @@ def test_grades_have_a_column_for_each_function(report: Report, tmp_path: Path) 
         "score",
         "points",
         "of",
+        "broken checks",
+        "remarks",
         "thin_lens.lens_rays",
         "thin_lens.point_on_disk",
         "glossy.keep_above",
@@ -267,9 +295,25 @@ def test_grades_have_a_column_for_each_function(report: Report, tmp_path: Path) 
     assert [row["student"] for row in rows] == ["ada", "bob", "eve"]
     assert [row["points"] for row in rows] == ["3", "1", ""]
     assert [row["of"] for row in rows] == ["11.5", "3.5", ""]
+    assert [row["remarks"] for row in rows] == ["", "", "no zip file"]
     assert rows[0]["score"] == "0.26087"
     assert sum(float(value) for name, value in rows[0].items() if "." in name) == 3
     assert rows[1]["glossy.keep_above"] == ""
+
+
+def test_grades_by_a_policy_and_remarks(report: Report, tmp_path: Path) -> None:
+    broken = Report("eve", (), trouble="no zip file")
+    lines = {
+        "ada": Line(("x was graded as y",), Mark(26.0, 20.8, 21.0, ("2 days late: -20 %",))),
+        "eve": Line(("=1+1",)),
+    }
+    write_grades([report, broken], tmp_path / "grades.csv", lines, 100.0)
+    with (tmp_path / "grades.csv").open(encoding="utf-8", newline="") as file:
+        ada, eve = csv.DictReader(file)
+    assert [ada[name] for name in ("raw", "adjusted", "final")] == ["26", "20.8", "21"]
+    assert ada["remarks"] == "2 days late: -20 %; x was graded as y"
+    assert [eve[name] for name in ("score", "raw", "adjusted", "final")] == [""] * 4
+    assert eve["remarks"] == "no zip file; =1+1"
 
 
 @pytest.mark.parametrize(

@@ -19,9 +19,11 @@ from course.grading.checks.preparing import prepared
 from course.grading.checks.result import Result
 from course.grading.checks.running import run_checks
 from course.grading.checks.trusted import TrustedModule
+from course.grading.classes.marks import Mark
+from course.grading.classes.roster import Matched
 from course.grading.references import reference
 from course.grading.report import Report, docs_page, reproduce
-from course.grading.reports.classes import write_class_page
+from course.grading.reports.classes import Line, write_class_page
 from course.grading.reports.page import write_page
 
 VOID = {"meta", "img", "br"}
@@ -321,3 +323,38 @@ def test_a_class_of_hostile_texts(hostile_report: Report, hostile: str, tmp_path
 
 def test_an_empty_class_is_a_page(tmp_path: Path) -> None:
     assert "0 submissions" in class_page([], [], tmp_path).text
+
+
+def test_remarks_scores_and_the_roster_are_on_the_page(
+    report: Report, hostile: str, tmp_path: Path
+) -> None:
+    broken = Report("eve", (), trouble="no zip file")
+    lines = {
+        "ada": Line(
+            (f"{hostile} was graded as glossy.py",), Mark(52.5, 47.25, 47.5, ("1 day late",))
+        ),
+        "eve": Line(("typed into Moodle",)),
+    }
+    matched = Matched({}, ("Lee, Ann", hostile), ("eve",))
+    write_class_page(
+        [report, broken],
+        [],
+        tmp_path / "class.html",
+        lines,
+        100.0,
+        not_compared=[("ada", "glossy")],
+        matched=matched,
+    )
+    page = Page((tmp_path / "class.html").read_text(encoding="utf-8"))
+    check_closed(page)
+    for text in (
+        "1 day late",
+        "was graded as glossy.py",
+        "typed into Moodle",
+        "Submissions of nobody in the roster eve",
+        "In the roster, without a submission Lee, Ann; ",
+        "it took too long: ada (glossy).",
+        "Raw Adjusted Final",
+        "52.5 47.25 47.5",
+    ):
+        assert text in page.text

@@ -186,7 +186,9 @@ def test_a_module_that_can_not_be_used_is_tried_once_and_told_once(
     # All kinds of checks, those of speed too: none passes.
     assert {result.status for result in report.results} == {status}
     assert report.points == 0
-    assert len(starts) == (0 if status is Status.NOT_ATTEMPTED else 1)
+    # What ends its process is started once more: something else may have ended it.
+    expected = {Status.NOT_ATTEMPTED: 0, Status.CRASHED: 2}
+    assert len(starts) == expected.get(status, 1)
     first, *others = report.results
     assert first.found.startswith(says)
     assert {other.found for other in others} == {first.found}
@@ -201,7 +203,7 @@ def test_nobody_imports_again_what_could_not_be_imported(source: str, starts: li
             with pytest.raises(StudentError) as error:
                 ask()
             assert error.value.module_wide
-    assert starts == ["m"]
+    assert starts == ["m"] * (2 if source is EXIT else 1)
 
 
 def test_a_syntax_error_is_shown_with_its_line_and_a_caret() -> None:

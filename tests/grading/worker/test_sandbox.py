@@ -1,7 +1,12 @@
-"""What a process in the sandbox can see and do, asked by Python itself and so without the audit hook's help."""
+"""What a process in the sandbox can see and do, asked by Python itself and so without the audit hook's help.
+
+``test_attacks.py`` tries more, behind each wall; here is what a wall consists of, and what is said where one is
+missing.
+"""
 
 from __future__ import annotations
 
+import json
 import subprocess
 import sys
 from pathlib import Path
@@ -9,9 +14,24 @@ from pathlib import Path
 import pytest
 
 from course.effects import PROJECT
-from course.grading.worker.sandbox import sandbox
+from course.grading.worker import sandbox as walls
+from course.grading.worker.client import Worker
+from course.grading.worker.confine import landlock_version
+from course.grading.worker.sandbox import (
+    COULD,
+    NotProtected,
+    plain,
+    protected,
+    sandbox,
+    worker_user,
+)
+from course.grading.worker.syscalls import filter_program
 
 SHUT_IN = sandbox()
+
+LINUX = sys.platform == "linux"
+needs_landlock = pytest.mark.skipif(not landlock_version(), reason="the kernel has no Landlock")
+needs_filter = pytest.mark.skipif(not LINUX or not filter_program(), reason="no libseccomp here")
 
 needs_bubblewrap = pytest.mark.skipif(
     not any("no network" in line for line in SHUT_IN.protections),
@@ -88,7 +108,66 @@ def test_it_keeps_no_variable_of_ours(monkeypatch: pytest.MonkeyPatch) -> None:
     assert inside("import os; print(os.environ.get('PENUMBRA_SECRET'))") == "None"
 
 
+@needs_bubblewrap
+def test_it_has_no_capabilities_and_can_get_none() -> None:
+    status = inside("print(*open('/proc/self/status').read().splitlines(), sep=';')").split(";")
+    found = dict(line.split(":\t") for line in status if line.startswith(("Cap", "NoNewPrivs")))
+    assert found.pop("NoNewPrivs") == "1"
+    assert {*found.values()} == {"0" * 16}
+
+
 def test_the_report_says_what_was_on() -> None:
-    plain = sandbox(bubblewrap=False).protections
-    assert any("limits on" in line for line in plain)
-    assert any("not on: bubblewrap" in line for line in plain)
+    lines = sandbox(bubblewrap=False).protections
+    assert any("limits on" in line for line in lines)
+    assert any("not on: bubblewrap" in line for line in lines)
+
+
+@pytest.mark.skipif(not LINUX, reason="the walls are Linux's")
+def test_the_probe_sees_every_guarantee_that_a_plain_process_lacks() -> None:
+    assert walls._lacks(plain(), (PROJECT / "solutions",)) == tuple(COULD)
+
+
+@needs_filter
+def test_the_probe_sees_that_landlock_is_missing() -> None:
+    assert sandbox(bubblewrap=False, user=False, landlock=False).lacks == ("read",)
+
+
+@needs_landlock
+def test_the_probe_sees_that_the_filter_of_calls_is_missing() -> None:
+    lacks = sandbox(bubblewrap=False, user=False, seccomp=False).lacks
+    assert set(lacks) >= {"network", "processes"}
+
+
+@needs_landlock
+@needs_filter
+def test_landlock_and_the_filter_keep_all_guarantees_without_root_or_bubblewrap() -> None:
+    shut_in = sandbox(bubblewrap=False, user=False)
+    assert shut_in.lacks == ()
+    source = b"import json, fractions, numpy.polynomial\ndef f(): return 1.0\n"
+    with Worker("m", source, shut_in=shut_in) as worker:
+        assert worker.call("f") == 1.0
+
+
+def test_where_no_wall_holds_other_peoples_code_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    sandbox.cache_clear()
+    monkeypatch.setattr(walls, "_ways", lambda *_: iter([plain()]))
+    monkeypatch.setattr(walls, "_lacks", lambda *_: ("read", "network"))
+    with pytest.raises(NotProtected) as refused:
+        protected()
+    sandbox.cache_clear()
+    for said in (COULD["read"], COULD["network"], "bubblewrap", "root", "--trust-submissions"):
+        assert said in str(refused.value)
+    assert COULD["write"] not in str(refused.value)
+
+
+@needs_filter
+def test_what_lies_where_the_code_can_read_it_is_found_before_grading(tmp_path: Path) -> None:
+    # Python's own library is readable behind every wall.
+    assert sandbox(secrets=(Path(json.__file__).parent,)).lacks == ("read",)
+    assert sandbox(secrets=(tmp_path,)).lacks == ()
+
+
+def test_each_worker_has_a_user_of_its_own() -> None:
+    users = {worker_user(number) for number in range(64)}
+    assert len(users) == 64
+    assert all(user > 60_000 for user in users)

@@ -64,7 +64,7 @@ def graded(source: str | bytes, bubblewrap: bool = True) -> Report:
         only=quick,
     )
     assert report.of == points()
-    assert report.count(Status.GRADER_ERROR) == 0
+    assert not report.broken
     return report
 
 
@@ -83,6 +83,18 @@ def with_displacement(body: str) -> str:
 def write_everywhere(content: str) -> str:
     """Lines that write an expression's bytes to every descriptor there may be."""
     return f"for fd in range(64):\n    try: os.write(fd, {content})\n    except OSError: pass\n"
+
+
+def forged(head: str) -> str:
+    """Lines that write a message of this head to every descriptor, and return what is right."""
+    message = "b'%08x' % len(head) + head"
+    return f"import os\nhead = {head!r}.encode()\n{write_everywhere(message)}{RIGHT}"
+
+
+ODD = """
+class Odd(np.random.Generator):
+    bit_generator = type("B", (), {"state": {"bit_generator": "PCG64", "state": -1}})()
+"""
 
 
 def lost_functions(report: Report) -> set[str]:
@@ -123,7 +135,7 @@ ATTACKS = {
         ended=Status.PASSED,
         lost=set(),
     ),
-    "flood of output": Attack("while True: print('x' * 10000)", ended=Status.TIMEOUT),
+    "flood of output": Attack("while True: print('x' * 1_000_000)", ended=Status.CRASHED),
     "forged result on stdout": Attack(
         'print(\'{"score": 100, "tests": []}\', flush=True)\nreturn np.zeros(3)'
     ),
@@ -133,6 +145,30 @@ ATTACKS = {
     "forged result on every descriptor": Attack(
         f"import os\n{write_everywhere(FORGED)}{RIGHT}", ended=Status.CRASHED
     ),
+    "arrays without end": Attack(
+        forged('{"values": [], "arrays": Infinity}'), ended=Status.CRASHED
+    ),
+    "an array of nothing that is evaluated": Attack(
+        forged('{"values": [{"array": 0}], "arrays": [{"dtype": "(", "shape": [3]}]}'),
+        ended=Status.CRASHED,
+    ),
+    "brackets without end": Attack(forged("[" * 100_000), ended=Status.CRASHED),
+    "a head of 60 MB": Attack(
+        "import os\nhead = b'{\"values\": [' + b'{},' * 20_000_000\n"
+        + write_everywhere("b'%08x' % len(head) + head"),
+        ended=Status.CRASHED,
+    ),
+    "a generator of an impossible state": Attack(
+        "return Odd(np.random.PCG64())", ODD, ended=Status.CRASHED
+    ),
+    "a generator": Attack("return np.random.default_rng()"),
+    "a comma after the result": Attack(f"{RIGHT.rstrip()},"),
+    "a list of rows": Attack("return [*np.zeros((3, len(time)), time.dtype)]"),
+    "a list of numbers": Attack("return np.zeros((3, len(time))).tolist()"),
+    "texts": Attack("return np.full((3, len(time)), 'x')"),
+    "a text": Attack("return 'right'"),
+    "a number of 400 digits": Attack("return 10 ** 400"),
+    "infinity": Attack("return np.full((3, len(time)), -np.inf, time.dtype)"),
     "closed descriptors": Attack(f"import os\nos.closerange(0, 64)\n{RIGHT}", ended=Status.CRASHED),
     "an array that forges comparisons": Attack(
         "return np.zeros((3, len(time)), time.dtype).view(Forged)",

@@ -106,7 +106,7 @@ def _weights(axes: Axes, made: ModuleType, right: ModuleType) -> None:
 
 
 def _extremes(axes: Axes, made: ModuleType, right: ModuleType) -> None:
-    power = np.linspace(-37, 37, 149)
+    power = np.linspace(-6, 6, 149)
     b = (10**power).astype(np.float32)
     curves(axes, power, made.power_heuristic(2 * b, b), right.power_heuristic(2 * b, b))
     axes.set_ylim(-0.05, 1.1)
@@ -161,9 +161,9 @@ LOOKS = {
     "power_heuristic": (
         Look(f"The weight; {_GREY}", plot(_weights, curve=True)),
         Look(
-            f"The weight for tiny and huge densities; {_GREY}",
+            f"The weight for small and large densities; {_GREY}",
             plot(_extremes, curve=True),
-            ("power_overflows",),
+            ("power_enlarged",),
         ),
     ),
 }

@@ -1,0 +1,1 @@
+"""What submissions could do to a grader, tried behind every wall that this machine has."""

@@ -1,0 +1,149 @@
+"""What `course grade` and `course regrade` share: options, progress, and what they tell in the end."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, TypeVar
+
+import click
+
+from course.cli.progress import progress_bar
+from course.cli.tables import count
+
+if TYPE_CHECKING:
+    from course.grading.classes.finishing import Finished
+    from course.grading.classes.grading import ClassEngine, ClassResult
+
+Command = TypeVar("Command", bound=Callable[..., object])
+
+MOST_REMARKS = 12
+"""Lines on submissions that are printed; class.html has them all."""
+
+_FILE = click.Path(path_type=Path, exists=True, dir_okay=False)
+
+
+def terms_options(command: Command) -> Command:
+    """Options that say what makes grades of points."""
+    for option in (
+        click.option("--title", help="The assignment as Canvas and Moodle name it, with --roster."),
+        click.option(
+            "--roster",
+            type=_FILE,
+            help="CSV file of the class: writes canvas.csv and moodle.csv, and tells whose work is missing.",
+        ),
+        click.option(
+            "--policy",
+            type=_FILE,
+            help="YAML file of weights, late days, attempts and rounding: writes raw, adjusted and final scores.",
+        ),
+    ):
+        command = option(command)
+    return command
+
+
+def engine_options(command: Command) -> Command:
+    """Options that say where to grade."""
+    for option in (
+        click.option("--address", metavar="tcp://HOST:PORT", help="Of the dask scheduler."),
+        click.option(
+            "--engine",
+            type=click.Choice(["processes", "dask"]),
+            default="processes",
+            show_default=True,
+            help="Where to grade: on this machine or on a dask cluster.",
+        ),
+        click.option(
+            "--jobs",
+            type=click.IntRange(1),
+            help="Submissions graded at a time.  [default: one a core]",
+        ),
+    ):
+        command = option(command)
+    return command
+
+
+trust_option = click.option(
+    "--trust-submissions",
+    "trusted",
+    is_flag=True,
+    help="Grade where their code can't be kept from reading solutions or changing grades, too; reports say so.",
+)
+
+
+def check_engine(jobs: int | None, engine: str, address: str | None) -> None:
+    """Refuse options that don't go together."""
+    if (engine == "dask") != (address is not None):
+        raise click.UsageError("--engine dask and --address go together")
+    if engine == "dask" and jobs is not None:
+        raise click.UsageError("--jobs is for --engine processes; a cluster has workers of its own")
+
+
+def class_engine(jobs: int | None, address: str | None) -> ClassEngine:
+    """What grades: a cluster where there is an address, else processes of this machine."""
+    if address is not None:
+        from course.grading.classes.cluster import on_cluster
+
+        return partial(on_cluster, address=address)
+    from course.grading.classes.processes import in_processes
+
+    return partial(in_processes, jobs=jobs or os.cpu_count() or 1)
+
+
+@contextmanager
+def class_progress() -> Iterator[Callable[[int, int], None]]:
+    """A progress bar; after Ctrl-C it is told what is kept."""
+    done, of = 0, 0
+    with progress_bar("grading") as bar:
+
+        def progress(now: int, total: int) -> None:
+            nonlocal done, of
+            done, of = now, total
+            if bar is not None:
+                bar(now / total, False)
+
+        try:
+            yield progress
+        except KeyboardInterrupt:
+            click.echo(
+                f"{done} of {count(of, 'submission')} graded and kept; the same command goes on from there",
+                err=True,
+            )
+            raise
+
+
+def tell_submissions(result: ClassResult) -> None:
+    """Print who can't be graded, and what was guessed or left out."""
+    for report in result.reports:
+        if report.trouble:
+            click.echo(f"{report.student}: {report.trouble}", err=True)
+    remarks = [(one.student, remark) for one in result.submissions for remark in one.remarks]
+    for student, remark in remarks[:MOST_REMARKS]:
+        click.echo(f"{student}: {remark}", err=True)
+    if len(remarks) > MOST_REMARKS:
+        click.echo(f"{len(remarks) - MOST_REMARKS} remarks more: class.html has them all", err=True)
+
+
+def tell_finished(finished: Finished) -> None:
+    """Print what came of the class as a whole."""
+    compared, matched = finished.compared, finished.matched
+    if compared.similar:
+        click.echo(
+            f"{count(len(compared.similar), 'pair')} of modules alike; class.html lists them"
+        )
+    if compared.left_out:
+        click.echo(f"{count(len(compared.left_out), 'file')} not compared; class.html lists them")
+    for name in finished.unused:
+        click.echo(f"the policy names {name}, who has handed in nothing", err=True)
+    if matched is not None:
+        for text, names in (
+            ("submissions of nobody in the roster", matched.unknown),
+            ("in the roster, without a submission", matched.without),
+        ):
+            if names:
+                click.echo(f"{text}: {'; '.join(names)}", err=True)
+    *first, last = map(str, finished.files)
+    click.echo(f"{', '.join(first)} and {last} written")

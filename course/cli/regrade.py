@@ -1,0 +1,128 @@
+"""`course regrade`: who changes when the grader has changed, before anything is written."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from course.cli.classes import (
+    check_engine,
+    class_engine,
+    class_progress,
+    engine_options,
+    tell_finished,
+    tell_submissions,
+    terms_options,
+    trust_option,
+)
+from course.cli.tables import count
+from course.errors import CourseError
+
+if TYPE_CHECKING:
+    from course.grading.checks.result import Result
+    from course.grading.classes.regrading import Change
+    from course.grading.report import Report
+
+
+@click.command()
+@click.argument("submissions", type=click.Path(path_type=Path, exists=True, file_okay=False))
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path, file_okay=False, exists=True),
+    required=True,
+    help="Folder that `course grade` has written.",
+)
+@click.option(
+    "--dry-run", is_flag=True, help="Tell who would change, and leave the grades as they are."
+)
+@terms_options
+@engine_options
+@trust_option
+def regrade(
+    submissions: Path,
+    out: Path,
+    dry_run: bool,
+    policy: Path | None,
+    roster: Path | None,
+    title: str | None,
+    jobs: int | None,
+    engine: str,
+    address: str | None,
+    trusted: bool,
+) -> None:
+    """Grade a class again after a change to checks, scenes or solutions, and tell who changes by which check.
+
+    Seed, modules, policy and roster are those of the grading before. What --dry-run has graded is kept, so that the
+    same command without it only has to apply that.
+    """
+    from course.grading.classes.finishing import Terms
+    from course.grading.classes.regrading import apply
+    from course.grading.classes.regrading import regrade as grade_again
+    from course.grading.classes.settings import read_settings
+
+    check_engine(jobs, engine, address)
+    settings = read_settings(out)
+    before = settings.terms
+    terms = Terms(policy or before.policy, roster or before.roster, title or before.title)
+    # Before hours of grading.
+    terms.read(settings.modules)
+    with class_progress() as progress:
+        regraded = grade_again(
+            submissions,
+            out,
+            class_engine(jobs, address),
+            settings,
+            send_references=engine == "dask",
+            trusted=trusted,
+            progress=progress,
+        )
+    tell_submissions(regraded.result)
+    for student in regraded.gone:
+        click.echo(f"{student}: graded before, and there is no submission now", err=True)
+    for change in regraded.changes:
+        _tell(change)
+    _tell_all(regraded.changes, len(regraded.result.reports), dry_run)
+    if not dry_run:
+        tell_finished(apply(regraded, out, terms))
+    if regraded.result.faults:
+        raise CourseError(
+            f"grader error, nobody's mistake: left as they were: {', '.join(regraded.result.faults)}; "
+            "the same command grades them again"
+        )
+
+
+def _tell(change: Change) -> None:
+    click.echo(f"{change.student}: {_score(change.before)} -> {_score(change.after)}")
+    for before, after in change.checks:
+        one = after or before
+        assert one is not None
+        click.echo(f"  {one.id}: {_ended(before)} -> {_ended(after)}")
+
+
+def _tell_all(changes: tuple[Change, ...], students: int, dry_run: bool) -> None:
+    points = sum(
+        change.after.points - (change.before.points if change.before else 0.0) for change in changes
+    )
+    would = "would change" if dry_run else "changed"
+    told = (
+        f"{len(changes)} of {count(students, 'submission')} {would}, by {points:+g} points together"
+    )
+    click.echo(f"{told}; nothing was written" if dry_run else told)
+
+
+def _score(report: Report | None) -> str:
+    if report is None:
+        return "not graded before"
+    if report.trouble:
+        return "not gradable"
+    return f"{report.points:g} of {report.of:g} points ({100.0 * report.score:.1f} %)"
+
+
+def _ended(result: Result | None) -> str:
+    return (
+        "no such check"
+        if result is None
+        else f"{result.status}, {result.points:g} of {result.of:g}"
+    )

@@ -1,0 +1,147 @@
+"""From declarations to checks: those of the conventions, a check for each law, and one of the time it takes."""
+
+from __future__ import annotations
+
+import zipfile
+from collections.abc import Iterable, Mapping
+from functools import partial
+from io import BytesIO
+from time import perf_counter
+from typing import Any
+from unittest.mock import patch
+
+import numpy as np
+
+from course.grading.checks.check import Array, Caller, Check, ModuleChecks, Trial
+from course.grading.checks.conventions import conventions
+from course.grading.checks.declare import Function, Law, Module
+from course.grading.checks.drawing import Draw
+from course.grading.checks.mistakes import Misconception, matching, taken
+from course.grading.known import Known, known, trusted
+
+SLOW = 10.0
+"""Times the reference's time from which a note is made."""
+
+ROUNDS = 3
+
+
+def declared(module: Module) -> ModuleChecks:
+    """All checks of a declared module."""
+    checks = []
+    for function in module.functions:
+        checks += [_check(function, law) for law in (*conventions(function), *function.laws)]
+        if function.speed:
+            run = partial(_speed, function)
+            title = "Its time beside the reference's (advice)"
+            checks.append(Check(function.name, "speed", title, run, "speed", points=0))
+    functions = {function.name: function for function in module.functions}
+    return ModuleChecks(
+        module.name,
+        tuple(checks),
+        prints={name: _prints(module.name, function) for name, function in functions.items()},
+        named={name: partial(mistake_of, function) for name, function in functions.items()},
+    )
+
+
+def _check(function: Function, law: Law) -> Check:
+    return Check(
+        function.name,
+        law.name,
+        law.title,
+        partial(law.run, function),
+        law.kind,
+        law.points,
+        law.false_fail,
+        role=law.role,
+    )
+
+
+def _speed(function: Function, trial: Trial) -> None:
+    a = function.make(Draw(trial.rng, function.speed, np.float32))
+    if trial.yardstick is None:
+        # Nothing to compare with; but what gives no value has not passed.
+        trial.call(*a.values())
+        return
+    times: tuple[list[float], list[float]] = ([], [])
+    for _ in range(ROUNDS):
+        for caller, kept in zip((trial.caller, trial.yardstick), times, strict=True):
+            started = perf_counter()
+            caller.call(function.name, *a.values())
+            kept.append(perf_counter() - started)
+    yours, reference = min(times[0]), min(times[1])
+    if yours > SLOW * reference:
+        trial.notes.append(
+            f"It takes {yours / reference:.0f} times as long as the reference ({yours * 1e3:.0f} ms for "
+            f"{function.speed} columns): whole arrays instead of loops would help."
+        )
+
+
+# ---------------------------------------------------------------- mistakes
+
+
+def _prints(module: str, function: Function) -> Check:
+    def prepare(caller: Caller, _: np.random.Generator) -> dict[str, Array]:
+        found = {f"/{key}": value for key, value in taken(function, caller).items()}
+        for one in known(module):
+            if one.mistake and one.function == function.name:
+                found |= _print(function, one)
+        # One array of all: a file of thousands of small ones takes seconds to open.
+        return {"packed": np.frombuffer(_packed(found), np.uint8).copy()}
+
+    return Check(function.name, "mistakes", "", lambda _: None, points=0, prepare=prepare)
+
+
+def _packed(arrays: Mapping[str, Array]) -> bytes:
+    """A file as ``np.savez_compressed`` makes it, but for the time of day: the same arrays give the same bytes."""
+    file = BytesIO()
+    with zipfile.ZipFile(file, "w") as pack:
+        for name, array in arrays.items():
+            entry = zipfile.ZipInfo(f"{name}.npy")
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            with pack.open(entry, "w") as member:
+                np.lib.format.write_array(member, array, allow_pickle=False)
+    return file.getvalue()
+
+
+def _print(function: Function, one: Known) -> dict[str, Array]:
+    # Some draw numbers of their own: the same ones each time, so that the same course gives the same bytes.
+    draw = np.random.default_rng
+    seeded = patch("numpy.random.default_rng", lambda seed=None: draw(0 if seed is None else seed))
+    np.random.seed(0)  # noqa: NPY002
+    with np.errstate(all="ignore"), seeded:
+        arrays = taken(function, trusted(one))
+    start = f"{one.mistake}~{one.name}"
+    return {f"{start}/{key}": value for key, value in arrays.items()} | {
+        f"{start}/says": np.array(one.says)
+    }
+
+
+def mistake_of(
+    function: Function, caller: Caller, prints: Mapping[str, Array]
+) -> tuple[str, str] | None:
+    """Which known mistake somebody's function makes, and what the student is told; None for none.
+
+    Parameters
+    ----------
+    prints : as `Check.prepare` of ``ModuleChecks.prints`` made them; without any, nothing is known
+    """
+    if not prints:
+        return None
+    grouped: dict[str, dict[str, Any]] = {}
+    with np.load(BytesIO(prints["packed"].tobytes()), allow_pickle=False) as arrays:
+        for name in arrays.files:
+            start, _, key = name.partition("/")
+            grouped.setdefault(start, {})[key] = arrays[name]
+    right = grouped.pop("", {})
+    found = matching(function, caller, _misconceptions(grouped), right)
+    return (found.name, found.says) if found else None
+
+
+def _misconceptions(grouped: Mapping[str, Mapping[str, Any]]) -> Iterable[Misconception]:
+    says: dict[str, str] = {}
+    for start, arrays in grouped.items():
+        name = start.partition("~")[0]
+        says[name] = says.get(name) or str(arrays["says"])
+    for start, arrays in grouped.items():
+        name = start.partition("~")[0]
+        yield Misconception(name, says[name], arrays)

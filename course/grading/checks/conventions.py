@@ -1,0 +1,279 @@
+"""The checks that follow from a declaration: what the course's conventions ask of every function."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from copy import deepcopy
+from itertools import product
+from typing import Any
+
+import numpy as np
+
+from course.grading.checks.check import Array, Failure, Trial
+from course.grading.checks.declare import COLUMNS, Argument, Arguments, Function, Law
+from course.grading.checks.drawing import Draw
+from course.grading.checks.examples import call, where
+from course.grading.checks.laws import DTYPES, EPSILON
+from course.grading.errors import StudentError
+
+SIZES = (2, 1, 0, 17)
+"""Columns."""
+
+
+def conventions(function: Function) -> tuple[Law, ...]:
+    """The function's conventions, as laws."""
+    found = [
+        ("contract", "Shapes and dtypes are as agreed, and all numbers finite", _contract),
+        ("untouched", "Arguments and the global random state are left alone", _untouched),
+        ("refuses", "Wrong arguments raise ValueError", _refuses),
+    ]
+    if any(argument.sizes for argument in function.arguments):
+        found.append(
+            ("layouts", "Neither memory layout nor earlier calls change a result", _layouts)
+        )
+    if function.columns and any(argument.axis is not None for argument in function.arguments):
+        found.append(("columns", "Each column depends on its own arguments alone", _columns))
+    return tuple(Law(name, title, run, "convention", "contract") for name, title, run in found)
+
+
+# ---------------------------------------------------------------- contract
+
+
+def _contract(function: Function, trial: Trial) -> None:
+    for a, of in _legal(function, trial):
+        try:
+            function.seen(trial.call(*a.values()), a, function.promoted(a) or np.float32)
+        except Failure as failure:
+            failure.where = failure.where or of
+            failure.example = call(function.name, a) if "columns" not in of else ""
+            raise
+
+
+def _legal(function: Function, trial: Trial) -> Iterator[tuple[Arguments, str]]:
+    """Arguments of every size, every mixture of dtypes, and at the ends of what is legal; and what they are."""
+    for dtype in DTYPES:
+        for n in SIZES:
+            yield function.make(Draw(trial.rng, n, dtype)), f"N = {n}, {np.dtype(dtype)}"
+        for scale in function.scales:
+            a = function.make(Draw(trial.rng, 5, dtype, scale))
+            yield a, f"lengths around {scale:g}, {np.dtype(dtype)}"
+        for a in function.ends(Draw(trial.rng, 1, dtype)):
+            yield a, f"columns at the ends of what is legal, {np.dtype(dtype)}"
+    batches = [argument.name for argument in function.arguments if argument.batch]
+    singles = [argument for argument in function.arguments if argument.single]
+    for dtype in DTYPES if singles else ():
+        for kind in (np.float32, np.float64):
+            a = function.make(Draw(trial.rng, 5, dtype))
+            for argument in singles:
+                a[argument.name] = kind(argument.one(a[argument.name]))
+            yield a, f"one {singles[0].name} for all, of {np.dtype(kind)}"
+    if len(batches) > 1:
+        # One of another dtype than the rest, each in turn.
+        for other, (few, rest) in product(batches, (DTYPES, DTYPES[::-1])):
+            a = function.make(Draw(trial.rng, 5, np.float32))
+            for name in batches:
+                if isinstance(a[name], np.ndarray) and a[name].dtype.kind == "f":
+                    a[name] = a[name].astype(few if name == other else rest)
+            yield a, "batches of float32 and float64"
+    for kind in (np.float32, np.float64):
+        a = function.make(Draw(trial.rng, 5, np.float32))
+        for argument in function.arguments:
+            if not argument.batch and isinstance(a[argument.name], float | np.ndarray):
+                a[argument.name] = kind(a[argument.name])
+        yield a, f"single points and numbers of {np.dtype(kind)}"
+
+
+# ---------------------------------------------------------------- untouched
+
+
+def _untouched(function: Function, trial: Trial) -> None:
+    a = function.make(Draw(trial.rng, 50, np.float32))
+    before = deepcopy([_arrays(value) for value in a.values()])
+    _, after, moved = trial.caller.call_and_look(trial.function, *a.values())
+    for name, old, new in zip(a, before, after, strict=True):
+        pairs = zip(old, _arrays(new), strict=True)
+        if not all(np.array_equal(one, other, equal_nan=True) for one, other in pairs):
+            raise Failure(
+                f"{name} to be left as it was", "it has been written to", hint="Work on a copy."
+            )
+    if moved:
+        raise Failure(
+            "NumPy's global random state to be left alone",
+            "the function seeds it or draws from it",
+            hint="The random numbers are given: u, or rng.",
+        )
+
+
+def _arrays(value: Any) -> list[Array]:
+    """Those of an argument: itself, or what it holds."""
+    parts = value if isinstance(value, tuple | list) else (value,)
+    return [part for part in parts if isinstance(part, np.ndarray)]
+
+
+# ---------------------------------------------------------------- refuses
+
+
+def _refuses(function: Function, trial: Trial) -> None:
+    for argument in function.arguments:
+        a = function.make(Draw(trial.rng, 4, np.float32))
+        for wrong in (*misshapen(function, argument, a[argument.name]), *argument.wrong):
+            shown = f"of shape {np.shape(wrong)}" if isinstance(wrong, np.ndarray) else f"{wrong!r}"
+            if isinstance(wrong, dict):
+                # Arguments that are wrong together.
+                given, shown = (
+                    Arguments(a | wrong),
+                    ", ".join(f"{k} = {v}" for k, v in wrong.items()),
+                )
+            else:
+                given = Arguments(a | {argument.name: wrong})
+            _refused(trial, given, argument.name, shown)
+
+
+def _refused(trial: Trial, a: Arguments, name: str, shown: str) -> None:
+    try:
+        trial.call(*a.values())
+    except StudentError as error:
+        if error.kind == "raised" and error.type == "ValueError":
+            return
+        # What is no value at all came back nonetheless: it wasn't refused.
+        if error.kind != "bad value":
+            raise
+    raise Failure(
+        f"ValueError for {name} {shown}",
+        "no error",
+        hint="The checks at the function's top came with the stub.",
+    )
+
+
+def misshapen(function: Function, argument: Argument, value: Any) -> list[Array]:
+    """Arrays of wrong shapes: an axis less, an axis more, turned, too few rows, too many; columns that don't fit."""
+    if not isinstance(value, np.ndarray) or not argument.sizes:
+        return []
+    shapes = {value.shape[:-1], (1, *value.shape), (*value.shape, 1)}
+    if value.ndim == 2:
+        shapes.add(value.shape[::-1])
+    for axis, word in enumerate(argument.sizes):
+        if word.isdigit():
+            shapes |= {_but(value.shape, axis, int(word) + step) for step in (-1, 1)}
+        elif any(word in other.sizes for other in function.arguments if other is not argument):
+            shapes.add(_but(value.shape, axis, value.shape[axis] - 1))
+        elif argument.sizes.count(word) > 1:
+            shapes.add(_but(value.shape, axis, value.shape[axis] + 1))
+    filler = value.ravel()[0] if value.size else 1
+    return [
+        np.full(shape, filler, value.dtype)
+        for shape in sorted(shapes)
+        if not _fits(function, argument, shape, value.shape)
+    ]
+
+
+def _but(shape: tuple[int, ...], axis: int, size: int) -> tuple[int, ...]:
+    return (*shape[:axis], size, *shape[axis + 1 :])
+
+
+def _fits(
+    function: Function, argument: Argument, shape: tuple[int, ...], legal: tuple[int, ...]
+) -> bool:
+    """Whether a value of that shape would be legal: sizes that other arguments share must be as they are."""
+    if argument.single and shape == tuple(
+        size for size, word in zip(legal, argument.sizes, strict=True) if word != COLUMNS
+    ):
+        return True
+    if len(shape) != len(argument.sizes):
+        return False
+    elsewhere = {
+        word for other in function.arguments if other is not argument for word in other.sizes
+    }
+    own: dict[str, int] = {}
+    for word, size, now in zip(argument.sizes, shape, legal, strict=True):
+        if word.isdigit() or word in elsewhere:
+            if size != now:
+                return False
+        elif own.setdefault(word, size) != size:
+            return False
+    return True
+
+
+# ---------------------------------------------------------------- layouts and columns
+
+
+def scattered(array: Array) -> Array:
+    """The same values, in memory that is contiguous along no axis."""
+    wide = np.zeros(tuple(3 * size for size in array.shape), array.dtype)
+    view: Array = wide[tuple(slice(1, None, 3) for _ in array.shape)]
+    view[...] = array
+    return view
+
+
+def frozen(array: Array) -> Array:
+    """A copy that can't be written to."""
+    copy: Array = array.copy()
+    copy.flags.writeable = False
+    return copy
+
+
+LAYOUTS: dict[str, Callable[[Array], Array]] = {
+    "the same again": lambda array: array,
+    "Fortran's order": np.asfortranarray,
+    "every third number of a larger array": scattered,
+    "arrays that can't be written to": frozen,
+}
+
+
+def _layouts(function: Function, trial: Trial) -> None:
+    made = function.make(Draw(trial.rng, 20, np.float32))
+    expected = None
+    for name, layout in LAYOUTS.items():
+        a = Arguments({key: _laid(value, layout) for key, value in made.items()})
+        found = _parts(function.call(trial, a))
+        _same(found, expected or found, made, f"the result for {name}")
+        expected = expected or found
+
+
+def _laid(value: Any, layout: Callable[[Array], Array]) -> Any:
+    """A value, its arrays in another layout."""
+    if isinstance(value, tuple):
+        return tuple(_laid(part, layout) for part in value)
+    return layout(value) if isinstance(value, np.ndarray) and value.ndim else value
+
+
+def _columns(function: Function, trial: Trial) -> None:
+    a = function.make(Draw(trial.rng, 60, np.float32))
+    order = trial.rng.permutation(60)[:40]
+    some = Arguments(a)
+    for argument in function.arguments:
+        if argument.axis is not None:
+            some[argument.name] = np.ascontiguousarray(a[argument.name].take(order, argument.axis))
+    every = _parts(function.call(trial, a))
+    found = _parts(function.call(trial, some))
+    wanted = []
+    for part, result in zip(every, function.results, strict=True):
+        words = result.shape.split()
+        wanted.append(part.take(order, words.index("N")) if "N" in words else part)
+    _same(found, wanted, some, "the same column by itself, in another order:")
+
+
+def _same(found: list[Array], expected: list[Array], a: Arguments, what: str) -> None:
+    for part, other in zip(found, expected, strict=True):
+        if part.shape != other.shape:
+            raise Failure(f"{what} of shape {other.shape}", f"{part.shape}")
+        if part.dtype.kind == "f":
+            finite = np.abs(other[np.isfinite(other)])
+            slack = 64 * EPSILON * (float(finite.max()) if finite.size else 0.0)
+            with np.errstate(invalid="ignore"):
+                # Infinite ones may be equal, too.
+                off = np.where(part == other, 0.0, np.abs(part - other))
+        else:
+            slack, off = 0.0, (part != other).astype(float)
+        if off.size and not off.max() <= slack:
+            worst = np.unravel_index(int(np.argmax(off)), off.shape)
+            raise Failure(
+                f"{what} {other[worst]:.6g}",
+                f"{part[worst]:.6g}",
+                where(a, worst, part.shape),
+                "A result hangs on the numbers of its own column, and on nothing else.",
+            )
+
+
+def _parts(r: Any) -> list[Array]:
+    return list(r) if isinstance(r, tuple) else [r]

@@ -1,0 +1,408 @@
+"""What a function of the course is declared to be: arguments, results, and the laws that hold between them.
+
+A declaration is all that a module writes down. The checks of the conventions follow from it (``conventions.py``), the
+laws are run on arguments that it makes (``laws.py``), failures are cut down to the smallest input that shows them
+(``examples.py``), and a mistake is told by a known wrong submission that behaves alike (``mistakes.py``).
+
+Shapes are written as in the course's documents: "3 N" for (3, N), "3" for a single point, "" for a number. A word that
+isn't a number is a size that all arguments of a call share, "N" that of the columns; results may compute with sizes and
+with whole arguments, as in "2 n k*k".
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from copy import deepcopy
+from dataclasses import dataclass
+from math import gcd
+from typing import Any
+
+import numpy as np
+
+from course.grading.checks.check import Array, Failure, Kind, Role, Trial
+from course.grading.checks.drawing import Draw, worst_directions, worst_units
+
+COLUMNS = "N"
+
+
+class Arguments(dict[str, Any]):
+    """Arguments by name, in their order; ``a.name`` reads one."""
+
+    def __getattr__(self, name: str) -> Any:
+        try:
+            return self[name]
+        except KeyError:
+            raise AttributeError(name) from None
+
+
+Case = Callable[[Draw], Mapping[str, Any]]
+"""Legal arguments; those that it leaves out are made as they are declared."""
+
+
+@dataclass(frozen=True)
+class Argument:
+    """One argument.
+
+    Attributes
+    ----------
+    name, shape : as the course has them
+    make : a legal value
+    wrong : values that raise ``ValueError``, besides those of wrong shape
+    corners : of a dtype, columns at the ends of what is legal
+    batch : whether its dtype is the results'
+    single : whether it may be one value for all columns as well: its shape without them, and no batch then
+    """
+
+    name: str
+    shape: str
+    make: Callable[[Draw], Any]
+    wrong: tuple[Any, ...] = ()
+    corners: Callable[[Any], Array] | None = None
+    batch: bool = True
+    single: bool = False
+
+    @property
+    def sizes(self) -> tuple[str, ...]:
+        """Of each axis."""
+        return tuple(self.shape.split())
+
+    @property
+    def axis(self) -> int | None:
+        """Of the columns; None if it has none."""
+        return self.sizes.index(COLUMNS) if COLUMNS in self.sizes else None
+
+    def one(self, value: Any) -> Any:
+        """The first column's value of a batch, for all columns."""
+        first = np.asarray(value).take(0, self.axis).astype(np.float64)
+        return first if first.ndim else float(first)
+
+
+def u(rows: int, name: str = "u") -> Argument:
+    """Numbers in [0, 1): (rows, N), or (N,) for one row."""
+    if rows == 1:
+        return Argument(name, "N", lambda d: d.units(1)[0], corners=lambda t: worst_units(1, t)[0])
+    return Argument(
+        name, f"{rows} N", lambda d: d.units(rows), corners=lambda t: worst_units(rows, t)
+    )
+
+
+def directions(name: str) -> Argument:
+    """Unit vectors (3, N), anywhere and around the axes."""
+    return Argument(name, "3 N", lambda d: d.directions(), corners=worst_directions)
+
+
+def points(name: str, reach: float = 3.0) -> Argument:
+    """Points (3, N) within that reach of the origin along each axis [m]."""
+    return Argument(name, "3 N", lambda d: d.lengths(-reach, reach, 3, d.n))
+
+
+def values(name: str, shape: str, low: float, high: float, wrong: tuple[Any, ...] = ()) -> Argument:
+    """An array of numbers in [low, high); sizes that are not the columns are drawn from 1 to 6."""
+
+    def make(draw: Draw) -> Array:
+        sizes = {word: int(draw.rng.integers(1, 7)) for word in shape.split()} | {COLUMNS: draw.n}
+        return draw.uniform(
+            low, high, *(int(w) if w.isdigit() else sizes[w] for w in shape.split())
+        )
+
+    return Argument(name, shape, make, wrong)
+
+
+def point(name: str, reach: float = 3.0) -> Argument:
+    """A single point (3,) [m]: an array of either dtype, which never counts."""
+    return Argument(name, "3", lambda d: d.lengths(-reach, reach, 3), batch=False)
+
+
+def number(name: str, low: float, high: float, wrong: tuple[float, ...] = ()) -> Argument:
+    """A number from low to high, both over 0, spread over its powers of ten."""
+    return Argument(name, "", lambda d: d.number(low, high), wrong, batch=False)
+
+
+def length(name: str, low: float, high: float, wrong: tuple[float, ...] = ()) -> Argument:
+    """A number that is a length [m]: it grows with the scene."""
+    return Argument(name, "", lambda d: d.scale * d.number(low, high), wrong, batch=False)
+
+
+def count(name: str, low: int, high: int, wrong: tuple[Any, ...] = ()) -> Argument:
+    """A whole number from low to high."""
+    return Argument(name, "", lambda d: int(d.rng.integers(low, high + 1)), wrong, batch=False)
+
+
+def generator(name: str = "rng") -> Argument:
+    """Numbers for one call."""
+    return Argument(
+        name, "", lambda d: np.random.default_rng(int(d.rng.integers(2**62))), batch=False
+    )
+
+
+@dataclass(frozen=True)
+class Result:
+    """One result.
+
+    Attributes
+    ----------
+    name, shape : as the course has them
+    dtype : None for that of the batch arguments; a kind of NumPy's ("int", "bool", "floating") where any of it does
+    finite : whether it is, for every legal argument
+    """
+
+    name: str
+    shape: str
+    dtype: Any = None
+    finite: bool = True
+
+
+@dataclass(frozen=True)
+class Law:
+    """Something that holds for every right function.
+
+    Attributes
+    ----------
+    name, title : as a check has them
+    run : raises ``Failure``
+    case : what it calls the function with, where mistakes that break it show; None if that is any case
+    """
+
+    name: str
+    title: str
+    run: Callable[[Function, Trial], None]
+    role: Role = "core"
+    kind: Kind = "property"
+    points: float = 1.0
+    false_fail: float = 0.0
+    case: Case | None = None
+
+
+@dataclass(frozen=True)
+class Function:
+    """One function of the course.
+
+    Attributes
+    ----------
+    name, arguments, results, laws : of the function
+    case : arguments that hang on each other; those that it leaves out are made as declared
+    corners : further arguments at the ends of what is legal, of a dtype
+    columns : whether each column of the results depends on that column of the arguments alone
+    free : whether rows and senses of ``u`` may be used in any way
+    symmetric : whether the axes of the result may be exchanged as well
+    unique : whether the arguments, or the distribution of what they give, leave one right result
+    features : (arguments, results) -> (k, N) numbers whose distribution tells mistakes of functions that are free
+    scales : factors of all lengths that the conventions are tried with
+    speed : columns of a call whose time is compared; 0 for none
+    """
+
+    name: str
+    arguments: tuple[Argument, ...]
+    results: tuple[Result, ...]
+    laws: tuple[Law, ...]
+    case: Case | None = None
+    corners: tuple[Callable[[Any], Mapping[str, Any]], ...] = ()
+    columns: bool = True
+    free: bool = False
+    symmetric: bool = False
+    unique: bool = True
+    features: Callable[[Arguments, Any], Array] | None = None
+    scales: tuple[float, ...] = (1.0, 1e-6, 1e6)
+    speed: int = 16384
+
+    def argument(self, name: str) -> Argument:
+        """The argument of that name."""
+        return next(argument for argument in self.arguments if argument.name == name)
+
+    @property
+    def draws(self) -> bool:
+        """Whether it draws its numbers by itself, in any order: then values tell nothing, but features may."""
+        a = self.make(Draw(np.random.default_rng(0), 1))
+        return any(isinstance(value, np.random.Generator) for value in a.values())
+
+    def make(self, draw: Draw, case: Case | None = None) -> Arguments:
+        """Legal arguments: a case's, and the others as they are declared; batches have the dtype that was asked for."""
+        case = case or self.case
+        given = dict(case(draw)) if case else {}
+        found = Arguments()
+        for argument in self.arguments:
+            value = given[argument.name] if argument.name in given else argument.make(draw)
+            found[argument.name] = self._typed(argument, value, draw.dtype)
+        return found
+
+    def ends(self, draw: Draw) -> list[Arguments]:
+        """Arguments at the ends of what is legal; as many columns as it takes."""
+        found = []
+        # What a case makes hangs on its other arguments, and has no ends of its own.
+        hanging = set(self.case(draw)) if self.case else set()
+        ended = [one for one in self.arguments if one.corners and one.name not in hanging]
+        if ended:
+            ends = [argument.corners(draw.dtype) for argument in ended if argument.corners]
+            sizes = [end.shape[-1] for end in ends]
+            index = np.indices(sizes).reshape(len(sizes), -1)
+            # Not all pairs of hundreds of directions: every so manieth, and with no common divisor, all of each.
+            step = max(1, index.shape[1] // 997)
+            while any(gcd(step, size) > 1 for size in sizes):
+                step += 1
+            index = index[:, ::step]
+            a = self.make(draw.but(n=index.shape[1]))
+            for argument, end, chosen in zip(ended, ends, index, strict=True):
+                a[argument.name] = np.ascontiguousarray(end[..., chosen])
+            found.append(a)
+        return found + [
+            self.make(draw, lambda _, corner=corner: corner(draw.dtype))  # type: ignore[misc]
+            for corner in self.corners
+        ]
+
+    def call(self, trial: Trial, a: Arguments) -> Any:
+        """The results, of right shapes and finite, floating ones in float64; a tuple if there are several.
+
+        Raises
+        ------
+        Failure, StudentError
+        """
+        # Generators move when they are drawn from: each call gets one that hasn't.
+        given = (deepcopy(v) if isinstance(v, np.random.Generator) else v for v in a.values())
+        return self.seen(trial.call(*given), a)
+
+    def seen(self, value: Any, a: Arguments, dtype: Any = None) -> Any:
+        """Results of a call, looked at: of right shapes and finite; floating ones in float64.
+
+        Parameters
+        ----------
+        dtype : of the batch arguments, to be looked at too; any floating one passes if not given
+
+        Raises
+        ------
+        Failure
+        """
+        several = len(self.results) > 1
+        value = unstacked(value, len(self.results))
+        if several and (not isinstance(value, tuple | list) or len(value) != len(self.results)):
+            names = ", ".join(result.name for result in self.results)
+            raise Failure(f"{len(self.results)} results: {names}", described(value))
+        parts = value if several else (value,)
+        sizes = self.sizes(a)
+        looked = tuple(
+            _looked(part, result, sizes, dtype)
+            for part, result in zip(parts, self.results, strict=True)
+        )
+        return looked if several else looked[0]
+
+    def sizes(self, a: Arguments) -> dict[str, int]:
+        """Words of the shapes, and whole arguments, with their values in a call."""
+        found: dict[str, int] = {}
+        for argument in self.arguments:
+            value = a[argument.name]
+            if not argument.sizes and isinstance(value, int | np.integer):
+                found[argument.name] = int(value)
+            found |= {
+                word: size
+                for word, size in zip(
+                    argument.sizes, np.shape(value) if argument.sizes else (), strict=False
+                )
+                if not word.isdigit()
+            }
+        return found
+
+    def shapes(self, arguments: Iterable[Any]) -> tuple[tuple[int, ...], ...] | None:
+        """Of the results of a call; None where they are up to the function, or the arguments are none for it."""
+        a = Arguments(zip((argument.name for argument in self.arguments), arguments, strict=False))
+        for argument in self.arguments:
+            # Where the first axis may be left out and is no number, the others don't say what the results' are.
+            first = argument.sizes[0] if argument.sizes else "1"
+            value: Any = a.get(argument.name) if argument.sizes else None
+            if np.ndim(value) < len(argument.sizes) and not first.isdigit():
+                return None
+        try:
+            sizes = self.sizes(a)
+            return tuple(
+                tuple(int(eval(word, {}, sizes)) for word in result.shape.split())
+                for result in self.results
+            )
+        except Exception:  # noqa: BLE001 - arguments of a wrong shape, for which the function has to raise
+            return None
+
+    def promoted(self, a: Arguments) -> Any:
+        """The dtype of the batch arguments, as NumPy promotes them; None if there are none."""
+        kinds = [
+            a[argument.name].dtype
+            for argument in self.arguments
+            if argument.batch
+            and isinstance(a[argument.name], np.ndarray)
+            and a[argument.name].dtype.kind == "f"
+            and a[argument.name].ndim == len(argument.sizes)
+        ]
+        return np.result_type(*kinds) if kinds else None
+
+    def _typed(self, argument: Argument, value: Any, dtype: Any) -> Any:
+        batch = argument.batch and np.ndim(value) == len(argument.sizes)
+        if batch and isinstance(value, np.ndarray) and value.dtype.kind == "f":
+            return np.ascontiguousarray(value, dtype)
+        return value
+
+
+@dataclass(frozen=True)
+class Module:
+    """A module of the course."""
+
+    name: str
+    functions: tuple[Function, ...]
+
+
+def unstacked(value: Any, count: int | None) -> Any:
+    """Several results that were handed back as one array, as a tuple; whatever else came as it is."""
+    if count is not None and count > 1 and isinstance(value, np.ndarray) and value.ndim:
+        return tuple(value) if len(value) == count else value
+    return value
+
+
+def described(value: Any) -> str:
+    """What came, for a report: the type, and of arrays shape and dtype."""
+    if isinstance(value, tuple | list):
+        return f"a {type(value).__name__} of {', '.join(map(described, value)) or 'nothing'}"
+    if isinstance(value, np.ndarray):
+        return f"an array of shape {value.shape} and dtype {value.dtype}"
+    return f"a {type(value).__name__}"
+
+
+_NUMBERS = {"bool": "b", "int": "iu", "floating": "f", "number": "fiu"}
+
+
+def _looked(value: Any, result: Result, sizes: dict[str, int], dtype: Any) -> Array:
+    words = result.shape.split()
+    if not words and not isinstance(value, np.ndarray):
+        value = _number(value, result)
+    if type(value) is not np.ndarray:
+        raise Failure(f"{result.name} to be an ndarray", described(value))
+    for axis, word in enumerate(words):
+        if word.isidentifier():
+            # A size that no argument has is up to the function; its other results have to agree.
+            sizes.setdefault(word, value.shape[axis] if axis < value.ndim else 1)
+    shape = tuple(int(eval(word, {}, sizes)) for word in words)
+    if value.shape != shape:
+        raise Failure(f"{result.name} of shape {shape}", f"shape {value.shape}")
+    wanted = dtype if result.dtype is None else result.dtype
+    kinds = _NUMBERS.get(wanted) if isinstance(wanted, str) else None
+    if kinds is None and wanted is not None and dtype is not None and value.dtype != wanted:
+        hint = _DTYPES if result.dtype is None else ""
+        raise Failure(f"{result.name} of dtype {np.dtype(wanted)}", f"{value.dtype}", hint=hint)
+    of_kind = value.dtype.kind in (kinds or ("b" if wanted is np.bool_ else "fiu"))
+    # What is of another kind of number costs the contract alone.
+    if not of_kind and (dtype is not None or value.dtype.kind not in "bfiu"):
+        raise Failure(f"{result.name} of dtype {wanted or 'floating'}", f"{value.dtype}")
+    if result.finite and not np.isfinite(value).all():
+        index = tuple(int(i) for i in np.argwhere(~np.isfinite(value))[0])
+        raise Failure(f"{result.name} to be finite", f"{value[index]}", f"at index {index}")
+    if kinds == "b" or wanted is np.bool_:
+        return value.astype(bool)
+    return value.astype(np.float64) if value.dtype.kind == "f" else value
+
+
+_DTYPES = (
+    "The dtype of a result is that of the batch arguments; single points and numbers, NumPy's own too, "
+    "never change it."
+)
+
+
+def _number(value: Any, result: Result) -> Any:
+    if isinstance(value, bool | np.bool_) or not isinstance(
+        value, int | float | np.integer | np.floating
+    ):
+        raise Failure(f"{result.name} to be a number", described(value))
+    return np.asarray(value)

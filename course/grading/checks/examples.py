@@ -1,0 +1,100 @@
+"""What a report says of the arguments: those of the worst column, and the smallest input that shows a mistake."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from course.grading.checks.check import Failure, Trial
+from course.grading.checks.declare import Arguments, Case, Function
+from course.grading.checks.drawing import Draw
+from course.grading.errors import StudentError
+
+TRIES = 6
+"""Small inputs of each size that are tried."""
+
+SMALL = (1, 2, 3)
+"""Columns."""
+
+
+def where(a: Arguments, index: tuple[Any, ...], shape: tuple[int, ...]) -> str:
+    """The arguments that an element of a result was made from: of batches their column, of others all.
+
+    Parameters
+    ----------
+    index : of the element, the column last
+    shape : of what it is an element of
+    """
+    column = int(index[-1]) if index else 0
+    columns = shape[-1] if shape else 0
+    parts = [
+        f"{name} = {_of(value, column, columns)}"
+        for name, value in a.items()
+        if not isinstance(value, np.random.Generator)
+    ]
+    return ", ".join(parts)
+
+
+def example(
+    function: Function,
+    trial: Trial,
+    failure: Failure,
+    look: Callable[[Arguments, Any], None],
+    case: Case | None,
+) -> None:
+    """Give a failure the smallest input that breaks the law: up to three columns of round numbers, if there is one."""
+    from course.grading.checks.laws import exact
+
+    rng = np.random.default_rng(0)
+    for n in SMALL:
+        for _ in range(TRIES):
+            try:
+                a = function.make(Draw(rng, n, np.float64, simple=True), case)
+                value = function.call(trial, a)
+                look(exact(a), value)
+            except Failure as small:
+                failure.example = (
+                    f"{call(function.name, a)}: expected {small.expected}, came {small.found}"
+                )
+                return
+            except StudentError:
+                return
+            except Exception:  # noqa: BLE001 - a law need not hold together for so few columns
+                continue
+    failure.example = failure.where
+
+
+def call(name: str, a: Arguments) -> str:
+    """A call as one would write it, for few columns."""
+    return f"{name}({', '.join(f'{key} = {_whole(value)}' for key, value in a.items())})"
+
+
+def _whole(value: Any) -> str:
+    if isinstance(value, np.random.Generator):
+        return "a generator"
+    if isinstance(value, tuple):
+        return f"({', '.join(map(_whole, value))})"
+    if isinstance(value, np.ndarray):
+        text = np.array2string(value, precision=4, separator=", ", suppress_small=True)
+        return " ".join(text.split()) if value.size <= 36 else f"an array {value.shape}"
+    if isinstance(value, np.generic):
+        # A call that is pasted has to be the same call: a scalar of NumPy's isn't Python's float.
+        return f"np.{value.dtype}({value:.6g})"
+    return f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
+def _of(value: Any, column: int, columns: int) -> str:
+    if isinstance(value, tuple):
+        return f"{len(value)} arrays"
+    if isinstance(value, np.ndarray) and value.ndim:
+        axes = [axis for axis, size in enumerate(value.shape) if size == columns]
+        if axes:
+            value = value.take(column, axes[-1])
+        numbers = np.ravel(value)
+        if numbers.size > 12:
+            return f"an array {value.shape}"
+        text = ", ".join(f"{number:.6g}" for number in numbers.tolist())
+        return f"({text})" if np.ndim(value) else text
+    return f"{value:.6g}" if isinstance(value, float) else str(value)

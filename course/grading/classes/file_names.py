@@ -1,0 +1,100 @@
+"""What the name of a file says: which module it is, and whose, as students and learning systems name files."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+PYTHON, NOTEBOOK = ".py", ".ipynb"
+
+_CANVAS = re.compile(r"(?P<name>[^_]+)(?P<late>_LATE)?_(?P<id>\d+)_\d+_(?P<file>.+)", re.DOTALL)
+_MOODLE = re.compile(
+    r"(?P<name>.+)_(?P<id>\d+)_assignsubmission_(?P<kind>file|onlinetext)(?:_(?P<file>.*))?",
+    re.DOTALL,
+)
+_COPY = re.compile(r"(?:\s*\(\d{1,3}\)|[-_\s]+\d{1,2}|[-_\s]+(?:copy|kopie|copie|copia))+$", re.I)
+_SEPARATORS = "-_. \t"
+
+
+@dataclass(frozen=True)
+class Sent:
+    """What a learning system has put before the name of a file or folder.
+
+    Attributes
+    ----------
+    name, id : of the student, there
+    file : the rest, the file's own name; empty for a folder
+    remark : what the system says of it besides
+    """
+
+    name: str
+    id: str
+    file: str
+    remark: str = ""
+
+    @property
+    def owner(self) -> str:
+        """What tells this student from all others."""
+        return f"{self.name}_{self.id}"
+
+
+def sent(name: str) -> Sent | None:
+    """What Canvas or Moodle says by the name that it gave a download; None if neither gave it."""
+    if found := _MOODLE.fullmatch(name):
+        text = "typed into Moodle" if found["kind"] == "onlinetext" else ""
+        return Sent(found["name"], found["id"], found["file"] or "", text)
+    if found := _CANVAS.fullmatch(name):
+        late = "Canvas says that it is late" if found["late"] else ""
+        return Sent(found["name"], found["id"], found["file"], late)
+    return None
+
+
+@dataclass(frozen=True)
+class Named:
+    """What the name of a file says.
+
+    Attributes
+    ----------
+    module : which it is; empty if the name doesn't tell
+    owner : the rest of the name; empty if there is none
+    exact : whether it is the module's own name
+    suffix : PYTHON, NOTEBOOK, or empty for any other file
+    """
+
+    module: str
+    owner: str
+    exact: bool
+    suffix: str
+
+
+def read_name(name: str, modules: Iterable[str]) -> Named:
+    """Which module a file is by its name: thin_lens.py, Thin_Lens.py, thin_lens (1).py, alice-thin-lens-2.py."""
+    stem, suffix = _split(name)
+    if not suffix:
+        return Named("", stem, False, "")
+    plain = _COPY.sub("", stem)
+    folded = _folded(plain)
+    # The longest first: importance_sampling is no submission of sampling.
+    for module in sorted(modules, key=len, reverse=True):
+        if folded == module or folded.replace("_", "") == module.replace("_", ""):
+            return Named(module, "", name == f"{module}{PYTHON}", suffix)
+        if folded.endswith(f"_{module}"):
+            return Named(module, plain[: -len(module)].rstrip(_SEPARATORS), False, suffix)
+        if folded.startswith(f"{module}_"):
+            return Named(module, plain[len(module) :].lstrip(_SEPARATORS), False, suffix)
+    return Named("", stem, False, suffix)
+
+
+def _split(name: str) -> tuple[str, str]:
+    lower = name.lower()
+    # Some systems add .txt to what they take for dangerous.
+    for ending, suffix in ((".py.txt", PYTHON), (PYTHON, PYTHON), (NOTEBOOK, NOTEBOOK)):
+        if lower.endswith(ending) and len(name) > len(ending):
+            return name[: -len(ending)], suffix
+    return name, ""
+
+
+def _folded(stem: str) -> str:
+    # One sign for one, so that places in the folded name are places in the name.
+    return re.sub(r"[-\s.]", "_", stem.lower())

@@ -1,0 +1,94 @@
+"""A module from a notebook: what its functions come to use, and nothing of what was tried out beside them.
+
+Drawing, timing and `%magic` are right in a notebook, and would fail where a module is imported.
+"""
+
+from __future__ import annotations
+
+import ast
+import json
+import re
+import warnings
+from typing import Any
+
+from course.grading.classes.apart import apart
+from course.grading.classes.reachable import reachable
+from course.grading.submissions import LARGEST_FILE, SubmissionError
+
+_MAGIC = re.compile(r"\s*(?:%{1,2}[A-Za-z]|!(?!=)|\?)")
+"""How a line for the notebook's own machinery begins."""
+
+
+def notebook_source(module: str, name: str, content: bytes) -> bytes:
+    """The file of a module that a notebook holds.
+
+    Raises
+    ------
+    SubmissionError
+        It is no notebook, or none of the module's functions is defined in it.
+    """
+    (source,) = apart(_converted, [(module, content)]).values()
+    if not source:
+        why = (
+            "is no notebook that can be read" if source is None else "defines none of its functions"
+        )
+        raise SubmissionError(f"{name}: {why}; hand in {module}.py")
+    return source
+
+
+def _converted(work: tuple[str, bytes]) -> bytes | None:
+    """None for what is no notebook; empty where no function is defined."""
+    module, content = work
+    try:
+        cells = _code_cells(json.loads(content))
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
+        return None
+    # A cell that is no Python is left out, as a notebook shows its mistake and goes on.
+    text = "\n\n".join(cell for cell in cells if _parsed(cell) is not None)
+    tree = _parsed(text)
+    if tree is None:
+        return None
+    lines = text.splitlines()
+    parts = {
+        node.lineno: "\n".join(lines[_first_line(node) - 1 : node.end_lineno])
+        for node in reachable(module, tree, imports=True)
+    }
+    # What is on from the future comes first, or not at all.
+    future = [
+        ast.unparse(node)
+        for node in tree.body
+        if isinstance(node, ast.ImportFrom) and node.module == "__future__"
+    ]
+    if not parts:
+        return b""
+    source = "\n\n".join([*dict.fromkeys(future), *(parts[line] for line in sorted(parts))])
+    return source.encode("utf-8", "replace")[:LARGEST_FILE] + b"\n"
+
+
+def _code_cells(notebook: dict[str, Any]) -> list[str]:
+    found = []
+    for cell in notebook["cells"]:
+        if cell["cell_type"] == "code":
+            source = cell["source"]
+            found.append(_without_magic(source if isinstance(source, str) else "".join(source)))
+    return found
+
+
+def _without_magic(cell: str) -> str:
+    if cell.lstrip().startswith("%%"):
+        return ""
+    return "\n".join("" if _MAGIC.match(line) else line for line in cell.splitlines())
+
+
+def _parsed(text: str) -> ast.Module | None:
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of escapes in somebody else's strings
+            return ast.parse(text)
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return None
+
+
+def _first_line(node: ast.stmt) -> int:
+    decorators: list[ast.expr] = getattr(node, "decorator_list", [])
+    return min([node.lineno, *(decorator.lineno for decorator in decorators)])

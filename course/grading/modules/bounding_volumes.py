@@ -1,0 +1,311 @@
+"""bounding_volumes declared: rays and boxes, hierarchies of boxes, and, in a file of its own, the way through one."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from math import nan
+from typing import Any
+
+import numpy as np
+
+from course.grading.checks.check import Array, Failure
+from course.grading.checks.declare import Argument, Arguments, Case, Function, Law, Module, Result
+from course.grading.checks.drawing import Draw
+from course.grading.checks.laws import Look, close, holds, law
+from course.grading.checks.vectors import unit_vectors
+from course.grading.modules.hierarchies import around, balanced, cost, walkable
+from course.grading.modules.traversing import TRAVERSE
+
+SCALES = (1.0, 2.0**-10, 2.0**10)
+"""Powers of two: corners of boxes are the same numbers in single and in double precision."""
+
+
+# ---------------------------------------------------------------- slab_test
+
+
+def _boxes(draw: Draw, thin: bool = False) -> tuple[Array, Array]:
+    """Boxes (3, N) of unequal sides, one of them without length if they are to be thin."""
+    lo = draw.lengths(-2, 1, 3, draw.n)
+    sides = draw.lengths(0.2, 2, 3, draw.n)
+    if thin:
+        sides[draw.rng.integers(0, 3, draw.n), np.arange(draw.n)] = 0
+    return lo.astype(draw.dtype).astype(float), (lo + sides).astype(draw.dtype).astype(float)
+
+
+def _through(thin: bool = False) -> Case:
+    """Rays that begin anywhere, inside too, and whose lines go through a point well within their box."""
+
+    def case(draw: Draw) -> Mapping[str, Any]:
+        lo, hi = _boxes(draw, thin)
+        target = lo + draw.uniform(0.05, 0.95, 3, draw.n) * (hi - lo)
+        # No component next to zero: parallels have a law of their own.
+        d = draw.rng.uniform(0.05, 1, (3, draw.n)) * draw.rng.choice((-1.0, 1.0), (3, draw.n))
+        return {
+            "lo": lo,
+            "hi": hi,
+            "origins": target - draw.lengths(-6, 6, draw.n) * d,
+            "directions": d,
+        }
+
+    return case
+
+
+def _past(draw: Draw) -> Mapping[str, Any]:
+    """Lines past the sphere around a box: slabs are crossed one after the other, never all at once."""
+    found = dict(_through()(draw))
+    center, radius = (found["lo"] + found["hi"]) / 2, found["hi"] - found["lo"]
+    d = found["directions"]
+    across = np.cross(d, unit_vectors(draw.rng, draw.n), axis=0)
+    across *= draw.uniform(0.55, 1, draw.n) * np.linalg.norm(radius, axis=0)
+    origins = center + across / np.linalg.norm(across / np.linalg.norm(radius, axis=0), axis=0)
+    return found | {"origins": origins - draw.lengths(-6, 6, draw.n) * d}
+
+
+HALF = np.array((1.0, 2.0, 3.0))
+"""Of the sides of the box that lines run along."""
+
+PLACES = (0.6, -0.25, 1.0, -1.0, 1.5, -4.0)
+"""Between two faces, on them, and beside them."""
+
+
+def _along(draw: Draw) -> Mapping[str, Any]:
+    """Lines along the faces of one box: one component or two are +0 or -0."""
+    columns = np.arange(draw.n)
+    axis = draw.rng.integers(0, 3, draw.n)
+    o = np.where(draw.rng.random((3, draw.n)) < 0.5, -8.0, 8.0)
+    d = -o / 8
+    for turn in (0, 1):
+        chosen = (axis + turn) % 3
+        zero = draw.rng.random(draw.n) < (1.0, 0.5)[turn]
+        place = draw.rng.choice(PLACES, draw.n) * HALF[chosen]
+        o[chosen, columns] = np.where(zero, place, o[chosen, columns])
+        null = draw.rng.choice((0.0, -0.0), draw.n)
+        d[chosen, columns] = np.where(zero, null, d[chosen, columns])
+    return {
+        "origins": draw.scale * o,
+        "directions": d,
+        "lo": -draw.scale * HALF,
+        "hi": draw.scale * HALF,
+    }
+
+
+def _spans(a: Arguments, r: Any) -> tuple[Any, ...]:
+    """Where lines enter the last slab and leave the first; no component of theirs is zero."""
+    ends = np.stack(((a.lo - a.origins) / a.directions, (a.hi - a.origins) / a.directions))
+    reach = np.abs(np.stack((a.origins, a.lo, a.hi))).max(axis=(0, 1))
+    size = 2 * reach / np.abs(a.directions).min(axis=0)
+    return np.stack(r), np.stack((ends.min(axis=0).max(axis=0), ends.max(axis=0).min(axis=0))), size
+
+
+def _between(a: Arguments, r: Any) -> Any:
+    """Whether exactly those lines are met that lie between the faces that they run along."""
+    within = (np.abs(a.origins) <= np.abs(a.hi)[:, None]) | (a.directions != 0)
+    return np.where(within.all(axis=0), r[0] <= r[1], r[0] > r[1])
+
+
+def _corner(name: str, low: float) -> Argument:
+    return Argument(name, "3 N", lambda d: d.lengths(low, low + 1, 3, d.n), single=True)
+
+
+SLAB_TEST = Function(
+    "slab_test",
+    (
+        Argument("origins", "3 N", lambda d: d.lengths(-3, 3, 3, d.n)),
+        Argument("directions", "3 N", lambda d: d.directions()),
+        _corner("lo", -1.5),
+        _corner("hi", 0.5),
+    ),
+    (Result("t_near", "N", finite=False), Result("t_far", "N", finite=False)),
+    (
+        holds(
+            "misses",
+            "Where a line misses, t_near > t_far",
+            lambda _, r: r[0] > r[1],
+            "t_near > t_far for a line past the box",
+            "It has to be between all three pairs of faces at the same time.",
+            case=_past,
+            scales=SCALES,
+            role="corner",
+        ),
+        holds(
+            "parallel",
+            "Components of +0 or -0: between two faces, beside them, on them",
+            _between,
+            "a line that runs along faces to be met just where it is between them, on them counts",
+            "Along two faces: between them for all t or for none. Zero over zero is no number.",
+            case=_along,
+            scales=SCALES,
+            role="corner",
+        ),
+        close(
+            "flat",
+            "Boxes without thickness are met",
+            _spans,
+            "A triangle along an axis has a box without thickness.",
+            what="of a box without thickness, t_near or t_far",
+            case=_through(thin=True),
+            role="corner",
+        ),
+        close(
+            "through",
+            "Lines through boxes enter at t_near and leave at t_far",
+            _spans,
+            "In the box is between all three pairs of faces at once; behind the origin t is negative.",
+            what="t_near or t_far",
+            scales=SCALES,
+        ),
+    ),
+    case=_through(),
+)
+
+
+# ---------------------------------------------------------------- build
+
+
+def _small(draw: Draw, n: int, spread: Any = 1.0) -> dict[str, Array]:
+    """Small boxes anywhere in a larger one."""
+    middle = draw.lengths(-1, 1, 3, n) * np.reshape(spread, (-1, 1))
+    half = draw.scale * draw.rng.uniform(0.001, 0.02, (3, n))
+    return {"lo": middle - half, "hi": middle + half}
+
+
+def _any_boxes(draw: Draw) -> Mapping[str, Any]:
+    """Boxes of all sorts: one, some, a long row, the same again and again, points ever farther away."""
+    n = max(draw.n, 1)
+    same = np.ones((3, n))
+    far = same * 10.0 ** np.linspace(-6, 6, n)
+    sorts = (
+        _small(draw, n),
+        _small(draw, n, (30, 0.1, 0.1)),
+        _small(draw, 1 + n % 3),
+        {"lo": 0 * same, "hi": same},
+        {"lo": far, "hi": far},
+    )
+    return sorts[draw.rng.integers(len(sorts))]
+
+
+SPREADS = {
+    "anywhere in a cube": (1, 1, 1),
+    "in a row along x": (50, 1, 1),
+    "in a row along y": (1, 50, 1),
+    "in a row along z": (1, 1, 50),
+    "on a floor": (20, 0.05, 20),
+}
+
+
+def _held(a: Arguments, r: Any) -> None:
+    """Every box is in one leaf of a hierarchy that can be walked."""
+    (_, _, first, count, order), _ = walkable(r)
+    held = [order[f : f + c] for f, c in zip(first, count, strict=True) if c > 0]
+    boxes = a.lo.shape[1]
+    times = np.bincount(np.concatenate(held).clip(0, boxes), minlength=boxes)
+    if times.size > boxes or order.min() < 0 or (times != 1).any():
+        k = int(np.argmax(times != 1))
+        raise Failure(
+            "every box in exactly one leaf",
+            f"box {k} in {times[k]}",
+            f"{boxes} boxes, leaf_size {a.leaf_size}",
+            "Both halves together are the whole, also where it is odd.",
+        )
+
+
+def _leaves(a: Arguments, r: Any) -> None:
+    walkable(r)
+    if r[3].max() > a.leaf_size:
+        raise Failure(
+            f"leaves of at most {a.leaf_size}",
+            f"one of {r[3].max():g}",
+            f"{a.lo.shape[1]} boxes",
+            "A node is divided while it holds more than leaf_size; boxes with the same middle, too.",
+        )
+
+
+def _tight(a: Arguments, r: Any) -> None:
+    """Each node's box is the smallest around all that is below it."""
+    boxes = around(*walkable(r), a.lo, a.hi)
+    for what, box, expected in zip(("lo", "hi"), r, boxes, strict=False):
+        wrong = np.flatnonzero((box != expected).any(axis=0))
+        if wrong.size:
+            k = int(wrong[0])
+            raise Failure(
+                f"{what} of {'leaf' if r[3][k] > 0 else 'inner node'} {k} to be {expected[:, k].tolist()}",
+                f"{box[:, k].tolist()}",
+                f"{a.lo.shape[1]} boxes; {wrong.size} of {r[3].size} nodes",
+                "The smallest box around all that is below the node, bit for bit.",
+            )
+
+
+MANY, LEAF, CHEAP = 1101, 4, 2.0
+"""Boxes, most that a leaf may hold, and times the mean tests of halves along the longest axis."""
+
+
+def _ordinary(draw: Draw) -> Mapping[str, Any]:
+    spread = list(SPREADS.values())[draw.rng.integers(len(SPREADS))]
+    return _small(draw, max(draw.n, 1), spread) | {"leaf_size": LEAF}
+
+
+def _useful(a: Arguments, r: Any) -> None:
+    """A hierarchy that loses nothing, and whose nodes are small."""
+    _held(a, r)
+    low, high = around(*walkable(r), a.lo, a.hi)
+    if (r[0] > low).any() or (r[1] < high).any():
+        raise Failure("boxes around all that is below their nodes", "smaller ones")
+    if a.lo.shape[1] == MANY:
+        # As many as halves make leaves alike of.
+        limit = CHEAP * cost(balanced(a.lo[:, :1024], a.hi[:, :1024], 8))
+        tests = cost(walkable(r)[0])
+        if not tests <= limit:
+            sides = np.ptp(a.lo, axis=1)
+            raise Failure(
+                f"at most {limit:.0f} tests of a random line, by the nodes' surfaces",
+                f"{tests:.0f}",
+                f"{MANY} boxes in a space of {sides[0]:.2g} x {sides[1]:.2g} x {sides[2]:.2g}, leaf_size {LEAF}",
+                "What lies together should be near each other: then boxes are small, and rays miss them.",
+            )
+
+
+EMPTY = {"lo": np.zeros((3, 0)), "hi": np.zeros((3, 0))}
+
+
+def _sorts(name: str, title: str, look: Look) -> Law:
+    return law(name, title, look, case=_any_boxes, n=101, scales=(1.0,) * 8, role="corner")
+
+
+BUILD = Function(
+    "build",
+    (
+        Argument("lo", "3 T", lambda d: d.lengths(-1, 0, 3, d.n), (EMPTY,)),
+        Argument("hi", "3 T", lambda d: d.lengths(0, 1, 3, d.n)),
+        Argument(
+            "leaf_size",
+            "",
+            lambda d: int(d.rng.integers(1, 6)),
+            (0, -1, 1.5, nan),
+            batch=False,
+        ),
+    ),
+    (
+        *(Result(name, "3 M") for name in ("lo", "hi")),
+        *(Result(name, "M", "int") for name in ("first", "count")),
+        Result("order", "T", "int"),
+    ),
+    (
+        _sorts("once", "Every box is in exactly one leaf", _held),
+        _sorts("leaves", "No leaf holds more than leaf_size", _leaves),
+        _sorts("contains", "Each node's box is the smallest around what is below it", _tight),
+        law(
+            "cost",
+            "Nodes lose no box, and are small, so that rays miss them",
+            _useful,
+            case=_ordinary,
+            n=MANY,
+            scales=(1.0,) * 6,
+        ),
+    ),
+    case=lambda d: _small(d, max(d.n, 1)),
+    columns=False,
+    unique=False,
+    speed=2048,
+)
+
+MODULE = Module("bounding_volumes", (SLAB_TEST, BUILD, TRAVERSE))

@@ -1,0 +1,276 @@
+"""motion_blur declared: times while the shutter is open, and rays as a moving object sees them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from math import inf, nan
+from typing import Any
+
+import numpy as np
+
+from course.grading.checks.check import Array, Trial
+from course.grading.checks.declare import (
+    Argument,
+    Arguments,
+    Case,
+    Function,
+    Law,
+    Module,
+    Result,
+    points,
+    u,
+    values,
+)
+from course.grading.checks.drawing import Draw
+from course.grading.checks.laws import close, evenly, holds
+from course.grading.checks.weights import WHOLE
+
+SCALES = (1.0, 1e-3, 1e3)
+"""Of times of the shutter, of velocities and of origins."""
+
+# ---------------------------------------------------------------- shutter_times
+
+
+def _shutter(draw: Draw) -> Mapping[str, Any]:
+    """A shutter that opens neither at 0 nor a whole second before it closes, at times of either sign."""
+    first = draw.number(0.3, 2) * draw.rng.choice((-1, 1))
+    return {"open": draw.scale * first, "close": draw.scale * (first + draw.number(1.2, 2.5))}
+
+
+def _around_zero(draw: Draw) -> Mapping[str, Any]:
+    """Open before time 0, closed after it."""
+    return {"open": -draw.scale * draw.number(0.3, 2), "close": draw.scale * draw.number(0.3, 2)}
+
+
+def _instant(draw: Draw) -> Mapping[str, Any]:
+    return dict.fromkeys(("open", "close"), draw.scale * draw.uniform(-3, 3).item())
+
+
+def _short(draw: Draw) -> Mapping[str, Any]:
+    """Thousandths of a second, long after time 0."""
+    first = draw.number(1, 9)
+    return {"open": first, "close": first + draw.number(1e-3, 1e-2)}
+
+
+def _longest(a: Arguments) -> float:
+    """The largest time, whose last places the others are rounded to."""
+    return float(max(abs(a.open), abs(a.close)))
+
+
+def _moments(a: Arguments, r: Array) -> tuple[Any, ...]:
+    return r, a.open + (a.close - a.open) * a.u, _longest(a)
+
+
+def _histogram(trial: Trial, a: Arguments, r: Array) -> None:
+    share = (r - a.open) / (a.close - a.open)
+    trial.show("histogram", "Times, as a share of the exposure", yours=share)
+
+
+def _time(name: str, *wrong: Any) -> Argument:
+    """A time of the shutter; both are made together."""
+    return Argument(name, "", lambda d: _shutter(d)[name], wrong, batch=False)
+
+
+SHUTTER_TIMES = Function(
+    "shutter_times",
+    (
+        _time("open", nan, -inf, {"open": 2.0, "close": 1.0}),
+        _time("close", nan, inf),
+        u(1),
+    ),
+    (Result("the times", "N"),),
+    (
+        holds(
+            "inside",
+            "Every time lies between open and close",
+            lambda a, r: np.maximum(a.open - r, r - a.close) <= 1e-6 * _longest(a),
+            "times from open to close",
+            "No ray may see the scene before the shutter opens or after it closes.",
+            case=_around_zero,
+            scales=SCALES,
+            role="corner",
+        ),
+        holds(
+            "rising",
+            "Times rise with u",
+            lambda a, r: np.diff(r[np.argsort(a.u)], prepend=-inf) >= -1e-6 * _longest(a),
+            "times that rise with u",
+            "A larger u stands for a later moment.",
+            scales=SCALES,
+            role="corner",
+        ),
+        close(
+            "instant",
+            "A shutter that closes as it opens gives that moment",
+            lambda a, r: (r, a.open),
+            "With open = close every ray sees that one moment.",
+            what="the time of a shutter that closes as it opens",
+            within=4,
+            case=_instant,
+            scales=SCALES,
+            role="corner",
+        ),
+        close(
+            "short",
+            "A short exposure long after the start has right times, too",
+            _moments,
+            "All the time that the shutter is open is to be used, and no other.",
+            what="in a short exposure, the time",
+            within=4,
+            case=_short,
+            role="corner",
+        ),
+        close(
+            "uniform",
+            "All moments of the exposure are equally probable: equal steps of u are equal steps of time",
+            _moments,
+            "All moments between open and close are equally probable, and they rise with u.",
+            what="a time of",
+            within=4,
+            scales=SCALES,
+            points=WHOLE,
+            figure=_histogram,
+        ),
+        evenly(lambda _, r: np.exp(r), float(np.e - 1), case=lambda _: {"open": 0.0, "close": 1.0}),
+    ),
+    case=_shutter,
+)
+
+
+# ---------------------------------------------------------------- displacement and to_object_space
+
+
+def _velocity(draw: Draw) -> Array:
+    """No component near 0, none like another, and a speed that is not 1."""
+    if draw.simple:
+        return draw.scale * np.array((2.0, -1.0, 4.0))
+    sizes = draw.rng.permutation((0.7, 1.3, 2.1)) * draw.uniform(0.9, 1.1, 3)
+    return np.asarray(draw.scale * sizes * draw.rng.choice((-1.0, 1.0), 3))
+
+
+VELOCITY = Argument("velocity", "3", _velocity, batch=False)
+TIME = values("time", "N", -2.0, 3.0)
+
+
+def _at(moment: float) -> Case:
+    return lambda draw: {"time": np.full(draw.n, moment)}
+
+
+def _any_time(draw: Draw) -> Mapping[str, Any]:
+    """From microseconds to weeks, of either sign."""
+    return {"time": draw.rng.choice((-1, 1), draw.n) * np.geomspace(1e-6, 1e6, draw.n)}
+
+
+def _way(a: Arguments) -> Array:
+    return np.outer(a.velocity, a.time)
+
+
+def _gone(name: str, title: str, hint: str, **how: Any) -> Law:
+    return close(
+        name,
+        title,
+        lambda a, r: (r, _way(a), np.abs(_way(a))),
+        hint,
+        what="the way gone, along an axis,",
+        within=4,
+        scales=SCALES,
+        **how,
+    )
+
+
+DISPLACEMENT = Function(
+    "displacement",
+    (VELOCITY, TIME),
+    (Result("the ways", "3 N"),),
+    (
+        _gone(
+            "one-second",
+            "In one second an object goes its velocity",
+            "Velocity is the way gone in one second.",
+            case=_at(1.0),
+            role="corner",
+        ),
+        _gone(
+            "at-start",
+            "At time 0 nothing has moved",
+            "No time, no way.",
+            case=_at(0.0),
+            role="corner",
+        ),
+        _gone(
+            "any-time",
+            "Long and short times have their ways, before the start as well",
+            "At a constant velocity twice the time is twice the way.",
+            case=_any_time,
+            role="corner",
+        ),
+        _gone(
+            "linear",
+            "Each ray gets the way of its own time",
+            "At a constant velocity twice the time is twice the way; each ray has a time of its own.",
+            points=WHOLE,
+        ),
+    ),
+)
+
+
+def _seen(name: str, title: str, hint: str, **how: Any) -> Law:
+    def compare(a: Arguments, r: Array) -> tuple[Any, ...]:
+        way = _way(a)
+        return r, a.origins - way, np.abs(a.origins) + np.abs(way)
+
+    settings: dict[str, Any] = {"what": "an origin's coordinate of", "within": 4, "scales": SCALES}
+    return close(name, title, compare, hint, **settings | how)
+
+
+def _aboard(draw: Draw) -> Mapping[str, Any]:
+    """Origins that stay at one place of the object."""
+    velocity, time = _velocity(draw), draw.uniform(-2, 3, draw.n)
+    place = draw.lengths(-3, 3, 3)
+    return {
+        "velocity": velocity,
+        "time": time,
+        "origins": place[:, None] + np.outer(velocity, time),
+    }
+
+
+TO_OBJECT_SPACE = Function(
+    "to_object_space",
+    (points("origins"), VELOCITY, TIME),
+    (Result("the origins", "3 N"),),
+    (
+        _seen(
+            "at-rest",
+            "An object that stands still sees the rays where they are, at any time",
+            "An object that stands still sees every ray where it is, at any time.",
+            case=lambda d: {"velocity": np.zeros(3), **_any_time(d)},
+            role="corner",
+        ),
+        _seen(
+            "at-start",
+            "At time 0 a moving object sees the rays where they are",
+            "At time 0 the object is where the scene has put it.",
+            case=_at(0.0),
+            role="corner",
+        ),
+        _seen(
+            "travels-along",
+            "What travels along with the object stays at one place of it",
+            "Whoever travels along with the object stays at the same place of it.",
+            what="a ray that starts on the object, seen from the object, at",
+            case=_aboard,
+            role="corner",
+        ),
+        _seen(
+            "own-time",
+            "Each ray is moved by the way of its own time",
+            "The ray, less the way that the object has gone by the ray's own time.",
+            # Whether the last places are kept near 0 is asked above.
+            floor=1e-5,
+            scales=(1.0, 1e3),
+            points=WHOLE,
+        ),
+    ),
+)
+
+MODULE = Module("motion_blur", (SHUTTER_TIMES, DISPLACEMENT, TO_OBJECT_SPACE))

@@ -1,0 +1,339 @@
+"""thin_lens declared: points on the disk, rays through a lens, and the two formulas about it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from math import inf, nan
+from typing import Any
+
+import numpy as np
+
+from course.grading.checks.check import Array
+from course.grading.checks.declare import (
+    Argument,
+    Arguments,
+    Function,
+    Module,
+    Result,
+    directions,
+    length,
+    point,
+    u,
+)
+from course.grading.checks.drawing import Draw
+from course.grading.checks.laws import close, unit_length
+from course.grading.checks.vectors import dot, normalized
+from course.grading.modules.round_shapes import DISK, edge, seen, warps
+
+# ---------------------------------------------------------------- point_on_disk
+
+
+def _points(_: Arguments, points: Array) -> Array:
+    return points
+
+
+POINT_ON_DISK = Function(
+    "point_on_disk",
+    (u(2),),
+    (Result("the points", "2 N"),),
+    (edge(DISK, _points), *warps(DISK, _points)),
+    free=True,
+    symmetric=True,
+    features=lambda _, r: seen(r),
+)
+
+
+# ---------------------------------------------------------------- lens_rays
+
+
+def _camera(draw: Draw, radius: float | None = None) -> Mapping[str, Any]:
+    """A camera that looks anywhere, and the pinhole's rays of a picture of a right angle."""
+    right, up, forward = draw.frame()
+    picture = np.concatenate((draw.uniform(-1, 1, 2, draw.n), np.ones((1, draw.n))))
+    d = np.stack((right, up, forward)).T @ picture
+    size = draw.scale * (draw.number(0.05, 0.5) if radius is None else radius)
+    return {
+        "right": right,
+        "up": up,
+        "forward": forward,
+        "directions": d / np.linalg.norm(d, axis=0),
+        "lens_points": size * draw.uniform(-1, 1, 2, draw.n),
+    }
+
+
+def _pinhole(draw: Draw) -> Mapping[str, Any]:
+    return _camera(draw, 0.0)
+
+
+def _wide(draw: Draw) -> Mapping[str, Any]:
+    """A lens as wide as its focus is far."""
+    return {**_camera(draw, 2.0), "focus_distance": 2.0 * draw.scale}
+
+
+def _one_pixel(draw: Draw) -> Mapping[str, Any]:
+    """All rays of one pixel in a corner of the picture."""
+    camera = dict(_camera(draw))
+    d = camera["right"] - camera["up"] + camera["forward"]
+    camera["directions"] = np.repeat(d[:, None] / np.sqrt(3), draw.n, axis=1)
+    return camera
+
+
+def _on_lens(a: Arguments) -> Array:
+    """Where rays start."""
+    x, y = a.lens_points
+    return np.asarray(a.origin[:, None] + np.outer(a.right, x) + np.outer(a.up, y))
+
+
+def _sharp(a: Arguments) -> Array:
+    """Where the pinhole's rays meet the plane in focus."""
+    along = a.focus_distance / dot(a.forward[:, None], a.directions)
+    return np.asarray(a.origin[:, None] + a.directions * along)
+
+
+def _toward(a: Arguments) -> Array:
+    """From where rays start to the points in focus."""
+    return normalized(_sharp(a) - _on_lens(a))
+
+
+def _met(a: Arguments, r: Any) -> Array:
+    """Where the rays meet the plane in focus."""
+    origins, directed = r
+    ahead = a.focus_distance - dot(a.forward[:, None], origins - a.origin[:, None])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.asarray(origins + directed * (ahead / dot(a.forward[:, None], directed)))
+
+
+def _scale(a: Arguments) -> float:
+    """The largest length in a call: rounding is as large as its last place."""
+    lens = np.abs(a.lens_points).max(initial=0)
+    return float(np.abs(a.origin).max() + lens + 3 * a.focus_distance)
+
+
+SCALES = (1.0, 1e-3, 1e3)
+
+LENS_RAYS = Function(
+    "lens_rays",
+    (
+        point("origin"),
+        *(point(name) for name in ("right", "up", "forward")),
+        directions("directions"),
+        Argument("lens_points", "2 N", lambda d: d.lengths(-0.2, 0.2, 2, d.n)),
+        length("focus_distance", 0.7, 20, (0.0, -1.0, nan)),
+    ),
+    (Result("origins", "3 N"), Result("directions", "3 N")),
+    (
+        close(
+            "on_lens",
+            "Rays start on the lens, at their lens points",
+            lambda a, r: (r[0], _on_lens(a), _scale(a)),
+            "Lens points are distances along the camera's own axes, right and up.",
+            what="origin + x right + y up:",
+            scales=SCALES,
+            role="corner",
+        ),
+        close(
+            "plane_in_focus",
+            "Rays meet the pinhole's rays on the plane in focus",
+            lambda a, r: (_met(a, r), _sharp(a), _scale(a)),
+            "Every ray goes through the point where the pinhole's ray meets the plane in focus.",
+            what="on the plane in focus, the pinhole's point:",
+            scales=SCALES,
+            within=40,
+            role="corner",
+        ),
+        close(
+            "one_point",
+            "All rays of one pixel meet in one point, in the picture's corners too",
+            lambda a, r: (_met(a, r), _sharp(a).mean(axis=1)[:, None], _scale(a)),
+            "What is in focus is sharp: all rays of one pixel meet there.",
+            what="in the picture's corner, one point for all rays of the pixel:",
+            within=80,
+            case=_one_pixel,
+            role="corner",
+        ),
+        close(
+            "wide",
+            "A lens as wide as its focus is far has right rays, too",
+            lambda a, r: (r[1], _toward(a)),
+            "The way from the lens to the point in focus, whatever the angle.",
+            what="a direction of",
+            within=100,
+            case=_wide,
+            role="corner",
+        ),
+        close(
+            "pinhole",
+            "The lens's centre gives the pinhole's rays",
+            lambda a, r: (
+                np.concatenate((r[0] - a.origin[:, None], r[1])),
+                np.concatenate((0 * r[0], a.directions)),
+                1 + np.abs(a.origin).max(),
+            ),
+            "A lens without size is a pinhole.",
+            what="at lens point (0, 0), the pinhole's ray:",
+            case=_pinhole,
+            role="corner",
+        ),
+        close(
+            "rays",
+            "Rays go from their lens points to the points in focus",
+            lambda a, r: (
+                np.concatenate(r),
+                np.concatenate((_on_lens(a), _toward(a))),
+                np.array((_scale(a), 1.0)).repeat(3)[:, None],
+            ),
+            "Both ends of a ray have to be right: where it starts, and where it meets the plane in focus.",
+            what="origins and directions:",
+            scales=SCALES,
+            within=100,
+        ),
+        unit_length(lambda _, r: r[1]),
+    ),
+    case=_camera,
+)
+
+
+# ---------------------------------------------------------------- image_distance
+
+
+def _lenses(near: bool) -> Any:
+    """Focal lengths, and distances of objects beyond them or nearer."""
+
+    def case(draw: Draw) -> Mapping[str, Any]:
+        focal = draw.scale * draw.number(0.01, 10)
+        ratio = draw.number(0.1, 0.9) if near else 1 + draw.number(0.1, 20)
+        return {"focal_length": focal, "object_distance": focal * ratio}
+
+    return case
+
+
+def _formula(a: Arguments, r: Array) -> tuple[Any, ...]:
+    f, d = a.focal_length, a.object_distance
+    return r, inf if f == d else f if d == inf else f * d / (d - f)
+
+
+def _image(name: str, title: str, hint: str, case: Any, **how: Any) -> Any:
+    """The formula on lenses of a kind, twenty of them at each of three scales."""
+    return close(name, title, _formula, hint, case=case, within=1e-2, scales=SCALES * 7, **how)
+
+
+IMAGE_DISTANCE = Function(
+    "image_distance",
+    (
+        length("focal_length", 0.01, 10, (0.0, -1.0, nan)),
+        length("object_distance", 0.1, 9, (0.0, -1.0, nan)),
+    ),
+    (Result("the distance", "", "floating", finite=False),),
+    (
+        _image(
+            "real",
+            "Objects beyond the focal length have their image where the lens formula says",
+            "The reciprocals of both distances add up to that of the focal length.",
+            _lenses(near=False),
+        ),
+        _image(
+            "virtual",
+            "Nearer objects have a virtual image, at a negative distance",
+            "An object nearer than the focal length has a virtual image: a negative distance.",
+            _lenses(near=True),
+        ),
+        _image(
+            "limits",
+            "Objects at the focal length have their image at infinity",
+            "An object at the focal length has its image at infinity.",
+            lambda d: dict.fromkeys(("focal_length", "object_distance"), d.number(0.05, 1)),
+            role="corner",
+        ),
+        _image(
+            "far",
+            "Objects at infinity have their image at the focal length",
+            "An object far away has its image at the focal length.",
+            lambda _: {"object_distance": inf},
+            role="corner",
+        ),
+    ),
+    speed=0,
+)
+
+
+# ---------------------------------------------------------------- circle_of_confusion
+
+
+def _depths(low: float, high: float) -> Any:
+    """Depths between these multiples of the distance in focus."""
+
+    def case(draw: Draw) -> Mapping[str, Any]:
+        focus = draw.scale * draw.number(0.5, 20)
+        exponents = draw.uniform(np.log(low), np.log(high), draw.n)
+        return {"focus_distance": focus, "depth": focus * np.exp(exponents)}
+
+    return case
+
+
+def _circle(a: Arguments, r: Array) -> tuple[Any, ...]:
+    expected = 2 * a.aperture_radius * np.abs(a.focus_distance - a.depth) / a.depth
+    return r, expected, expected + a.aperture_radius
+
+
+def _spread(name: str, title: str, hint: str, case: Any, **how: Any) -> Any:
+    return close(name, title, _circle, hint, case=case, scales=SCALES, what="a diameter of", **how)
+
+
+CIRCLE_OF_CONFUSION = Function(
+    "circle_of_confusion",
+    (
+        Argument(
+            "depth",
+            "N",
+            lambda d: d.lengths(0.5, 9, d.n),
+            wrong=(
+                np.array([1, 0, 2, 3], np.float32),
+                np.array([1, 2, -1, 3], np.float32),
+                np.array([1, 2, nan, 3], np.float32),
+            ),
+        ),
+        length("aperture_radius", 0.01, 0.5, (-1.0, nan)),
+        length("focus_distance", 0.5, 20, (0.0, -1.0, nan)),
+    ),
+    (Result("the diameters", "N"),),
+    (
+        _spread(
+            "behind",
+            "Points behind the plane in focus spread as far as they should",
+            "Two similar triangles: lens and point, circle and point.",
+            _depths(1.01, 50),
+        ),
+        _spread(
+            "in_front",
+            "Points in front of the plane in focus spread as far as they should",
+            "In front of the plane in focus a diameter is positive as well.",
+            _depths(0.02, 0.99),
+        ),
+        _spread(
+            "limits",
+            "Nothing spreads in focus",
+            "What is in focus spreads over nothing.",
+            lambda d: {"depth": np.full(d.n, 2.5), "focus_distance": 2.5},
+            role="corner",
+        ),
+        _spread(
+            "far",
+            "Far points spread over the lens's diameter",
+            "Very far points spread over a circle as wide as the lens.",
+            lambda d: {"depth": np.geomspace(1e5, 1e6, d.n), "focus_distance": 1.5},
+            role="corner",
+        ),
+        close(
+            "sharp",
+            "A pinhole shows all sharp",
+            lambda _, r: (r, 0.0),
+            "Without an aperture nothing spreads.",
+            what="without an aperture",
+            case=lambda _: {"aperture_radius": 0.0},
+            role="corner",
+        ),
+    ),
+    case=_depths(0.2, 5),
+)
+
+MODULE = Module("thin_lens", (POINT_ON_DISK, LENS_RAYS, IMAGE_DISTANCE, CIRCLE_OF_CONFUSION))

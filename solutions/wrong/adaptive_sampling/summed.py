@@ -1,0 +1,18 @@
+"""Adds up the channels' differences."""
+
+import numpy as np
+
+FUNCTION = "needs_subdivision"
+CAUGHT_BY = "any"
+MISTAKE = "summed"
+SAYS = "You add up the differences of all channels; the largest of them counts."
+
+
+def needs_subdivision(corners, threshold):
+    """Which cells to divide."""
+    shape = np.shape(corners)
+    if len(shape) != 3 or shape[:2] != (3, 4):
+        raise ValueError(f"corners must have shape (3, 4, n), got {shape}")
+    if not threshold >= 0:
+        raise ValueError(f"threshold must be >= 0, got {threshold}")
+    return np.ptp(corners, axis=1).sum(axis=0) > threshold

@@ -1,0 +1,24 @@
+"""Returns y where x belongs."""
+
+import numpy as np
+
+FUNCTION = "subdivide"
+CAUGHT_BY = "order"
+MISTAKE = "axes-exchanged"
+SAYS = "Your x and y are exchanged: x0 comes first, then y0, x1 and y1."
+
+
+def subdivide(x0, y0, x1, y1):
+    """Four children of each cell."""
+    _check_numbers("x0", x0)
+    for name, numbers in (("y0", y0), ("x1", x1), ("y1", y1)):
+        _check_numbers(name, numbers, np.shape(x0)[0])
+    dtype = np.result_type(x0, y0, x1, y1)
+    x0, y0, x1, y1 = (numbers.astype(dtype) for numbers in (x0, y0, x1, y1))
+    x, y = (x0 + x1) / 2, (y0 + y1) / 2
+    return (
+        np.stack((y0, y0, y, y)),
+        np.stack((x0, x, x0, x)),
+        np.stack((y, y, y1, y1)),
+        np.stack((x, x1, x, x1)),
+    )

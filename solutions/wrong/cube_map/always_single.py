@@ -1,0 +1,14 @@
+"""Looks in single precision, whatever comes."""
+
+import numpy as np
+
+FUNCTION = "lookup_seamless"
+CAUGHT_BY = "contract"
+MISTAKE = None
+
+_right = lookup_seamless
+
+
+def lookup_seamless(faces, direction):
+    """What the environment looks like, without seams."""
+    return _right(faces, direction).astype(np.float32)

@@ -1,0 +1,15 @@
+"""All rays get the moment in the middle."""
+
+import numpy as np
+
+FUNCTION = "shutter_times"
+CAUGHT_BY = "uniform"
+MISTAKE = "one-time"
+
+
+def shutter_times(open, close, u):  # noqa: A002
+    """Times while the shutter is open."""
+    _check_scalars("u", u)
+    if not -np.inf < open <= close < np.inf:
+        raise ValueError("open <= close, both finite")
+    return np.full_like(u, (open + close) / 2)

@@ -1,0 +1,16 @@
+"""Stretches u by the exposure twice."""
+
+import numpy as np
+
+FUNCTION = "shutter_times"
+CAUGHT_BY = "uniform"
+MISTAKE = "scaled-twice"
+SAYS = "You stretch u by the exposure's length twice; once is enough to fill it."
+
+
+def shutter_times(open, close, u):  # noqa: A002
+    """Times while the shutter is open."""
+    _check_scalars("u", u)
+    if not -np.inf < open <= close < np.inf:
+        raise ValueError("open <= close, both finite")
+    return u.dtype.type(open) + u.dtype.type((close - open) ** 2) * u

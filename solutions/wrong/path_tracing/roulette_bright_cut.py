@@ -1,0 +1,19 @@
+"""Throughputs over 1 are cut."""
+
+import numpy as np
+
+FUNCTION = "russian_roulette"
+CAUGHT_BY = "certain"
+MISTAKE = "bright-cut"
+SAYS = "You cut throughputs at 1: only the probability ends there."
+
+
+def russian_roulette(beta, u):
+    """With a mistake."""
+    _check_batch("beta", beta, 3)
+    _check_numbers("u", u, np.shape(beta)[1])
+    dtype = np.result_type(beta, u)
+    q = np.minimum(beta.max(axis=0), 1)
+    survives = u < q
+    safe = np.where(q > 0, q, 1)
+    return survives, np.where(survives, np.minimum(beta, 1) / safe, 0).astype(dtype)

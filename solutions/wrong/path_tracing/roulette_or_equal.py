@@ -1,0 +1,19 @@
+"""Paths without throughput survive where u is 0."""
+
+import numpy as np
+
+FUNCTION = "russian_roulette"
+CAUGHT_BY = "dark"
+MISTAKE = "black-survive"
+SAYS = "Paths without any throughput survive where u is 0; they bring nothing and must end."
+
+
+def russian_roulette(beta, u):
+    """With a mistake."""
+    _check_batch("beta", beta, 3)
+    _check_numbers("u", u, np.shape(beta)[1])
+    dtype = np.result_type(beta, u)
+    q = np.minimum(beta.max(axis=0), 1)
+    survives = u <= q
+    safe = np.where(q > 0, q, 1)
+    return survives, np.where(survives, beta / safe, 0).astype(dtype)

@@ -1,0 +1,15 @@
+"""Random points."""
+
+import numpy as np
+
+FUNCTION = "hammersley"
+CAUGHT_BY = "exact"
+MISTAKE = None
+
+
+def hammersley(n, dims):
+    """With a mistake."""
+    if not n >= 0:
+        raise ValueError(f"n must be >= 0, got {n}")
+    _check_dims(dims)
+    return np.random.default_rng(0).random((dims, n), np.float32)

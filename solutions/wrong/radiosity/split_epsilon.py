@@ -1,0 +1,19 @@
+"""A small number is added to the largest value."""
+
+import numpy as np
+
+FUNCTION = "needs_split"
+CAUGHT_BY = "scale"
+MISTAKE = None
+
+
+def needs_split(patch_radiosity, threshold):
+    """Patches to divide."""
+    shape = np.shape(patch_radiosity)
+    if len(shape) != 3 or shape[0] != 3 or shape[1] < 1:
+        raise ValueError(f"patch_radiosity must have shape (3, K, n), got {shape}")
+    if not threshold >= 0:
+        raise ValueError(f"threshold must be >= 0, got {threshold}")
+    high = patch_radiosity.max(axis=1)
+    difference = (high - patch_radiosity.min(axis=1)).max(axis=0)
+    return difference / (high.max(axis=0) + patch_radiosity.dtype.type(1e-6)) > threshold

@@ -1,0 +1,20 @@
+"""Divides the even patches."""
+
+import numpy as np
+
+FUNCTION = "needs_split"
+CAUGHT_BY = "contrast"
+MISTAKE = "inverted"
+SAYS = "You divide the even patches and leave the others."
+
+
+def needs_split(patch_radiosity, threshold):
+    """Patches to divide."""
+    shape = np.shape(patch_radiosity)
+    if len(shape) != 3 or shape[0] != 3 or shape[1] < 1:
+        raise ValueError(f"patch_radiosity must have shape (3, K, n), got {shape}")
+    if not threshold >= 0:
+        raise ValueError(f"threshold must be >= 0, got {threshold}")
+    high = patch_radiosity.max(axis=1)
+    difference = (high - patch_radiosity.min(axis=1)).max(axis=0)
+    return ~(difference > threshold * high.max(axis=0))

@@ -1,0 +1,16 @@
+"""Near the poles less than unit length: the ring is never quite nothing."""
+
+import numpy as np
+
+FUNCTION = "sphere_by_polar"
+CAUGHT_BY = "radius"
+MISTAKE = None
+
+
+def sphere_by_polar(u):
+    """A polar warp."""
+    _check_batch("u", u, 2)
+    z = 1 - 2 * u[0]
+    ring = np.sqrt(1 - z * z) * u.dtype.type(0.99)
+    phi = 2 * np.pi * u[1]
+    return np.stack((ring * np.cos(phi), ring * np.sin(phi), z))

@@ -1,0 +1,16 @@
+"""The angle is in degrees, its cosine takes radians."""
+
+import numpy as np
+
+FUNCTION = "point_on_facing_disk"
+CAUGHT_BY = "smooth"
+MISTAKE = None
+
+_right = point_on_facing_disk
+
+
+def point_on_facing_disk(center, radius, point, u):
+    """Uniform points on the disk that faces each point."""
+    turned = np.array(u)
+    turned[1] = turned[1] * u.dtype.type(180 / np.pi) % 1
+    return _right(center, radius, point, turned)

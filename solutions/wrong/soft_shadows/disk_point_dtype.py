@@ -1,0 +1,12 @@
+"""The dtype is that of the points, whatever that of u is."""
+
+FUNCTION = "point_on_facing_disk"
+CAUGHT_BY = "contract"
+MISTAKE = None
+
+_right = point_on_facing_disk
+
+
+def point_on_facing_disk(center, radius, point, u):
+    """Uniform points on the disk that faces each point."""
+    return _right(center, radius, point, u).astype(point.dtype)

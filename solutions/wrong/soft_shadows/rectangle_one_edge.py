@@ -1,0 +1,12 @@
+"""The first edge twice."""
+
+FUNCTION = "point_on_rectangle"
+CAUGHT_BY = "uniform"
+MISTAKE = None
+
+_right = point_on_rectangle
+
+
+def point_on_rectangle(corner, edge_u, edge_v, u):
+    """Uniform points on a parallelogram."""
+    return _right(corner, edge_u, edge_u, u)

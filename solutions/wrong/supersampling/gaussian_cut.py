@@ -1,0 +1,19 @@
+"""Nothing counts beyond three sigma."""
+
+import numpy as np
+
+FUNCTION = "gaussian_weights"
+CAUGHT_BY = "default"
+MISTAKE = None
+
+
+def gaussian_weights(offsets, sigma=1 / 6):
+    """Gaussian of the distance to the pixel's centre."""
+    if not sigma > 0:
+        raise ValueError(f"sigma must be > 0, got {sigma}")
+    if np.ndim(offsets) != 3 or len(offsets) != 2:
+        raise ValueError(f"offsets must have shape (2, n, s), got {np.shape(offsets)}")
+    x, y = offsets - 0.5
+    r2 = x**2 + y**2
+    weights = np.exp(-r2 / float(2 * sigma**2))
+    return np.where(r2 < float(3 * sigma) ** 2, weights, 0 * weights)

@@ -1,0 +1,21 @@
+"""Clips samples to what a screen shows."""
+
+import numpy as np
+
+FUNCTION = "resolve"
+CAUGHT_BY = "bright"
+MISTAKE = "clipped"
+SAYS = "You clip samples to [0, 1]: radiance may have any size, and it is the mean that a screen shows."
+
+
+def resolve(radiance, weights):
+    """Weighted mean of the samples."""
+    if np.ndim(radiance) != 3 or len(radiance) != 3:
+        raise ValueError(f"radiance must have shape (3, n, s), got {np.shape(radiance)}")
+    if np.shape(weights) != np.shape(radiance)[1:]:
+        raise ValueError(f"weights must be {np.shape(radiance)[1:]}, got {np.shape(weights)}")
+    dtype = np.result_type(radiance, weights)
+    radiance = np.clip(radiance, 0, 1)
+    weights = np.where(weights.sum(axis=1, keepdims=True) == 0, 1, weights)
+    total = np.where(weights.sum(axis=1) == 0, 1, weights.sum(axis=1))
+    return ((radiance * weights).sum(axis=2) / total).astype(dtype)

@@ -1,0 +1,21 @@
+"""Red for all channels."""
+
+import numpy as np
+
+FUNCTION = "resolve"
+CAUGHT_BY = "mean"
+MISTAKE = "one-channel"
+SAYS = "You take the same channel for red, green and blue; each has its own."
+
+
+def resolve(radiance, weights):
+    """Weighted mean of the samples."""
+    if np.ndim(radiance) != 3 or len(radiance) != 3:
+        raise ValueError(f"radiance must have shape (3, n, s), got {np.shape(radiance)}")
+    if np.shape(weights) != np.shape(radiance)[1:]:
+        raise ValueError(f"weights must be {np.shape(radiance)[1:]}, got {np.shape(weights)}")
+    dtype = np.result_type(radiance, weights)
+    weights = np.where(weights.sum(axis=1, keepdims=True) == 0, 1, weights)
+    total = np.where(weights.sum(axis=1) == 0, 1, weights.sum(axis=1))
+    mean = (radiance[0] * weights).sum(axis=1) / total
+    return np.stack((mean, mean, mean)).astype(dtype)

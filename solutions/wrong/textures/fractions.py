@@ -1,0 +1,20 @@
+"""Keeps u and v within the picture."""
+
+import numpy as np
+
+FUNCTION = "triangle_uv"
+CAUGHT_BY = "inside"
+MISTAKE = "fractions"
+SAYS = "You take the fractions of u and v; to repeat the picture is the lookup's business."
+
+
+def triangle_uv(barycentric, uv0, uv1, uv2):
+    """Places on a triangle."""
+    _check_batch("barycentric", barycentric, 3)
+    for name, uv in (("uv0", uv0), ("uv1", uv1), ("uv2", uv2)):
+        _check_corner(name, uv, np.shape(barycentric)[1])
+    corners = [np.asarray(uv) for uv in (uv0, uv1, uv2)]
+    dtype = np.result_type(barycentric, *(uv for uv in corners if uv.ndim == 2))
+    a, b, c = (uv.astype(dtype).reshape(2, -1) for uv in corners)
+    w0, w1, w2 = barycentric
+    return (w0 * a + w1 * b + w2 * c) % 1

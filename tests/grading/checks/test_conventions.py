@@ -1,0 +1,106 @@
+"""The checks that follow from a declaration: a right function passes, and whatever breaks one fails that one."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from course.grading.checks.check import Failure
+from course.grading.checks.conventions import conventions
+from course.grading.checks.declare import Arguments
+from course.grading.checks.examples import call
+from course.grading.errors import StudentError
+from tests.grading.checks.declaring import SHIFTED, but, shifted, trial
+
+LAWS = {law.name: law for law in conventions(SHIFTED)}
+
+
+@pytest.mark.parametrize("name", LAWS)
+@pytest.mark.parametrize("seed", range(3))
+def test_a_right_function_keeps_its_conventions(name: str, seed: int) -> None:
+    LAWS[name].run(SHIFTED, trial(shifted, seed=seed))
+
+
+def _writes(center: Any, direction: Any, radius: Any) -> Any:
+    value = shifted(center, direction, radius)
+    direction *= 2
+    return value
+
+
+def _seeds(value: Any, _: Any) -> Any:
+    np.random.seed(3)  # noqa: NPY002
+    return value
+
+
+def _unchecked(center: Any, direction: Any, radius: Any) -> Any:
+    return np.reshape(center, (-1, 1))[:3] + np.abs(radius) * direction
+
+
+COUNTER = iter(range(10**6))
+
+BROKEN = {
+    "float64": ("contract", but(lambda value, _: value.astype(np.float64))),
+    "float32": ("contract", but(lambda value, _: value.astype(np.float32))),
+    "the centre's dtype counts": (
+        "contract",
+        but(lambda value, a: value.astype(np.result_type(a.center, a.direction))),
+    ),
+    "turned": ("contract", but(lambda value, _: value.T)),
+    "a list": ("contract", but(lambda value, _: value.tolist())),
+    "a tuple of one": ("contract", but(lambda value, _: (value,))),
+    "one column is flat": ("contract", but(lambda v, _: v[:, 0] if v.shape[1] == 1 else v)),
+    "not finite far away": (
+        "contract",
+        but(lambda value, a: value / (0.0 if a.radius > 1e4 else 1.0)),
+    ),
+    "not finite along an axis": ("contract", but(lambda v, a: v / np.sign(np.abs(a.direction)))),
+    "writes to its argument": ("untouched", _writes),
+    "seeds NumPy": ("untouched", but(_seeds)),
+    "takes any radius": ("refuses", _unchecked),
+    "depends on its neighbours": ("columns", but(lambda v, _: v - v.mean(axis=1, keepdims=True))),
+    "depends on the number of columns": ("columns", but(lambda v, _: v * (1 + v.shape[1] / 1e3))),
+    "remembers": ("layouts", but(lambda v, _: v + next(COUNTER))),
+    "reads the memory": (
+        "layouts",
+        but(lambda v, a: v if a.direction.flags.c_contiguous else v[::-1]),
+    ),
+}
+
+
+@pytest.mark.filterwarnings("ignore::RuntimeWarning")
+@pytest.mark.parametrize("name", BROKEN)
+def test_each_convention_is_looked_at(name: str) -> None:
+    law, function = BROKEN[name]
+    with pytest.raises((Failure, StudentError)):
+        LAWS[law].run(SHIFTED, trial(function))
+
+
+def test_a_broken_contract_is_shown_by_a_call_of_few_columns() -> None:
+    with pytest.raises(Failure) as caught:
+        LAWS["contract"].run(SHIFTED, trial(BROKEN["float64"][1]))
+    assert caught.value.example.startswith("shifted(center = [")
+    assert len(caught.value.example) < 300
+
+
+def test_a_number_of_numpys_own_is_shown_as_one() -> None:
+    """Pasted as a Python float, the call would be right."""
+    given = Arguments(center=np.zeros(3), radius=np.float64(0.5), k=2)
+    assert call("it", given) == "it(center = [0., 0., 0.], radius = np.float64(0.5), k = 2)"
+
+
+def test_wrong_shapes_are_axes_less_more_and_turned_and_rows() -> None:
+    refused: set[tuple[int, ...]] = set()
+
+    def notes(center: Any, direction: Any, radius: Any) -> Any:
+        refused.add(
+            (*np.shape(center), -1, *np.shape(direction), -1, round(float(np.nan_to_num(radius))))
+        )
+        return shifted(center, direction, radius)
+
+    LAWS["refuses"].run(SHIFTED, trial(notes))
+    shapes = {row[row.index(-1) + 1 : -2] for row in refused if row[: row.index(-1)] == (3,)}
+    assert {(3,), (4, 3), (2, 4), (4, 4), (1, 3, 4), (3, 4, 1)} <= shapes
+    points = {row[: row.index(-1)] for row in refused}
+    assert {(), (2,), (4,), (1, 3), (3, 1)} <= points

@@ -1,0 +1,54 @@
+"""What the engine in a student's archive answers is what the page says, and a submission can't call it."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from course.effects import COURSE
+from course.grading.grading import grade
+from course.grading.references import references
+from course.grading.release.archive import FOLDERS
+from tests.grading.release.engine_answers import ANSWERS, copied
+
+PAGE = Path(__file__).parents[3] / "docs" / "grading.md"
+
+
+def test_the_page_names_each_function_and_its_answer() -> None:
+    text = PAGE.read_text("utf-8").partition("<!-- engine: begin -->")[2]
+    rows = re.findall(r"^\| `(\S+\.\S+)` \| (.*) in `(\S+)` \|$", text, re.MULTILINE)
+    told = {name: (tuple(re.findall(r"`(\w+)`", names)), file) for name, names, file in rows}
+    assert told == {name: (one.names, one.file) for name, one in ANSWERS.items()}
+    everything = sum(map(len, COURSE.values()))
+    assert f"answers {len(ANSWERS)} of the {everything} functions" in PAGE.read_text("utf-8")
+    # Modules that are said to have none have none.
+    free = re.findall(
+        r"`(\w+)`",
+        PAGE.read_text("utf-8").partition("modules that have none\n")[2].partition(").")[0],
+    )
+    assert {*free} == {*COURSE} - {name.partition(".")[0] for name in ANSWERS}
+
+
+@pytest.mark.parametrize("name", ANSWERS)
+def test_it_is_worth_what_the_page_says(name: str) -> None:
+    answer = ANSWERS[name]
+    assert answer.file.partition("/")[0] in FOLDERS
+    module, _, function = name.partition(".")
+    report = grade(
+        {module: copied(answer).encode()},
+        references(),
+        modules=[module],
+        only=lambda check: check.function == function,
+    )
+    assert report.points >= 0.7 * report.of > 0
+
+
+def test_a_submission_that_imports_the_engine_is_not_imported() -> None:
+    source = "from course.appearance.fresnel import fresnel_and_cos_t\n"
+    report = grade(
+        {"blurred_transparency": source.encode()}, references(), modules=["blurred_transparency"]
+    )
+    assert report.points == 0
+    assert "can't be imported" in report.results[0].found

@@ -1,0 +1,84 @@
+"""Grading without walls happens only when somebody asks for it, and then every format says so."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Generator, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.testing import CliRunner
+
+from course.cli.main import commands
+from course.effects import PROJECT
+from course.grading.classes import grading, job
+from course.grading.classes.grading import grade_class
+from course.grading.classes.outcome import Outcome
+from course.grading.report import UNPROTECTED
+from course.grading.worker.sandbox import NotProtected, Sandbox, plain
+
+COULD_READ = f"{UNPROTECTED}: student code could read solutions, results and other submissions"
+
+
+def unprotected(*_: object, **__: object) -> Sandbox:
+    return replace(plain(), lacks=("read",), protections=(COULD_READ, *plain().protections))
+
+
+def refused(*_: object, **__: object) -> Sandbox:
+    raise NotProtected("on this machine student code could do harm; --trust-submissions")
+
+
+def here(function: Callable[..., Any], items: Sequence[Any], shared: Any) -> Generator[Any]:
+    for item in items:
+        yield Outcome(item, function(item, shared))
+
+
+@pytest.fixture
+def submissions(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    for module in (grading, job):
+        monkeypatch.setattr(module, "protected", refused)
+    monkeypatch.setattr(job, "sandbox", unprotected)
+    folder = tmp_path / "submissions" / "ada"
+    folder.mkdir(parents=True)
+    (folder / "motion_blur.py").write_bytes((PROJECT / "solutions" / "motion_blur.py").read_bytes())
+    return folder.parent
+
+
+def test_a_class_is_refused_before_anything_is_graded(submissions: Path, tmp_path: Path) -> None:
+    out = tmp_path / "graded"
+    arguments = ["grade", str(submissions), "--out", str(out), "--modules", "motion_blur"]
+    result = CliRunner().invoke(commands, arguments)
+    assert result.exit_code == 1
+    assert "--trust-submissions" in result.output
+    assert not list(tmp_path.rglob("grades.csv"))
+
+
+def test_every_format_says_that_nothing_was_protected(submissions: Path, tmp_path: Path) -> None:
+    out = tmp_path / "graded"
+    grade_class(submissions, out, here, seed=0, modules=("motion_blur",), trusted=True)
+    written = {path.name: path for path in out.rglob("*") if path.is_file()}
+    for name in (
+        "grades.csv",
+        "class.html",
+        "report.html",
+        "results.json",
+        "gradescope.json",
+        "prairielearn.json",
+        "junit.xml",
+    ):
+        assert COULD_READ in written[name].read_text("utf-8"), name
+
+
+def test_what_was_graded_unprotected_is_graded_again_when_it_can_be(
+    submissions: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    out = tmp_path / "graded"
+    first = grade_class(submissions, out, here, seed=0, modules=("motion_blur",), trusted=True)
+    again = grade_class(submissions, out, here, seed=0, modules=("motion_blur",), trusted=True)
+    assert (first.graded, again.graded) == (1, 0)
+    for module in (grading, job):
+        monkeypatch.setattr(module, "protected", lambda *_: plain())
+    last = grade_class(submissions, out, here, seed=0, modules=("motion_blur",))
+    assert last.graded == 1
+    assert COULD_READ not in (out / "grades.csv").read_text("utf-8")

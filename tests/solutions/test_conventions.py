@@ -1,0 +1,102 @@
+"""Every reference solution keeps its declaration: conventions and laws for seeds of their own, and messages in full."""
+
+from __future__ import annotations
+
+import inspect
+import re
+from importlib import import_module
+
+import numpy as np
+import pytest
+
+from course.effects import COURSE
+from course.grading.catalog import module_checks
+from course.grading.checks.check import Array, Check, Trial
+from course.grading.checks.conventions import misshapen
+from course.grading.checks.declare import Argument, Arguments, Function
+from course.grading.checks.drawing import Draw
+from course.grading.references import reference
+from tests.solutions.contract import SOLUTIONS
+
+MODULES = {name: import_module(f"course.grading.modules.{name}").MODULE for name in COURSE}
+
+CHECKS = [
+    pytest.param(name, check, id=f"{name}.{check.function}/{check.name}")
+    for name in MODULES
+    for check in module_checks(name).checks
+    if check.kind not in ("picture", "bias", "speed")
+]
+
+SEEDS = (101, 102)
+"""FALSE_FAIL of each comparison is stated with each check: together under 1e-4."""
+
+
+@pytest.mark.parametrize(("module", "check"), CHECKS)
+def test_the_reference_keeps_its_declaration(module: str, check: Check) -> None:
+    for seed in SEEDS:
+        check.run(Trial(check.function, reference(module), np.random.default_rng(seed)))
+
+
+def test_what_chance_decides_here_fails_a_right_function_once_in_ten_thousand_at_most() -> None:
+    stated = sum(check.false_fail for name in MODULES for check in module_checks(name).checks)
+    assert len(SEEDS) * stated < 1e-4
+
+
+ARGUMENTS = [
+    pytest.param(name, function, argument, id=f"{name}.{function.name}-{argument.name}")
+    for name, module in MODULES.items()
+    for function in module.functions
+    for argument in function.arguments
+    if argument.sizes
+]
+
+EITHER = {"importance_sampling.estimate-f"}
+"""What has one channel or several: any such array has a right shape, for another density."""
+
+
+def own(function: Function, argument: Argument, value: Array) -> list[int]:
+    """Sizes of a value, without those that its argument shares with others; all if it has another number of axes."""
+    others = {word for one in function.arguments if one is not argument for word in one.sizes}
+    words = argument.sizes if value.ndim == len(argument.sizes) else ("0",) * value.ndim
+    return [
+        size
+        for word, size in zip(words, value.shape, strict=True)
+        if word.isdigit() or word not in others
+    ]
+
+
+@pytest.mark.parametrize(("module", "function", "argument"), ARGUMENTS)
+def test_a_wrong_shape_is_told_by_name_with_what_was_expected_and_what_came(
+    module: str, function: Function, argument: Argument
+) -> None:
+    a = function.make(Draw(np.random.default_rng(0), 5))
+    call = SOLUTIONS.function(module, function.name)
+    wrong = misshapen(function, argument, a[argument.name])
+    assert wrong
+    for value in wrong:
+        with pytest.raises(
+            ValueError, match=r"^\w+ must (be a number or )?have shape \(.*, got \("
+        ) as caught:
+            call(*Arguments(a | {argument.name: value}).values())
+        # Where two arguments disagree in a size that they share, either may be named.
+        either = f"{module}.{function.name}-{argument.name}" in EITHER and value.ndim < 3
+        if (
+            own(function, argument, value) != own(function, argument, a[argument.name])
+            and not either
+        ):
+            assert re.match(
+                rf"{argument.name} .* got {re.escape(str(value.shape))}", str(caught.value)
+            )
+
+
+@pytest.mark.parametrize(
+    ("module", "function"),
+    [
+        pytest.param(name, function, id=f"{name}.{function.name}")
+        for name, module in MODULES.items()
+        for function in module.functions
+    ],
+)
+def test_arguments_are_named_in_calls_as_they_are_declared(module: str, function: Function) -> None:
+    named = inspect.signature(SOLUTIONS.function(module, function.name)).parameters
+    assert [*named] == [argument.name for argument in function.arguments]
