@@ -44,8 +44,8 @@ def measure_grading() -> list[Figure]:
         make_references((*COURSE, NAME), 0, file)
         arrays = read_references(file, 0)
         return [
-            _submission(f"{len(MODULES)} core modules of one submission [s]", MODULES, arrays),
-            _submission(f"all {len(COURSE)} modules of one submission [s]", COURSE, arrays),
+            _submission(f"{len(MODULES)} core modules of one submission [s]", MODULES, arrays, 6),
+            _submission(f"all {len(COURSE)} modules of one submission [s]", COURSE, arrays, 12),
             _class(f"{len(MODULES)} core modules", MODULES, Path(folder) / "core", CLASS_MINUTES),
             _class(
                 f"all {len(COURSE)} modules",
@@ -58,10 +58,10 @@ def measure_grading() -> list[Figure]:
         ]
 
 
-def _submission(name: str, modules: Iterable[str], arrays: References) -> Figure:
+def _submission(name: str, modules: Iterable[str], arrays: References, goal: float) -> Figure:
     sources = {m: (PROJECT / "solutions" / f"{m}.py").read_bytes() for m in modules}
     seconds = [grade(sources, arrays, modules=sources).seconds for _ in range(ROUNDS)]
-    return summary(name, seconds, 20)
+    return summary(name, seconds, goal)
 
 
 def _class(name: str, modules: Iterable[str], folder: Path, goal: float) -> Figure:
