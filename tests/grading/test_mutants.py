@@ -79,8 +79,8 @@ def test_a_grader_that_fails_the_right_is_found_out() -> None:
         def call(self, *_: object, **__: object) -> object:
             return np.zeros(3)
 
-        def call_and_look(self, *_: object) -> tuple[object, list[object], bool]:
-            return np.zeros(3), [], False
+        def call_and_look(self, _: str, *given: object) -> tuple[object, list[object], bool]:
+            return np.zeros(3), list(given), False
 
     verdict = judge(right, Wrong(), arrays(right.module), 0, quick)
     assert verdict.fault.startswith(("right, but fails", "the grader's own error"))

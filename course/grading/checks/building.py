@@ -6,6 +6,7 @@ import zipfile
 from collections.abc import Iterable, Mapping
 from functools import partial
 from io import BytesIO
+from itertools import count
 from time import perf_counter
 from typing import Any
 from unittest.mock import patch
@@ -104,9 +105,11 @@ def _packed(arrays: Mapping[str, Array]) -> bytes:
 
 
 def _print(function: Function, one: Known) -> dict[str, Array]:
-    # Some draw numbers of their own: the same ones each time, so that the same course gives the same bytes.
-    draw = np.random.default_rng
-    seeded = patch("numpy.random.default_rng", lambda seed=None: draw(0 if seed is None else seed))
+    # Some draw numbers of their own: other ones in each call, but the same course gives the same bytes.
+    draw, seeds = np.random.default_rng, count()
+    seeded = patch(
+        "numpy.random.default_rng", lambda seed=None: draw(next(seeds) if seed is None else seed)
+    )
     np.random.seed(0)  # noqa: NPY002
     with np.errstate(all="ignore"), seeded:
         arrays = taken(function, trusted(one))
