@@ -49,10 +49,15 @@ class Budget:
             return seconds
         left = self._until - monotonic()
         if left <= 0:
-            raise StudentError(
-                "timeout", f"{NOT_RUN}: the submission's {self._seconds:g} s are over"
-            )
+            raise StudentError("timeout", f"{NOT_RUN}: {self.over}")
         return min(seconds, left)
+
+    @property
+    def over(self) -> str:
+        """That the submission's time is over; empty while it isn't."""
+        if self._until is None or monotonic() < self._until:
+            return ""
+        return f"the submission's {self._seconds:g} s are over"
 
     def watch(self, pid: int, end: Callable[[str], None]) -> None:
         """Count what a process and its children hold.

@@ -185,6 +185,9 @@ class Worker:
                 self._deaths[function] += 1
             if error.kind != "timeout":
                 raise
+            # A call that the submission's end has cut short may be a right one: it costs no patience.
+            if over := self._budget.over:
+                raise StudentError("timeout", f"no answer yet, and {over}") from None
             why = str(self._patience)
             self._patience.lose(limit)
             raise StudentError("timeout", f"no answer within {limit:.3g} s{why}") from None
@@ -225,7 +228,8 @@ class Worker:
                 if error.kind == "crashed" and not last and not self._process.ended:
                     continue
                 # No call tries again: it would be waited for as long, and end no better.
-                self._broken = not_loaded(self.module, error, seconds)
+                over = self._budget.over if error.kind == "timeout" else ""
+                self._broken = not_loaded(self.module, error, seconds, over)
                 raise self._broken from None
         self._names = head.get("names")
         calls = head.get("calls")

@@ -94,16 +94,21 @@ def no_such(module: str, function: str, names: Any) -> StudentError:
     return StudentError("missing", f"{module}.py has no {function}{hint}")
 
 
-def not_loaded(module: str, error: StudentError, seconds: float) -> StudentError:
+def not_loaded(module: str, error: StudentError, seconds: float, over: str = "") -> StudentError:
     """What is raised for every function of a file whose import has ended with this error.
 
     Parameters
     ----------
     seconds : that the import was given
+    over : that the submission's time has ended it; empty if it hasn't
     """
     message = f"{module}.py can't be imported: {error.type + ': ' if error.type else ''}{error}"
     if error.kind == "timeout":
-        message = f"the import of {module}.py doesn't end within {seconds:g} s"
+        message = (
+            f"the import of {module}.py hadn't ended yet, and {over}"
+            if over
+            else f"the import of {module}.py doesn't end within {seconds:g} s"
+        )
     kind = error.kind if error.kind in ("timeout", "crashed") else "not loaded"
     return StudentError(kind, message, error.type, error.traceback, module_wide=True)
 

@@ -336,12 +336,14 @@ def test_a_worker_is_closed_when_its_module_is_done() -> None:
 def test_the_seconds_of_a_submission_are_limited_where_somebody_says_so() -> None:
     module = "motion_blur"
     sources = {module: solution(module).encode()}
+    # Less than two looks at the clock take, so nothing can have begun on any machine.
     late = grade(
-        sources, arrays(), modules=[module], only=quick, limits=Limits(submission_seconds=1e-3)
+        sources, arrays(), modules=[module], only=quick, limits=Limits(submission_seconds=1e-9)
     )
     assert {result.status for result in late.results} == {Status.TIMEOUT}
-    assert all(result.found.startswith(NOT_RUN) for result in late.results)
-    assert "0.001 s are over" in late.results[0].found
+    assert {result.found for result in late.results} == {
+        f"{NOT_RUN}: the submission's 1e-09 s are over"
+    }
     in_time = grade(
         sources, arrays(), modules=[module], only=quick, limits=Limits(submission_seconds=600)
     )
@@ -351,15 +353,26 @@ def test_the_seconds_of_a_submission_are_limited_where_somebody_says_so() -> Non
 
 @pytest.mark.usefixtures("quickly")
 def test_calls_end_with_the_seconds_of_a_submission() -> None:
-    limits = Limits(submission_seconds=4)
+    # A call alone may take longer than the submission: it is the submission that ends it.
+    limits = Limits(call_seconds=60, submission_seconds=4)
     with Worker("m", b"def f():\n    while True: pass\n", limits) as worker:
         worker.load()
         with pytest.raises(StudentError) as error:
             worker.call("f")
         assert error.value.kind == "timeout"
-        sleep(1)
-        with pytest.raises(StudentError, match=NOT_RUN):
+        assert str(error.value) == "no answer yet, and the submission's 4 s are over"
+        with pytest.raises(StudentError, match=f"{NOT_RUN}: the submission's 4 s are over"):
             worker.call("f")
+
+
+@pytest.mark.usefixtures("quickly")
+def test_an_import_ends_with_the_seconds_of_a_submission() -> None:
+    over = "the submission's 3 s are over"
+    with Worker("m", b"while True: pass\n", Limits(submission_seconds=3)) as worker:
+        with pytest.raises(StudentError) as error:
+            worker.load()
+        assert str(error.value) == f"the import of m.py hadn't ended yet, and {over}"
+        assert (error.value.kind, error.value.module_wide) == ("timeout", True)
 
 
 def test_a_generator_that_was_sent_is_looked_at_after_the_call() -> None:
