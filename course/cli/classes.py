@@ -5,12 +5,14 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from functools import partial
+from dataclasses import dataclass, fields
+from functools import partial, wraps
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Any
 
 import click
 
+from course.cli.options import seconds
 from course.cli.progress import progress_bar
 from course.cli.tables import count
 
@@ -18,52 +20,10 @@ if TYPE_CHECKING:
     from course.grading.classes.finishing import Finished
     from course.grading.classes.grading import ClassEngine, ClassResult
 
-Command = TypeVar("Command", bound=Callable[..., object])
-
 MOST_REMARKS = 12
 """Lines on submissions that are printed; class.html has them all."""
 
 _FILE = click.Path(path_type=Path, exists=True, dir_okay=False)
-
-
-def terms_options(command: Command) -> Command:
-    """Options that say what makes grades of points."""
-    for option in (
-        click.option("--title", help="The assignment as Canvas and Moodle name it, with --roster."),
-        click.option(
-            "--roster",
-            type=_FILE,
-            help="CSV file of the class: writes canvas.csv and moodle.csv, and tells whose work is missing.",
-        ),
-        click.option(
-            "--policy",
-            type=_FILE,
-            help="YAML file of weights, late days, attempts and rounding: writes raw, adjusted and final scores.",
-        ),
-    ):
-        command = option(command)
-    return command
-
-
-def engine_options(command: Command) -> Command:
-    """Options that say where to grade."""
-    for option in (
-        click.option("--address", metavar="tcp://HOST:PORT", help="Of the dask scheduler."),
-        click.option(
-            "--engine",
-            type=click.Choice(["processes", "dask"]),
-            default="processes",
-            show_default=True,
-            help="Where to grade: on this machine or on a dask cluster.",
-        ),
-        click.option(
-            "--jobs",
-            type=click.IntRange(1),
-            help="Submissions graded at a time.  [default: one a core]",
-        ),
-    ):
-        command = option(command)
-    return command
 
 
 trust_option = click.option(
@@ -73,24 +33,89 @@ trust_option = click.option(
     help="Grade where their code can't be kept from reading solutions or changing grades, too; reports say so.",
 )
 
+_OPTIONS = (
+    click.option(
+        "--policy",
+        type=_FILE,
+        help="YAML file of weights, late days, attempts and rounding: writes raw, adjusted and final scores.",
+    ),
+    click.option(
+        "--roster",
+        type=_FILE,
+        help="CSV file of the class: writes canvas.csv and moodle.csv, and tells whose work is missing.",
+    ),
+    click.option("--title", help="The assignment as Canvas and Moodle name it, with --roster."),
+    click.option(
+        "--jobs",
+        type=click.IntRange(1),
+        help="Submissions graded at a time.  [default: one a core]",
+    ),
+    click.option(
+        "--engine",
+        type=click.Choice(["processes", "dask"]),
+        default="processes",
+        show_default=True,
+        help="Where to grade: on this machine or on a dask cluster.",
+    ),
+    click.option("--address", metavar="tcp://HOST:PORT", help="Of the dask scheduler."),
+    click.option(
+        "--submission-seconds",
+        metavar="SECONDS",
+        callback=seconds,
+        help="Time for all checks of one submission; what hasn't been called by then is given no points. "
+        "[default: no limit]",
+    ),
+    trust_option,
+)
 
-def check_engine(jobs: int | None, engine: str, address: str | None) -> None:
-    """Refuse options that don't go together."""
-    if (engine == "dask") != (address is not None):
-        raise click.UsageError("--engine dask and --address go together")
-    if engine == "dask" and jobs is not None:
-        raise click.UsageError("--jobs is for --engine processes; a cluster has workers of its own")
 
+@dataclass(frozen=True)
+class ClassOptions:
+    """How `course grade` and `course regrade` are told to grade.
 
-def class_engine(jobs: int | None, address: str | None) -> ClassEngine:
-    """What grades: a cluster where there is an address, else processes of this machine."""
-    if address is not None:
+    Attributes
+    ----------
+    policy, roster, title : what makes grades of points
+    jobs, engine, address : where to grade
+    submission_seconds : that all checks of one submission may take; None for no limit
+    trusted : whether to grade where the code can't be kept from doing harm, too
+    """
+
+    policy: Path | None
+    roster: Path | None
+    title: str | None
+    jobs: int | None
+    engine: str
+    address: str | None
+    submission_seconds: float | None
+    trusted: bool
+
+    def class_engine(self) -> ClassEngine:
+        """The cluster or the processes that grade; raises ``UsageError`` where options don't go together."""
+        if (self.engine == "dask") != (self.address is not None):
+            raise click.UsageError("--engine dask and --address go together")
+        if self.address is None:
+            from course.grading.classes.processes import in_processes
+
+            return partial(in_processes, jobs=self.jobs or os.cpu_count() or 1)
+        if self.jobs is not None:
+            raise click.UsageError("--jobs is for --engine processes; a cluster has its own")
         from course.grading.classes.cluster import on_cluster
 
-        return partial(on_cluster, address=address)
-    from course.grading.classes.processes import in_processes
+        return partial(on_cluster, address=self.address)
 
-    return partial(in_processes, jobs=jobs or os.cpu_count() or 1)
+
+def class_options(command: Callable[..., None]) -> Callable[..., None]:
+    """Add the options to a command, which gets them together as ``options``."""
+
+    @wraps(command)
+    def run(**values: Any) -> None:
+        given = {field.name: values.pop(field.name) for field in fields(ClassOptions)}
+        command(**values, options=ClassOptions(**given))
+
+    for option in reversed(_OPTIONS):
+        run = option(run)
+    return run
 
 
 @contextmanager

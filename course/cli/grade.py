@@ -9,14 +9,11 @@ from typing import TYPE_CHECKING
 import click
 
 from course.cli.classes import (
-    check_engine,
-    class_engine,
+    ClassOptions,
+    class_options,
     class_progress,
-    engine_options,
     tell_finished,
     tell_submissions,
-    terms_options,
-    trust_option,
 )
 from course.cli.options import FAILED, modules_from
 from course.cli.tables import count
@@ -44,21 +41,13 @@ if TYPE_CHECKING:
     metavar="MODULE[,MODULE]...",
     help="Grade only these.",
 )
-@terms_options
-@engine_options
-@trust_option
+@class_options
 def grade(
     submissions: Path,
     out: Path,
     seed: int,
     modules: tuple[str, ...],
-    policy: Path | None,
-    roster: Path | None,
-    title: str | None,
-    jobs: int | None,
-    engine: str,
-    address: str | None,
-    trusted: bool,
+    options: ClassOptions,
 ) -> None:
     """Grade a class: whatever lies in SUBMISSIONS, folders, archives and files named after their students.
 
@@ -67,18 +56,20 @@ def grade(
     """
     from course.grading.classes.finishing import Terms
     from course.grading.classes.grading import grade_class
+    from course.grading.worker.limits import Limits
 
-    check_engine(jobs, engine, address)
+    engine = options.class_engine()
     with class_progress() as progress:
         result = grade_class(
             submissions,
             out,
-            class_engine(jobs, address),
+            engine,
             seed=seed,
             modules=modules,
-            terms=Terms(policy, roster, title or Terms.title),
-            send_references=engine == "dask",
-            trusted=trusted,
+            terms=Terms(options.policy, options.roster, options.title or Terms.title),
+            send_references=options.address is not None,
+            trusted=options.trusted,
+            limits=Limits(submission_seconds=options.submission_seconds),
             progress=progress,
         )
     _tell(result)

@@ -8,14 +8,11 @@ from typing import TYPE_CHECKING
 import click
 
 from course.cli.classes import (
-    check_engine,
-    class_engine,
+    ClassOptions,
+    class_options,
     class_progress,
-    engine_options,
     tell_finished,
     tell_submissions,
-    terms_options,
-    trust_option,
 )
 from course.cli.tables import count
 from course.errors import CourseError
@@ -37,45 +34,41 @@ if TYPE_CHECKING:
 @click.option(
     "--dry-run", is_flag=True, help="Tell who would change, and leave the grades as they are."
 )
-@terms_options
-@engine_options
-@trust_option
+@class_options
 def regrade(
     submissions: Path,
     out: Path,
     dry_run: bool,
-    policy: Path | None,
-    roster: Path | None,
-    title: str | None,
-    jobs: int | None,
-    engine: str,
-    address: str | None,
-    trusted: bool,
+    options: ClassOptions,
 ) -> None:
     """Grade a class again after a change to checks, scenes or solutions, and tell who changes by which check.
 
-    Seed, modules, policy and roster are those of the grading before. What --dry-run has graded is kept, so that the
-    same command without it only has to apply that.
+    Seed, modules, policy, roster and seconds are those of the grading before. What --dry-run has graded is kept, so
+    that the same command without it only has to apply that.
     """
     from course.grading.classes.finishing import Terms
     from course.grading.classes.regrading import apply
     from course.grading.classes.regrading import regrade as grade_again
     from course.grading.classes.settings import read_settings
 
-    check_engine(jobs, engine, address)
-    settings = read_settings(out)
+    engine = options.class_engine()
+    settings = read_settings(out, options.submission_seconds)
     before = settings.terms
-    terms = Terms(policy or before.policy, roster or before.roster, title or before.title)
+    terms = Terms(
+        options.policy or before.policy,
+        options.roster or before.roster,
+        options.title or before.title,
+    )
     # Before hours of grading.
     terms.read(settings.modules)
     with class_progress() as progress:
         regraded = grade_again(
             submissions,
             out,
-            class_engine(jobs, address),
+            engine,
             settings,
-            send_references=engine == "dask",
-            trusted=trusted,
+            send_references=options.address is not None,
+            trusted=options.trusted,
             progress=progress,
         )
     tell_submissions(regraded.result)

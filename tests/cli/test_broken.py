@@ -69,7 +69,7 @@ def test_grade_tells_the_instructor_all_of_it(
     run: Run, mine: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     checked_by(monkeypatch, breaks, passes)
-    monkeypatch.setattr("course.cli.grade.class_engine", lambda *_: here)
+    monkeypatch.setattr("course.cli.classes.ClassOptions.class_engine", lambda _: here)
     ada = mine.parent / "class" / "ada"
     ada.parent.mkdir()
     mine.rename(ada)

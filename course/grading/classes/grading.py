@@ -29,6 +29,7 @@ from course.grading.classes.settings import settings_of, write_settings
 from course.grading.classes.submitted import Submission, find_submissions
 from course.grading.references import make_references
 from course.grading.report import Report
+from course.grading.worker.limits import Limits
 from course.grading.worker.sandbox import protected
 
 FAULT = "grader error"
@@ -70,6 +71,7 @@ def grade_class(
     terms: Terms | None = None,
     send_references: bool = False,
     trusted: bool = False,
+    limits: Limits | None = None,
     progress: Progress | None = None,
 ) -> ClassResult:
     """Grade every submission in a folder.
@@ -83,6 +85,7 @@ def grade_class(
     terms : what makes grades of points; nothing but the points if not given
     send_references : whether the engine's workers can't read files of this machine
     trusted : whether to grade where the code can't be kept from doing harm, too
+    limits : what the code of one submission may use; the usual if not given
     progress : called with the number of submissions that are done, and of all
 
     Raises
@@ -107,10 +110,12 @@ def grade_class(
         modules=modules,
         send_references=send_references,
         trusted=trusted,
+        limits=limits,
         progress=progress,
     )
     finished = finish(result.submissions, result.reports, out, modules, rules, roster, terms.title)
-    write_settings(settings_of(seed, modules, terms), out)
+    seconds = None if limits is None else limits.submission_seconds
+    write_settings(settings_of(seed, modules, terms, seconds), out)
     return replace(result, finished=finished)
 
 
@@ -124,6 +129,7 @@ def grade_all(
     code: str = "",
     send_references: bool = False,
     trusted: bool = False,
+    limits: Limits | None = None,
     progress: Progress | None = None,
 ) -> ClassResult:
     """Grade submissions, and write a folder for each student.
@@ -132,12 +138,15 @@ def grade_all(
     ----------
     code : what else a result that was kept must have been made with
     """
+    limits = limits or Limits()
     try:
         (out / INSTRUCTOR).mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise OutputError(f"{out}: can't be written: {error.strerror}") from error
     marks = {
-        one.student: fingerprint(one.sources, one.trouble, seed, modules, code)
+        one.student: fingerprint(
+            one.sources, one.trouble, seed, modules, code, limits.submission_seconds
+        )
         for one in submissions
     }
     reports = {
@@ -147,7 +156,7 @@ def grade_all(
         and (trusted or not report.unprotected)
     }
     jobs = [
-        Job(one.student, one.sources, one.trouble, seed, modules, trusted)
+        Job(one.student, one.sources, one.trouble, seed, modules, trusted, limits)
         for one in submissions
         if one.student not in reports
     ]

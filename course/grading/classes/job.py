@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 import tempfile
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from pathlib import Path
 
@@ -19,6 +19,7 @@ from course.grading.grading import grade
 from course.grading.pictures.whole import ALL, NAME
 from course.grading.references import read_references
 from course.grading.report import Report, for_students
+from course.grading.worker.limits import Limits
 from course.grading.worker.sandbox import protected, sandbox
 
 RESULTS = "results.json"
@@ -36,6 +37,7 @@ class Job:
     trouble : why there are none
     seed, modules : what to check
     trusted : whether to grade it where its code can't be kept from doing harm, too
+    limits : what its code may use
     """
 
     student: str
@@ -44,6 +46,7 @@ class Job:
     seed: int
     modules: tuple[str, ...]
     trusted: bool = False
+    limits: Limits = field(default_factory=Limits)
 
 
 @dataclass(frozen=True)
@@ -76,6 +79,7 @@ def grade_job(job: Job, references: Path | bytes) -> Graded:
             seed=job.seed,
             modules=job.modules,
             student=job.student,
+            limits=job.limits,
             shut_in=sandbox() if job.trusted else protected(),
         )
     return Graded(without_figures(report), report_files(report))

@@ -34,9 +34,16 @@ def fingerprint(
     seed: int,
     modules: tuple[str, ...],
     code: str = "",
+    seconds: float | None = None,
 ) -> str:
-    """One line that changes whenever the result may: with submission, seed, version, modules or the grader's code."""
+    """One line that changes whenever the result may: with submission, seed, version, modules or the grader's code.
+
+    Parameters
+    ----------
+    seconds : that all checks of the submission may take; None for no limit
+    """
     parts = [__version__, seed, modules, trouble, *([code] if code else [])]
+    parts += [] if seconds is None else [f"{seconds:g} s"]
     files = [(name, hashlib.sha256(sources[name]).hexdigest()) for name in sorted(sources)]
     return hashlib.sha256(json.dumps([*parts, files]).encode()).hexdigest()
 

@@ -20,6 +20,7 @@ from course.grading.classes.keeping import INSTRUCTOR, fingerprint, keep, kept, 
 from course.grading.classes.settings import Settings, settings_of, write_settings
 from course.grading.classes.submitted import find_submissions
 from course.grading.report import Report
+from course.grading.worker.limits import Limits
 from course.grading.worker.sandbox import protected
 
 _CODE = (("course", "*.py"), ("course", "*.json"), ("solutions", "*.py"))
@@ -91,6 +92,7 @@ def regrade(
         code=_code(),
         send_references=send_references,
         trusted=trusted,
+        limits=Limits(submission_seconds=settings.submission_seconds),
         progress=progress,
     )
     changes = (_change(before[report.student], report) for report in result.reports)
@@ -107,13 +109,21 @@ def apply(regraded: Regraded, out: Path, terms: Terms) -> Finished:
         if report.trouble.startswith(FAULT):
             reports.append(kept(out, one.student) or report)
             continue
-        mark = fingerprint(one.sources, one.trouble, settings.seed, settings.modules)
+        mark = fingerprint(
+            one.sources,
+            one.trouble,
+            settings.seed,
+            settings.modules,
+            seconds=settings.submission_seconds,
+        )
         keep(out, kept_files(_staging(out), report), "" if report.broken else mark)
         reports.append(report)
     finished = finish(
         result.submissions, reports, out, settings.modules, rules, roster, terms.title
     )
-    write_settings(settings_of(settings.seed, settings.modules, terms), out)
+    write_settings(
+        settings_of(settings.seed, settings.modules, terms, settings.submission_seconds), out
+    )
     shutil.rmtree(_staging(out), ignore_errors=True)
     return finished
 

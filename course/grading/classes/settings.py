@@ -20,6 +20,7 @@ class Settings(msgspec.Struct, frozen=True):
     policy: str = ""
     roster: str = ""
     title: str = Terms.title
+    submission_seconds: float | None = None
 
     @property
     def terms(self) -> Terms:
@@ -31,10 +32,12 @@ class Settings(msgspec.Struct, frozen=True):
         )
 
 
-def settings_of(seed: int, modules: tuple[str, ...], terms: Terms) -> Settings:
+def settings_of(
+    seed: int, modules: tuple[str, ...], terms: Terms, submission_seconds: float | None = None
+) -> Settings:
     """The settings of a run."""
     policy, roster = (str(path.resolve()) if path else "" for path in (terms.policy, terms.roster))
-    return Settings(seed, modules, policy, roster, terms.title)
+    return Settings(seed, modules, policy, roster, terms.title, submission_seconds)
 
 
 def write_settings(settings: Settings, out: Path) -> None:
@@ -42,8 +45,12 @@ def write_settings(settings: Settings, out: Path) -> None:
     write_text(_path(out), msgspec.json.format(msgspec.json.encode(settings).decode()) + "\n")
 
 
-def read_settings(out: Path) -> Settings:
+def read_settings(out: Path, submission_seconds: float | None = None) -> Settings:
     """The settings of what was graded into a folder.
+
+    Parameters
+    ----------
+    submission_seconds : in the place of those before; None to keep them
 
     Raises
     ------
@@ -51,11 +58,13 @@ def read_settings(out: Path) -> Settings:
         Nothing was graded into it.
     """
     try:
-        return msgspec.json.decode(_path(out).read_bytes(), type=Settings)
+        settings = msgspec.json.decode(_path(out).read_bytes(), type=Settings)
     except (OSError, msgspec.DecodeError):
         raise CourseError(
             f"{out}: holds no class that was graded; `course grade SUBMISSIONS --out {out}` does that"
         ) from None
+    seconds = submission_seconds or settings.submission_seconds
+    return msgspec.structs.replace(settings, submission_seconds=seconds)
 
 
 def _path(out: Path) -> Path:

@@ -10,7 +10,7 @@ import subprocess
 import sys
 import zipfile
 from collections.abc import Generator, Iterator, Sequence
-from dataclasses import replace
+from dataclasses import fields, replace
 from functools import partial
 from pathlib import Path
 from time import monotonic, sleep
@@ -20,6 +20,7 @@ import psutil
 import pytest
 from click.testing import CliRunner, Result
 
+from course.cli.classes import ClassOptions
 from course.cli.main import commands
 from course.effects import COURSE
 from course.errors import CourseError
@@ -29,6 +30,7 @@ from course.grading.classes.grading import ClassResult, grade_class
 from course.grading.classes.job import Graded, Job, grade_job, with_whole
 from course.grading.classes.keeping import _record
 from course.grading.classes.outcome import Outcome
+from course.grading.classes.settings import read_settings
 from course.grading.classes.totals import totals
 from course.grading.known import known
 
@@ -40,6 +42,7 @@ SLOW = "import time\ntime.sleep(20)\n" + STUB
 LONG = STUB + "".join(
     f"\ndef {name}(*_):\n    import time\n    time.sleep(6)\n" for name in COURSE["motion_blur"]
 )
+ENGINE = "course.cli.classes.ClassOptions.class_engine"
 WORTH = pytest.approx(totals(["motion_blur"])["motion_blur"])
 FILES = {
     "report.html",
@@ -206,7 +209,7 @@ def test_a_fault_of_the_grader_is_no_grade(tmp_path: Path, monkeypatch: pytest.M
     folder = hand_in(tmp_path / "class", ada=STUB, bob=STUB)
     grade(folder, Here())
     hand_in(folder, ada=STUB + "#", bob=STUB + "#")
-    monkeypatch.setattr("course.cli.grade.class_engine", lambda *_: Here(fault="bob"))
+    monkeypatch.setattr(ENGINE, lambda _: Here(fault="bob"))
     out = tmp_path / "out"
     result = run(folder, "--out", out)
     assert result.exit_code == 1
@@ -217,9 +220,33 @@ def test_a_fault_of_the_grader_is_no_grade(tmp_path: Path, monkeypatch: pytest.M
     assert "bob,,," in (out / "grades.csv").read_text()
 
     here = Here()
-    monkeypatch.setattr("course.cli.grade.class_engine", lambda *_: here)
+    monkeypatch.setattr(ENGINE, lambda _: here)
     assert run(folder, "--out", out).exit_code == 0
     assert here.graded == ["bob"]
+
+
+@pytest.mark.usefixtures("references_once")
+def test_the_seconds_of_a_submission_are_an_option(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folder, out, here = hand_in(tmp_path / "class", ada=RIGHT), tmp_path / "out", Here()
+    monkeypatch.setattr(ENGINE, lambda _: here)
+    for text in ("1e-9", "1e-9", "2e-9"):
+        assert run(folder, "--out", out, "--submission-seconds", text).exit_code == 0
+    # Other seconds may give other results.
+    assert here.graded == ["ada", "ada"]
+    results = read(out, "ada")["results"]
+    assert {result["status"] for result in results} == {Status.TIMEOUT}
+    assert "the submission's 2e-09 s are over" in results[0]["found"]
+
+    again = ["regrade", str(folder), "--out", str(out)]
+    assert CliRunner().invoke(commands, again).exit_code == 0
+    assert read(out, "ada")["points"] == 0
+    assert CliRunner().invoke(commands, [*again, "--submission-seconds", "1e3"]).exit_code == 0
+    assert read(out, "ada")["points"] == WORTH
+    assert read_settings(out).submission_seconds == 1e3
+    refused = run(folder, "--out", out, "--submission-seconds", "0")
+    assert (refused.exit_code, "a number of seconds > 0" in refused.output) == (2, True)
 
 
 @pytest.mark.usefixtures("references_once")
@@ -354,8 +381,7 @@ def test_a_process_that_is_killed_costs_nobody_a_grade(tmp_path: Path) -> None:
 
 
 def test_the_engine_of_the_command_line_has_a_process_for_each_core() -> None:
-    from course.cli.classes import class_engine
-
-    engine = class_engine(None, None)
+    given = dict.fromkeys(field.name for field in fields(ClassOptions))
+    engine = ClassOptions(**given).class_engine()
     assert isinstance(engine, partial)
     assert engine.keywords == {"jobs": os.cpu_count()}

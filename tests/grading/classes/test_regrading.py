@@ -71,8 +71,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def run(
     monkeypatch: pytest.MonkeyPatch, engine: Engine, command: str, *arguments: object
 ) -> Result:
-    for name in ("grade", "regrade"):
-        monkeypatch.setattr(f"course.cli.{name}.class_engine", lambda *_, **__: engine)
+    monkeypatch.setattr("course.cli.classes.ClassOptions.class_engine", lambda _: engine)
     return CliRunner().invoke(commands, [command, *map(str, arguments)])
 
 
