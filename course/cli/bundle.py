@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import click
 
 from course.cli.classes import trust_option
-from course.cli.options import modules_from
+from course.cli.options import choice_options
 from course.cli.outputs import check_outputs
 from course.cli.tables import count, print_sections
-from course.effects import COURSE, PROJECT
+from course.effects import PROJECT
 from course.errors import CourseError
 
 
@@ -22,19 +24,7 @@ from course.errors import CourseError
     required=True,
     help="For Gradescope the .zip file to upload, else a folder that is new or empty.",
 )
-@click.option(
-    "--seed",
-    type=click.IntRange(0),
-    default=0,
-    help="Chooses the parameters of scenes and checks; students needn't know it.",
-)
-@click.option(
-    "--modules",
-    multiple=True,
-    callback=modules_from,
-    metavar="MODULE[,MODULE]...",
-    help="Grade only these.",
-)
+@choice_options
 @click.option("--title", default="", help="Of the question, for PrairieLearn.")
 @click.option("--image", help="Its name with the registry, for PrairieLearn.")
 @trust_option
@@ -56,43 +46,49 @@ def bundle(
         raise CourseError("an autograder needs the solutions, and this copy has none")
     if system != "prairielearn" and (title or image):
         raise click.UsageError("--title and --image are for prairielearn")
-    modules = modules or tuple(COURSE)
-    if system == "gradescope":
-        files = _gradescope(out, seed, modules, trusted)
-    else:
-        files = _folder(system, out, seed, modules, title, image, trusted)
+    write = _archive if system == "gradescope" else _folder
+    files = write(out, partial(_contents, system, seed, modules, title, image, trusted))
     click.echo(f"{out}: {count(files, 'file')} for {system}, solutions included: not for students")
     _tell_totals(modules)
 
 
-def _gradescope(out: Path, seed: int, modules: tuple[str, ...], trusted: bool) -> int:
-    from course.grading.classes.bundle import write_gradescope_bundle
-
-    if out.suffix.lower() != ".zip":
-        raise click.BadParameter(f"{out} doesn't end in .zip", param_hint="--out")
-    # Before references are made, which takes a while.
-    check_outputs(files=[("--out", out)])
-    return write_gradescope_bundle(PROJECT, out, seed, modules, trusted=trusted)
-
-
-def _folder(
+def _contents(
     system: str,
-    out: Path,
     seed: int,
     modules: tuple[str, ...],
     title: str,
     image: str | None,
     trusted: bool,
-) -> int:
-    from course.grading.classes.image import IMAGE, check_folder, image_contents, write_folder
+) -> dict[str, bytes]:
+    """Path in the archive or folder -> content."""
+    from course.grading.classes.bundle import gradescope_contents
+    from course.grading.classes.image import IMAGE, image_contents
     from course.grading.classes.prairielearn_bundle import LONGEST, question_contents
 
-    check_folder(out)
+    if system == "gradescope":
+        return gradescope_contents(PROJECT, seed, modules, trusted=trusted)
     if system == "docker":
-        contents = image_contents(PROJECT, seed, modules, LONGEST, trusted=trusted)
-    else:
-        contents = question_contents(PROJECT, seed, modules, title, image or IMAGE, trusted=trusted)
-    return write_folder(contents, out)
+        return image_contents(PROJECT, seed, modules, LONGEST, trusted=trusted)
+    return question_contents(PROJECT, seed, modules, title, image or IMAGE, trusted=trusted)
+
+
+# Both look at the place before the contents are made, which takes a while.
+
+
+def _archive(out: Path, contents: Callable[[], dict[str, bytes]]) -> int:
+    from course.grading.classes.bundle import write_archive
+
+    if out.suffix.lower() != ".zip":
+        raise click.BadParameter(f"{out} doesn't end in .zip", param_hint="--out")
+    check_outputs(files=[("--out", out)])
+    return write_archive(contents(), out)
+
+
+def _folder(out: Path, contents: Callable[[], dict[str, bytes]]) -> int:
+    from course.grading.classes.image import check_folder, write_folder
+
+    check_folder(out)
+    return write_folder(contents(), out)
 
 
 def _tell_totals(modules: tuple[str, ...]) -> None:

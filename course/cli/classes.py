@@ -170,5 +170,7 @@ def tell_finished(finished: Finished) -> None:
         ):
             if names:
                 click.echo(f"{text}: {'; '.join(names)}", err=True)
+    if finished.unprotected:
+        click.echo(f"{finished.unprotected}: no grade is certain", err=True)
     *first, last = map(str, finished.files)
     click.echo(f"{', '.join(first)} and {last} written")

@@ -15,7 +15,7 @@ from course.cli.classes import (
     tell_finished,
     tell_submissions,
 )
-from course.cli.options import FAILED, modules_from
+from course.cli.options import FAILED, choice_options
 from course.cli.tables import count
 from course.errors import CourseError
 
@@ -31,16 +31,7 @@ if TYPE_CHECKING:
     required=True,
     help="Folder for the results; what an earlier run has left there is kept.",
 )
-@click.option(
-    "--seed", type=click.IntRange(0), default=0, help="Chooses the parameters of scenes and checks."
-)
-@click.option(
-    "--modules",
-    multiple=True,
-    callback=modules_from,
-    metavar="MODULE[,MODULE]...",
-    help="Grade only these.",
-)
+@choice_options
 @class_options
 def grade(
     submissions: Path,

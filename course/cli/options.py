@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Callable
 from pathlib import Path
 
 import click
@@ -79,3 +80,24 @@ def modules_from(
         if name not in COURSE:
             raise click.BadParameter(f"{name!r}; the modules are {', '.join(COURSE)}")
     return tuple(name for name in COURSE if not given or name in given)
+
+
+def choice_options(command: Callable[..., None]) -> Callable[..., None]:
+    """Add the options that say what is graded: the seed and the modules."""
+    for option in (
+        click.option(
+            "--modules",
+            multiple=True,
+            callback=modules_from,
+            metavar="MODULE[,MODULE]...",
+            help="Grade only these.",
+        ),
+        click.option(
+            "--seed",
+            type=click.IntRange(0),
+            default=0,
+            help="Chooses the parameters of scenes and checks; students needn't know it.",
+        ),
+    ):
+        command = option(command)
+    return command

@@ -9,10 +9,9 @@ from __future__ import annotations
 
 import tempfile
 import zipfile
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from course.effects import COURSE
 from course.grading.classes.job import with_whole
 from course.grading.references import make_references
 from course.imaging.atomic import replacing
@@ -72,29 +71,14 @@ exec /autograder/source/.venv/bin/python -m course.grading.classes.gradescope_ru
 """
 
 
-def write_gradescope_bundle(
-    project: Path,
-    out: Path,
-    seed: int,
-    modules: Sequence[str] = tuple(COURSE),
-    *,
-    trusted: bool = False,
-) -> int:
-    """Write the archive; the number of its files.
-
-    Parameters
-    ----------
-    project : the course with its solutions
-    out : the .zip file
-    seed, modules : what to check; the references for them are made now
-    trusted : whether to grade where the code can't be kept from doing harm, too
+def write_archive(contents: Mapping[str, bytes], out: Path) -> int:
+    """Write a .zip file of what `gradescope_contents` gives; the number of its files.
 
     Raises
     ------
     OutputError
         The file can't be written.
     """
-    contents = gradescope_contents(project, seed, modules, trusted=trusted)
     with replacing(out) as temporary, zipfile.ZipFile(temporary, "w") as file:
         for name, content in contents.items():
             # A fixed date: the same course gives the same archive.
@@ -109,7 +93,14 @@ def write_gradescope_bundle(
 def gradescope_contents(
     project: Path, seed: int, modules: Sequence[str], *, trusted: bool = False
 ) -> dict[str, bytes]:
-    """Path in the archive -> content."""
+    """Path in the archive -> content.
+
+    Parameters
+    ----------
+    project : the course with its solutions
+    seed, modules : what to check; the references for them are made now
+    trusted : whether to grade where the code can't be kept from doing harm, too
+    """
     trust = " --trust-submissions" if trusted else ""
     run = RUN.format(seed=seed, modules=",".join(modules), trusted=trust)
     contents = {"setup.sh": SETUP.encode(), "run_autograder": run.encode()}

@@ -20,6 +20,11 @@ TOTAL = 100.0
 
 CANVAS, MOODLE = "canvas.csv", "moodle.csv"
 
+NOT_CERTAIN = "not_protected_"
+"""Before the names of tables for learning systems in which a grade may be forged. Canvas makes an assignment of every
+column that it doesn't know, Moodle refuses such a table or asks for a meaning, and any line is a student's: so only the
+name can say it."""
+
 
 @dataclass(frozen=True)
 class Terms:
@@ -53,12 +58,14 @@ class Finished:
     matched : whose submission is whose; None without a roster
     unused : students of the policy who have handed in nothing
     files : tables that were written
+    unprotected : why no grade is certain of students whose code nothing kept from doing harm; empty if there are none
     """
 
     compared: Compared = field(default_factory=Compared)
     matched: Matched | None = None
     unused: tuple[str, ...] = ()
     files: tuple[Path, ...] = ()
+    unprotected: str = ""
 
 
 def finish(
@@ -71,6 +78,8 @@ def finish(
     title: str = Terms.title,
 ) -> Finished:
     """Write grades.csv, class.html, and with a roster canvas.csv and moodle.csv.
+
+    The names of the last two begin with ``NOT_CERTAIN`` where a submission was graded without protection.
 
     Parameters
     ----------
@@ -100,7 +109,15 @@ def finish(
     )
     files = [out / "grades.csv", out / "class.html"]
     files += _write_for_systems(out, reports, marks, total, matched, title)
-    return Finished(compared, matched, _unused(submissions, rules), tuple(files))
+    return Finished(
+        compared, matched, _unused(submissions, rules), tuple(files), _unprotected(reports)
+    )
+
+
+def _unprotected(reports: Sequence[Report]) -> str:
+    """What code could have done, and how many submissions' code."""
+    told = [report.unprotected for report in reports if report.unprotected]
+    return f"{told[0]} ({len(told)} of {len(reports)} graded so)" if told else ""
 
 
 def _marks(
@@ -137,14 +154,16 @@ def _write_for_systems(
     matched: Matched | None,
     title: str,
 ) -> list[Path]:
-    """Write what learning systems import; tables of an earlier run with a roster are not left behind."""
+    """Write what learning systems import; tables of an earlier run are not left behind."""
     from course.grading.reports.systems import write_canvas, write_moodle
 
-    canvas, moodle = out / CANVAS, out / MOODLE
-    if matched is None:
-        for path in (canvas, moodle):
+    for name in (CANVAS, MOODLE):
+        for path in (out / name, out / f"{NOT_CERTAIN}{name}"):
             path.unlink(missing_ok=True)
+    if matched is None:
         return []
+    before = NOT_CERTAIN if _unprotected(reports) else ""
+    canvas, moodle = out / f"{before}{CANVAS}", out / f"{before}{MOODLE}"
     grades = [
         (
             matched.students[report.student],

@@ -70,6 +70,31 @@ def test_every_format_says_that_nothing_was_protected(submissions: Path, tmp_pat
         assert COULD_READ in written[name].read_text("utf-8"), name
 
 
+def test_tables_for_learning_systems_say_it_in_their_names(
+    submissions: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("course.cli.classes.ClassOptions.class_engine", lambda _: here)
+    out, roster = tmp_path / "graded", tmp_path / "roster.csv"
+    roster.write_text("Name,SIS Login ID\nAda,ada\n")
+    arguments = ["grade", submissions, "--out", out, "--modules", "motion_blur"]
+    arguments = [*map(str, [*arguments, "--roster", roster])]
+    tables = {"canvas.csv", "moodle.csv"}
+
+    def written() -> set[str]:
+        return {path.name for path in out.glob("*.csv")} - {"grades.csv"}
+
+    told = CliRunner().invoke(commands, [*arguments, "--trust-submissions"])
+    assert f"{COULD_READ} (1 of 1 graded so): no grade is certain" in told.stderr
+    assert written() == {f"not_protected_{name}" for name in tables}
+    assert "ada" in (out / "not_protected_canvas.csv").read_text()
+
+    for module in (grading, job):
+        monkeypatch.setattr(module, "protected", lambda *_: plain())
+    told = CliRunner().invoke(commands, arguments)
+    assert (told.exit_code, "certain" in told.stderr) == (0, False)
+    assert written() == tables
+
+
 def test_what_was_graded_unprotected_is_graded_again_when_it_can_be(
     submissions: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
