@@ -7,6 +7,8 @@ read, or begins with DONE: that it has done what it must not. Apart from that, t
 
 from __future__ import annotations
 
+MANY_THREADS = "more threads than a worker may have"
+
 PRELUDE = '''
 import ctypes, glob, json, os, socket, struct, sys, threading, time
 import numpy as np
@@ -437,6 +439,16 @@ PROCESSES = {
             threading.Thread(target=time.sleep, args=(999,), daemon=True).start()
         time.sleep(0.2)
         return "started" """,
+    MANY_THREADS: """
+        threading.stack_size(1 << 16)
+        started = 0
+        try:
+            while started < 64:
+                threading.Thread(target=time.sleep, args=(999,), daemon=True).start()
+                started += 1
+        except RuntimeError:
+            return f"refused after {started}"
+        return "DONE" """,
     "set-user-id programs": """
         import subprocess
         for name in ("/usr/bin/su", "/bin/su", "/usr/bin/passwd", "/bin/mount"):

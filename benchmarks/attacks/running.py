@@ -13,7 +13,7 @@ from textwrap import dedent, indent
 import numpy as np
 
 from benchmarks.attacks.forging import FORGING, MODULE, submission
-from benchmarks.attacks.reaching import PRELUDE, REACHING
+from benchmarks.attacks.reaching import MANY_THREADS, PRELUDE, REACHING
 from benchmarks.attacks.stage import Stage
 from benchmarks.attacks.walls import behind, python_for
 from course.effects import PROJECT
@@ -132,6 +132,8 @@ def _reach(wall: str, stage: Stage, shut_in: Sandbox, every: int) -> Iterator[Ou
         )
         said = _reached(source, shut_in)
         gain = said if stage.token in said or said.startswith("DONE") else ""
+        if name.endswith(MANY_THREADS) and not shut_in.threads:
+            gain = ""  # Where they can't be counted, nobody says that they are.
         yield Outcome(name, gain[:200], tuple(stage.effects()), said[:200])
 
 

@@ -16,7 +16,6 @@ import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 from time import monotonic, sleep
-from types import TracebackType
 
 from course.effects import PROJECT
 from course.grading.worker.sandbox import HERE, WORKER_FILES
@@ -56,12 +55,7 @@ class Stage:
         self._before = self._state()
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         self._files.close()
 
     def described(self) -> str:

@@ -18,6 +18,7 @@ from collections.abc import Iterable
 from typing import Any
 
 _DEATH_SIGNAL, _SECCOMP, _NO_NEW_PRIVILEGES, _FILTER = 1, 22, 38, 2
+_NEW_USERS = 0x10000000
 _CREATE, _ADD, _RESTRICT = 444, 445, 446
 _READ_FILE, _READ_FOLDER = 1 << 2, 1 << 3
 _VERSION_ASKED, _BENEATH = 1, 1
@@ -54,8 +55,9 @@ def confine(wall: dict[str, Any]) -> None:
 
     Parameters
     ----------
-    wall : ``uid`` to become, or None; ``landlock``: folders and files that may still be read, or None;
-        ``filter``: of system calls, in base 64, empty for none
+    wall : ``uid`` to become, or None; ``users``: whether to make a namespace of users, in which threads are counted
+        anew; ``threads``: how many there may be, 0 for no limit; ``landlock``: folders and files that may still be
+        read, or None; ``filter``: of system calls, in base 64, empty for none
 
     Raises
     ------
@@ -72,6 +74,11 @@ def confine(wall: dict[str, Any]) -> None:
         os.setgroups([])
         os.setresgid(wall["uid"], wall["uid"], wall["uid"])
         os.setresuid(wall["uid"], wall["uid"], wall["uid"])
+    if wall["users"]:
+        _must(library.unshare(_NEW_USERS))
+    if wall["threads"]:
+        # Not before: a namespace takes over its maker's limit, for all threads that the user has anywhere.
+        limit_threads(wall["threads"])
     _drop_capabilities(library)
     _must(library.prctl(_DEATH_SIGNAL, signal.SIGKILL, 0, 0, 0))
     _must(library.prctl(_NO_NEW_PRIVILEGES, 1, 0, 0, 0))
@@ -92,6 +99,15 @@ def landlock_version() -> int:
     if sys.platform != "linux":
         return 0
     return max(int(ctypes.CDLL(None).syscall(_CREATE, None, 0, _VERSION_ASKED)), 0)
+
+
+def limit_threads(count: int) -> None:
+    """Limit the threads of the user that this process belongs to, in its namespace of users."""
+    import resource  # no part of Python on Windows
+
+    hard = resource.getrlimit(resource.RLIMIT_NPROC)[1]
+    limit = count if hard == resource.RLIM_INFINITY else min(count, hard)
+    resource.setrlimit(resource.RLIMIT_NPROC, (limit, limit))
 
 
 def _drop_capabilities(library: Any) -> None:

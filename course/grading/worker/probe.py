@@ -38,6 +38,7 @@ def main() -> None:
         or (not settings["own_world"] and _works(_socket)),
         "processes": _works(_signal, settings["grader"])
         or (not settings["own_world"] and _works(_fork)),
+        "threads": not _bounded(settings["wall"]["threads"]),
     }
     sys.stdout.write(json.dumps([name for name, can in found.items() if can]))
 
@@ -48,6 +49,25 @@ def _works(act: Callable[..., Any], *arguments: Any) -> bool:
     except OSError:
         return False
     return True
+
+
+def _bounded(threads: int) -> bool:
+    """Whether so many threads are the limit, and none but the worker's own are counted."""
+    import threading
+
+    threading.stack_size(1 << 16)
+    done = threading.Event()
+    started = 0
+    try:
+        for _ in range(threads):
+            threading.Thread(target=done.wait, daemon=True).start()
+            started += 1
+    except RuntimeError:
+        pass
+    finally:
+        done.set()
+    # The worker's own are its first one and bubblewrap's process; kernels before 5.14 count all of the user's.
+    return threads - 4 <= started < threads
 
 
 def _open(path: str) -> None:

@@ -86,7 +86,6 @@ class Process:
                 "CORE": 0,
                 "FSIZE": 0,
                 "NOFILE": 64,
-                **self._sandbox.limits,
             },
         }
         try:

@@ -43,6 +43,9 @@ COULD = {
 }
 """Guarantee -> what student code could do where it doesn't hold."""
 
+THREADS = 64
+"""Of a worker."""
+
 _OF_THE_KERNEL = ("/proc/sys/kernel/core_pattern", "/proc/sysrq-trigger")
 """Files that only root may write, wherever it is."""
 
@@ -65,6 +68,8 @@ class Sandbox:
     landlock : whether Landlock leaves it ``readable`` alone
     filtered : whether its system calls are filtered
     own_world : whether it has processes, a network and files of its own, which end with it
+    users : whether it makes a namespace of users of its own, where nobody else's threads are counted
+    threads : how many it may have; 0 where the kernel can't count them for the worker alone
     lacks : guarantees that don't hold, of ``COULD``
     hooked : whether honest students are told by an audit hook what isn't allowed; no wall
     """
@@ -77,6 +82,8 @@ class Sandbox:
     landlock: bool = False
     filtered: bool = False
     own_world: bool = False
+    users: bool = False
+    threads: int = 0
     lacks: tuple[str, ...] = ()
     hooked: bool = True
 
@@ -89,14 +96,11 @@ class Sandbox:
         """
         return {
             "uid": user if self.becomes == "worker" else None,
+            "users": self.users,
+            "threads": self.threads,
             "landlock": self.readable if self.landlock else None,
             "filter": base64.b64encode(filter_program()).decode() if self.filtered else "",
         }
-
-    @property
-    def limits(self) -> dict[str, int]:
-        """Of processes and threads: counted by user, so only where the worker has one of its own."""
-        return {"NPROC": 64} if self.becomes else {}
 
 
 _ALWAYS = (
@@ -146,11 +150,13 @@ def sandbox(
     """
     best: Sandbox | None = None
     for shut_in in _ways(bubblewrap, user, landlock, seccomp):
-        lacks = _lacks(shut_in, (PROJECT / "solutions", *secrets))
-        if lacks is None:
+        found = _found(shut_in, (PROJECT / "solutions", *secrets))
+        if found is None:
             continue
+        lacks = tuple(name for name in COULD if name in found)
         if best is None or len(lacks) < len(best.lacks):
-            best = replace(shut_in, lacks=lacks)
+            threads = 0 if "threads" in found else shut_in.threads
+            best = replace(shut_in, lacks=lacks, threads=threads)
         if not lacks:
             break
     best = best or replace(plain(), lacks=tuple(COULD))
@@ -216,10 +222,19 @@ def _ways(bubblewrap: bool, user: bool, landlock: bool, seccomp: bool) -> Iterat
                 filtered=filtered,
             )
     if sys.platform == "linux":
-        for becomes, closed in itertools.product(
-            ["worker", ""] if root else [""], [True, False] if landlock else [False]
+        for (becomes, users), closed in itertools.product(
+            # The threads of root are never counted, whatever namespace it is in.
+            [("worker", False)] * root + [("", True)] * (os.geteuid() != 0) + [("", False)],
+            [True, False] if landlock else [False],
         ):
-            yield replace(plain(), becomes=becomes, landlock=closed, filtered=filtered)
+            yield replace(
+                plain(),
+                becomes=becomes,
+                users=users,
+                threads=THREADS,
+                landlock=closed,
+                filtered=filtered,
+            )
 
 
 def _with_bubblewrap(bwrap: str, isolated: Sequence[str]) -> Sandbox:
@@ -235,11 +250,12 @@ def _with_bubblewrap(bwrap: str, isolated: Sequence[str]) -> Sandbox:
         path=("/worker", "/site"),
         readable=(str(library), "/site", "/usr/lib", "/usr/lib64", "/lib", "/lib64"),
         own_world=True,
+        threads=THREADS,
     )
 
 
-def _lacks(shut_in: Sandbox, secrets: Sequence[Path]) -> tuple[str, ...] | None:
-    """Guarantees that don't hold in there; None if a worker can't even start."""
+def _found(shut_in: Sandbox, secrets: Sequence[Path]) -> list[str] | None:
+    """Guarantees that don't hold in there, "threads" if they aren't bounded; None if a worker can't even start."""
     with socket.socket() as listening:
         listening.bind(("127.0.0.1", 0))
         listening.listen()
@@ -268,10 +284,10 @@ def _lacks(shut_in: Sandbox, secrets: Sequence[Path]) -> tuple[str, ...] | None:
                 group=starts_as,
                 extra_groups=None if starts_as is None else (),
             )
-            found = json.loads(run.stdout)
+            found: list[str] = json.loads(run.stdout)
         except (OSError, subprocess.SubprocessError, ValueError):
             return None
-    return tuple(name for name in COULD if name in found)
+    return found
 
 
 def _some_of(path: Path) -> list[Path]:
@@ -288,7 +304,9 @@ def _told(shut_in: Sandbox) -> Iterator[str]:
     if shut_in.own_world:
         yield "bubblewrap: no network, no home, no course, nothing writable, no other processes"
     if shut_in.becomes:
-        yield "a user of the worker's own, who owns nothing and may have 64 threads"
+        yield "a user of the worker's own, who owns nothing"
+    if shut_in.threads:
+        yield f"no more than {shut_in.threads} threads"
     if shut_in.landlock:
         yield "Landlock: no files but Python's own"
     if shut_in.filtered:
@@ -298,6 +316,7 @@ def _told(shut_in: Sandbox) -> Iterator[str]:
         "a user of its own": bool(shut_in.becomes),
         "Landlock": shut_in.landlock,
         "seccomp": shut_in.filtered,
+        "a limit on threads": bool(shut_in.threads),
     }
     if not all(off.values()):
         yield f"not on: {', '.join(name for name, on in off.items() if not on)}"

@@ -13,6 +13,7 @@ from pathlib import Path
 
 import pytest
 
+from benchmarks.attacks.walls import WALLS, python_for
 from course.effects import PROJECT
 from course.grading.worker import sandbox as walls
 from course.grading.worker.client import Worker
@@ -124,7 +125,7 @@ def test_the_report_says_what_was_on() -> None:
 
 @pytest.mark.skipif(not LINUX, reason="the walls are Linux's")
 def test_the_probe_sees_every_guarantee_that_a_plain_process_lacks() -> None:
-    assert walls._lacks(plain(), (PROJECT / "solutions",)) == tuple(COULD)
+    assert walls._found(plain(), (PROJECT / "solutions",)) == [*COULD, "threads"]
 
 
 @needs_filter
@@ -151,7 +152,7 @@ def test_landlock_and_the_filter_keep_all_guarantees_without_root_or_bubblewrap(
 def test_where_no_wall_holds_other_peoples_code_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     sandbox.cache_clear()
     monkeypatch.setattr(walls, "_ways", lambda *_: iter([plain()]))
-    monkeypatch.setattr(walls, "_lacks", lambda *_: ("read", "network"))
+    monkeypatch.setattr(walls, "_found", lambda *_: ["read", "network", "threads"])
     with pytest.raises(NotProtected) as refused:
         protected()
     sandbox.cache_clear()
@@ -165,6 +166,38 @@ def test_what_lies_where_the_code_can_read_it_is_found_before_grading(tmp_path: 
     # Python's own library is readable behind every wall.
     assert sandbox(secrets=(Path(json.__file__).parent,)).lacks == ("read",)
     assert sandbox(secrets=(tmp_path,)).lacks == ()
+
+
+@pytest.mark.skipif(not LINUX, reason="the walls are Linux's")
+@pytest.mark.parametrize("user", ["root", "another"])
+@pytest.mark.parametrize("wall", WALLS)
+def test_threads_are_limited_wherever_the_kernel_counts_them(user: str, wall: str) -> None:
+    source = (
+        "import threading, time\ndef f():\n    for n in range(99):\n        try:\n"
+        "            threading.Thread(target=time.sleep, args=(99,), daemon=True).start()\n"
+        "        except RuntimeError:\n            break\n    return n\n"
+    )
+    code = (
+        "from benchmarks.attacks.walls import behind\n"
+        "from course.grading.worker.client import Worker\n"
+        f"shut_in = behind({wall!r}, 'x')\n"
+        f"with Worker('m', {source!r}.encode(), shut_in=shut_in) as worker:\n"
+        "    print(shut_in.users, bool(shut_in.becomes), shut_in.own_world, shut_in.threads, worker.call('f'))\n"
+    )
+    try:
+        with python_for(user) as python:
+            run = subprocess.run(
+                [*python, "-c", code], check=False, capture_output=True, text=True, cwd=PROJECT
+            )
+    except LookupError as error:
+        pytest.skip(str(error))
+    if "LookupError" in run.stderr:
+        pytest.skip(run.stderr.splitlines()[-1])
+    *counted, threads, started = run.stdout.split()
+    if "True" not in counted:
+        pytest.skip("root without a user of the worker's own, or no namespaces of users here")
+    assert threads == "64"
+    assert 60 <= int(started) < 64
 
 
 def test_each_worker_has_a_user_of_its_own() -> None:
