@@ -16,6 +16,8 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.special import chdtri, ndtri
 
 from course.effects import PROJECT, Effects
+from course.grading.checks import drawing
+from course.grading.checks.vectors import UNIT, unit_vectors
 
 SOLUTIONS = Effects(PROJECT / "solutions")
 
@@ -45,12 +47,31 @@ def frozen(array: ArrayLike) -> Array:
     return copy
 
 
-def scattered(array: Array) -> Array:
-    """The same values, in memory that is contiguous along no axis."""
-    wide = np.zeros(tuple(3 * size for size in array.shape), array.dtype)
-    view = wide[tuple(slice(1, None, 3) for _ in array.shape)]
-    view[...] = array
-    return view
+def directions(n: int, dtype: type, seed: int) -> Array:
+    """Unit vectors, uniform on the sphere; the same for each dtype, but for rounding."""
+    return unit_vectors(np.random.default_rng(seed), n, dtype)
+
+
+def worst_directions(dtype: type) -> Array:
+    """Those of the checks, and the axes with the smallest numbers that there are beside them."""
+    small = np.finfo(dtype).smallest_subnormal
+    beside = [
+        np.roll((a, b, end), k)
+        for a, b in product((0.0, small, -small), repeat=2)
+        for end in (1.0, -1.0)
+        for k in range(3)
+    ]
+    return np.concatenate((drawing.worst_directions(dtype), np.array(beside, dtype).T), axis=1)
+
+
+def every_pair(a: Array, b: Array) -> tuple[Array, Array]:
+    """Each column of a with each column of b."""
+    return np.repeat(a, b.shape[1], axis=1), np.tile(b, a.shape[1])
+
+
+def assert_unit(directions: Array, tolerance: float = UNIT) -> None:
+    """Unit length, as the contract says; which finite numbers only can be."""
+    assert (np.abs(np.linalg.norm(directions.astype(float), axis=0) - 1) <= tolerance).all()
 
 
 def assert_uniform(values: Array, cells: tuple[int, ...]) -> None:

@@ -31,6 +31,12 @@ SEEDS = (101, 102)
 """FALSE_FAIL of each comparison is stated with each check: together under 1e-4."""
 
 
+def arrays(a: Arguments) -> list[Array]:
+    """Those among the arguments, and within them."""
+    parts = (part for v in a.values() for part in (v if isinstance(v, tuple | list) else (v,)))
+    return [part for part in parts if isinstance(part, np.ndarray)]
+
+
 @pytest.mark.parametrize(("module", "check"), CHECKS)
 def test_the_reference_keeps_its_declaration(module: str, check: Check) -> None:
     for seed in SEEDS:
@@ -65,6 +71,15 @@ def own(function: Function, argument: Argument, value: Array) -> list[int]:
     ]
 
 
+def written(argument: Argument, legal: Array) -> str:
+    """A pattern of the shape that is wanted: where a size is free it is a letter, where it is known a number."""
+    pairs = zip(argument.sizes, legal.shape, strict=True)
+    sizes = [word if word.isdigit() else rf"([A-Za-z]|{size})" for word, size in pairs]
+    of_all = rf"\({', '.join(sizes)}{',' * (len(sizes) == 1)}\)"
+    one = ", ".join(size for size in sizes if size.isdigit())
+    return rf"\({one},\) or {of_all}" if argument.single and one else of_all
+
+
 @pytest.mark.parametrize(("module", "function", "argument"), ARGUMENTS)
 def test_a_wrong_shape_is_told_by_name_with_what_was_expected_and_what_came(
     module: str, function: Function, argument: Argument
@@ -85,11 +100,13 @@ def test_a_wrong_shape_is_told_by_name_with_what_was_expected_and_what_came(
             and not either
         ):
             assert re.match(
-                rf"{argument.name} .* got {re.escape(str(value.shape))}", str(caught.value)
+                rf"{argument.name} .*{written(argument, a[argument.name])}.* got "
+                rf"{re.escape(str(value.shape))}$",
+                str(caught.value),
             )
 
 
-@pytest.mark.parametrize(
+FUNCTIONS = pytest.mark.parametrize(
     ("module", "function"),
     [
         pytest.param(name, function, id=f"{name}.{function.name}")
@@ -97,6 +114,18 @@ def test_a_wrong_shape_is_told_by_name_with_what_was_expected_and_what_came(
         for function in module.functions
     ],
 )
+
+
+@FUNCTIONS
+def test_no_result_shares_memory_with_an_argument(module: str, function: Function) -> None:
+    for dtype in (np.float32, np.float64):
+        a = function.make(Draw(np.random.default_rng(0), 5, dtype))
+        found = SOLUTIONS.function(module, function.name)(*a.values())
+        for result in found if isinstance(found, tuple) else (found,):
+            assert not any(np.shares_memory(result, value) for value in arrays(a))
+
+
+@FUNCTIONS
 def test_arguments_are_named_in_calls_as_they_are_declared(module: str, function: Function) -> None:
     named = inspect.signature(SOLUTIONS.function(module, function.name)).parameters
     assert [*named] == [argument.name for argument in function.arguments]

@@ -10,20 +10,18 @@ from itertools import product
 import numpy as np
 import pytest
 
-from tests.solutions.batches import (
-    DTYPES,
-    assert_unit,
-    directions,
-    every_pair,
-    worst_directions,
-)
+from course.grading.checks.laws import DTYPES
 from tests.solutions.contract import (
     SOLUTIONS,
     Array,
     assert_mean,
     assert_uniform,
+    assert_unit,
+    directions,
+    every_pair,
     frozen,
     unit,
+    worst_directions,
     worst_units,
 )
 

@@ -9,12 +9,13 @@ from itertools import product
 import numpy as np
 import pytest
 
-from tests.solutions.batches import DTYPES, assert_unit
+from course.grading.checks.laws import DTYPES
 from tests.solutions.contract import (
     SOLUTIONS,
     Array,
     assert_mean,
     assert_uniform,
+    assert_unit,
     frozen,
     unit,
     worst_units,

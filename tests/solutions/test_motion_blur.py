@@ -7,12 +7,13 @@ import math
 import numpy as np
 import pytest
 
-from tests.solutions.batches import DTYPES, directions
+from course.grading.checks.laws import DTYPES
 from tests.solutions.contract import (
     SOLUTIONS,
     Array,
     assert_mean,
     assert_uniform,
+    directions,
     frozen,
     unit,
     worst_units,

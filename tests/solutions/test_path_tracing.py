@@ -7,19 +7,17 @@ import math
 import numpy as np
 import pytest
 
-from tests.solutions.batches import (
-    DTYPES,
-    assert_unit,
-    directions,
-    every_pair,
-    worst_directions,
-)
+from course.grading.checks.laws import DTYPES
 from tests.solutions.contract import (
     SOLUTIONS,
     assert_mean,
     assert_uniform,
+    assert_unit,
+    directions,
+    every_pair,
     frozen,
     unit,
+    worst_directions,
     worst_units,
 )
 

@@ -9,13 +9,14 @@ import numpy as np
 import pytest
 from scipy.special import ndtri
 
-from tests.solutions.batches import DTYPES, assert_unit
+from course.grading.checks.laws import DTYPES
 from tests.solutions.contract import (
     FALSE_FAIL,
     SOLUTIONS,
     Array,
     assert_mean,
     assert_uniform,
+    assert_unit,
     frozen,
     global_random_state_untouched,
     unit,
