@@ -12,6 +12,7 @@ from course.grading.checks.declarations import declared_function
 from course.grading.checks.preparing import References
 from course.grading.checks.result import Result, Status
 from course.grading.checks.running import run_checks
+from course.grading.checks.slips import SLIPS
 from course.grading.known import Known, trusted
 from course.grading.references import reference
 from course.grading.severity import is_right_elsewhere, is_useless
@@ -118,7 +119,7 @@ def explaining(record: Record, submissions: Iterable[Known]) -> dict[str, list[s
     found: dict[str, set[str]] = {}
     for known in submissions:
         rows = record.get(known.module, {}).get(f"wrong/{known.name}")
-        if known.mistake and rows is not None:
+        if known.mistake not in ("", *SLIPS) and rows is not None:
             name = f"{known.module}.{known.function}/{known.mistake}"
             own = (check.split("/") for check in rows)
             found.setdefault(name, set()).update(

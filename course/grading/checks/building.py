@@ -18,6 +18,7 @@ from course.grading.checks.conventions import conventions
 from course.grading.checks.declare import Function, Law, Module
 from course.grading.checks.drawing import Draw
 from course.grading.checks.mistakes import Misconception, matching, taken
+from course.grading.checks.slips import SLIPS
 from course.grading.known import Known, known, trusted
 
 SLOW = 10.0
@@ -84,7 +85,7 @@ def _prints(module: str, function: Function) -> Check:
     def prepare(caller: Caller, _: np.random.Generator) -> dict[str, Array]:
         found = {f"/{key}": value for key, value in taken(function, caller).items()}
         for one in known(module):
-            if one.mistake and one.function == function.name:
+            if one.mistake not in ("", *SLIPS) and one.function == function.name:
                 found |= _print(function, one)
         # One array of all: a file of thousands of small ones takes seconds to open.
         return {"packed": np.frombuffer(_packed(found), np.uint8).copy()}

@@ -44,10 +44,14 @@ class Failure(Exception):  # noqa: N818 - it is no error of the program
     expected, found : what should have come, and what came; short, with numbers
     where : the worst ray or pixel, with the arguments that show it
     hint : what to look at; never the code
+    slip : the name in ``slips.SLIPS`` of the mistake that the failure shows by itself, if it does
     """
 
-    def __init__(self, expected: str, found: str, where: str = "", hint: str = "") -> None:
+    def __init__(
+        self, expected: str, found: str, where: str = "", hint: str = "", slip: str = ""
+    ) -> None:
         super().__init__(f"expected {expected}, found {found}" + (f" ({where})" if where else ""))
+        self.slip = slip
         self.expected, self.found, self.where, self.hint = expected, found, where, hint
         self.example = ""
         """The smallest input that shows it, with what came and what must hold."""

@@ -381,11 +381,18 @@ def _looked(value: Any, result: Result, sizes: dict[str, int], dtype: Any) -> Ar
     kinds = _NUMBERS.get(wanted) if isinstance(wanted, str) else None
     if kinds is None and wanted is not None and dtype is not None and value.dtype != wanted:
         hint = _DTYPES if result.dtype is None else ""
-        raise Failure(f"{result.name} of dtype {np.dtype(wanted)}", f"{value.dtype}", hint=hint)
+        raise Failure(
+            f"{result.name} of dtype {np.dtype(wanted)}",
+            f"{value.dtype}",
+            hint=hint,
+            slip="other-dtype",
+        )
     of_kind = value.dtype.kind in (kinds or ("b" if wanted is np.bool_ else "fiu"))
     # What is of another kind of number costs the contract alone.
     if not of_kind and (dtype is not None or value.dtype.kind not in "bfiu"):
-        raise Failure(f"{result.name} of dtype {wanted or 'floating'}", f"{value.dtype}")
+        raise Failure(
+            f"{result.name} of dtype {wanted or 'floating'}", f"{value.dtype}", slip="other-dtype"
+        )
     if result.finite and not np.isfinite(value).all():
         index = tuple(int(i) for i in np.argwhere(~np.isfinite(value))[0])
         raise Failure(f"{result.name} to be finite", f"{value[index]}", f"at index {index}")

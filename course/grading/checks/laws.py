@@ -289,6 +289,7 @@ def _check_told(function: Function, trial: Trial, a: Arguments, r: Any) -> None:
             "the same result for the same u, wherever it stands in the batch",
             "another result",
             hint="All random numbers are given, and each column has its own: nothing else is to be drawn.",
+            slip="not-by-its-column",
         )
 
 

@@ -20,6 +20,7 @@ from course.grading.checks.explaining import explains
 from course.grading.checks.gate import Gate
 from course.grading.checks.preparing import References, generator
 from course.grading.checks.result import NOT_WRITTEN, Result, Status, broken, result_of, troubled
+from course.grading.checks.slips import SLIPS
 from course.grading.errors import StudentError
 from course.grading.worker.patience import NOT_RUN
 
@@ -74,7 +75,8 @@ def run_checks(
             given_up[check.function] = result
         above = _above(check.function, wrong, asked) if lenders(check.function) is None else ""
         if result.status is Status.FAILED and above:
-            result = replace(result, hint=f"{BEGIN.format(above)} {result.hint}".strip())
+            hint = f"{BEGIN.format(above)} {result.hint}".strip()
+            result = replace(result, hint=hint, mistake="", says="")
         elif result.status is Status.FAILED:
             if check.function not in matched:
                 matched[check.function] = _matching(checks, check.function, asked, references)
@@ -212,7 +214,9 @@ def _ended(module: str, check: Check, trial: Trial, references: References) -> _
             where=failure.where,
             hint=failure.hint,
         )
-        result = replace(result, example=failure.example)
+        result = replace(
+            result, example=failure.example, mistake=failure.slip, says=SLIPS.get(failure.slip, "")
+        )
     except StudentError as error:
         result, trouble = troubled(module, check, error), error
     return replace(result, figures=tuple(trial.figures)), trouble

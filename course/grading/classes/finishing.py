@@ -115,7 +115,7 @@ def finish(
 
 
 def _unprotected(reports: Sequence[Report]) -> str:
-    """What code could have done, and how many submissions' code."""
+    """The harm that code could have done, and how many submissions' code; empty for none."""
     told = [report.unprotected for report in reports if report.unprotected]
     return f"{told[0]} ({len(told)} of {len(reports)} graded so)" if told else ""
 

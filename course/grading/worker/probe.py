@@ -52,7 +52,7 @@ def _works(act: Callable[..., Any], *arguments: Any) -> bool:
 
 
 def _bounded(threads: int) -> bool:
-    """Whether so many threads are the limit, and none but the worker's own are counted."""
+    """True where so many threads are the limit, and none but the worker's own are counted."""
     import threading
 
     threading.stack_size(1 << 16)

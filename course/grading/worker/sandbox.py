@@ -44,7 +44,7 @@ COULD = {
 """Guarantee -> what student code could do where it doesn't hold."""
 
 THREADS = 64
-"""Of a worker."""
+"""The most that a worker may have."""
 
 _OF_THE_KERNEL = ("/proc/sys/kernel/core_pattern", "/proc/sysrq-trigger")
 """Files that only root may write, wherever it is."""

@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "needs_subdivision"
 CAUGHT_BY = "any"
-MISTAKE = None
+MISTAKE = "luminance"
+SAYS = "Luminances are compared: what differs in blue or red alone is hardly seen."
 
 
 def needs_subdivision(corners, threshold):

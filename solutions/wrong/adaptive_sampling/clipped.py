@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "needs_subdivision"
 CAUGHT_BY = "bright"
-MISTAKE = None
+MISTAKE = "clipped-before"
+SAYS = "Radiance over 1 is cut off first, and with it the contrast of what is bright."
 
 
 def needs_subdivision(corners, threshold):

@@ -4,7 +4,7 @@ import numpy as np
 
 FUNCTION = "subdivide"
 CAUGHT_BY = "contract"
-MISTAKE = None
+MISTAKE = "other-dtype"
 
 
 def subdivide(x0, y0, x1, y1):

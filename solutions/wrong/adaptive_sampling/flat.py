@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "subdivide"
 CAUGHT_BY = "contract"
-MISTAKE = None
+MISTAKE = "children-in-a-row"
+SAYS = "The children stand in another shape than was agreed."
 
 
 def subdivide(x0, y0, x1, y1):

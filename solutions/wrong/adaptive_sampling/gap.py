@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "subdivide"
 CAUGHT_BY = "area"
-MISTAKE = None
+MISTAKE = "gap-between-children"
+SAYS = "The children leave a part of the square out, and cover another twice."
 
 
 def subdivide(x0, y0, x1, y1):

@@ -4,7 +4,7 @@ import numpy as np
 
 FUNCTION = "needs_subdivision"
 CAUGHT_BY = "contract"
-MISTAKE = None
+MISTAKE = "other-dtype"
 
 
 def needs_subdivision(corners, threshold):

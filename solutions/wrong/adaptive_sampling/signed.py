@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "needs_subdivision"
 CAUGHT_BY = "threshold"
-MISTAKE = None
+MISTAKE = "sign-kept"
+SAYS = "Differences keep their sign, so half of them are never over the threshold."
 
 
 def needs_subdivision(corners, threshold):

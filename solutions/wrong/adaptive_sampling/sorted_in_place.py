@@ -4,7 +4,7 @@ import numpy as np
 
 FUNCTION = "needs_subdivision"
 CAUGHT_BY = "untouched"
-MISTAKE = None
+MISTAKE = "writes-to-arguments"
 
 
 def needs_subdivision(corners, threshold):

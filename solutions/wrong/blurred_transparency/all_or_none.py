@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "refract"
 CAUGHT_BY = "each"
-MISTAKE = None
+MISTAKE = "total-for-all"
+SAYS = "One ray that is totally reflected makes all of the batch so."
 
 
 def refract(direction, normal, eta):

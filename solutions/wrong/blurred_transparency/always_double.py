@@ -4,7 +4,7 @@ import numpy as np
 
 FUNCTION = "fresnel"
 CAUGHT_BY = "contract"
-MISTAKE = None
+MISTAKE = "other-dtype"
 
 
 def fresnel(cos_i, eta):

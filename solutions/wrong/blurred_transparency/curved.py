@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "jitter_refraction"
 CAUGHT_BY = "square"
-MISTAKE = None
+MISTAKE = "refraction-curved-square"
+SAYS = "The square is bent around the direction; it is flat, at distance 1."
 
 
 def jitter_refraction(direction, normal, roughness, u):

@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "refract"
 CAUGHT_BY = "snell"
-MISTAKE = None
+MISTAKE = "eta-once"
+SAYS = "Under the root eta stands once; Snell's law has sines squared, and eta with them."
 
 
 def refract(direction, normal, eta):

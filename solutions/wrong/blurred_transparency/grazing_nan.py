@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "fresnel"
 CAUGHT_BY = "contract"
-MISTAKE = None
+MISTAKE = "grazing-zero-by-zero"
+SAYS = "Along the surface 0 is divided by 0."
 
 
 @np.errstate(invalid="ignore", divide="ignore")

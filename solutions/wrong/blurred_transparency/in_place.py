@@ -4,7 +4,7 @@ import numpy as np
 
 FUNCTION = "refract"
 CAUGHT_BY = "untouched"
-MISTAKE = None
+MISTAKE = "writes-to-arguments"
 
 
 def refract(direction, normal, eta):

@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "refract"
 CAUGHT_BY = "unit_length"
-MISTAKE = None
+MISTAKE = "length-of-eta"
+SAYS = "The refracted direction points the right way, and its length is not 1."
 
 _of_unit_length = refract
 

@@ -4,7 +4,7 @@ import numpy as np
 
 FUNCTION = "refract"
 CAUGHT_BY = "contract"
-MISTAKE = None
+MISTAKE = "other-dtype"
 
 
 def refract(direction, normal, eta):

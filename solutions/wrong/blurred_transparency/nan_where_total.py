@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "refract"
 CAUGHT_BY = "contract"
-MISTAKE = None
+MISTAKE = "root-of-negative"
+SAYS = "Where reflection is total the root of a negative number is taken."
 
 
 def refract(direction, normal, eta):

@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "fresnel"
 CAUGHT_BY = "total"
-MISTAKE = None
+MISTAKE = "total-reflects-nothing"
+SAYS = "Where reflection is total the share that is reflected is 1; it came out as 0."
 
 
 def fresnel(cos_i, eta):

@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "refract"
 CAUGHT_BY = "contract"
-MISTAKE = None
+MISTAKE = "first-eta-for-all"
+SAYS = "The eta of the first ray is taken for all."
 
 
 def refract(direction, normal, eta):

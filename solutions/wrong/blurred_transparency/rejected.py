@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "jitter_refraction"
 CAUGHT_BY = "mirrored"
-MISTAKE = None
+MISTAKE = "back-not-jittered"
+SAYS = "Directions that came out on the wrong side lose their jitter altogether."
 
 
 def jitter_refraction(direction, normal, roughness, u):

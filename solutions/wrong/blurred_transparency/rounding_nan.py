@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "fresnel"
 CAUGHT_BY = "contract"
-MISTAKE = None
+MISTAKE = "cosine-over-one"
+SAYS = "A cosine that rounding has put over 1 leaves the root of a negative number."
 
 
 def fresnel(cos_i, eta):

@@ -4,7 +4,7 @@ import numpy as np
 
 FUNCTION = "fresnel"
 CAUGHT_BY = "refuses"
-MISTAKE = None
+MISTAKE = "not-refused"
 
 
 @np.errstate(invalid="ignore", divide="ignore")

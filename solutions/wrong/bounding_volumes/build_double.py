@@ -4,7 +4,7 @@ import numpy as np
 
 FUNCTION = "build"
 CAUGHT_BY = "contract"
-MISTAKE = None
+MISTAKE = "other-dtype"
 
 
 def build(lo, hi, leaf_size):

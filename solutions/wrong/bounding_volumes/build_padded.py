@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "build"
 CAUGHT_BY = "contains"
-MISTAKE = None
+MISTAKE = "padded-boxes"
+SAYS = "The boxes are larger than what they hold."
 
 
 def build(lo, hi, leaf_size):

@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "traverse"
 CAUGHT_BY = "counts"
-MISTAKE = None
+MISTAKE = "leaf-is-one-test"
+SAYS = "A leaf counts as one test, however many triangles it has."
 
 
 def traverse(hierarchy, p0, p1, p2, origins, directions):

@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "traverse"
 CAUGHT_BY = "one"
-MISTAKE = None
+MISTAKE = "miss-is-zero"
+SAYS = "A ray that meets nothing has t = 0, as if it had met something at its origin."
 
 
 def traverse(hierarchy, p0, p1, p2, origins, directions):

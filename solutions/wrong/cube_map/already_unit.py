@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "face_and_uv"
 CAUGHT_BY = "length"
-MISTAKE = None
+MISTAKE = "not-projected"
+SAYS = "The direction is taken for a point of the cube: its largest component must become 1 first."
 
 
 def face_and_uv(direction):

@@ -4,7 +4,7 @@ import numpy as np
 
 FUNCTION = "lookup_seamless"
 CAUGHT_BY = "contract"
-MISTAKE = None
+MISTAKE = "other-dtype"
 
 _right = lookup_seamless
 

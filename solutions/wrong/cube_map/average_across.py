@@ -4,7 +4,10 @@ import numpy as np
 
 FUNCTION = "lookup_seamless"
 CAUGHT_BY = "edges"
-MISTAKE = None
+MISTAKE = "average-across"
+SAYS = (
+    "Near an edge both faces count half, however far from it; the weights must follow the distance."
+)
 
 
 def lookup_seamless(faces, direction):

@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "face_and_uv"
 CAUGHT_BY = "uv"
-MISTAKE = None
+MISTAKE = "divided-by-length"
+SAYS = "The direction is divided by its length: a point of the sphere, not of the cube."
 
 
 def face_and_uv(direction):

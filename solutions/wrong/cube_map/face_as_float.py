@@ -4,7 +4,7 @@ import numpy as np
 
 FUNCTION = "face_and_uv"
 CAUGHT_BY = "contract"
-MISTAKE = None
+MISTAKE = "other-dtype"
 
 
 def face_and_uv(direction):

@@ -4,7 +4,7 @@ import numpy as np
 
 FUNCTION = "lookup"
 CAUGHT_BY = "contract"
-MISTAKE = None
+MISTAKE = "other-dtype"
 
 
 def lookup(faces, direction):

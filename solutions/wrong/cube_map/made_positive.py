@@ -4,7 +4,7 @@ import numpy as np
 
 FUNCTION = "face_and_uv"
 CAUGHT_BY = "untouched"
-MISTAKE = None
+MISTAKE = "writes-to-arguments"
 
 
 def face_and_uv(direction):

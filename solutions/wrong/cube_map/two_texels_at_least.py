@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "lookup"
 CAUGHT_BY = "one-texel"
-MISTAKE = None
+MISTAKE = "one-texel-black"
+SAYS = "A face of a single texel comes out black."
 
 
 def lookup(faces, direction):

@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "lookup"
 CAUGHT_BY = "all-around"
-MISTAKE = None
+MISTAKE = "opposite-face"
+SAYS = "The colour is that of the opposite face."
 
 
 def lookup(faces, direction):

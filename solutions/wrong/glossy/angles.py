@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "jitter_on_plane"
 CAUGHT_BY = "square"
-MISTAKE = None
+MISTAKE = "square-of-angles"
+SAYS = "The roughness scales two angles. It is the side of a square at distance 1, flat and at right angles."
 
 
 def jitter_on_plane(direction, roughness, u):

@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "jitter_in_ball"
 CAUGHT_BY = "uniform"
-MISTAKE = None
+MISTAKE = "ball-half-turn"
+SAYS = "The angle runs over half a turn, so half of the ball gets no point."
 
 
 def jitter_in_ball(direction, glossiness, u):

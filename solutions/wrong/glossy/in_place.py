@@ -4,7 +4,7 @@ import numpy as np
 
 FUNCTION = "keep_above"
 CAUGHT_BY = "untouched"
-MISTAKE = None
+MISTAKE = "writes-to-arguments"
 
 
 def keep_above(direction, normal):

@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "keep_above"
 CAUGHT_BY = "unchanged"
-MISTAKE = None
+MISTAKE = "above-one-for-all"
+SAYS = "One direction below the surface mirrors all of the batch."
 
 
 def keep_above(direction, normal):

@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "jitter_in_ball"
 CAUGHT_BY = "uniform"
-MISTAKE = None
+MISTAKE = "ball-crowded-poles"
+SAYS = "The polar angle itself is uniform, so points crowd around two poles."
 
 
 def jitter_in_ball(direction, glossiness, u):

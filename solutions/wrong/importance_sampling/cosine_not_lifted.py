@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "cosine_hemisphere"
 CAUGHT_BY = "unit_length"
-MISTAKE = None
+MISTAKE = "not-lifted"
+SAYS = "Points of the disk got a height of 1: they aren't on the hemisphere."
 
 
 def cosine_hemisphere(u):

@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "cosine_hemisphere"
 CAUGHT_BY = "density"
-MISTAKE = None
+MISTAKE = "cosine-one-number"
+SAYS = "The same number decides height and turn: the directions lie on a curve."
 
 
 def cosine_hemisphere(u):

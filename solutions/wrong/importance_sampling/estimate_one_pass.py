@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "estimate"
 CAUGHT_BY = "small_variance"
-MISTAKE = None
+MISTAKE = "squares-cancel"
+SAYS = "The variance is a difference of two large numbers, and its digits have cancelled."
 
 
 def estimate(f, pdf):

@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "estimate"
 CAUGHT_BY = "zero_density"
-MISTAKE = None
+MISTAKE = "estimate-zero-by-zero"
+SAYS = "0 is divided by 0 where a sample's density is 0."
 
 
 def estimate(f, pdf):

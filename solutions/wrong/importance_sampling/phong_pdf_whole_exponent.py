@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "phong_lobe_pdf"
 CAUGHT_BY = "values"
-MISTAKE = None
+MISTAKE = "whole-exponents"
+SAYS = "The exponent is rounded to a whole number."
 
 
 def phong_lobe_pdf(cos, exponent):

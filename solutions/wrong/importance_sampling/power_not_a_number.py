@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "power_heuristic"
 CAUGHT_BY = "limits"
-MISTAKE = None
+MISTAKE = "weights-zero-by-zero"
+SAYS = "0 is divided by 0 where both densities are 0."
 
 
 def power_heuristic(a, b):

@@ -4,7 +4,7 @@ import numpy as np
 
 FUNCTION = "uniform_hemisphere"
 CAUGHT_BY = "density"
-MISTAKE = None
+MISTAKE = "not-by-its-column"
 
 
 def uniform_hemisphere(u):

@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "displacement"
 CAUGHT_BY = "contract"
-MISTAKE = None
+MISTAKE = "displacement-rows"
+SAYS = "A point stands in each row; the agreed shape (3, N) has one in each column."
 
 
 def displacement(velocity, time):

@@ -4,7 +4,7 @@ import numpy as np
 
 FUNCTION = "shutter_times"
 CAUGHT_BY = "contract"
-MISTAKE = None
+MISTAKE = "other-dtype"
 
 
 def shutter_times(open, close, u):  # noqa: A002

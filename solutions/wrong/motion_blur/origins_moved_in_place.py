@@ -4,7 +4,7 @@ import numpy as np
 
 FUNCTION = "to_object_space"
 CAUGHT_BY = "untouched"
-MISTAKE = None
+MISTAKE = "writes-to-arguments"
 
 
 def to_object_space(origins, velocity, time):

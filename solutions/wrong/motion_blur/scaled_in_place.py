@@ -4,7 +4,7 @@ import numpy as np
 
 FUNCTION = "shutter_times"
 CAUGHT_BY = "untouched"
-MISTAKE = None
+MISTAKE = "writes-to-arguments"
 
 
 def shutter_times(open, close, u):  # noqa: A002

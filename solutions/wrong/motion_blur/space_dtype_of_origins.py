@@ -4,7 +4,7 @@ import numpy as np
 
 FUNCTION = "to_object_space"
 CAUGHT_BY = "contract"
-MISTAKE = None
+MISTAKE = "other-dtype"
 
 
 def to_object_space(origins, velocity, time):

@@ -2,7 +2,7 @@
 
 FUNCTION = "shutter_times"
 CAUGHT_BY = "refuses"
-MISTAKE = None
+MISTAKE = "not-refused"
 
 
 def shutter_times(open, close, u):  # noqa: A002

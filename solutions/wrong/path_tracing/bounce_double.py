@@ -4,7 +4,7 @@ import numpy as np
 
 FUNCTION = "diffuse_bounce"
 CAUGHT_BY = "contract"
-MISTAKE = None
+MISTAKE = "other-dtype"
 
 
 def diffuse_bounce(normal, u):

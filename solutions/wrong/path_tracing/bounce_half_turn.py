@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "diffuse_bounce"
 CAUGHT_BY = "density"
-MISTAKE = None
+MISTAKE = "bounce-half-turn"
+SAYS = "The angle runs over half a turn, so half of the hemisphere gets no direction."
 
 
 def diffuse_bounce(normal, u):

@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "diffuse_bounce"
 CAUGHT_BY = "contract"
-MISTAKE = None
+MISTAKE = "bounce-helper-axis"
+SAYS = "The basis comes from one fixed axis, and there is none for normals along it."
 
 
 def diffuse_bounce(normal, u):

@@ -4,7 +4,7 @@ import numpy as np
 
 FUNCTION = "diffuse_bounce"
 CAUGHT_BY = "untouched"
-MISTAKE = None
+MISTAKE = "writes-to-arguments"
 
 
 def diffuse_bounce(normal, u):

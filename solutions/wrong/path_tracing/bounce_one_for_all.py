@@ -4,7 +4,7 @@ import numpy as np
 
 FUNCTION = "diffuse_bounce"
 CAUGHT_BY = "density"
-MISTAKE = None
+MISTAKE = "not-by-its-column"
 
 
 def diffuse_bounce(normal, u):

@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "diffuse_bounce"
 CAUGHT_BY = "density"
-MISTAKE = None
+MISTAKE = "bounce-one-number"
+SAYS = "The same number decides height and turn: the directions lie on a curve."
 
 
 def diffuse_bounce(normal, u):

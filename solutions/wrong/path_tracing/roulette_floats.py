@@ -4,7 +4,7 @@ import numpy as np
 
 FUNCTION = "russian_roulette"
 CAUGHT_BY = "contract"
-MISTAKE = None
+MISTAKE = "other-dtype"
 
 
 def russian_roulette(beta, u):

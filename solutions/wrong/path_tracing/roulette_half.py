@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "russian_roulette"
 CAUGHT_BY = "survival"
-MISTAKE = None
+MISTAKE = "roulette-half"
+SAYS = "Half of the paths end, however bright they are."
 
 
 def russian_roulette(beta, u):

@@ -4,7 +4,7 @@ import numpy as np
 
 FUNCTION = "russian_roulette"
 CAUGHT_BY = "untouched"
-MISTAKE = None
+MISTAKE = "writes-to-arguments"
 
 
 def russian_roulette(beta, u):

@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "russian_roulette"
 CAUGHT_BY = "survival"
-MISTAKE = None
+MISTAKE = "roulette-one-for-all"
+SAYS = "One number decides for all paths of the batch."
 
 
 def russian_roulette(beta, u):

@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "russian_roulette"
 CAUGHT_BY = "mean"
-MISTAKE = None
+MISTAKE = "roulette-one-minus"
+SAYS = "Who survives is divided by the probability to end."
 
 
 def russian_roulette(beta, u):

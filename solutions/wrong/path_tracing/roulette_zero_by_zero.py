@@ -3,8 +3,9 @@
 import numpy as np
 
 FUNCTION = "russian_roulette"
-CAUGHT_BY = "contract"
-MISTAKE = None
+CAUGHT_BY = "dark"
+MISTAKE = "roulette-zero-by-zero"
+SAYS = "0 is divided by 0 for black paths."
 
 
 def russian_roulette(beta, u):
@@ -14,4 +15,4 @@ def russian_roulette(beta, u):
     dtype = np.result_type(beta, u)
     q = np.minimum(beta.max(axis=0), 1)
     survives = u < q
-    return survives, np.where(survives, 1, 0) * (beta / q).astype(dtype)
+    return survives, (survives * (beta / q)).astype(dtype)

@@ -4,7 +4,7 @@ import numpy as np
 
 FUNCTION = "throughput"
 CAUGHT_BY = "contract"
-MISTAKE = None
+MISTAKE = "other-dtype"
 
 
 def throughput(beta, albedo):

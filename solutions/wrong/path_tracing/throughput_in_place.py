@@ -4,7 +4,7 @@ import numpy as np
 
 FUNCTION = "throughput"
 CAUGHT_BY = "untouched"
-MISTAKE = None
+MISTAKE = "writes-to-arguments"
 
 
 def throughput(beta, albedo):

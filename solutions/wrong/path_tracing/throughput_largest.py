@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "throughput"
 CAUGHT_BY = "values"
-MISTAKE = None
+MISTAKE = "throughput-largest"
+SAYS = "One channel's albedo is taken for all."
 
 
 def throughput(beta, albedo):

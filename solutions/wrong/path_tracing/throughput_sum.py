@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "throughput"
 CAUGHT_BY = "values"
-MISTAKE = None
+MISTAKE = "throughput-sum"
+SAYS = "Throughput and albedo are added."
 
 
 def throughput(beta, albedo):

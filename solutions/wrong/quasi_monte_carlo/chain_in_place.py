@@ -4,7 +4,7 @@ import numpy as np
 
 FUNCTION = "chain"
 CAUGHT_BY = "untouched"
-MISTAKE = None
+MISTAKE = "writes-to-arguments"
 
 
 def chain(patterns, ids, rng):

@@ -4,7 +4,7 @@ import numpy as np
 
 FUNCTION = "chain"
 CAUGHT_BY = "contract"
-MISTAKE = None
+MISTAKE = "other-dtype"
 
 
 def chain(patterns, ids, rng):

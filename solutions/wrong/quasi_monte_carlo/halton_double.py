@@ -4,7 +4,7 @@ import numpy as np
 
 FUNCTION = "halton"
 CAUGHT_BY = "contract"
-MISTAKE = None
+MISTAKE = "other-dtype"
 
 
 def halton(i, dims):

@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "halton"
 CAUGHT_BY = "contract"
-MISTAKE = None
+MISTAKE = "halton-rows"
+SAYS = "A point stands in each row; the agreed shape has one in each column."
 
 
 def halton(i, dims):

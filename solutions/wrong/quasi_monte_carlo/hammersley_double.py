@@ -4,7 +4,7 @@ import numpy as np
 
 FUNCTION = "hammersley"
 CAUGHT_BY = "contract"
-MISTAKE = None
+MISTAKE = "other-dtype"
 
 
 def hammersley(n, dims):

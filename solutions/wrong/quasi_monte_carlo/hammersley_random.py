@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "hammersley"
 CAUGHT_BY = "exact"
-MISTAKE = None
+MISTAKE = "hammersley-random"
+SAYS = "The points are random numbers; those of this set are worked out from their index."
 
 
 def hammersley(n, dims):

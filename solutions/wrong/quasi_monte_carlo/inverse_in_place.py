@@ -4,7 +4,7 @@ import numpy as np
 
 FUNCTION = "radical_inverse"
 CAUGHT_BY = "untouched"
-MISTAKE = None
+MISTAKE = "writes-to-arguments"
 
 
 def radical_inverse(base, i):

@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "gather"
 CAUGHT_BY = "values"
-MISTAKE = None
+MISTAKE = "mean-reflectance"
+SAYS = "All channels reflect by the mean of their reflectances."
 
 
 def gather(radiosity, emission, reflectance, form_factors):

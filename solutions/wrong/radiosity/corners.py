@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "hemicube_form_factors"
 CAUGHT_BY = "top"
-MISTAKE = None
+MISTAKE = "hemicube-corners"
+SAYS = "The form factors are those of the cells' corners, not of their centres."
 
 
 def hemicube_form_factors(k):

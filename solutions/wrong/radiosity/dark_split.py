@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "needs_split"
 CAUGHT_BY = "dark"
-MISTAKE = None
+MISTAKE = "dark-split"
+SAYS = "Patches without light are divided: the contrast of nothing is 0."
 
 
 def needs_split(patch_radiosity, threshold):

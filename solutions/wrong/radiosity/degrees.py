@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "hemicube_form_factors"
 CAUGHT_BY = "top"
-MISTAKE = None
+MISTAKE = "hemicube-degrees"
+SAYS = "Cosines of angles are taken as if the angles were degrees."
 
 
 def hemicube_form_factors(k):

@@ -4,7 +4,7 @@ import numpy as np
 
 FUNCTION = "gather"
 CAUGHT_BY = "untouched"
-MISTAKE = None
+MISTAKE = "writes-to-arguments"
 
 
 def gather(radiosity, emission, reflectance, form_factors):

@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "hemicube_form_factors"
 CAUGHT_BY = "share"
-MISTAKE = None
+MISTAKE = "low-top"
+SAYS = "The hemicube's top is at half its height."
 
 
 def hemicube_form_factors(k):

@@ -3,8 +3,9 @@
 import numpy as np
 
 FUNCTION = "hemicube_form_factors"
-CAUGHT_BY = "contract"
-MISTAKE = None
+CAUGHT_BY = "top"
+MISTAKE = "hemicube-normalised"
+SAYS = "All form factors are scaled so that their sum is 1: it isn't for cells of finite size."
 
 
 def hemicube_form_factors(k):
@@ -16,4 +17,4 @@ def hemicube_form_factors(k):
     top = 4 / k**2 / (np.pi * (x**2 + x[:, None] ** 2 + 1) ** 2)
     side = 4 / k**2 * z / (np.pi * (x**2 + z**2 + 1) ** 2)
     total = top.sum() + 4 * side.sum()
-    return top / total, side / total
+    return (top / total).astype(np.float32), (side / total).astype(np.float32)

@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "shoot"
 CAUGHT_BY = "cleared"
-MISTAKE = None
+MISTAKE = "own-light-lost"
+SAYS = "What a patch sends to itself is cleared together with what it has sent."
 
 
 def shoot(radiosity, unshot, reflectance, areas, form_factors, shooter):

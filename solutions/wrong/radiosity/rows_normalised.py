@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "gather"
 CAUGHT_BY = "values"
-MISTAKE = None
+MISTAKE = "rows-normalised"
+SAYS = "Each row of form factors is scaled to sum to 1: rooms that are open lose no light then."
 
 
 def gather(radiosity, emission, reflectance, form_factors):

@@ -4,7 +4,7 @@ import numpy as np
 
 FUNCTION = "shoot"
 CAUGHT_BY = "untouched"
-MISTAKE = None
+MISTAKE = "writes-to-arguments"
 
 
 def shoot(radiosity, unshot, reflectance, areas, form_factors, shooter):

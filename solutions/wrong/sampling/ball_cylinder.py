@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "ball_by_rejection"
 CAUGHT_BY = "inside"
-MISTAKE = None
+MISTAKE = "cylinder"
+SAYS = "Two of three coordinates decide what is rejected: the points fill a cylinder."
 
 
 def ball_by_rejection(n, rng):

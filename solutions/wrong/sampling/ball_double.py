@@ -4,7 +4,7 @@ import numpy as np
 
 FUNCTION = "ball_by_rejection"
 CAUGHT_BY = "contract"
-MISTAKE = None
+MISTAKE = "other-dtype"
 
 
 def ball_by_rejection(n, rng):

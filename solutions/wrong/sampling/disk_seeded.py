@@ -4,7 +4,7 @@ import numpy as np
 
 FUNCTION = "disk_by_rejection"
 CAUGHT_BY = "untouched"
-MISTAKE = None
+MISTAKE = "global-random-state"
 
 
 def disk_by_rejection(n, rng):

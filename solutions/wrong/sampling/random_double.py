@@ -2,7 +2,7 @@
 
 FUNCTION = "xorshift32"
 CAUGHT_BY = "contract"
-MISTAKE = None
+MISTAKE = "other-dtype"
 
 _right = xorshift32
 

@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "xorshift32"
 CAUGHT_BY = "known"
-MISTAKE = None
+MISTAKE = "other-shifts"
+SAYS = "The shifts are others than the three of this generator."
 
 _right = xorshift32
 

@@ -4,7 +4,7 @@ import numpy as np
 
 FUNCTION = "sphere_by_polar"
 CAUGHT_BY = "uniform"
-MISTAKE = None
+MISTAKE = "not-by-its-column"
 
 _right = sphere_by_polar
 

@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "sphere_by_polar"
 CAUGHT_BY = "radius"
-MISTAKE = None
+MISTAKE = "ring-too-small"
+SAYS = "The points are nearer to the centre than 1, most of all at the equator."
 
 
 def sphere_by_polar(u):

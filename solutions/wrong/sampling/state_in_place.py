@@ -4,7 +4,7 @@ import numpy as np
 
 FUNCTION = "xorshift32"
 CAUGHT_BY = "untouched"
-MISTAKE = None
+MISTAKE = "writes-to-arguments"
 
 
 def xorshift32(state):

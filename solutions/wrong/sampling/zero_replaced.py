@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "xorshift32"
 CAUGHT_BY = "ends"
-MISTAKE = None
+MISTAKE = "zero-replaced"
+SAYS = "A state of 0 is exchanged for another; by definition 0 stays 0."
 
 _right = xorshift32
 

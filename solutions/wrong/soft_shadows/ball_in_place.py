@@ -4,7 +4,7 @@ import numpy as np
 
 FUNCTION = "point_in_ball"
 CAUGHT_BY = "untouched"
-MISTAKE = None
+MISTAKE = "writes-to-arguments"
 
 
 def point_in_ball(center, radius, u):

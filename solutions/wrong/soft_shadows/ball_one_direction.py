@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "point_in_ball"
 CAUGHT_BY = "uniform"
-MISTAKE = None
+MISTAKE = "ball-one-number"
+SAYS = "The same number decides radius and angles: the points lie on a curve in the ball."
 
 _right = point_in_ball
 

@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "point_on_facing_disk"
 CAUGHT_BY = "smooth"
-MISTAKE = None
+MISTAKE = "facing-degrees"
+SAYS = "A full turn is 360 where the cosine takes radians: neighbouring numbers land far apart."
 
 _right = point_on_facing_disk
 

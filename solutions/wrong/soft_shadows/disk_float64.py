@@ -4,7 +4,7 @@ import numpy as np
 
 FUNCTION = "point_on_facing_disk"
 CAUGHT_BY = "contract"
-MISTAKE = None
+MISTAKE = "other-dtype"
 
 _right = point_on_facing_disk
 

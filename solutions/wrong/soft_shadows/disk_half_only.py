@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "point_on_facing_disk"
 CAUGHT_BY = "uniform"
-MISTAKE = None
+MISTAKE = "facing-half-turn"
+SAYS = "The angle runs over half a turn, so half of the disk gets no point."
 
 _right = point_on_facing_disk
 

@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "point_on_facing_disk"
 CAUGHT_BY = "axes"
-MISTAKE = None
+MISTAKE = "facing-helper-axis"
+SAYS = "The basis comes from one fixed axis, and there is none where the line to the light runs along it."
 
 
 def point_on_facing_disk(center, radius, point, u):

@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "point_on_facing_disk"
 CAUGHT_BY = "at-centre"
-MISTAKE = None
+MISTAKE = "facing-centre-divides"
+SAYS = "At the light's centre the distance is 0, and it is divided by."
 
 
 def point_on_facing_disk(center, radius, point, u):

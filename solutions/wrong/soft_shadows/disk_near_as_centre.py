@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "point_on_facing_disk"
 CAUGHT_BY = "axes"
-MISTAKE = None
+MISTAKE = "facing-near-as-centre"
+SAYS = "Points that are merely near the light's centre are treated like the centre itself."
 
 _right = point_on_facing_disk
 

@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "point_on_facing_disk"
 CAUGHT_BY = "uniform"
-MISTAKE = None
+MISTAKE = "facing-one-number"
+SAYS = "The same number decides radius and angle: the points lie on a curve in the disk."
 
 _right = point_on_facing_disk
 

@@ -2,7 +2,7 @@
 
 FUNCTION = "point_on_facing_disk"
 CAUGHT_BY = "contract"
-MISTAKE = None
+MISTAKE = "other-dtype"
 
 _right = point_on_facing_disk
 

@@ -2,7 +2,8 @@
 
 FUNCTION = "light_grid"
 CAUGHT_BY = "centres"
-MISTAKE = None
+MISTAKE = "grid-one-edge"
+SAYS = "Both directions of the grid run along the first edge."
 
 _right = light_grid
 

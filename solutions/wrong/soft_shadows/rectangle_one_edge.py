@@ -2,7 +2,8 @@
 
 FUNCTION = "point_on_rectangle"
 CAUGHT_BY = "uniform"
-MISTAKE = None
+MISTAKE = "rectangle-one-edge"
+SAYS = "Both numbers move the point along the first edge: the lamp is a line."
 
 _right = point_on_rectangle
 

@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "point_on_rectangle"
 CAUGHT_BY = "contract"
-MISTAKE = None
+MISTAKE = "rectangle-rows"
+SAYS = "The numbers are read as a pair a row: u has shape (2, N), a pair a column."
 
 
 def point_on_rectangle(corner, edge_u, edge_v, u):

@@ -4,7 +4,7 @@ import numpy as np
 
 FUNCTION = "point_on_sphere"
 CAUGHT_BY = "uniform"
-MISTAKE = None
+MISTAKE = "not-by-its-column"
 
 _right = point_on_sphere
 

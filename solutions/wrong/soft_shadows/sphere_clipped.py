@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "point_on_sphere"
 CAUGHT_BY = "uniform"
-MISTAKE = None
+MISTAKE = "sphere-clipped"
+SAYS = "Numbers near 0 and 1 are cut off: there the points pile up on rims."
 
 _right = point_on_sphere
 

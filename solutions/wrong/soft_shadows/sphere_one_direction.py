@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "point_on_sphere"
 CAUGHT_BY = "uniform"
-MISTAKE = None
+MISTAKE = "sphere-one-number"
+SAYS = "The same number decides height and angle: the points lie on a curve on the sphere."
 
 _right = point_on_sphere
 

@@ -4,7 +4,7 @@ import numpy as np
 
 FUNCTION = "point_on_sphere"
 CAUGHT_BY = "columns"
-MISTAKE = None
+MISTAKE = "not-by-its-column"
 
 
 def point_on_sphere(center, radius, u):

@@ -2,7 +2,8 @@
 
 FUNCTION = "point_on_sphere"
 CAUGHT_BY = "radius"
-MISTAKE = None
+MISTAKE = "sphere-radius-squared"
+SAYS = "The points are at the radius's square from the centre: right for a radius of 1 alone."
 
 _right = point_on_sphere
 

@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "regular"
 CAUGHT_BY = "centres"
-MISTAKE = None
+MISTAKE = "regular-pixels-cells"
+SAYS = "The numbers of the pixel and of the cell within it have changed places."
 
 
 def regular(k, n):

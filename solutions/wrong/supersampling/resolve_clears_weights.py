@@ -4,7 +4,7 @@ import numpy as np
 
 FUNCTION = "resolve"
 CAUGHT_BY = "untouched"
-MISTAKE = None
+MISTAKE = "writes-to-arguments"
 
 
 def resolve(radiance, weights):

@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "resolve"
 CAUGHT_BY = "negative-weights"
-MISTAKE = None
+MISTAKE = "negative-sum-is-none"
+SAYS = "Weights whose sum is below 0 are treated like weights that sum to 0."
 
 _right = resolve
 

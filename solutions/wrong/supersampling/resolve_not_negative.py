@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "resolve"
 CAUGHT_BY = "bright"
-MISTAKE = None
+MISTAKE = "cut-at-zero"
+SAYS = "Samples below 0 are taken for 0, though they are meant to cancel others."
 
 
 def resolve(radiance, weights):

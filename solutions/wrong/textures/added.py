@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "sphere_uv"
 CAUGHT_BY = "everywhere"
-MISTAKE = None
+MISTAKE = "centre-added"
+SAYS = "The centre is added where the way from it is asked for."
 
 
 def sphere_uv(p, center):

@@ -4,7 +4,7 @@ import numpy as np
 
 FUNCTION = "rectangle_uv"
 CAUGHT_BY = "contract"
-MISTAKE = None
+MISTAKE = "other-dtype"
 
 
 def rectangle_uv(p, p1, p2, p3):

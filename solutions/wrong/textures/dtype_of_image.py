@@ -4,7 +4,7 @@ import numpy as np
 
 FUNCTION = "texture_lookup"
 CAUGHT_BY = "contract"
-MISTAKE = None
+MISTAKE = "other-dtype"
 
 
 def texture_lookup(image, uv):

@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "texture_lookup"
 CAUGHT_BY = "picture"
-MISTAKE = None
+MISTAKE = "eased-weights"
+SAYS = "The weights between texels go in and out softly; bilinear ones are proportional to the distance."
 
 
 def texture_lookup(image, uv):

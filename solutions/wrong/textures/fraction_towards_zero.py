@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "texture_lookup"
 CAUGHT_BY = "repeats"
-MISTAKE = None
+MISTAKE = "fraction-of-negative"
+SAYS = "The fraction of a negative number is taken towards 0, so it is negative itself."
 
 
 def texture_lookup(image, uv):

@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "sphere_uv"
 CAUGHT_BY = "known"
-MISTAKE = None
+MISTAKE = "v-by-whole-turn"
+SAYS = "v is divided by a whole turn; from pole to pole it is half a turn."
 
 
 def sphere_uv(p, center):

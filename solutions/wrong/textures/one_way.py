@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "texture_lookup"
 CAUGHT_BY = "picture"
-MISTAKE = None
+MISTAKE = "one-way-mix"
+SAYS = "Texels are mixed in one of the two directions only."
 
 
 def texture_lookup(image, uv):

@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "triangle_uv"
 CAUGHT_BY = "inside"
-MISTAKE = None
+MISTAKE = "weights-squared"
+SAYS = "The corners' weights are squared: they must be the areas' shares themselves."
 
 
 def triangle_uv(barycentric, uv0, uv1, uv2):

@@ -4,7 +4,7 @@ import numpy as np
 
 FUNCTION = "triangle_uv"
 CAUGHT_BY = "contract"
-MISTAKE = None
+MISTAKE = "other-dtype"
 
 
 def triangle_uv(barycentric, uv0, uv1, uv2):

@@ -4,7 +4,7 @@ import numpy as np
 
 FUNCTION = "rectangle_uv"
 CAUGHT_BY = "untouched"
-MISTAKE = None
+MISTAKE = "writes-to-arguments"
 
 
 def rectangle_uv(p, p1, p2, p3):

@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "sphere_uv"
 CAUGHT_BY = "everywhere"
-MISTAKE = None
+MISTAKE = "radius-forgotten"
+SAYS = "The point isn't divided by the radius: right for a radius of 1 alone."
 
 
 def sphere_uv(p, center):

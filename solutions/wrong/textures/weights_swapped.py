@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "texture_lookup"
 CAUGHT_BY = "picture"
-MISTAKE = None
+MISTAKE = "weights-swapped"
+SAYS = "The nearer texel gets the smaller weight."
 
 
 def texture_lookup(image, uv):

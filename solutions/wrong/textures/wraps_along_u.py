@@ -4,7 +4,8 @@ import numpy as np
 
 FUNCTION = "texture_lookup"
 CAUGHT_BY = "wraps"
-MISTAKE = None
+MISTAKE = "wraps-along-u"
+SAYS = "The picture repeats along u alone; along v it doesn't."
 
 
 def texture_lookup(image, uv):

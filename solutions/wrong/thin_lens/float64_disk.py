@@ -4,7 +4,7 @@ import numpy as np
 
 FUNCTION = "point_on_disk"
 CAUGHT_BY = "contract"
-MISTAKE = None
+MISTAKE = "other-dtype"
 
 
 def point_on_disk(u):

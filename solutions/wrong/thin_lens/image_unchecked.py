@@ -2,7 +2,7 @@
 
 FUNCTION = "image_distance"
 CAUGHT_BY = "refuses"
-MISTAKE = None
+MISTAKE = "not-refused"
 
 
 def image_distance(focal_length, object_distance):
