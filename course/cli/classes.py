@@ -34,6 +34,7 @@ trust_option = click.option(
 )
 
 _OPTIONS = (
+    click.argument("submissions", type=click.Path(path_type=Path, exists=True, file_okay=False)),
     click.option(
         "--policy",
         type=_FILE,
@@ -106,7 +107,7 @@ class ClassOptions:
 
 
 def class_options(command: Callable[..., None]) -> Callable[..., None]:
-    """Add the options to a command, which gets them together as ``options``."""
+    """Add SUBMISSIONS and the options to a command, which gets the latter together as ``options``."""
 
     @wraps(command)
     def run(**values: Any) -> None:
