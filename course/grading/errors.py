@@ -52,6 +52,8 @@ class StudentError(CourseError):
         self.kind, self.type, self.traceback = kind, type, traceback
         self.module_wide = module_wide
         self.arguments, self.remedy = arguments, remedy
+        self.example = ""
+        """The smallest call that gives no usable value, where somebody has looked for it."""
 
     @property
     def cause(self) -> str:

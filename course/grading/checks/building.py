@@ -13,12 +13,14 @@ from unittest.mock import patch
 
 import numpy as np
 
-from course.grading.checks.check import Array, Caller, Check, ModuleChecks, Trial
+from course.grading.checks.check import Array, Caller, Check, Failure, ModuleChecks, Trial
 from course.grading.checks.conventions import conventions
 from course.grading.checks.declare import Function, Law, Module
 from course.grading.checks.drawing import Draw
+from course.grading.checks.examples import fewest_columns
 from course.grading.checks.mistakes import Misconception, matching, taken
 from course.grading.checks.slips import SLIPS
+from course.grading.errors import StudentError
 from course.grading.known import Known, known, trusted
 
 SLOW = 10.0
@@ -50,12 +52,25 @@ def _check(function: Function, law: Law) -> Check:
         function.name,
         law.name,
         law.title,
-        partial(law.run, function),
+        partial(_run, function, law),
         law.kind,
         law.points,
         law.false_fail,
         role=law.role,
     )
+
+
+def _run(function: Function, law: Law, trial: Trial) -> None:
+    """Look whether a law holds; what shows that it doesn't comes with the smallest input that does."""
+    try:
+        law.run(function, trial)
+    except Failure as failure:
+        failure.example = failure.example or fewest_columns(function, trial, law) or failure.where
+        raise
+    except StudentError as error:
+        if error.kind in ("raised", "bad value") and not error.module_wide:
+            error.example = fewest_columns(function, trial, law) or error.example
+        raise
 
 
 def _speed(function: Function, trial: Trial) -> None:

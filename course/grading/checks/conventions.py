@@ -87,7 +87,11 @@ def _legal(function: Function, trial: Trial) -> Iterator[tuple[Arguments, str]]:
 
 
 def _untouched(function: Function, trial: Trial) -> None:
-    a = function.make(Draw(trial.rng, 50, np.float32))
+    for n in (3, 50):
+        _left_alone(function, trial, function.make(Draw(trial.rng, n, np.float32)))
+
+
+def _left_alone(function: Function, trial: Trial, a: Arguments) -> None:
     before = deepcopy([_arrays(value) for value in a.values()])
     _, after, moved = trial.caller.call_and_look(trial.function, *a.values())
     for name, old, new in zip(a, before, after, strict=True):
@@ -96,14 +100,16 @@ def _untouched(function: Function, trial: Trial) -> None:
             raise Failure(
                 f"{name} to be left as it was",
                 "it has been written to",
-                hint="Work on a copy.",
+                call(function.name, a),
+                "Work on a copy.",
                 slip="writes-to-arguments",
             )
     if moved:
         raise Failure(
             "NumPy's global random state to be left alone",
             "the function seeds it or draws from it",
-            hint="The random numbers are given: u, or rng.",
+            call(function.name, a),
+            "The random numbers are given: u, or rng.",
             slip="global-random-state",
         )
 
@@ -130,10 +136,10 @@ def _refuses(function: Function, trial: Trial) -> None:
                 )
             else:
                 given = Arguments(a | {argument.name: wrong})
-            _refused(trial, given, argument.name, shown)
+            _refused(function, trial, given, f"{argument.name} {shown}")
 
 
-def _refused(trial: Trial, a: Arguments, name: str, shown: str) -> None:
+def _refused(function: Function, trial: Trial, a: Arguments, shown: str) -> None:
     try:
         trial.call(*a.values())
     except StudentError as error:
@@ -143,9 +149,10 @@ def _refused(trial: Trial, a: Arguments, name: str, shown: str) -> None:
         if error.kind != "bad value":
             raise
     raise Failure(
-        f"ValueError for {name} {shown}",
+        f"ValueError for {shown}",
         "no error",
-        hint="The checks at the function's top came with the stub.",
+        call(function.name, a),
+        "The checks at the function's top came with the stub.",
         slip="not-refused",
     )
 

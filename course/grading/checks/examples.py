@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from course.grading.checks.check import Failure, Trial
-from course.grading.checks.declare import Arguments, Case, Function
+from course.grading.checks.declare import Arguments, Case, Function, Law
 from course.grading.checks.drawing import Draw
 from course.grading.errors import StudentError
 
@@ -64,6 +64,24 @@ def example(
             except Exception:  # noqa: BLE001 - a law need not hold together for so few columns
                 continue
     failure.example = failure.where
+
+
+def fewest_columns(function: Function, trial: Trial, law: Law) -> str:
+    """The smallest call, of the arguments that a law is about, that gives no usable value; empty if few columns do."""
+    for n in SMALL:
+        rng = np.random.default_rng(n)
+        small = Trial(trial.function, trial.caller, rng, trial.references)
+        a = function.make(Draw(rng, n, np.float64, simple=True), law.case)
+        try:
+            function.call(small, a)
+        except Failure as failure:
+            return f"{call(function.name, a)}: expected {failure.expected}, came {failure.found}"
+        except StudentError as error:
+            if error.kind not in ("raised", "bad value"):
+                return ""
+            told = f"{error.type}: {error}" if error.kind == "raised" else str(error)
+            return f"{call(function.name, a)}: expected a value, came {told}"
+    return ""
 
 
 def call(name: str, a: Arguments) -> str:

@@ -8,7 +8,8 @@ import numpy as np
 
 from course.grading.checks.check import Caller
 from course.grading.checks.declarations import declaration
-from course.grading.checks.declare import unstacked
+from course.grading.checks.declare import Arguments, Function, unstacked
+from course.grading.checks.examples import where
 from course.grading.errors import StudentError
 from course.grading.worker.wording import said, told
 
@@ -87,7 +88,19 @@ class Gate:
             shape = shapes[number] if shapes else None
             wrong = _wrong(part, shape, declared.results[number].finite)
             if wrong:
-                raise StudentError("bad value", f"{function} returned {wrong}", arguments=given)
+                error = StudentError("bad value", f"{function} returned {wrong}", arguments=given)
+                error.example = _column(declared, part, arguments)
+                raise error
+
+
+def _column(declared: Function, part: Any, arguments: tuple[Any, ...]) -> str:
+    """The arguments of a number that isn't finite; empty if all are."""
+    array = np.asarray(part)
+    if array.dtype.kind != "f" or np.isfinite(array).all():
+        return ""
+    names = (argument.name for argument in declared.arguments)
+    index = tuple(map(int, np.argwhere(~np.isfinite(array))[0]))
+    return where(Arguments(zip(names, arguments, strict=False)), index, array.shape)
 
 
 def _wrong(part: Any, shape: tuple[int, ...] | None, finite: bool) -> str:

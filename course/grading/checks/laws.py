@@ -17,7 +17,8 @@ from course.core.types import Words
 from course.grading.checks.check import Array, Failure, Kind, Role, Trial
 from course.grading.checks.declare import Arguments, Case, Function, Law
 from course.grading.checks.drawing import Draw
-from course.grading.checks.examples import example, where
+from course.grading.checks.examples import call, example, where
+from course.grading.checks.samples import crowded, feature_names, off_mean
 from course.grading.checks.statistics import FALSE_FAIL, check_mean, check_uniform
 
 EPSILON = float(np.finfo(np.float32).eps)
@@ -259,12 +260,16 @@ def uniform(
                 raise Failure(
                     f"{what} from 0 to 1", shown(found[:, k]), where(given, (k,), (n,)), hint
                 )
-            _check_no_atoms(found, what)
+            _check_no_atoms(found, what, given)
             if case is None and isinstance(r, np.ndarray) and r.ndim == 2:
-                _check_no_atoms(r, "coordinates of the points")
-            for row in range(alone):
-                check_uniform(found[row : row + 1], (24,), f"{what}, number {row + 1} alone", hint)
-            check_uniform(found, cells, what if not alone else f"{what}, together", hint)
+                _check_no_atoms(r, "coordinates of the points", given)
+            try:
+                for row, name in zip(range(alone), feature_names(what, len(found)), strict=False):
+                    check_uniform(found[row : row + 1], (24,), f"{name}, alone", hint)
+                check_uniform(found, cells, what if not alone else f"{what}, together", hint)
+            except Failure as failure:
+                failure.example = crowded(found, what)
+                raise
 
     comparisons = 2 * draws * (alone + 1)
     return Law(
@@ -284,10 +289,13 @@ def _check_told(function: Function, trial: Trial, a: Arguments, r: Any) -> None:
     first = np.asarray(_first(r))
     again = np.flip(again, words.index("N")) if turned else again
     slack = 1e-5 * float(np.abs(first).max(initial=0))
-    if not np.allclose(first, again, rtol=1e-4, atol=slack, equal_nan=True):
+    same = np.isclose(first, again, rtol=1e-4, atol=slack, equal_nan=True)
+    if not same.all():
+        column = tuple(int(i) for i in np.argwhere(~same)[0])
         raise Failure(
-            "the same result for the same u, wherever it stands in the batch",
-            "another result",
+            f"{result_at(first, column)} again for the same u, wherever it stands in the batch",
+            result_at(again, column),
+            where(a, column, first.shape),
             hint="All random numbers are given, and each column has its own: nothing else is to be drawn.",
             slip="not-by-its-column",
         )
@@ -297,16 +305,19 @@ ATOM = 0.003
 """Share of points that may be one: of 64,000 of single precision hardly three are."""
 
 
-def _check_no_atoms(found: Array, what: str) -> None:
+def _check_no_atoms(found: Array, what: str, a: Arguments) -> None:
     """Hardly any points share a number: what is clipped piles up where it is cut off."""
-    for number, row in enumerate(found):
+    for name, row in zip(feature_names(what, len(found)), found, strict=True):
         values, counts = np.unique(row, return_counts=True)
         most = int(counts.argmax())
         if counts[most] > max(ATOM * row.size, 3):
             raise Failure(
                 f"{what}: hardly any two alike",
-                f"number {number + 1} of them is {values[most]:.4g} for {counts[most]} of {row.size} points",
-                hint="Nothing is to be cut off, nor rounded to a grid.",
+                f"{name} is {values[most]:.4g} for {counts[most]} of {row.size} points",
+                " and ".join(
+                    where(a, (k,), row.shape) for k in np.flatnonzero(row == values[most])[:2]
+                ),
+                "Nothing is to be cut off, nor rounded to a grid.",
             )
 
 
@@ -332,7 +343,11 @@ def means(
     def run(function: Function, trial: Trial) -> None:
         a = function.make(Draw(trial.rng, n, np.float32), case)
         for what, some, mean, variance in values(exact(a), function.call(trial, a)):
-            check_mean(np.asarray(some), mean, variance, what, hint)
+            try:
+                check_mean(np.asarray(some), mean, variance, what, hint)
+            except Failure as failure:
+                failure.example = off_mean(np.asarray(some), mean, variance, what)
+                raise
 
     return Law(
         name, title, run, "core", "distribution", points, comparisons * FALSE_FAIL, case=case
@@ -360,7 +375,7 @@ def evenly(
     """
 
     def run(function: Function, trial: Trial) -> None:
-        errors = []
+        errors, off = [], []
         for number_of in COUNTS:
             word = function.argument(u_name).sizes[0]
             rows = int(word) if word.isdigit() else 1
@@ -368,9 +383,9 @@ def evenly(
             a = function.make(Draw(trial.rng, numbers.shape[1], np.float32), case)
             a[u_name] = numbers if word.isdigit() else numbers[0]
             found = np.asarray(value(exact(a), function.call(trial, a)))
-            error = found.reshape(REPEATS, number_of).mean(axis=1) - exact_mean
-            errors.append(float(np.sqrt((error**2).mean())))
-        _check_centred(error, exact_mean)
+            off.append(found.reshape(REPEATS, number_of).mean(axis=1) - exact_mean)
+            errors.append(float(np.sqrt((off[-1] ** 2).mean())))
+        _check_centred(off, exact_mean)
         check_order(errors, least)
 
     return Law(
@@ -391,17 +406,28 @@ ROUNDED = 4e-6
 """Of single precision, in a mean of numbers around 1."""
 
 
-def _check_centred(errors: Array, exact_mean: float) -> None:
-    """Means over sets that are scrambled independently are right on average: a t-test."""
-    off = float(errors.mean())
-    bound = SKEWED * float(errors.std(ddof=1)) / np.sqrt(errors.size) + ROUNDED
-    if not abs(off) <= bound:
-        raise Failure(
-            f"a mean of {exact_mean:.6g} within {bound:.1g}",
-            f"{exact_mean + off:.6g}",
-            f"{errors.size} sets of {COUNTS[-1]} evenly placed points",
+def _check_centred(off: list[Array], exact_mean: float) -> None:
+    """Means over sets that are scrambled independently, of the largest size, are right on average: a t-test."""
+    skews, bounds = np.array([_skew(errors) for errors in off]).T
+    if not abs(skews[-1]) <= bounds[-1]:
+        first = int((~(np.abs(skews) <= bounds)).argmax())
+        failure = Failure(
+            f"a mean of {exact_mean:.6g} within {bounds[-1]:.1g}",
+            f"{exact_mean + skews[-1]:.6g}",
+            f"{REPEATS} sets of {COUNTS[-1]} evenly placed points",
             "The mean is off, whatever the number of points: somewhere there are too many, or none.",
         )
+        failure.example = (
+            f"{REPEATS} sets of {COUNTS[first]} evenly placed points: a mean of {exact_mean:.4g} expected, "
+            f"{exact_mean + skews[first]:.4g} came"
+        )
+        raise failure
+
+
+def _skew(errors: Array) -> tuple[float, float]:
+    """How far means are off on average, and how far they may be."""
+    bound = SKEWED * float(errors.std(ddof=1)) / np.sqrt(errors.size) + ROUNDED
+    return float(errors.mean()), bound
 
 
 def check_order(errors: list[float], least: float, hint: str = "") -> None:
@@ -418,12 +444,21 @@ def check_order(errors: list[float], least: float, hint: str = "") -> None:
         hint = hint or "The mean itself is off, whatever the number of points: that comes first."
     hint = hint or "Neighbouring u should go to neighbouring points, and only u may decide where."
     pairs = zip(COUNTS, errors, strict=True)
-    raise Failure(
+    failure = Failure(
         f"the error of a mean to fall with N^-{least} or faster",
         f"N^-{order:.2f}",
         ", ".join(f"{error:.2g} at N = {number_of}" for number_of, error in pairs),
         hint,
     )
+    for k in range(len(errors) - 1):
+        goal = errors[k] * (COUNTS[k] / COUNTS[k + 1]) ** least
+        if errors[k + 1] > goal:
+            failure.example = (
+                f"from N = {COUNTS[k]} to {COUNTS[k + 1]} the error goes from {errors[k]:.2g} to "
+                f"{errors[k + 1]:.2g}; {goal:.2g} or less was expected"
+            )
+            break
+    raise failure
 
 
 def fitted(errors: list[float]) -> float:
@@ -465,10 +500,11 @@ def smooth(limit: float, *, case: Case | None = None, u_name: str = "u") -> Law:
             # Where a warp has a seam some points jump; half of them never do.
             typical = float(np.median(far))
             if not typical <= limit:
+                k = int(np.argsort(far)[far.size // 2])
                 raise Failure(
                     f"a small step of {u_name} to move a point at most {limit:g} times as far",
                     f"{typical:.4g} times as far for most points",
-                    f"row {row} of {u_name}, steps of {step:.2g}",
+                    f"{where(a, (k,), (numbers.shape[-1],))}, and {step:.2g} less in row {row}",
                     "Are all angles in radians, and used once?",
                 )
 
@@ -499,13 +535,15 @@ def from_generator(argument: str = "rng") -> Law:
             raise Failure(
                 "the same result from generators with the same seed",
                 "another result",
-                hint="All random numbers come from the generator that is handed in.",
+                call(function.name, a),
+                "All random numbers come from the generator that is handed in.",
             )
         if _equal(first, other):
             raise Failure(
                 "another result from a generator with another seed",
                 "the same result",
-                hint="The generator that is handed in has to be used.",
+                call(function.name, a),
+                "The generator that is handed in has to be used.",
             )
 
     return Law("from_rng", "All random numbers come from the generator", run, "corner")

@@ -87,9 +87,10 @@ def troubled(module: str, check: Check, error: StudentError) -> Result:
             None, (error.traceback.rstrip(), error.arguments and f"arguments: {error.arguments}")
         )
     )
-    return result_of(
+    result = result_of(
         module, check, status, expected=expected, found=found, where=where, hint=error.remedy
     )
+    return replace(result, example=error.example)
 
 
 BROKEN = "the check itself broke"

@@ -215,7 +215,10 @@ def _ended(module: str, check: Check, trial: Trial, references: References) -> _
             hint=failure.hint,
         )
         result = replace(
-            result, example=failure.example, mistake=failure.slip, says=SLIPS.get(failure.slip, "")
+            result,
+            example=failure.example or failure.where,
+            mistake=failure.slip,
+            says=SLIPS.get(failure.slip, ""),
         )
     except StudentError as error:
         result, trouble = troubled(module, check, error), error

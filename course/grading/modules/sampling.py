@@ -98,7 +98,8 @@ def _acceptance(rows: int) -> Law:
                 f"{least:.0f} to {most:.0f} candidates drawn for {MANY} points, since"
                 f" {ACCEPTED[rows]:.4f} of them are accepted",
                 f"as many numbers as {found:.0f} candidates take",
-                hint="Points of the square or cube are drawn from rng, and others for those outside.",
+                f"{function.name}(n = {MANY}, rng = a generator)",
+                "Points of the square or cube are drawn from rng, and others for those outside.",
             )
 
     title = f"As many candidates are drawn as pi / {4 if rows == 2 else 6} of them accepted takes"

@@ -277,11 +277,16 @@ HINT = "It is 1 in the pixel's middle and falls with the squared distance from t
 def _by_default(function: Function, trial: Trial) -> None:
     a = function.make(Draw(trial.rng, 100))
     found = function.seen(trial.call(a.offsets), a)
-    off = float(np.abs(found - _gaussian(exact(a), 1 / 6)).max())
-    if off > 16 * EPSILON:
-        hint = "Three sigma reach from the pixel's middle to its edge."
+    expected = _gaussian(exact(a), 1 / 6)
+    off = np.abs(found - expected)
+    if off.max() > 16 * EPSILON:
+        worst = np.unravel_index(int(off.argmax()), off.shape)
+        x, y = a.offsets[:, *worst]
         raise Failure(
-            "without sigma, weights for 1/6", f"weights that are off by {off:.3g}", "", hint
+            f"without sigma the weight for 1/6, {expected[worst]:.4g}",
+            f"{found[worst]:.4g}",
+            f"one sample with offsets ({x:.4g}, {y:.4g})",
+            "Three sigma reach from the pixel's middle to its edge.",
         )
 
 

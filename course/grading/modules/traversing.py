@@ -174,7 +174,8 @@ def _few(r: Any, triangles: int) -> None:
         raise Failure(
             f"at most {MOST} tests a ray, for {triangles:,} triangles",
             f"{tests:.0f}",
-            hint="A ray goes down only into boxes that it meets.",
+            f"{r[2].size} rays",
+            "A ray goes down only into boxes that it meets.",
         )
 
 
