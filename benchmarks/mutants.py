@@ -184,15 +184,20 @@ def _by_module(
 
 
 def kills(modules: Sequence[str], verdicts: Sequence[Verdict]) -> Table:
-    """How many right and wrong submissions of each module there are, and who is told the mistake."""
+    """How many submissions of each module are judged rightly, and what is told to those who are wrong."""
 
     def row(name: str, some: Sequence[Verdict]) -> tuple[str, ...]:
-        wrong = [verdict for verdict in some if not verdict.submission.right]
-        told = sum(bool(verdict.told) for verdict in wrong)
-        return name, *map(str, (len(some) - len(wrong), len(wrong), told))
+        wrong = [one for one in some if not one.submission.right]
+        rightly = sum(bool(one.told) and one.told == one.submission.mistake for one in wrong)
+        wrongly = sum(one.told not in ("", one.submission.mistake) for one in wrong)
+        failing = [r for one in wrong for r in one.results if r.status is Status.FAILED]
+        shown = sum(bool(result.example) for result in failing)
+        numbers = (len(some) - len(wrong), len(wrong), rightly, wrongly, len(failing), shown)
+        return name, *map(str, numbers)
 
     rows = _by_module(modules, verdicts, row)
-    columns = ("module", "right", "wrong", "of which told their mistake")
+    columns = ("module", "right", "wrong", "named rightly", "named wrongly")
+    columns += ("failing checks", "with their smallest input")
     return Table("", columns, (*rows, row(TOGETHER, verdicts)))
 
 

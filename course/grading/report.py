@@ -114,7 +114,7 @@ def findings(result: Result, rungs: int = RUNGS) -> list[tuple[str, str]]:
     rungs : of the ladder, how many to go down: the first says which law is broken, the second shows the smallest
         input that breaks it, the third says which known mistake it looks like
     """
-    smallest = result.example if result.example != result.where else ""
+    smallest = "" if result.example in result.where else result.example
     ladder = (
         (
             ("expected", result.expected),

@@ -90,7 +90,7 @@ def troubled(module: str, check: Check, error: StudentError) -> Result:
     result = result_of(
         module, check, status, expected=expected, found=found, where=where, hint=error.remedy
     )
-    return replace(result, example=error.example)
+    return replace(result, example=error.example or error.arguments)
 
 
 BROKEN = "the check itself broke"
