@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import zipfile
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from functools import partial
 from io import BytesIO
 from itertools import count
@@ -33,7 +34,9 @@ def declared(module: Module) -> ModuleChecks:
     """All checks of a declared module."""
     checks = []
     for function in module.functions:
-        checks += [_check(function, law) for law in (*conventions(function), *function.laws)]
+        besides = (replace(o.beside, name=f"{o.name}-alike") for o in function.laws if o.beside)
+        laws = (*conventions(function), *function.laws, *besides)
+        checks += [_check(function, law) for law in laws]
         if function.speed:
             run = partial(_speed, function)
             title = "Its time beside the reference's (advice)"

@@ -161,6 +161,7 @@ class Law:
     name, title : as a check has them
     run : raises ``Failure``
     case : what it calls the function with, where mistakes that break it show; None if that is any case
+    beside : a law that always comes with it
     """
 
     name: str
@@ -171,6 +172,7 @@ class Law:
     points: float = 1.0
     false_fail: float = 0.0
     case: Case | None = None
+    beside: Law | None = None
 
 
 @dataclass(frozen=True)

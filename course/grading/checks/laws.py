@@ -260,9 +260,6 @@ def uniform(
                 raise Failure(
                     f"{what} from 0 to 1", shown(found[:, k]), where(given, (k,), (n,)), hint
                 )
-            _check_no_atoms(found, what, given)
-            if case is None and isinstance(r, np.ndarray) and r.ndim == 2:
-                _check_no_atoms(r, "coordinates of the points", given)
             try:
                 for row, name in zip(range(alone), feature_names(what, len(found)), strict=False):
                     check_uniform(found[row : row + 1], (24,), f"{name}, alone", hint)
@@ -272,9 +269,24 @@ def uniform(
                 raise
 
     comparisons = 2 * draws * (alone + 1)
-    return Law(
-        name, title, run, "core", "distribution", points, comparisons * FALSE_FAIL, case=case
-    )
+    chance = comparisons * FALSE_FAIL
+    alike = _none_alike(features, what, case, n)
+    return Law(name, title, run, "core", "distribution", points, chance, case=case, beside=alike)
+
+
+def _none_alike(
+    features: Callable[[Arguments, Any], Array], what: str, case: Case | None, n: int
+) -> Law:
+    """Hardly any points share a number: what is clipped piles up where it is cut off, in a corner only."""
+
+    def run(function: Function, trial: Trial) -> None:
+        a = function.make(Draw(trial.rng, n, np.float32), case)
+        r = function.call(trial, a)
+        _check_no_atoms(np.asarray(features(exact(a), r)), what, a)
+        if case is None and isinstance(r, np.ndarray) and r.ndim == 2:
+            _check_no_atoms(r, "coordinates of the points", a)
+
+    return Law("alike", "Hardly any points share a number", run, "corner", "property", case=case)
 
 
 def _check_told(function: Function, trial: Trial, a: Arguments, r: Any) -> None:

@@ -3,7 +3,7 @@
 import numpy as np
 
 FUNCTION = "point_on_sphere"
-CAUGHT_BY = "uniform"
+CAUGHT_BY = "uniform-alike"
 MISTAKE = "sphere-clipped"
 SAYS = "Numbers near 0 and 1 are cut off: there the points pile up on rims."
 

@@ -29,7 +29,8 @@ def declared(law: Law) -> Function:
 
 
 def run(law: Law, function: Callable[..., Any], seed: int = 0) -> None:
-    law.run(declared(law), trial(function, "same", seed))
+    for each in filter(None, (law, law.beside)):
+        each.run(declared(each), trial(function, "same", seed))
 
 
 SAME: dict[str, tuple[Law, Callable[[Any], Any]]] = {
