@@ -7,6 +7,10 @@ class CourseError(Exception):
     """A mistake in what the user gave; its message is shown without a traceback."""
 
 
+class CourseWarning(UserWarning):
+    """Something doubtful in the input, and what has been made of it; the message names the place."""
+
+
 class SceneError(CourseError):
     """A scene file that can't be rendered; the message names file, line and key path."""
 

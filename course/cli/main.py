@@ -7,14 +7,16 @@ Exit codes: 0 done, 1 refused (a mistake in the input, told in one message), 2 w
 from __future__ import annotations
 
 import sys
+import warnings
 from importlib import import_module
 from io import TextIOWrapper
+from typing import TextIO
 
 import click
 
 from course import __version__
 from course.cli.options import INTERRUPTED
-from course.errors import CourseError
+from course.errors import CourseError, CourseWarning
 
 COMMANDS = (
     "render",
@@ -63,7 +65,10 @@ class Commands(click.Group):
     def invoke(self, ctx: click.Context) -> object:
         """Run a command; what the user can mend becomes a message, anything else is a defect."""
         try:
-            return super().invoke(ctx)
+            with warnings.catch_warnings():
+                warnings.simplefilter("always", CourseWarning)
+                warnings.showwarning = _told
+                return super().invoke(ctx)
         except (CourseError, NotImplementedError) as error:
             raise Refusal(str(error)) from error
         except MemoryError as error:
@@ -71,6 +76,20 @@ class Commands(click.Group):
         except KeyboardInterrupt:
             click.echo("interrupted", err=True)
             raise click.exceptions.Exit(INTERRUPTED) from None
+
+
+def _told(
+    message: Warning | str,
+    category: type[Warning],
+    filename: str,
+    lineno: int,
+    file: TextIO | None = None,
+    line: str | None = None,
+) -> None:
+    """Print what is doubtful in the input in a line; other warnings look as they always do."""
+    ours = issubclass(category, CourseWarning)
+    text = warnings.formatwarning(message, category, filename, lineno, line)
+    click.echo(f"warning: {message}" if ours else text.rstrip(), file=file, err=True)
 
 
 @click.group(

@@ -12,7 +12,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from course.errors import GeometryError, OutputError
+from course.errors import CourseWarning, GeometryError, OutputError
 from course.geometry.joining import join
 from course.geometry.mesh import Mesh
 from course.geometry.mesh_formats import Part, parse_stl
@@ -39,7 +39,8 @@ def read_mesh(path: Path, weights: Weights = "angle") -> Mesh:
     Normals and uv are the file's where it has them. Without normals, triangles that share a vertex
     are smooth; vertices that only lie at the same place, as in every STL file, are smooth up to a
     crease of 40 degrees (`smooth_normals`), unless faces weigh by their areas (`area_normals`).
-    Triangles without area are let through.
+    Triangles without area are let through. Where the file has normals they say which side is out:
+    triangles that are wound the other way are turned, and a `CourseWarning` says how many.
 
     Parameters
     ----------
@@ -160,32 +161,52 @@ def _checked(name: str, part: Part, weights: Weights) -> Mesh:
         )
     if len(vertices) <= np.iinfo(np.int32).max:
         triangles = triangles.astype(np.int32)
-    return Mesh(
-        vertices=vertices,
-        triangles=triangles,
-        normals=_normals(name, part, vertices, weights),
-        uv=_uv(name, part, len(vertices)),
-    )
+    normals, given = _normals(name, part, len(vertices))
+    if given.any():
+        triangles = _outwards(name, vertices, triangles, normals)
+    if not given.all():
+        compute = area_normals if weights == "area" else smooth_normals
+        normals = np.where(given, normals, compute(vertices, triangles))
+    return Mesh(vertices, triangles, normals, _uv(name, part, len(vertices)))
 
 
-def _normals(
-    name: str, part: Part, vertices: NDArray[np.float64], weights: Weights
-) -> NDArray[np.float64]:
-    """Return unit normals: the file's, and computed ones where it has none or they are zero."""
-    compute = area_normals if weights == "area" else smooth_normals
+def _normals(name: str, part: Part, count: int) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+    """Return the file's normals (V, 3), made unit or 0, and (V, 1) which vertices have one."""
     if part.normals is None:
-        return compute(vertices, part.triangles)
+        return np.zeros((count, 3)), np.zeros((count, 1), bool)
     normals = np.array(part.normals, np.float64)
-    if normals.shape != vertices.shape:
-        raise GeometryError(f"{name}: {len(normals)} normals for {len(vertices)} vertices")
+    if normals.shape != (count, 3):
+        raise GeometryError(f"{name}: {len(normals)} normals for {count} vertices")
     _check_finite(name, "normal", normals)
-    largest = np.max(np.abs(normals), axis=1, keepdims=True)
-    if not np.all(largest > 0.0):
-        computed = compute(vertices, part.triangles)
-        normals = np.where(largest > 0.0, normals, computed)
-        largest = np.max(np.abs(normals), axis=1, keepdims=True)
-    normals /= largest
-    return np.asarray(normals / np.sqrt(np.sum(normals * normals, axis=1, keepdims=True)))
+    largest = np.max(np.abs(normals), axis=1, keepdims=True, initial=0.0)
+    given = largest > 0.0
+    normals /= np.where(given, largest, 1.0)
+    normals /= np.where(given, np.sqrt(np.sum(normals * normals, axis=1, keepdims=True)), 1.0)
+    return normals, given
+
+
+def _outwards(
+    name: str,
+    vertices: NDArray[np.float64],
+    triangles: NDArray[np.integer],
+    normals: NDArray[np.float64],
+) -> NDArray[np.integer]:
+    """Return triangles that look where the sum of their corners' normals does; warn of those that were turned."""
+    p0, p1, p2 = (vertices[triangles[:, corner]] for corner in range(3))
+    sides = p1 - p0, p2 - p0
+    # A triangle of any size: only the sign of the product counts.
+    size = np.max(np.abs(sides), axis=(0, 2), initial=0.0)[:, None]
+    ahead = np.cross(*(side / np.where(size > 0.0, size, 1.0) for side in sides))
+    wrong = np.sum(ahead * normals[triangles].sum(axis=1), axis=1) < 0.0
+    if not wrong.any():
+        return triangles
+    warnings.warn(
+        f"{name}: {np.count_nonzero(wrong):,} of {len(wrong):,} triangles are wound against their "
+        "normals; they were turned, so that the normals' side is the outside",
+        CourseWarning,
+        stacklevel=2,
+    )
+    return np.where(wrong[:, None], triangles[:, [0, 2, 1]], triangles)
 
 
 def _uv(name: str, part: Part, count: int) -> NDArray[np.float64] | None:

@@ -166,6 +166,7 @@ def test_uv_are_not_taken_for_normals(tmp_path: Path) -> None:
     assert mesh.normals[mesh.triangles].tolist() == [[[1, 0, 0]] * 3, [[0, 0, 1]] * 3]
 
 
+@pytest.mark.filterwarnings("ignore::course.errors.CourseWarning")
 @pytest.mark.parametrize("form", ["{}//{}", "{}/1/{}"])
 @pytest.mark.parametrize("corners", [(1, 2, 3), (1, 2, 3, 4)])
 def test_faces_that_meet_keep_their_own_normals(
