@@ -119,8 +119,9 @@ def findings(result: Result, rungs: int = RUNGS) -> list[tuple[str, str]]:
         (
             ("expected", result.expected),
             ("found", result.found),
-            # Where there is a smaller input that shows it, the worst one of thousands says no more.
-            ("where", "" if smallest else result.where),
+            # Where there is a smaller input that shows it, the worst one of thousands says no more; an exception's
+            # lines do.
+            ("where", "" if smallest and "\n" not in result.where else result.where),
             ("the same as", result.same_as),
             ("hint", result.hint),
         ),
