@@ -11,21 +11,14 @@ from typing import Any
 
 import numpy as np
 
+from course.grading.checks import declare
 from course.grading.checks.check import Array, Trial
-from course.grading.checks.declare import (
-    Argument,
-    Arguments,
-    Case,
-    Function,
-    Module,
-    Result,
-    number,
-    u,
-)
+from course.grading.checks.declare import Argument, Arguments, Case, Function, Module, Result
 from course.grading.checks.drawing import Draw, worst_directions, worst_units
 from course.grading.checks.laws import close, holds, unit_length, within
 from course.grading.checks.vectors import cross, dot
 from course.grading.checks.weights import WHOLE
+from course.grading.modules.squares import no_jitter, offsets, square
 
 MARGIN = 1e-3
 """How near to 1 the sines of refracted rays come."""
@@ -101,11 +94,12 @@ def _through(draw: Draw) -> Mapping[str, Any]:
     return _boundary(eta, draw.uniform(0, 0.98, draw.n) * np.minimum(1, 1 / eta), draw)
 
 
-def _straight(draw: Draw) -> Mapping[str, Any]:
-    """Straight on with any eta, or between equal media."""
-    straight = draw.rng.random(draw.n) < 0.5
-    sine = np.where(straight, 0, draw.uniform(0, 0.95, draw.n))
-    return _boundary(np.where(straight, draw.uniform(0.1, 10, draw.n), 1), sine, draw)
+def _ends(draw: Draw) -> Mapping[str, Any]:
+    """Straight on with any eta, between equal media, or along the surface into a denser one."""
+    straight, equal = draw.rng.random((2, draw.n)) < 1 / 3
+    eta = np.where(straight, draw.uniform(0.1, 10, draw.n), draw.uniform(0.1, 0.9, draw.n))
+    sine = np.where(equal, draw.uniform(0, 0.95, draw.n), 1 - draw.uniform(0, 0.01, draw.n))
+    return _boundary(np.where(equal, 1, eta), np.where(straight, 0, sine), draw)
 
 
 def _sine(a: Arguments) -> Array:
@@ -129,7 +123,11 @@ def _beyond(a: Arguments, r: Any) -> tuple[Any, ...]:
 
 
 def _bent(name: str, title: str, hint: str, case: Case | None, **how: Any) -> Any:
-    usual: dict[str, Any] = {"role": "corner", "what": "x, y, z or total of", "case": case}
+    usual: dict[str, Any] = {
+        "role": "corner",
+        "what": "direction (rows 0 to 2) or total (3):",
+        "case": case,
+    }
     return close(name, title, _beyond, hint, **(usual | how))
 
 
@@ -150,16 +148,10 @@ REFRACT = Function(
             role="corner",
         ),
         _bent(
-            "straight",
-            "Nothing is bent along the normal, nor between equal media",
-            "A ray along the normal is not bent, and with eta 1 no ray is.",
-            _straight,
-        ),
-        _bent(
-            "grazing",
-            "Rays along the surface are bent into a denser medium",
-            "Flat rays are bent most: sin_t = eta there.",
-            lambda d: _boundary(d.number(0.1, 0.9), 1 - d.uniform(0, 0.01, d.n), d),
+            "ends",
+            "Along the normal and between equal media nothing is bent, along the surface most",
+            "Straight on, or with eta 1, a ray stays as it was; along the surface sin_t = eta.",
+            _ends,
         ),
         _bent(
             "snell",
@@ -179,7 +171,7 @@ REFRACT = Function(
         _bent(
             "each",
             "Each ray may have an eta of its own",
-            "Each ray has its own eta here, and is bent or mirrored on its own.",
+            "With an array of etas each ray is bent or mirrored by its own.",
             lambda d: _boundary(*_each_eta(d), d),
         ),
     ),
@@ -213,26 +205,14 @@ def _steep(draw: Draw) -> Mapping[str, Any]:
     }
 
 
-def _offsets(a: Arguments, r: Array) -> Array:
-    """From the directions' tips to where the jittered ones meet the planes at right angles to them there."""
-    with np.errstate(divide="ignore", invalid="ignore"):
-        return np.asarray(r / dot(r, a.direction) - a.direction)
-
-
-def _square(a: Arguments, r: Array) -> tuple[Any, ...]:
-    """All dot products of a ray's offsets, which stay the same however its square is turned or mirrored."""
-    offsets, places = _offsets(a, r), a.roughness * (a.u - 0.5)
-    return offsets.T @ offsets, places.T @ places, a.roughness * (1 + a.roughness)
-
-
 def _shown(trial: Trial, a: Arguments, r: Array) -> None:
     """Where the offsets lie in the square that fits them best."""
-    offsets = _offsets(a, r)
-    if np.isfinite(offsets).all():
+    found = offsets(a, r)
+    if np.isfinite(found).all():
         design = np.concatenate((a.u - 0.5, np.ones((1, a.u.shape[1]))))
-        sides = np.linalg.lstsq(design.T, offsets.T, rcond=None)[0][:2]
+        sides = np.linalg.lstsq(design.T, found.T, rcond=None)[0][:2]
         sides /= np.maximum(np.linalg.norm(sides, axis=1, keepdims=True), 1e-30)
-        places = sides @ offsets / a.roughness + 0.5
+        places = sides @ found / a.roughness + 0.5
         inside = (np.abs(places - 0.5) <= 0.5).all(axis=0)
         trial.show("points", "where yours meet the square", yours=places[:, inside])
 
@@ -241,16 +221,15 @@ def _out_of_square(a: Arguments, r: Array) -> tuple[Any, ...]:
     """How wrong offsets are in length: what came, or what it was before it was mirrored, if that was above."""
     size = a.roughness * np.linalg.norm(a.u - 0.5, axis=0)
     before = r - 2 * dot(r, a.normal) * a.normal
-    off, off_before = (np.abs(np.linalg.norm(_offsets(a, j), axis=0) - size) for j in (r, before))
-    came_back = (dot(before, a.normal) >= 0) & (dot(before, a.direction) > 0)
-    # Of what comes out behind the direction itself nothing can be said but that it is wrong.
-    off = np.where(dot(r, a.direction) > 0, off, inf)
+    off, off_before = (np.abs(np.linalg.norm(offsets(a, j), axis=0) - size) for j in (r, before))
+    # What comes out behind the direction itself has no offset, and is wrong.
+    came_back = dot(before, a.normal) >= 0
     return np.where(came_back, np.fmin(off, off_before), off), 0.0, 1 + a.roughness**2
 
 
 def _features(a: Arguments, r: Array) -> Array:
     """What a turn or a mirror image of the square leaves alone."""
-    size = np.linalg.norm(_offsets(a, r), axis=0) / a.roughness
+    size = np.linalg.norm(r / dot(r, a.direction) - a.direction, axis=0) / a.roughness
     return np.stack((size, dot(r, a.direction), dot(r, a.normal), np.linalg.norm(r, axis=0)))
 
 
@@ -259,8 +238,8 @@ JITTER_REFRACTION = Function(
     (
         _vectors("direction"),
         _vectors("normal"),
-        number("roughness", 0.05, 2, (-1.0, -1e-6, nan)),
-        u(2),
+        declare.number("roughness", 0.05, 2, (-1.0, -1e-6, nan)),
+        declare.u(2),
     ),
     (Result("the directions", "3 N"),),
     (
@@ -280,32 +259,18 @@ JITTER_REFRACTION = Function(
             "mirrored",
             "What came back is mirrored in the surface, the rest left as it was",
             _out_of_square,
-            "The part along the normal changes its sign if it is positive; the rest stays.",
+            "Where the part along the normal is positive its sign changes; nothing else does.",
             what="from the place in the square, directly or by way of the mirror, a distance of",
             within=100,
             case=_far(_flat, 0.5, 0.9, 2.0),
             scales=(1.0,) * 3,
             role="corner",
         ),
-        close(
-            "no_jitter",
-            "Roughness 0 gives the direction",
-            lambda a, r: (r, a.direction, 1.0),
-            "Nothing is to be added then.",
-            what="with roughness 0, the direction itself:",
-            within=4,
-            case=_far(_flat, 0.0),
-            role="corner",
-        ),
-        close(
+        no_jitter("roughness", _far(_flat)),
+        square(
             "square",
             "The jitter is a square of side roughness around the refracted direction",
-            _square,
-            "The square lies around the direction, a side for each number, at right angles, as long as roughness.",
-            what="between the offsets of two jittered directions a dot product of",
-            within=40,
             case=_steep,
-            n=300,
             scales=(1.0,) * 2,
             figure=_shown,
             points=WHOLE,
@@ -328,9 +293,17 @@ def _cosines(eta: Any, sine: Array) -> Mapping[str, Any]:
 ENDS = (0.0, 1e-30, 1e-9, 0.5, 1 - 2.0**-24, 1.0, 1 + 2.0**-23, -1e-7)
 
 
-def _ends(dtype: Any) -> Array:
+def _worst_cosines(dtype: Any) -> Array:
     """Cosines along and at right angles to the surface, and what rounding puts beyond them."""
     return np.array(ENDS, dtype)
+
+
+def _flat_or_straight(draw: Draw) -> Mapping[str, Any]:
+    """Straight on with any eta, between equal media, or along the surface."""
+    straight, equal = draw.rng.random((2, draw.n)) < 1 / 3
+    eta = np.where(straight, draw.uniform(0.1, 10, draw.n), draw.uniform(0.3, 3, draw.n))
+    cos_i = np.where(equal, draw.uniform(0.1, 1, draw.n), draw.rng.choice((0, 1e-9), draw.n))
+    return {"eta": np.where(equal, 1, eta), "cos_i": np.where(straight, 1, cos_i)}
 
 
 def _amplitudes(a: Arguments, r: Array) -> tuple[Any, ...]:
@@ -350,7 +323,7 @@ def _reflected(name: str, title: str, hint: str, case: Case, **how: Any) -> Any:
 
 FRESNEL = Function(
     "fresnel",
-    (Argument("cos_i", "N", lambda d: d.units(1)[0], corners=_ends), _eta()),
+    (Argument("cos_i", "N", lambda d: d.units(1)[0], corners=_worst_cosines), _eta()),
     (Result("the reflectance", "N"),),
     (
         within(
@@ -365,25 +338,10 @@ FRESNEL = Function(
             case=lambda d: {"cos_i": d.rng.choice(ENDS, d.n)},
         ),
         _reflected(
-            "straight",
-            "Straight on, the reflectance is ((n - 1) / (n + 1))^2",
-            "Straight on, both polarisations are reflected alike: ((n - 1) / (n + 1))^2.",
-            lambda d: _cosines(d.number(0.1, 10), np.zeros(d.n)),
-            scales=(1.0,) * 4,
-        ),
-        close(
-            "grazing",
-            "Along the surface all is reflected, and without a boundary nothing",
-            lambda a, r: (r, np.where(a.cos_i < 1e-3, 1.0, 0.0), 1.0),
-            "Seen flat enough, every surface is a mirror; and with eta 1 there is no boundary.",
-            what="along the surface, or between equal media, a reflectance of",
-            case=lambda d: (
-                _cosines(1.0, d.uniform(0, 0.99, d.n))
-                if d.rng.random() < 0.5
-                else {"cos_i": d.rng.choice((0.0, 1e-9), d.n)}
-            ),
-            scales=(1.0,) * 6,
-            role="corner",
+            "ends",
+            "Straight on, along the surface and between equal media the reflectance is right",
+            "Straight on both polarisations give ((n - 1) / (n + 1))^2; the surface seen flat is a mirror.",
+            _flat_or_straight,
         ),
         _reflected(
             "exact",
@@ -403,7 +361,7 @@ FRESNEL = Function(
         _reflected(
             "each",
             "Each ray may have an eta of its own",
-            "Each ray has its own eta here.",
+            "With an array of etas each ray is reflected by its own, totally or not.",
             lambda d: _cosines(*_each_eta(d)),
         ),
     ),

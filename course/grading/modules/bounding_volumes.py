@@ -142,7 +142,7 @@ SLAB_TEST = Function(
             "Boxes without thickness are met",
             _spans,
             "A triangle along an axis has a box without thickness.",
-            what="of a box without thickness, t_near or t_far",
+            what="of a box without thickness, t_near (row 0) or t_far (1):",
             case=_through(thin=True),
             role="corner",
         ),
@@ -151,7 +151,7 @@ SLAB_TEST = Function(
             "Lines through boxes enter at t_near and leave at t_far",
             _spans,
             "In the box is between all three pairs of faces at once; behind the origin t is negative.",
-            what="t_near or t_far",
+            what="t_near (row 0) or t_far (1):",
             scales=SCALES,
         ),
     ),
@@ -277,11 +277,7 @@ BUILD = Function(
         Argument("lo", "3 T", lambda d: d.lengths(-1, 0, 3, d.n), (EMPTY,)),
         Argument("hi", "3 T", lambda d: d.lengths(0, 1, 3, d.n)),
         Argument(
-            "leaf_size",
-            "",
-            lambda d: int(d.rng.integers(1, 6)),
-            (0, -1, 1.5, nan),
-            batch=False,
+            "leaf_size", "", lambda d: int(d.rng.integers(1, 6)), (0, -1, 1.5, nan), batch=False
         ),
     ),
     (

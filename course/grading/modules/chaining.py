@@ -84,7 +84,11 @@ def _permutations(function: Function, trial: Trial) -> Array:
         a = Arguments(patterns=patterns, ids=np.arange(3), rng=trial.generator())
         for k, taken in enumerate(_taken(a, function.call(trial, deepcopy(a))).tolist()):
             if tuple(taken) not in ORDERS:
-                raise Failure(f"rays 0, 1, 2 to have pattern {k}'s samples, each one", f"{taken}")
+                found_of = ", ".join("none" if one < 0 else str(one) for one in taken)
+                expected = (
+                    f"rays 0, 1 and 2 to have samples 0, 1 and 2 of pattern {k}, in any order"
+                )
+                raise Failure(expected, f"samples {found_of}")
             found.append(ORDERS[tuple(taken)])
     return np.reshape(found, (CALLS, len(ROWS)))
 

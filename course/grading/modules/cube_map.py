@@ -9,15 +9,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from course.grading.checks.check import Array, Role, Trial
-from course.grading.checks.declare import (
-    Argument,
-    Arguments,
-    Case,
-    Function,
-    Law,
-    Module,
-    Result,
-)
+from course.grading.checks.declare import Argument, Arguments, Case, Function, Law, Module, Result
 from course.grading.checks.drawing import Draw, worst_directions
 from course.grading.checks.laws import close, holds, within
 from course.grading.checks.weights import WHOLE
@@ -88,16 +80,9 @@ def _nearly(draw: Draw) -> Mapping[str, Any]:
     return {"direction": _edge(draw) * (1 - np.finfo(draw.dtype).eps * steps)}
 
 
-def _faces(a: Arguments, r: Any) -> Any:
-    return r[0] == _place(a.direction)[0]
-
-
 def _all_three(a: Arguments, r: Any) -> tuple[Any, ...]:
     return np.stack(r), np.stack(_place(a.direction)), 1.0
 
-
-FACES = "The six faces are +x, -x, +y, -y, +z, -z."
-OF_FACE = "the face of the component that is largest without its sign"
 
 FACE_AND_UV = Function(
     "face_and_uv",
@@ -108,19 +93,10 @@ FACE_AND_UV = Function(
             "middles",
             "The six axes meet the middles of faces 0 to 5",
             _all_three,
-            f"{FACES} An axis meets its face's middle.",
-            what="along an axis, face, u or v",
+            "The faces are +x, -x, +y, -y, +z, -z, the sign counts, and an axis meets its face's middle.",
+            what="along an axis, face (row 0), u (1) or v (2):",
             case=_six,
             n=6,
-            role="corner",
-        ),
-        holds(
-            "faces",
-            "Each direction has the face it leaves through",
-            _faces,
-            OF_FACE,
-            f"{FACES} The sign of the largest component counts, too.",
-            shows=lambda _, r: r[0],
             role="corner",
         ),
         within(
@@ -136,8 +112,8 @@ FACE_AND_UV = Function(
         holds(
             "ties",
             "On edges and corners x comes first, then y",
-            _faces,
-            f"{OF_FACE}; of equal ones x before y, and y before z",
+            lambda a, r: r[0] == _place(a.direction)[0],
+            "the face of the component largest without its sign; of equal ones x before y, y before z",
             "Edges and corners belong to one face each.",
             shows=lambda _, r: r[0],
             case=lambda d: {"direction": _edge(d)},
@@ -147,8 +123,9 @@ FACE_AND_UV = Function(
             "uv",
             "Face, u and v are those of OpenGL's table",
             _all_three,
-            "Follow OpenGL's table row by row: each face has signs of its own.",
-            what="face, u or v",
+            "On each face u runs along its rows and v down its columns, from 0 to 1: look which axis "
+            "and which sign OpenGL's table gives to them there.",
+            what="face (row 0), u (1) or v (2):",
             figure=lambda trial, a, r: trial.show(
                 "points",
                 "(u, v)",
@@ -161,7 +138,7 @@ FACE_AND_UV = Function(
             "The direction's length doesn't matter",
             _all_three,
             "Only where a direction points matters, not how long it is.",
-            what="for a direction of any length, face, u or v",
+            what="for a direction of any length, face (row 0), u (1) or v (2):",
             scales=LENGTHS,
             role="corner",
         ),
@@ -313,9 +290,10 @@ def _lookup(name: str, seamless: bool, *more: Any) -> Function:
         (
             about(
                 "centres",
-                "The centre of a texel shows that texel",
+                "The centre of a texel shows that texel, however long the direction is",
                 "A texel's centre shows that texel alone; centres are half a texel inside the face's edge.",
                 _around(_centers),
+                scales=(1.0, *LENGTHS),
                 what="at a texel's centre, its colour's channel of",
             ),
             about(
@@ -327,13 +305,6 @@ def _lookup(name: str, seamless: bool, *more: Any) -> Function:
                 compare=away_from_edges,
                 figure=shown,
                 role="core",
-            ),
-            about(
-                "length",
-                "The direction's length doesn't matter",
-                "Only where a direction points matters, not how long it is.",
-                _around(_inner),
-                scales=LENGTHS,
             ),
             about(
                 "bright",

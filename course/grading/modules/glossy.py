@@ -7,45 +7,25 @@ all that is looked at is what stays the same whatever it chose.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from math import nan
 from typing import Any
 
 import numpy as np
 
+from course.grading.checks import declare, laws
 from course.grading.checks.check import Array
-from course.grading.checks.declare import (
-    Argument,
-    Arguments,
-    Function,
-    Law,
-    Module,
-    Result,
-    directions,
-    number,
-    u,
-)
+from course.grading.checks.declare import Argument, Arguments, Case, Function, Law, Module, Result
 from course.grading.checks.drawing import Draw, worst_directions
-from course.grading.checks.laws import (
-    EPSILON,
-    close,
-    evenly,
-    holds,
-    smooth,
-    uniform,
-    unit_length,
-    within,
-)
 from course.grading.checks.vectors import cross, dot, normalized, turn_about
 from course.grading.checks.weights import WHOLE
+from course.grading.modules.round_shapes import cornered
+from course.grading.modules.squares import no_jitter, square
 
-UNIT = 1e-5 / EPSILON
+UNIT = 1e-5 / laws.EPSILON
 """What unit vectors may be off by, in units in the last place."""
 
 SEVERAL = (1.0,) * 4
 """Scales of a law without lengths: each makes other numbers."""
-
-SQUARE = "The square has roughness for its side, at distance 1, and the direction for its middle."
 
 
 def _poles(draw: Draw, n: int | None = None) -> Array:
@@ -107,7 +87,7 @@ def _products(a: Arguments, r: Any) -> Array:
 
 
 def _orthonormal(name: str, title: str, hint: str, **how: Any) -> Law:
-    return close(
+    return laws.close(
         name,
         title,
         lambda a, r: (_products(a, r), np.array([1, 1, 0, 0, 0])[:, None]),
@@ -120,7 +100,7 @@ def _orthonormal(name: str, title: str, hint: str, **how: Any) -> Law:
 
 ORTHONORMAL_BASIS = Function(
     "orthonormal_basis",
-    (directions("w"),),
+    (declare.directions("w"),),
     (Result("u", "3 N"), Result("v", "3 N")),
     (
         _orthonormal(
@@ -128,7 +108,7 @@ ORTHONORMAL_BASIS = Function(
             "u, v and w are unit length and at right angles",
             "u and v are unit vectors for every w, and all three are at right angles.",
         ),
-        close(
+        laws.close(
             "right_handed",
             "The basis is right-handed: cross(u, v) = w",
             lambda a, r: (cross(*r), normalized(a.w), 1.0),
@@ -155,87 +135,51 @@ ORTHONORMAL_BASIS = Function(
 # ---------------------------------------------------------------- the lobes
 
 
-def _lobe(name: str, rows: int, size: Argument, laws: tuple[Law, ...]) -> Function:
+def _lobe(name: str, rows: int, size: Argument, own: tuple[Law, ...]) -> Function:
     """A function that jitters directions: its conventions, and what every lobe keeps."""
     return Function(
         name,
-        (directions("direction"), size, u(rows)),
+        (declare.directions("direction"), size, declare.u(rows)),
         (Result("the directions", "3 N"),),
-        (unit_length(), *laws),
+        (laws.unit_length(), *own),
         free=True,
         features=_seen,
         scales=(),
     )
 
 
-def _no_jitter(name: str) -> Law:
-    return close(
-        "no_jitter",
-        f"{name.capitalize()} 0 gives the direction",
-        lambda a, r: (r, a.direction, 1.0),
-        "Nothing is to be added then.",
-        what=f"with {name} 0, the direction itself:",
-        within=4,
-        case=lambda _: {name: 0.0},
-        role="corner",
-    )
-
-
-def _radii(a: Arguments) -> Array:
-    """How far the places in the square are from its middle."""
-    return np.asarray(a.roughness * np.linalg.norm(a.u - 0.5, axis=0))
-
-
-def _square(a: Arguments, r: Array) -> tuple[Any, ...]:
-    """Places on the plane at distance 1: as far from the middle as in the square, and from each other; and lengths."""
-    ahead = _cosine(a, r)
-    place = r / np.where(ahead > 0, ahead, nan) - normalized(a.direction)
-    between = np.linalg.norm(place - np.roll(place, 1, axis=1), axis=0)
-    between_expected = a.roughness * np.linalg.norm(a.u - np.roll(a.u, 1, axis=1), axis=0)
-    found = np.stack((np.linalg.norm(place, axis=0), between, np.linalg.norm(r, axis=0)))
-    expected = np.stack((_radii(a), between_expected, np.ones(between.shape)))
-    return found, expected, 1 + a.roughness**2
-
-
 def _of_any_size(a: Arguments, r: Array) -> tuple[Any, ...]:
-    far = np.sqrt(1 + _radii(a) ** 2)
-    return _chord(a, r), np.sqrt(2 * (1 - 1 / far)), 1.0
+    radii = a.roughness * np.linalg.norm(a.u - 0.5, axis=0)
+    return _chord(a, r), np.sqrt(2 * (1 - 1 / np.sqrt(1 + radii**2))), 1.0
 
 
 JITTER_ON_PLANE = _lobe(
     "jitter_on_plane",
     2,
-    number("roughness", 0.3, 2, (-1.0, -1e-6, nan)),
+    declare.number("roughness", 0.3, 2, (-1.0, -1e-6, nan)),
     (
-        _no_jitter("roughness"),
-        close(
+        no_jitter("roughness"),
+        square(
             "square",
             "The jitter is a square of side roughness around the direction, at right angles to it",
-            _square,
-            SQUARE,
-            what="on the plane at distance 1, a distance (or a direction's length) of",
-            within=96,
             case=_one,
             scales=SEVERAL,
             points=WHOLE,
         ),
-        close(
+        laws.close(
             "extremes",
             "Very small and very large squares are as wide as they should be",
             _of_any_size,
-            SQUARE,
+            "The sides are as long as roughness, however small or large that is.",
             what="from the direction's tip to the result's,",
             case=lambda d: {"roughness": float(10.0 ** d.rng.choice((-6, -4, -2, 1, 3, 6)))},
             scales=SEVERAL,
             role="corner",
         ),
-        close(
+        square(
             "poles",
             "The square is right about directions along every axis and next to it",
-            _square,
             "Is there a direction for which your basis breaks down?",
-            what="on the plane at distance 1, a distance (or a direction's length) of",
-            within=96,
             case=_one_pole,
             scales=SEVERAL * 2,
             role="corner",
@@ -258,10 +202,10 @@ def _by_volume(a: Arguments, r: Array) -> Array:
 JITTER_IN_BALL = _lobe(
     "jitter_in_ball",
     3,
-    number("glossiness", 0.15, 0.95, (-1.0, -1e-6, nan, 1.0, 1.5)),
+    declare.number("glossiness", 0.15, 0.95, (-1.0, -1e-6, nan, 1.0, 1.5)),
     (
-        _no_jitter("glossiness"),
-        holds(
+        no_jitter("glossiness"),
+        laws.holds(
             "cone",
             "No direction leaves the cone around the ball",
             lambda a, r: _chord(a, r) <= 2 * np.sin(np.arcsin(a.glossiness) / 2) + 2e-5,
@@ -271,8 +215,8 @@ JITTER_IN_BALL = _lobe(
             scales=SEVERAL * 2,
             role="corner",
         ),
-        smooth(10.0, case=lambda _: {"glossiness": 0.5}),
-        uniform(
+        laws.smooth(10.0, case=lambda _: {"glossiness": 0.5}),
+        laws.uniform(
             "uniform",
             "Points are uniform over the ball's volume",
             _by_volume,
@@ -297,9 +241,9 @@ def _by_share(a: Arguments, r: Array) -> Array:
     return np.stack((share, turn_about(a.direction, r)))
 
 
-def _density(name: str, title: str, low: float, high: float, case: Any = _one) -> Law:
+def _density(name: str, title: str, low: float, high: float, case: Case = _one) -> Law:
     """The lobe's distribution, for exponents of that range."""
-    return uniform(
+    return laws.uniform(
         name,
         title,
         _by_share,
@@ -323,46 +267,24 @@ def _in_disk(a: Arguments, r: Array) -> Array:
 SAMPLE_PHONG_LOBE = _lobe(
     "sample_phong_lobe",
     2,
-    number("exponent", 0.5, 80, (-1.0, -1e-6, nan)),
+    declare.number("exponent", 0.5, 80, (-1.0, -1e-6, nan)),
     (
-        within(
-            "in_front",
-            "The lobe ends at a right angle to its axis",
-            _cosine,
-            0,
-            1,
-            "The lobe ends at a right angle to its axis.",
-            what="a cosine with the axis",
-            slack=1e-5,
-            case=lambda d: {"direction": _poles(d), "exponent": d.number(0.01, 100)},
-            scales=SEVERAL,
-        ),
-        holds(
+        laws.holds(
             "mirror",
             "Lobes of exponents from 10^5 to 10^6 are all but a mirror",
             # cos^(exponent + 1) is 1e-6 at the least, alpha^2 some -2 log(cos).
             lambda a, r: _chord(a, r) <= 1.1 * np.sqrt(2 * np.log(1e6) / a.exponent) + 1e-3,
             "a direction next to the axis",
             "The larger the exponent, the closer to a mirror.",
-            case=lambda d: {
-                "exponent": d.number(1e5, 1e6),
-                "u": d.uniform(1e-6, 1 - 1e-6, 2, d.n),
-            },
+            case=lambda d: {"exponent": d.number(1e5, 1e6), "u": d.uniform(1e-6, 1 - 1e-6, 2, d.n)},
             role="corner",
         ),
         _density("density", "Directions have the density of the lobe, around its axis", 0.5, 5),
-        *(
-            replace(law, role="corner", points=1.0)
-            for law in (
-                _density("flat", "Exponent 0 gives the uniform hemisphere", 0, 0),
-                _density("narrow", "Lobes of exponents to 10^4 have their density", 100, 1e4),
-                _density(
-                    "poles", "About each axis of space the lobe is the same", 2, 20, _one_pole
-                ),
-            )
-        ),
-        smooth(10.0),
-        evenly(
+        cornered(_density("flat", "Exponent 0 gives the uniform hemisphere", 0, 0)),
+        cornered(_density("narrow", "Lobes of exponents to 10^4 have their density", 100, 1e4)),
+        cornered(_density("poles", "The lobe is the same about each axis", 2, 20, _one_pole)),
+        laws.smooth(10.0),
+        laws.evenly(
             lambda _, r: r[2] + 0.3 * r[0] + 0.2 * r[1],
             13 / 14,
             case=lambda d: {**_up(d), "exponent": 12.0},
@@ -374,12 +296,17 @@ SAMPLE_PHONG_LOBE = _lobe(
 # ---------------------------------------------------------------- keep_above
 
 
-def _sided(side: int) -> Any:
-    """Normals anywhere, and directions above (1), below (-1) or on any side (0), none of them grazing."""
+def _sided(side: int) -> Case:
+    """Normals anywhere, and directions above (1), below (-1) or on any side (0), none of them grazing.
+
+    Of those below, some go straight down.
+    """
 
     def case(draw: Draw) -> Mapping[str, Any]:
         n, d = draw.directions(), draw.directions()
         d = np.where(side * dot(d, n) < 0, -d, d)
+        if side < 0:
+            d[:, ::3] = -n[:, ::3]
         return {"direction": np.where(np.abs(dot(d, n)) < 1e-4, n * (side or 1), d), "normal": n}
 
     return case
@@ -393,25 +320,19 @@ def _grazing(draw: Draw) -> Mapping[str, Any]:
     return {"direction": normalized(along + height * n), "normal": n}
 
 
-def _straight(draw: Draw) -> Mapping[str, Any]:
-    n = draw.directions()
-    return {"direction": -n, "normal": n}
-
-
 def _mirrored(a: Arguments, r: Array) -> tuple[Any, ...]:
     below = np.minimum(dot(a.direction, a.normal), 0)
     return r, a.direction - 2 * below * a.normal, 1.0
 
 
-def _above(name: str, title: str, hint: str, case: Any, **how: Any) -> Law:
-    return close(name, title, _mirrored, hint, what="a direction of", case=case, **how)
+def _above(name: str, title: str, hint: str, case: Case, **how: Any) -> Law:
+    usual: dict[str, Any] = {"what": "a direction of", "case": case, "role": "corner"}
+    return laws.close(name, title, _mirrored, hint, **usual | how)
 
-
-BELOW = "What is below is mirrored in the surface: it is as far above it afterwards."
 
 KEEP_ABOVE = Function(
     "keep_above",
-    (directions("direction"), directions("normal")),
+    (declare.directions("direction"), declare.directions("normal")),
     (Result("the directions", "3 N"),),
     (
         _above(
@@ -420,42 +341,31 @@ KEEP_ABOVE = Function(
             "Nothing is to be done above the surface; the normal is on the outgoing side.",
             _sided(1),
             within=0,
-            role="corner",
         ),
         _above(
             "mirrored",
-            "Directions below the surface are mirrored in it",
-            BELOW,
+            "Directions below the surface are mirrored in it, straight down becomes straight up",
+            "What is below is mirrored in the surface: it is as far above it afterwards.",
             _sided(-1),
-            role="corner",
         ),
         _above(
             "grazing",
-            "Directions close to the surface are mirrored only below it",
-            "Does the sign of the cosine decide, however small it is?",
+            "Just above the surface directions stay, just below it they are mirrored",
+            "Does the cosine's sign alone decide, a hundred thousandth from the surface, too?",
             _grazing,
-            role="corner",
-        ),
-        _above(
-            "straight",
-            "Straight down becomes straight up",
-            BELOW,
-            _straight,
-            role="corner",
         ),
         _above(
             "batch",
-            "Directions above and below are told apart one by one",
-            "Each direction is looked at by itself, with its own normal.",
+            "In one batch, directions above stay and directions below are mirrored",
+            "Is each direction decided on by itself, with its own normal?",
             _sided(0),
+            role="core",
             points=WHOLE,
         ),
-        unit_length(),
     ),
     scales=(),
 )
 
 MODULE = Module(
-    "glossy",
-    (ORTHONORMAL_BASIS, JITTER_ON_PLANE, JITTER_IN_BALL, SAMPLE_PHONG_LOBE, KEEP_ABOVE),
+    "glossy", (ORTHONORMAL_BASIS, JITTER_ON_PLANE, JITTER_IN_BALL, SAMPLE_PHONG_LOBE, KEEP_ABOVE)
 )

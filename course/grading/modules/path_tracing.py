@@ -8,37 +8,18 @@ cosine, and that all turns come alike. Where a path survives by a hair, rounding
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from math import pi
 from typing import Any
 
 import numpy as np
 
+from course.grading.checks import declare, laws
 from course.grading.checks.check import Array
-from course.grading.checks.declare import (
-    Argument,
-    Arguments,
-    Function,
-    Law,
-    Module,
-    Result,
-    directions,
-    u,
-)
+from course.grading.checks.declare import Argument, Arguments, Function, Law, Module, Result
 from course.grading.checks.drawing import Draw, worst_directions, worst_units
-from course.grading.checks.laws import (
-    EPSILON,
-    close,
-    evenly,
-    holds,
-    means,
-    smooth,
-    uniform,
-    unit_length,
-    within,
-)
 from course.grading.checks.vectors import dot, turn_about
 from course.grading.checks.weights import WHOLE
+from course.grading.modules.round_shapes import cornered
 
 HAIR = 1e-4
 """How near u comes to the probability to survive."""
@@ -50,10 +31,7 @@ HAIR = 1e-4
 def _steep(draw: Draw) -> Mapping[str, Any]:
     """Normals that bases have trouble with, and numbers at the ends of [0, 1)."""
     found = {}
-    for name, ends in (
-        ("normal", worst_directions(draw.dtype)),
-        ("u", worst_units(2, draw.dtype)),
-    ):
+    for name, ends in (("normal", worst_directions(draw.dtype)), ("u", worst_units(2, draw.dtype))):
         found[name] = ends[:, draw.rng.integers(0, ends.shape[1], draw.n)]
     return found
 
@@ -77,7 +55,7 @@ def _by_solid_angle(a: Arguments, r: Array) -> Array:
 
 
 def _density(name: str, normals: str, **how: Any) -> Law:
-    return uniform(
+    return laws.uniform(
         name,
         f"Directions have the density cos / pi about {normals}",
         _by_solid_angle,
@@ -96,10 +74,10 @@ def _from_above(a: Arguments, r: Array) -> Array:
 
 DIFFUSE_BOUNCE = Function(
     "diffuse_bounce",
-    (directions("normal"), u(2)),
+    (declare.directions("normal"), declare.u(2)),
     (Result("the directions", "3 N"),),
     (
-        within(
+        laws.within(
             "hemisphere",
             "Directions are on the normal's side",
             _cosine,
@@ -108,8 +86,7 @@ DIFFUSE_BOUNCE = Function(
             "The hemisphere is the one about each path's own normal.",
             what="a cosine with the normal",
         ),
-        unit_length(),
-        close(
+        laws.close(
             "poles",
             "Directions are right about normals along the axes, and for numbers at the ends of [0, 1)",
             lambda a, r: (
@@ -117,15 +94,15 @@ DIFFUSE_BOUNCE = Function(
                 np.array([[1.0], [0.0]]),
             ),
             "Is there a normal for which your basis breaks down?",
-            what="length, and what is below the surface:",
-            within=1e-5 / EPSILON,
+            what="length (row 0), or what is below the surface (1):",
+            within=1e-5 / laws.EPSILON,
             case=_steep,
             role="corner",
         ),
-        replace(_density("axes", "normals along the axes", case=_along_axes), role="corner"),
+        cornered(_density("axes", "normals along the axes", case=_along_axes)),
         _density("density", "every normal", points=WHOLE, picture=_from_above),
-        smooth(10.0),
-        evenly(lambda _, r: r[2] + 0.3 * r[0] + 0.2 * r[1], 2 / 3, case=_floor),
+        laws.smooth(10.0),
+        laws.evenly(lambda _, r: r[2] + 0.3 * r[0] + 0.2 * r[1], 2 / 3, case=_floor),
     ),
     free=True,
     features=lambda a, r: np.stack((_cosine(a, r), np.round(np.linalg.norm(r, axis=0), 3), *r)),
@@ -138,12 +115,16 @@ DIFFUSE_BOUNCE = Function(
 def _colors(name: str) -> Argument:
     """(3, N) numbers from 0 to 1, black and bright ones at the ends."""
     ends = np.array([(0, 0, 0), (1e-6, 0, 0), (1, 1, 1), (0, 1e-3, 1e3)]).T
-    return Argument(
-        name,
-        "3 N",
-        lambda d: d.uniform(0.02, 1, 3, d.n),
-        corners=ends.astype,
-    )
+    return Argument(name, "3 N", lambda d: d.uniform(0.02, 1, 3, d.n), corners=ends.astype)
+
+
+def _of_any_size(draw: Draw) -> Mapping[str, Any]:
+    """Much light, little and none, and albedos of which some are over 1."""
+    sizes = draw.rng.choice((0, 1e-6, 1, 1e2, 1e5), (3, draw.n))
+    return {
+        "beta": sizes * draw.uniform(1, 8, 3, draw.n),
+        "albedo": draw.uniform(0.1, 2, 3, draw.n),
+    }
 
 
 def _returned(a: Arguments, r: Array) -> tuple[Any, ...]:
@@ -156,31 +137,16 @@ THROUGHPUT = Function(
     (_colors("beta"), _colors("albedo")),
     (Result("the throughput", "3 N"),),
     (
-        close(
-            "bright",
-            "Throughputs over 1 lose the same share as others",
+        laws.close(
+            "any-size",
+            "Throughputs over 1, and next to 0, lose the same share as others, and none stays none",
             _returned,
-            "After a roulette or a mirror a throughput may well be over 1.",
+            "After a roulette a throughput may be over 1: it is multiplied like any other, nothing is cut off.",
             what="a throughput of",
-            case=lambda d: {
-                "beta": d.lengths(1, 8, 3, d.n),
-                "albedo": d.uniform(0.1, 2, 3, d.n),
-            },
-            scales=(1.0, 1e2, 1e5),
+            case=_of_any_size,
             role="corner",
         ),
-        close(
-            "dark",
-            "Little light loses the same share as much, and none stays none",
-            _returned,
-            "Whatever a path brings, its share is the same.",
-            what="a throughput of",
-            case=lambda d: {
-                "beta": 1e-6 * d.uniform(0, 8, 3, d.n) * (d.rng.random((3, d.n)) < 0.7)
-            },
-            role="corner",
-        ),
-        close(
+        laws.close(
             "values",
             "What is left is f cos / pdf of it",
             _returned,
@@ -254,10 +220,10 @@ def _averages(a: Arguments, r: Any) -> list[tuple[str, Array, float, float]]:
 
 RUSSIAN_ROULETTE = Function(
     "russian_roulette",
-    (_colors("beta"), u(1)),
+    (_colors("beta"), declare.u(1)),
     (Result("survives", "N", "bool"), Result("the throughput", "3 N")),
     (
-        holds(
+        laws.holds(
             "survival",
             "Paths survive as probably as their largest channel says",
             _survives,
@@ -265,7 +231,7 @@ RUSSIAN_ROULETTE = Function(
             "The probability is the largest channel, and at most 1.",
             role="corner",
         ),
-        close(
+        laws.close(
             "certain",
             "Bright paths survive, and stay as they are",
             lambda a, r: (
@@ -274,12 +240,12 @@ RUSSIAN_ROULETTE = Function(
                 a.beta.max(axis=0),
             ),
             "A probability is at most 1.",
-            what="a bright path to survive (1) as it was:",
+            what="a bright path to survive (row 0 is 1) as it was (rows 1 to 3):",
             case=_sure,
             scales=(1.0, 1e3),
             role="corner",
         ),
-        holds(
+        laws.holds(
             "dark",
             "Of little light little survives, of none nothing",
             lambda a, r: _survives(a, r) & (np.abs(r[1] - _after(a, r)[1]) <= 1e-5).all(axis=0),
@@ -288,18 +254,17 @@ RUSSIAN_ROULETTE = Function(
             case=_dark,
             role="corner",
         ),
-        replace(
-            means(
+        cornered(
+            laws.means(
                 "mean",
                 "The mean stays what it was",
                 _averages,
                 "On average the roulette must change nothing.",
                 comparisons=3,
                 case=_one_color,
-            ),
-            role="corner",
+            )
         ),
-        close(
+        laws.close(
             "values",
             "Survivors stand for the others, who bring nothing",
             _after,

@@ -23,9 +23,6 @@ LIGHT = (1.0, 1e-3, 1e3)
 
 # ---------------------------------------------------------------- hemicube_form_factors
 
-SQUARE_ABOVE = 4 / math.pi / math.sqrt(2) * math.atan(1 / math.sqrt(2))
-"""Form factor of a hemicube's whole top, 0.5541: of a square of side 2 at distance 1, seen from below its centre."""
-
 
 def _centres(k: int) -> tuple[Array, Array]:
     """Delta form factors from what holds at the cells' centres, times their area."""
@@ -107,16 +104,6 @@ HEMICUBE = Function(
             shows=_total,
             case=_sizes,
             scales=(1.0,) * 4,
-            role="corner",
-        ),
-        holds(
-            "share",
-            "The top has the form factor of a square",
-            lambda a, r: np.abs(np.array([r[0].sum()]) - SQUARE_ABOVE) <= 1 / a.k**2,
-            f"{SQUARE_ABOVE:.4f} of the light to leave through the top",
-            "The top is 2 x 2, and 1 above the patch.",
-            shows=lambda _, r: np.array([r[0].sum()]),
-            case=lambda _: {"k": 64},
             role="corner",
         ),
         _cells("cells", "All cells have their form factors, but for their size", _all),
@@ -261,8 +248,6 @@ def _left(a: Arguments) -> Array:
     return np.asarray(left + _received(a))
 
 
-SHARED_OUT = "Light is radiosity times area; what arrives is spread over the receiver's area, and reflected there."
-
 SHOOT = Function(
     "shoot",
     (
@@ -294,27 +279,14 @@ SHOOT = Function(
             role="corner",
         ),
         close(
-            "received",
-            "Receivers get brighter by what they reflect",
-            lambda a, r: (r[0], a.radiosity + _received(a)),
-            SHARED_OUT,
-            what="the radiosity",
-            role="corner",
-        ),
-        close(
-            "unshot",
-            "What they reflect is theirs to shoot",
-            lambda a, r: (r[1], _left(a)),
-            "What is received and reflected has to be shot, too.",
-            what="the unshot radiosity",
-            role="corner",
-        ),
-        close(
             "shot",
-            "The radiosity and what is left to shoot are right after a shot",
-            lambda a, r: (np.stack(r), np.stack((a.radiosity + _received(a), _left(a)))),
-            SHARED_OUT,
-            what="the radiosity, or what is left to shoot,",
+            "Receivers get brighter by what they reflect, and have that to shoot",
+            lambda a, r: (
+                np.concatenate(r),
+                np.concatenate((a.radiosity + _received(a), _left(a))),
+            ),
+            "Light is radiosity times area; it is spread over the receiver's area, reflected, and to be shot.",
+            what="radiosity (rows 0 to 2) or unshot radiosity (3 to 5):",
             scales=LIGHT,
         ),
     ),

@@ -146,7 +146,7 @@ def uniform_over(shape: Shape, offsets: Offsets, case: Case | None = None) -> La
     title = {"disk": "over the disk's area", "ball": "over the ball's volume"}
     return uniform(
         "uniform",
-        f"Points are uniform {title.get(shape.name, 'over the sphere')}",
+        f"Points are uniform {title.get(shape.name, 'over the sphere')}, each where its own u says",
         lambda a, r: shape.places(offsets(a, r)),
         shape.cells,
         shape.hint,
@@ -172,8 +172,7 @@ def moments(shape: Shape, offsets: Offsets, case: Case | None = None) -> Law:
 
     title = "Means, spread and correlation of the coordinates are those of the shape"
     hint = "Uniform points lie around the centre, and as far from it along each axis."
-    found = means("moments", title, values, hint, comparisons=3 * len(names), case=case)
-    return cornered(found, "moments", title)
+    return cornered(means("moments", title, values, hint, comparisons=3 * len(names), case=case))
 
 
 def warps(
@@ -190,17 +189,19 @@ def warps(
         moments(shape, offsets, case),
         uniform_over(shape, offsets, case),
         smooth(STEEP, case=unit),
-        evenly(lambda a, r: _exponential(offsets(a, r)), shape.mean, case=unit),
+        evenly(lambda a, r: _smooth_values(shape, offsets(a, r)), shape.mean + 1, case=unit),
     )
 
 
-def _exponential(offsets: Array) -> Array:
-    return np.asarray(np.exp(TILTS[len(offsets)] @ offsets))
+def _smooth_values(shape: Shape, offsets: Array) -> Array:
+    """An exponential, and twice what is uniform of each point's distance or height: u to the 0.34 shows in its mean."""
+    return np.asarray(np.exp(TILTS[len(offsets)] @ offsets) + 2 * shape.places(offsets)[0])
 
 
-def cornered(law: Law, name: str, title: str) -> Law:
-    """The same law where it is about a corner."""
-    return replace(law, name=name, title=title, role="corner", points=1.0)
+def cornered(law: Law, name: str = "", title: str = "") -> Law:
+    """The same law where it is about a corner, which may give it another name and title."""
+    told = name or law.name, title or law.title
+    return replace(law, name=told[0], title=told[1], role="corner", points=1.0)
 
 
 def seen(offsets: Array) -> Array:

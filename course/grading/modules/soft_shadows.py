@@ -3,40 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from math import inf, nan
+from math import inf, isqrt, nan
 from typing import Any
 
 import numpy as np
 
+from course.grading.checks import declare
 from course.grading.checks.check import Array
-from course.grading.checks.declare import (
-    Arguments,
-    Case,
-    Function,
-    Law,
-    Module,
-    Result,
-    count,
-    length,
-    point,
-    points,
-    u,
-)
+from course.grading.checks.declare import Argument, Arguments, Case, Function, Law, Module, Result
 from course.grading.checks.drawing import Draw
 from course.grading.checks.laws import close, evenly, uniform, within
 from course.grading.checks.vectors import dot, normalized
 from course.grading.checks.weights import WHOLE
-from course.grading.modules.round_shapes import (
-    BALL,
-    DISK,
-    SPHERE,
-    Shape,
-    cornered,
-    edge,
-    seen,
-    uniform_over,
-    warps,
-)
+from course.grading.modules import round_shapes
 
 SCALES = (1.0, 1e-3, 1e3)
 
@@ -60,7 +39,7 @@ def _coordinates(a: Arguments, r: Array) -> Array:
     return np.asarray(np.linalg.solve(axes, r - a.corner[:, None]))
 
 
-CORNER_AND_EDGES = tuple(point(name) for name in ("corner", "edge_u", "edge_v"))
+CORNER_AND_EDGES = tuple(declare.point(name) for name in ("corner", "edge_u", "edge_v"))
 
 PLANE = close(
     "plane",
@@ -91,12 +70,17 @@ def _in_order(a: Arguments, r: Array) -> tuple[Array, Array]:
     return found[:, np.argsort(row * a.k + column, kind="stable")], (cells + 0.5) / a.k
 
 
-def _centres(name: str, title: str, **how: Any) -> Law:
+def _lights(draw: Draw) -> int:
+    """Some along an edge; where time is compared, as many in all as there are columns."""
+    return int(draw.rng.integers(3, 10)) if draw.n <= 1000 else isqrt(draw.n)
+
+
+def _centres(name: str, title: str, hint: str, **how: Any) -> Law:
     return close(
         name,
         title,
         _in_order,
-        "The light falls into k x k equal cells, with a point light in the middle of each.",
+        hint,
         what="in any order, a place along an edge, 0 to 1, of",
         floor=1e-4,
         scales=SCALES,
@@ -106,27 +90,27 @@ def _centres(name: str, title: str, **how: Any) -> Law:
 
 LIGHT_GRID = Function(
     "light_grid",
-    (*CORNER_AND_EDGES, count("k", 3, 9, (0, -2))),
+    (*CORNER_AND_EDGES, Argument("k", "", _lights, (0, -2), batch=False)),
     (Result("the grid", "3 k*k"),),
     (
         PLANE,
         _centres(
-            "one",
-            "One point light is in the middle",
-            case=lambda d: {**_parallelogram(d), "k": 1},
+            "one-or-many",
+            "A single point light is in the light's middle, and many are in their cells' centres, too",
+            "With k = 1 the whole light is one cell, whose middle is half way along both edges.",
+            case=lambda d: {**_parallelogram(d), "k": int(d.rng.choice((1, 2, 40)))},
             role="corner",
         ),
         _centres(
-            "many",
-            "A grid of many point lights has one in each cell's centre",
-            case=lambda d: {**_parallelogram(d), "k": 40},
-            role="corner",
+            "centres",
+            "Point lights are at the cells' centres",
+            "The light falls into k x k equal cells, with a point light in the middle of each.",
+            points=WHOLE,
         ),
-        _centres("centres", "Point lights are at the cells' centres", points=WHOLE),
     ),
     case=_parallelogram,
     features=_spread,
-    speed=0,
+    speed=4096,
 )
 
 
@@ -139,7 +123,7 @@ def _edges(a: Arguments, r: Array) -> Array:
 
 POINT_ON_RECTANGLE = Function(
     "point_on_rectangle",
-    (*CORNER_AND_EDGES, u(2)),
+    (*CORNER_AND_EDGES, declare.u(2)),
     (Result("the points", "3 N"),),
     (
         PLANE,
@@ -156,7 +140,7 @@ POINT_ON_RECTANGLE = Function(
         ),
         uniform(
             "uniform",
-            "Points are uniform on the light",
+            "Points are uniform on the light, each where its own u says",
             _edges,
             (16, 16),
             "Each edge needs a number of its own.",
@@ -177,7 +161,7 @@ POINT_ON_RECTANGLE = Function(
 
 # ---------------------------------------------------------------- round lights
 
-CENTRE_AND_RADIUS = (point("center"), length("radius", 0.3, 3, (-1.0, nan, inf)))
+CENTRE_AND_RADIUS = (declare.point("center"), declare.length("radius", 0.3, 3, (-1.0, nan, inf)))
 
 
 def _from_centre(a: Arguments, r: Array) -> Array:
@@ -201,20 +185,20 @@ RADIUS_ZERO = close(
 )
 
 
-def _light(name: str, rows: int, shape: Shape) -> Function:
+def _light(name: str, rows: int, shape: round_shapes.Shape) -> Function:
     """A light that looks the same from everywhere."""
     return Function(
         name,
-        (*CENTRE_AND_RADIUS, u(rows)),
+        (*CENTRE_AND_RADIUS, declare.u(rows)),
         (Result("the points", "3 N"),),
         (
-            edge(shape, _from_centre, scales=SCALES),
+            round_shapes.edge(shape, _from_centre, scales=SCALES),
             RADIUS_ZERO,
-            *warps(shape, _from_centre, unit=_radius(1.0)),
+            *round_shapes.warps(shape, _from_centre, unit=_radius(1.0)),
         ),
         corners=(lambda _: {"radius": 0.0},),
         free=True,
-        features=lambda a, r: seen(_from_centre(a, r)),
+        features=lambda a, r: round_shapes.seen(_from_centre(a, r)),
     )
 
 
@@ -272,7 +256,7 @@ ONE_WAY = _around(lambda draw: np.repeat(draw.directions(1), draw.n, axis=1))
 
 POINT_ON_FACING_DISK = Function(
     "point_on_facing_disk",
-    (*CENTRE_AND_RADIUS, points("point"), u(2)),
+    (*CENTRE_AND_RADIUS, declare.points("point"), declare.u(2)),
     (Result("the points", "3 N"),),
     (
         close(
@@ -285,14 +269,14 @@ POINT_ON_FACING_DISK = Function(
             scales=SCALES,
             role="corner",
         ),
-        edge(DISK, _from_centre, scales=SCALES),
+        round_shapes.edge(round_shapes.DISK, _from_centre, scales=SCALES),
         RADIUS_ZERO,
-        cornered(
-            uniform_over(DISK, _face_on, _along_axes),
+        round_shapes.cornered(
+            round_shapes.uniform_over(round_shapes.DISK, _face_on, _along_axes),
             "axes",
             "The disk is right along the axes, and next to them",
         ),
-        cornered(
+        round_shapes.cornered(
             uniform(
                 "",
                 "",
@@ -305,15 +289,12 @@ POINT_ON_FACING_DISK = Function(
             "at-centre",
             "A point at the centre gets a disk of some orientation",
         ),
-        *warps(DISK, _face_on, _around(_three), _radius(1.0, ONE_WAY)),
+        *round_shapes.warps(round_shapes.DISK, _face_on, _around(_three), _radius(1.0, ONE_WAY)),
     ),
     case=FACING,
     free=True,
     features=lambda a, r: np.stack(
-        (
-            np.linalg.norm(_from_centre(a, r), axis=0),
-            np.abs(dot(_axis(a), _from_centre(a, r))),
-        )
+        (np.linalg.norm(_from_centre(a, r), axis=0), np.abs(dot(_axis(a), _from_centre(a, r))))
     ),
 )
 
@@ -322,8 +303,8 @@ MODULE = Module(
     (
         LIGHT_GRID,
         POINT_ON_RECTANGLE,
-        _light("point_on_sphere", 2, SPHERE),
-        _light("point_in_ball", 3, BALL),
+        _light("point_on_sphere", 2, round_shapes.SPHERE),
+        _light("point_in_ball", 3, round_shapes.BALL),
         POINT_ON_FACING_DISK,
     ),
 )

@@ -10,7 +10,7 @@ import numpy as np
 from course.grading.checks.check import Array, Trial
 from course.grading.checks.declare import Argument, Arguments, Case, Function, Module, Result, point
 from course.grading.checks.drawing import Draw
-from course.grading.checks.laws import close, holds, within
+from course.grading.checks.laws import close, within
 from course.grading.checks.weights import WHOLE
 
 SCALES = (1.0, 1e-3, 1e3)
@@ -247,7 +247,7 @@ TRIANGLE_UV = Function(
             "few",
             "Two or three points of triangles of their own are no other case",
             _mixed,
-            "Column by column: the weights of a point and the corners of its triangle.",
+            "Corners are (2,) or (2, N): the number of axes tells one triangle from many, not their sizes.",
             what="for as many points as coordinates or corners, the corners' coordinate, weighted:",
             case=_few_triangles,
             scales=SCALES * 2,
@@ -332,17 +332,10 @@ def _at_edges(draw: Draw) -> Mapping[str, Any]:
     return {"image": image, "uv": uv}
 
 
-def _far_away(draw: Draw) -> Mapping[str, Any]:
-    return {"image": _image(draw), "uv": draw.uniform(-5, 6, 2, draw.n)}
-
-
-SIZES = ((1, 1), (1, 4), (5, 1), (4, 7))
-
-
-def _extreme(draw: Draw) -> Mapping[str, Any]:
-    """Pictures of single texels, rows and columns, at places on, next to and far from whole numbers."""
+def _small(draw: Draw) -> Mapping[str, Any]:
+    """Pictures of single texels, rows and columns, and places on, next to and far from whole numbers."""
     ends = np.array([0, 1, -1, -1e-9, 1e-9, 1 - 1e-8, 1 + 1e-8, 0.5, -1000.25, 1e6])
-    size = SIZES[draw.rng.integers(len(SIZES))]
+    size = draw.rng.choice(((1, 1), (1, 4), (5, 1)))
     return {"image": draw.uniform(0, 1, *size, 3), "uv": draw.rng.choice(ends, (2, draw.n))}
 
 
@@ -354,12 +347,14 @@ def _tents(a: Arguments, r: Array) -> tuple[Any, ...]:
     def tent(place: Array, center: Array, size: int) -> Array:
         apart = place[:, None] - center
         apart -= np.round(apart)
-        return np.asarray(np.maximum(1 - np.abs(apart) * size, 0))
+        weights = np.maximum(1 - np.abs(apart) * size, 0)
+        # A single texel is its own neighbour on both sides.
+        return np.asarray(weights / weights.sum(axis=1)[:, None])
 
     in_u, in_v = tent(a.uv[0], centers[0, 0], width), tent(a.uv[1], centers[1, :, 0], height)
     expected = np.einsum("nj,ni,jic->cn", in_v, in_u, a.image).round(9)
     # A place is as exact as its last digit, and counts in texels.
-    return r, expected, a.image.max() * (1 + np.abs(a.uv).max(initial=0)) * max(height, width)
+    return r, expected, a.image.max() * (1 + np.abs(a.uv).max(axis=0)) * max(height, width)
 
 
 EMPTY = (np.ones((0, 6, 3)), np.ones((4, 0, 3)), np.ones((3, 4, 6)))
@@ -372,17 +367,6 @@ TEXTURE_LOOKUP = Function(
     ),
     (Result("the colours", "3 N"),),
     (
-        holds(
-            "range",
-            "Colours lie between those of the texels, in pictures of any size",
-            lambda a, r: (r >= a.image.min() - 1e-5) & (r <= a.image.max() + 1e-5),
-            "a colour between the darkest and the brightest texel's",
-            "Weights are from 0 to 1, and sum to 1.",
-            shows=lambda _, r: r,
-            case=_extreme,
-            scales=(1.0,) * 4,
-            role="corner",
-        ),
         close(
             "centers",
             "A texel's centre has the texel's colour",
@@ -390,6 +374,16 @@ TEXTURE_LOOKUP = Function(
             "At a texel's centre its colour counts alone: column i has it at (i + 1/2) / W, and v = 1 is on top.",
             what="at a texel's centre, its colour's channel of",
             case=_at_centers,
+            role="corner",
+        ),
+        close(
+            "small",
+            "Pictures of one texel, one row or one column have right colours, too",
+            _tents,
+            "A single texel is its own neighbour on all sides, and its colour is everywhere.",
+            what="in a picture of a single row or column, a colour's channel of",
+            case=_small,
+            scales=(1.0,) * 6,
             role="corner",
         ),
         close(
@@ -407,7 +401,7 @@ TEXTURE_LOOKUP = Function(
             _tents,
             "The picture goes on beyond its edges, to the left and downwards too.",
             what="beyond the edges, a colour's channel of",
-            case=_far_away,
+            case=lambda d: {"image": _image(d), "uv": d.uniform(-5, 6, 2, d.n)},
             role="corner",
         ),
         close(

@@ -8,18 +8,9 @@ from typing import Any
 
 import numpy as np
 
+from course.grading.checks import declare
 from course.grading.checks.check import Array
-from course.grading.checks.declare import (
-    Argument,
-    Arguments,
-    Function,
-    Module,
-    Result,
-    directions,
-    length,
-    point,
-    u,
-)
+from course.grading.checks.declare import Argument, Arguments, Case, Function, Law, Module, Result
 from course.grading.checks.drawing import Draw
 from course.grading.checks.laws import close, unit_length
 from course.grading.checks.vectors import dot, normalized
@@ -34,7 +25,7 @@ def _points(_: Arguments, points: Array) -> Array:
 
 POINT_ON_DISK = Function(
     "point_on_disk",
-    (u(2),),
+    (declare.u(2),),
     (Result("the points", "2 N"),),
     (edge(DISK, _points), *warps(DISK, _points)),
     free=True,
@@ -61,21 +52,9 @@ def _camera(draw: Draw, radius: float | None = None) -> Mapping[str, Any]:
     }
 
 
-def _pinhole(draw: Draw) -> Mapping[str, Any]:
-    return _camera(draw, 0.0)
-
-
-def _wide(draw: Draw) -> Mapping[str, Any]:
-    """A lens as wide as its focus is far."""
-    return {**_camera(draw, 2.0), "focus_distance": 2.0 * draw.scale}
-
-
-def _one_pixel(draw: Draw) -> Mapping[str, Any]:
-    """All rays of one pixel in a corner of the picture."""
-    camera = dict(_camera(draw))
-    d = camera["right"] - camera["up"] + camera["forward"]
-    camera["directions"] = np.repeat(d[:, None] / np.sqrt(3), draw.n, axis=1)
-    return camera
+def _extremes(draw: Draw) -> Mapping[str, Any]:
+    """A pinhole, or a lens as wide as its focus is far."""
+    return {**_camera(draw, draw.rng.choice((0.0, 2.0))), "focus_distance": 2.0 * draw.scale}
 
 
 def _on_lens(a: Arguments) -> Array:
@@ -114,11 +93,11 @@ SCALES = (1.0, 1e-3, 1e3)
 LENS_RAYS = Function(
     "lens_rays",
     (
-        point("origin"),
-        *(point(name) for name in ("right", "up", "forward")),
-        directions("directions"),
+        declare.point("origin"),
+        *(declare.point(name) for name in ("right", "up", "forward")),
+        declare.directions("directions"),
         Argument("lens_points", "2 N", lambda d: d.lengths(-0.2, 0.2, 2, d.n)),
-        length("focus_distance", 0.7, 20, (0.0, -1.0, nan)),
+        declare.length("focus_distance", 0.7, 20, (0.0, -1.0, nan)),
     ),
     (Result("origins", "3 N"), Result("directions", "3 N")),
     (
@@ -133,45 +112,23 @@ LENS_RAYS = Function(
         ),
         close(
             "plane_in_focus",
-            "Rays meet the pinhole's rays on the plane in focus",
+            "All rays of a pixel meet its pinhole's ray on the plane in focus",
             lambda a, r: (_met(a, r), _sharp(a), _scale(a)),
-            "Every ray goes through the point where the pinhole's ray meets the plane in focus.",
+            "What is in focus is sharp: wherever on the lens a ray starts, it goes through that point.",
             what="on the plane in focus, the pinhole's point:",
             scales=SCALES,
             within=40,
             role="corner",
         ),
         close(
-            "one_point",
-            "All rays of one pixel meet in one point, in the picture's corners too",
-            lambda a, r: (_met(a, r), _sharp(a).mean(axis=1)[:, None], _scale(a)),
-            "What is in focus is sharp: all rays of one pixel meet there.",
-            what="in the picture's corner, one point for all rays of the pixel:",
-            within=80,
-            case=_one_pixel,
-            role="corner",
-        ),
-        close(
-            "wide",
-            "A lens as wide as its focus is far has right rays, too",
+            "extremes",
+            "The lens's centre gives the pinhole's rays; a lens as wide as its focus is far is right, too",
             lambda a, r: (r[1], _toward(a)),
-            "The way from the lens to the point in focus, whatever the angle.",
+            "The way from the lens point to the point in focus, from (0, 0) and at any angle.",
             what="a direction of",
             within=100,
-            case=_wide,
-            role="corner",
-        ),
-        close(
-            "pinhole",
-            "The lens's centre gives the pinhole's rays",
-            lambda a, r: (
-                np.concatenate((r[0] - a.origin[:, None], r[1])),
-                np.concatenate((0 * r[0], a.directions)),
-                1 + np.abs(a.origin).max(),
-            ),
-            "A lens without size is a pinhole.",
-            what="at lens point (0, 0), the pinhole's ray:",
-            case=_pinhole,
+            scales=SCALES * 2,
+            case=_extremes,
             role="corner",
         ),
         close(
@@ -183,7 +140,7 @@ LENS_RAYS = Function(
                 np.array((_scale(a), 1.0)).repeat(3)[:, None],
             ),
             "Both ends of a ray have to be right: where it starts, and where it meets the plane in focus.",
-            what="origins and directions:",
+            what="origin (rows 0 to 2) or direction (3 to 5):",
             scales=SCALES,
             within=100,
         ),
@@ -196,7 +153,7 @@ LENS_RAYS = Function(
 # ---------------------------------------------------------------- image_distance
 
 
-def _lenses(near: bool) -> Any:
+def _lenses(near: bool) -> Case:
     """Focal lengths, and distances of objects beyond them or nearer."""
 
     def case(draw: Draw) -> Mapping[str, Any]:
@@ -212,7 +169,13 @@ def _formula(a: Arguments, r: Array) -> tuple[Any, ...]:
     return r, inf if f == d else f if d == inf else f * d / (d - f)
 
 
-def _image(name: str, title: str, hint: str, case: Any, **how: Any) -> Any:
+def _at_limits(draw: Draw) -> Mapping[str, Any]:
+    """Objects at the focal length, or at infinity."""
+    focal = draw.number(0.05, 1)
+    return {"focal_length": focal, "object_distance": draw.rng.choice((focal, inf)).item()}
+
+
+def _image(name: str, title: str, hint: str, case: Case, **how: Any) -> Law:
     """The formula on lenses of a kind, twenty of them at each of three scales."""
     return close(name, title, _formula, hint, case=case, within=1e-2, scales=SCALES * 7, **how)
 
@@ -220,8 +183,8 @@ def _image(name: str, title: str, hint: str, case: Any, **how: Any) -> Any:
 IMAGE_DISTANCE = Function(
     "image_distance",
     (
-        length("focal_length", 0.01, 10, (0.0, -1.0, nan)),
-        length("object_distance", 0.1, 9, (0.0, -1.0, nan)),
+        declare.length("focal_length", 0.01, 10, (0.0, -1.0, nan)),
+        declare.length("object_distance", 0.1, 9, (0.0, -1.0, nan)),
     ),
     (Result("the distance", "", "floating", finite=False),),
     (
@@ -234,21 +197,14 @@ IMAGE_DISTANCE = Function(
         _image(
             "virtual",
             "Nearer objects have a virtual image, at a negative distance",
-            "An object nearer than the focal length has a virtual image: a negative distance.",
+            "The same formula holds there; the sign says on which side of the lens the image is.",
             _lenses(near=True),
         ),
         _image(
             "limits",
-            "Objects at the focal length have their image at infinity",
-            "An object at the focal length has its image at infinity.",
-            lambda d: dict.fromkeys(("focal_length", "object_distance"), d.number(0.05, 1)),
-            role="corner",
-        ),
-        _image(
-            "far",
-            "Objects at infinity have their image at the focal length",
-            "An object far away has its image at the focal length.",
-            lambda _: {"object_distance": inf},
+            "The image of an object at the focal length is at infinity, and the other way round",
+            "At the focal length rays leave the lens parallel; from infinity they come so.",
+            _at_limits,
             role="corner",
         ),
     ),
@@ -259,7 +215,7 @@ IMAGE_DISTANCE = Function(
 # ---------------------------------------------------------------- circle_of_confusion
 
 
-def _depths(low: float, high: float) -> Any:
+def _depths(low: float, high: float) -> Case:
     """Depths between these multiples of the distance in focus."""
 
     def case(draw: Draw) -> Mapping[str, Any]:
@@ -275,8 +231,16 @@ def _circle(a: Arguments, r: Array) -> tuple[Any, ...]:
     return r, expected, expected + a.aperture_radius
 
 
-def _spread(name: str, title: str, hint: str, case: Any, **how: Any) -> Any:
-    return close(name, title, _circle, hint, case=case, scales=SCALES, what="a diameter of", **how)
+def _sharp_points(draw: Draw) -> Mapping[str, Any]:
+    """Points in focus, or a lens without an aperture."""
+    if draw.rng.random() < 0.5:
+        return {"aperture_radius": 0.0}
+    return {"depth": np.full(draw.n, 2.5), "focus_distance": 2.5}
+
+
+def _spread(name: str, title: str, hint: str, case: Case, **how: Any) -> Law:
+    usual: dict[str, Any] = {"case": case, "scales": SCALES * 3, "what": "a diameter of"}
+    return close(name, title, _circle, hint, **usual | how)
 
 
 CIRCLE_OF_CONFUSION = Function(
@@ -292,8 +256,8 @@ CIRCLE_OF_CONFUSION = Function(
                 np.array([1, 2, nan, 3], np.float32),
             ),
         ),
-        length("aperture_radius", 0.01, 0.5, (-1.0, nan)),
-        length("focus_distance", 0.5, 20, (0.0, -1.0, nan)),
+        declare.length("aperture_radius", 0.01, 0.5, (-1.0, nan)),
+        declare.length("focus_distance", 0.5, 20, (0.0, -1.0, nan)),
     ),
     (Result("the diameters", "N"),),
     (
@@ -306,30 +270,21 @@ CIRCLE_OF_CONFUSION = Function(
         _spread(
             "in_front",
             "Points in front of the plane in focus spread as far as they should",
-            "In front of the plane in focus a diameter is positive as well.",
+            "The circle grows without limit towards the lens: which depth is divided by? No sign is left.",
             _depths(0.02, 0.99),
         ),
         _spread(
             "limits",
-            "Nothing spreads in focus",
-            "What is in focus spreads over nothing.",
-            lambda d: {"depth": np.full(d.n, 2.5), "focus_distance": 2.5},
+            "Nothing spreads in focus, nor without an aperture",
+            "The diameter is proportional to the aperture, and to how far from focus a point is.",
+            _sharp_points,
             role="corner",
         ),
         _spread(
             "far",
             "Far points spread over the lens's diameter",
-            "Very far points spread over a circle as wide as the lens.",
+            "Very far points spread over a circle as wide as the lens: no matter how much farther.",
             lambda d: {"depth": np.geomspace(1e5, 1e6, d.n), "focus_distance": 1.5},
-            role="corner",
-        ),
-        close(
-            "sharp",
-            "A pinhole shows all sharp",
-            lambda _, r: (r, 0.0),
-            "Without an aperture nothing spreads.",
-            what="without an aperture",
-            case=lambda _: {"aperture_radius": 0.0},
             role="corner",
         ),
     ),

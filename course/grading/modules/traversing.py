@@ -16,26 +16,13 @@ from course.grading.checks.check import Array, Failure, Trial
 from course.grading.checks.declare import Argument, Arguments, Case, Function, Law, Result
 from course.grading.checks.examples import example, where
 from course.grading.checks.laws import close, holds, law
+from course.grading.modules import ray_scenes
 from course.grading.modules.hierarchies import (
     balanced,
     boxes_around,
     exact_hit,
     nearest_triangle,
     one_leaf,
-)
-from course.grading.modules.ray_scenes import (
-    HEIGHT,
-    LAYERS,
-    WIDTH,
-    camera,
-    cloud,
-    hidden,
-    of_size,
-    one_triangle,
-    ordered,
-    scene,
-    torus_of,
-    two_heaps,
 )
 
 EDGE = 1e-3
@@ -123,7 +110,7 @@ def _few_from_both_sides(a: Arguments, r: Any) -> None:
             raise Failure(
                 f"at most {FEW:g} triangles tested a ray",
                 f"{tests.mean():.3g}",
-                f"{LAYERS} layers, one a leaf, rays {way}",
+                f"{ray_scenes.LAYERS} layers, one a leaf, rays {way}",
                 "The nearer child first; and what begins beyond the nearest hit so far needs no visit.",
             )
 
@@ -141,12 +128,12 @@ LEVELS, MOST = 14, 256
 
 
 def _embree(function: Function, trial: Trial) -> None:
-    o, d = camera(trial.rng)
+    o, d = ray_scenes.camera(trial.rng)
     # Few triangles first: who tests all of them would need minutes for the others.
     for segments, sides, levels, step in ((32, 32, 9, 20), (256, 128, LEVELS, 1)):
-        vertices, faces, p = torus_of(segments, sides)
+        vertices, faces, p = ray_scenes.torus_of(segments, sides)
         rays = tuple(np.ascontiguousarray(v[:, ::step]) for v in (o, d))
-        a = Arguments(scene(p, balanced(*boxes_around(p), levels), rays[0], rays[1]))
+        a = Arguments(ray_scenes.scene(p, balanced(*boxes_around(p), levels), rays[0], rays[1]))
         try:
             r = function.call(trial, a)
             embree = Accelerator(vertices, faces).intersect(rays[0], rays[1], QueryTime())
@@ -160,7 +147,7 @@ def _embree(function: Function, trial: Trial) -> None:
             _nearest(a, r, embree.triangle)
             _few(r, len(faces))
         except Failure as failure:
-            example(function, trial, failure, _nearest, cloud)
+            example(function, trial, failure, _nearest, ray_scenes.cloud)
             raise
     trial.notes.append(
         f"{r[2].mean():.1f} boxes and {r[3].mean():.1f} triangles were tested for each ray; "
@@ -183,7 +170,8 @@ def _depth(t: Array) -> Array:
     """White is near, black is nothing."""
     with np.errstate(invalid="ignore"):
         near = np.where(np.isfinite(t), np.clip((4.8 - t) / 3.2, 0.05, 1), 0.0)
-    return np.broadcast_to(near.reshape(HEIGHT, WIDTH), (3, HEIGHT, WIDTH)).astype(np.float32)
+    shape = (ray_scenes.HEIGHT, ray_scenes.WIDTH)
+    return np.broadcast_to(near.reshape(shape), (3, *shape)).astype(np.float32)
 
 
 def _corners(name: str) -> Argument:
@@ -219,20 +207,28 @@ TRAVERSE = Function(
             _hit_or_not,
             "Either side, only in front of the origin, however near, only within the triangle.",
             what="t =",
-            case=one_triangle,
+            case=ray_scenes.one_triangle,
             scales=(1.0, 1e-3, 1e3),
             role="corner",
         ),
-        _hits("any", "The nearest hit, in any hierarchy", cloud),
-        _hits("small", "The nearest hit in scenes a hundred thousandth as large", of_size(1e-5)),
-        _hits("large", "The nearest hit in scenes a hundred thousand times as large", of_size(1e5)),
+        _hits("any", "The nearest hit, in any hierarchy", ray_scenes.cloud),
+        _hits(
+            "small",
+            "The nearest hit in scenes a hundred thousandth as large",
+            ray_scenes.of_size(1e-5),
+        ),
+        _hits(
+            "large",
+            "The nearest hit in scenes a hundred thousand times as large",
+            ray_scenes.of_size(1e5),
+        ),
         holds(
             "boxes",
             "The boxes decide what is tested",
             lambda a, r: np.abs(r[1] * a.directions[2] + a.origins[2] - 8) < 1e-4,
             "only triangles whose boxes the ray meets: the boxes of eight stand elsewhere",
             "A triangle counts only where the ray meets the boxes of all nodes above it.",
-            case=hidden,
+            case=ray_scenes.hidden,
             n=50,
             role="corner",
         ),
@@ -243,7 +239,7 @@ TRAVERSE = Function(
             "a test for each box that the ray was held against, and for each triangle in the leaves that it meets",
             "A leaf that is met costs as many tests as it holds triangles.",
             shows=lambda _, r: r[3],
-            case=two_heaps,
+            case=ray_scenes.two_heaps,
             n=4,
             scales=(1.0,) * 4,
             role="corner",
@@ -252,17 +248,13 @@ TRAVERSE = Function(
             "order",
             "What lies behind the nearest hit is skipped",
             _few_from_both_sides,
-            case=ordered,
+            case=ray_scenes.ordered,
             n=100,
             role="corner",
         ),
-        Law(
-            "embree",
-            "Hit for hit with Embree on 65,536 triangles, with few tests",
-            _embree,
-        ),
+        Law("embree", "Hit for hit with Embree on 65,536 triangles, with few tests", _embree),
     ),
-    case=cloud,
+    case=ray_scenes.cloud,
     unique=False,
     speed=512,
 )

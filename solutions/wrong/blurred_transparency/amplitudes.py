@@ -3,7 +3,7 @@
 import numpy as np
 
 FUNCTION = "fresnel"
-CAUGHT_BY = "straight"
+CAUGHT_BY = "ends"
 MISTAKE = "not-squared"
 SAYS = "You average amplitudes; light's power goes with their squares."
 

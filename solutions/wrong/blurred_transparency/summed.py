@@ -3,7 +3,7 @@
 import numpy as np
 
 FUNCTION = "fresnel"
-CAUGHT_BY = "straight"
+CAUGHT_BY = "ends"
 MISTAKE = "summed"
 SAYS = "You add both polarisations up; it is their mean."
 

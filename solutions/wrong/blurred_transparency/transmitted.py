@@ -3,7 +3,7 @@
 import numpy as np
 
 FUNCTION = "fresnel"
-CAUGHT_BY = "straight"
+CAUGHT_BY = "ends"
 MISTAKE = "transmitted"
 SAYS = "You return the share that gets through; asked for is the one that is reflected."
 

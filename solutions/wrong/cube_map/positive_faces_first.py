@@ -3,7 +3,7 @@
 import numpy as np
 
 FUNCTION = "face_and_uv"
-CAUGHT_BY = "faces"
+CAUGHT_BY = "middles"
 MISTAKE = "other-order"
 SAYS = "Your faces are numbered in another order; it is +x, -x, +y, -y, +z, -z."
 

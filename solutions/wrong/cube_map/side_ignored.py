@@ -3,7 +3,7 @@
 import numpy as np
 
 FUNCTION = "face_and_uv"
-CAUGHT_BY = "faces"
+CAUGHT_BY = "middles"
 MISTAKE = "sign-ignored"
 SAYS = "You name the axis but not its side: + and - faces are different, and numbered in turn."
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 FUNCTION = "face_and_uv"
-CAUGHT_BY = "faces"
+CAUGHT_BY = "middles"
 MISTAKE = "signed-largest"
 SAYS = (
     "You look for the largest component with its sign, so -3 counts less than 1; its size decides."

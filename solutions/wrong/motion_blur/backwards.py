@@ -3,7 +3,7 @@
 import numpy as np
 
 FUNCTION = "shutter_times"
-CAUGHT_BY = "rising"
+CAUGHT_BY = "uniform"
 MISTAKE = "backwards"
 SAYS = "Your times run from close back to open; they should rise with u."
 

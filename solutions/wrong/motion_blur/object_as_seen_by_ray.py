@@ -3,7 +3,7 @@
 import numpy as np
 
 FUNCTION = "to_object_space"
-CAUGHT_BY = "at-start"
+CAUGHT_BY = "at-rest"
 MISTAKE = "other-difference"
 SAYS = "Your difference is the wrong way round: it is the object as the ray sees it, not the ray as the object sees it."
 

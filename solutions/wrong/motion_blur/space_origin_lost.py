@@ -3,7 +3,7 @@
 import numpy as np
 
 FUNCTION = "to_object_space"
-CAUGHT_BY = "at-start"
+CAUGHT_BY = "at-rest"
 MISTAKE = "origins-lost"
 SAYS = "You hand back how far the object has gone, but the ray's own origin is missing."
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 FUNCTION = "throughput"
-CAUGHT_BY = "bright"
+CAUGHT_BY = "any-size"
 MISTAKE = "clipped"
 SAYS = "You cut throughputs at 1; paths may bring more."
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 FUNCTION = "shoot"
-CAUGHT_BY = "received"
+CAUGHT_BY = "shot"
 MISTAKE = "areas-forgotten"
 SAYS = "You leave out the areas: a large patch shoots more, and a small one gets brighter."
 

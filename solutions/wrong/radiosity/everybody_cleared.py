@@ -3,7 +3,7 @@
 import numpy as np
 
 FUNCTION = "shoot"
-CAUGHT_BY = "unshot"
+CAUGHT_BY = "shot"
 MISTAKE = "all-cleared"
 SAYS = "You clear what all patches have left to shoot; only one has shot."
 

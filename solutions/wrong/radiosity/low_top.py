@@ -3,7 +3,7 @@
 import numpy as np
 
 FUNCTION = "hemicube_form_factors"
-CAUGHT_BY = "share"
+CAUGHT_BY = "cells"
 MISTAKE = "low-top"
 SAYS = "The hemicube's top is at half its height."
 

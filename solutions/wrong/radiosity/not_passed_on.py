@@ -3,7 +3,7 @@
 import numpy as np
 
 FUNCTION = "shoot"
-CAUGHT_BY = "unshot"
+CAUGHT_BY = "shot"
 MISTAKE = "not-passed-on"
 SAYS = "Receivers don't get anything to shoot: light is reflected once only."
 

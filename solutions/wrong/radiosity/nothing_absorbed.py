@@ -3,7 +3,7 @@
 import numpy as np
 
 FUNCTION = "shoot"
-CAUGHT_BY = "received"
+CAUGHT_BY = "shot"
 MISTAKE = "nothing-absorbed"
 SAYS = "You leave out the reflectance of the receivers."
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 FUNCTION = "shoot"
-CAUGHT_BY = "received"
+CAUGHT_BY = "shot"
 MISTAKE = "reflected-at-shooter"
 SAYS = "You use the shooter's reflectance; the receiver's counts."
 

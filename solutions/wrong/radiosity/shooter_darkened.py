@@ -3,7 +3,7 @@
 import numpy as np
 
 FUNCTION = "shoot"
-CAUGHT_BY = "received"
+CAUGHT_BY = "shot"
 MISTAKE = "shooter-darkened"
 SAYS = "You take the light that is shot away from the shooter's radiosity: it stays bright."
 

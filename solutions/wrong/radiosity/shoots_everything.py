@@ -3,7 +3,7 @@
 import numpy as np
 
 FUNCTION = "shoot"
-CAUGHT_BY = "received"
+CAUGHT_BY = "shot"
 MISTAKE = "shoots-everything"
 SAYS = "You shoot the whole radiosity again, with what has been shot before."
 
