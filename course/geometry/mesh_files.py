@@ -28,6 +28,9 @@ FORMATS = {".ply": parse_ply, ".obj": parse_obj, ".stl": parse_stl, ".glb": pars
 # Beyond this, squares of distances overflow float64; no unit makes a scene that large.
 FARTHEST = 1e150
 
+# Areas of triangles of size 1 under which rounding decides where they look.
+SLIVER = 1e-6
+
 
 Weights = Literal["angle", "area"]
 """By what the faces around a vertex count in its normal."""
@@ -197,7 +200,10 @@ def _outwards(
     # A triangle of any size: only the sign of the product counts.
     size = np.max(np.abs(sides), axis=(0, 2), initial=0.0)[:, None]
     ahead = np.cross(*(side / np.where(size > 0.0, size, 1.0) for side in sides))
-    wrong = np.sum(ahead * normals[triangles].sum(axis=1), axis=1) < 0.0
+    # A sliver that rounding alone gives an area looks nowhere: coordinates are rounded as they are far from 0.
+    far = np.abs(np.stack((p0, p1, p2))).max(axis=(0, 2), initial=0.0)
+    rounded = 16 * np.finfo(np.float32).eps * far / np.where(size[:, 0] > 0.0, size[:, 0], 1.0)
+    wrong = np.sum(ahead * normals[triangles].sum(axis=1), axis=1) < -SLIVER - rounded
     if not wrong.any():
         return triangles
     warnings.warn(

@@ -173,7 +173,7 @@ def test_a_failure_is_told_on_three_rungs_and_never_shows_the_code(
     (tmp_path / "thin_lens.py").write_text(known["wrong_cosine"].source, encoding="utf-8")
     arguments = ("check", "thin_lens", "--folder", tmp_path, "--only", "lens_rays", "--hint", rungs)
     said = run(*arguments).stdout
-    assert "plane_in_focus: Rays meet the pinhole's rays on the plane in focus" in said
+    assert "rays: Rays go from their lens points to the points in focus" in said
     smallest, looks = "smallest    lens_rays(origin = [", known["wrong_cosine"].says
     assert (smallest in said) == (rungs >= 2)
     assert (looks in said) == (rungs >= 3)

