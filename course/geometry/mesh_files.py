@@ -19,7 +19,12 @@ from course.geometry.mesh_formats import Part, parse_stl
 from course.geometry.mesh_glb import parse_glb
 from course.geometry.mesh_obj import parse_obj
 from course.geometry.mesh_ply import parse_ply
-from course.geometry.smooth_normals import area_normals, smooth_normals
+from course.geometry.smooth_normals import (
+    area_normals,
+    edges_and_faces,
+    smooth_normals,
+    unit,
+)
 from course.geometry.transforms import apply
 from course.geometry.welding import same
 
@@ -181,11 +186,7 @@ def _normals(name: str, part: Part, count: int) -> tuple[NDArray[np.float64], ND
     if normals.shape != (count, 3):
         raise GeometryError(f"{name}: {len(normals)} normals for {count} vertices")
     _check_finite(name, "normal", normals)
-    largest = np.max(np.abs(normals), axis=1, keepdims=True, initial=0.0)
-    given = largest > 0.0
-    normals /= np.where(given, largest, 1.0)
-    normals /= np.where(given, np.sqrt(np.sum(normals * normals, axis=1, keepdims=True)), 1.0)
-    return normals, given
+    return unit(normals), np.asarray(normals.any(axis=1, keepdims=True))
 
 
 def _outwards(
@@ -195,15 +196,12 @@ def _outwards(
     normals: NDArray[np.float64],
 ) -> NDArray[np.integer]:
     """Return triangles that look where the sum of their corners' normals does; warn of those that were turned."""
-    p0, p1, p2 = (vertices[triangles[:, corner]] for corner in range(3))
-    sides = p1 - p0, p2 - p0
-    # A triangle of any size: only the sign of the product counts.
-    size = np.max(np.abs(sides), axis=(0, 2), initial=0.0)[:, None]
-    ahead = np.cross(*(side / np.where(size > 0.0, size, 1.0) for side in sides))
-    # A sliver that rounding alone gives an area looks nowhere: coordinates are rounded as they are far from 0.
-    far = np.abs(np.stack((p0, p1, p2))).max(axis=(0, 2), initial=0.0)
-    rounded = 16 * np.finfo(np.float32).eps * far / np.where(size[:, 0] > 0.0, size[:, 0], 1.0)
-    wrong = np.sum(ahead * normals[triangles].sum(axis=1), axis=1) < -SLIVER - rounded
+    _, faces, lengths = edges_and_faces(vertices, triangles)
+    ahead = np.sum(faces * normals[triangles].sum(axis=1), axis=1)
+    # A sliver that rounding alone gives an area looks nowhere. Many files hold single precision, so the error of
+    # a coordinate is in proportion to its distance from 0.
+    far = np.abs(vertices[triangles]).max(axis=(1, 2), initial=0.0)
+    wrong = ahead < -(SLIVER + 16 * float(np.finfo(np.float32).eps) * far / lengths)
     if not wrong.any():
         return triangles
     warnings.warn(

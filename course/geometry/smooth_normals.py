@@ -42,8 +42,8 @@ def smooth_normals(
     """
     faces, weights = _faces_and_angles(vertices, triangles)
     sums = _sums(len(vertices), triangles, faces, weights)
-    own = _unit(sums)
-    normals = _unit(_lend(vertices, own, sums, math.cos(math.radians(crease_degrees))))
+    own = unit(sums)
+    normals = unit(_lend(vertices, own, sums, math.cos(math.radians(crease_degrees))))
     return _filled(normals, own, faces, triangles)
 
 
@@ -66,23 +66,34 @@ def area_normals(
     longest = np.abs(p[:, 1:] - p[:, :1]).max(initial=0.0) or 1.0
     e1, e2 = (np.asarray((p[:, k] - p[:, 0]) / longest) for k in (1, 2))
     crossed = np.cross(e1, e2)
-    normals = _unit(_sums(len(vertices), triangles, crossed, np.ones(triangles.shape)))
-    return _filled(normals, normals, _unit(crossed), triangles)
+    normals = unit(_sums(len(vertices), triangles, crossed, np.ones(triangles.shape)))
+    return _filled(normals, normals, unit(crossed), triangles)
+
+
+def edges_and_faces(
+    vertices: NDArray[np.float64], triangles: NDArray[np.integer]
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """Return edges (T, 3, 3), cross products of the first two (T, 3), and the lengths (T,) that both are in units of.
+
+    Each triangle's own unit is the largest coordinate of its edges, so that no product leaves float64's range.
+    """
+    p = vertices[triangles]
+    edges = np.roll(p, -1, axis=1) - p
+    longest = np.max(np.abs(edges), axis=(1, 2), keepdims=True, initial=0.0)
+    unit_length = np.where(longest > 0.0, longest, 1.0)
+    edges /= unit_length
+    return edges, np.cross(edges[:, 0], edges[:, 1]), unit_length[:, 0, 0]
 
 
 def _faces_and_angles(
     vertices: NDArray[np.float64], triangles: NDArray[np.integer]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return face normals (T, 3), zero where there is no area, and corner angles (T, 3)."""
-    p = vertices[triangles]
-    edges = np.roll(p, -1, axis=1) - p
-    longest = np.max(np.abs(edges), axis=(1, 2), keepdims=True)
-    edges /= np.where(longest > 0.0, longest, 1.0)
-    faces = np.cross(edges[:, 0], edges[:, 1])
+    edges, faces, _ = edges_and_faces(vertices, triangles)
     areas = np.sqrt(np.sum(faces * faces, axis=1))
     # At corner k the edges k and (minus) k - 1 meet; all three pairs span twice the same area.
     cosines = -np.sum(edges * np.roll(edges, 1, axis=1), axis=2)
-    return _unit(faces), np.arctan2(areas[:, None], cosines)
+    return unit(faces), np.arctan2(areas[:, None], cosines)
 
 
 def _sums(
@@ -145,7 +156,7 @@ def _filled(
     return normals
 
 
-def _unit(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+def unit(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return vectors (N, 3) at unit length; zero stays zero. No square leaves float64's range."""
     largest = np.max(np.abs(vectors), axis=1, keepdims=True)
     scaled = vectors / np.where(largest > 0.0, largest, 1.0)

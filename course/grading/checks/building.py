@@ -68,7 +68,7 @@ def _run(function: Function, law: Law, trial: Trial) -> None:
     try:
         law.run(function, trial)
     except Failure as failure:
-        failure.example = failure.example or fewest_columns(function, trial, law) or failure.where
+        failure.example = failure.example or fewest_columns(function, trial, law)
         raise
     except StudentError as error:
         if error.kind in ("raised", "bad value") and not error.module_wide:

@@ -7,13 +7,9 @@ from collections.abc import Iterator
 from itertools import combinations, product
 
 import numpy as np
-from scipy.special import ndtri
 
 from course.grading.checks.check import Array
-from course.grading.checks.statistics import FALSE_FAIL
-
-SIGMAS = -float(ndtri(FALSE_FAIL / 2))
-"""Standard errors that a share or a mean must be off."""
+from course.grading.checks.statistics import SIGMAS
 
 
 def feature_names(what: str, rows: int) -> list[str]:

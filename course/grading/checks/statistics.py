@@ -16,6 +16,9 @@ from course.grading.checks.check import Array, Failure
 FALSE_FAIL = 1e-7
 """Of each comparison: a hundred in an assignment stay under 1e-5."""
 
+SIGMAS = -float(ndtri(FALSE_FAIL / 2))
+"""Standard errors that a mean or a share must be off to fail."""
+
 
 def check_uniform(values: Array, cells: tuple[int, ...], what: str, hint: str = "") -> None:
     """(d, N) values fill the unit cube evenly: Pearson's chi-squared test over a grid of cells.
@@ -64,6 +67,6 @@ def check_mean(values: Array, mean: float, variance: float, what: str, hint: str
     Failure
     """
     found = float(values.astype(np.float64).mean())
-    bound = -float(ndtri(FALSE_FAIL / 2)) * sqrt(variance / values.size)
+    bound = SIGMAS * sqrt(variance / values.size)
     if not abs(found - mean) <= bound:
         raise Failure(f"{what}: {mean:.6g} within {bound:.2g}", f"{found:.6g}", "", hint)

@@ -12,7 +12,6 @@ from math import comb, nan, pi, sqrt
 from typing import Any
 
 import numpy as np
-from scipy.special import ndtri
 
 from course.grading.checks.check import Array, Failure, Trial
 from course.grading.checks.declare import (
@@ -37,7 +36,7 @@ from course.grading.checks.laws import (
     unit_length,
     within,
 )
-from course.grading.checks.statistics import FALSE_FAIL
+from course.grading.checks.statistics import FALSE_FAIL, SIGMAS
 
 SEVERAL = (1.0, 1.0, 1.0, 1.0)
 """Scales of a law without lengths: each makes other numbers."""
@@ -296,7 +295,6 @@ def _one_channel(_: Function, trial: Trial) -> None:
 def _predicted(function: Function, trial: Trial) -> None:
     """Uniform, cosine and Phong lobe: the variances that theory tells for cos^n."""
     n = int(trial.rng.integers(3, 6))
-    z = -float(ndtri(FALSE_FAIL / 2))
     for lobe, name in ((0, "uniform"), (1, "cosine-weighted"), (n - 1, f"Phong ({n - 1})")):
         cos = trial.rng.random(MANY) ** (1 / (lobe + 1))
         a = Arguments(f=cos[None] ** n, pdf=cos**lobe / _integral(lobe))
@@ -307,9 +305,9 @@ def _predicted(function: Function, trial: Trial) -> None:
             ("mean", mean, _integral(n), sqrt(exact / MANY)),
             ("variance", variance, exact / MANY, of_variance),
         ):
-            if not abs(found - expected) <= z * spread:
+            if not abs(found - expected) <= SIGMAS * spread:
                 raise Failure(
-                    f"for cos^{n} by {name} sampling, {what} {expected:.5g} within {z * spread:.2g}",
+                    f"for cos^{n} by {name} sampling, {what} {expected:.5g} within {SIGMAS * spread:.2g}",
                     f"{found:.5g}",
                     f"N = {MANY}",
                     "The same integral each time; the closer the density, the smaller the variance.",

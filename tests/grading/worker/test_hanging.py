@@ -65,20 +65,6 @@ def lost(monkeypatch: pytest.MonkeyPatch) -> list[float]:
 
 
 @pytest.fixture
-def starts(monkeypatch: pytest.MonkeyPatch) -> list[str]:
-    """The modules of the processes that were started, of students' and the reference's."""
-    found: list[str] = []
-    usual = Worker._start
-
-    def start(worker: Worker) -> None:
-        found.append(worker.module)
-        usual(worker)
-
-    monkeypatch.setattr(Worker, "_start", start)
-    return found
-
-
-@pytest.fixture
 def no_solutions(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """As in a student's copy: nobody is asked again with the course's own functions."""
     monkeypatch.setattr(grading, "SOLUTIONS", tmp_path)

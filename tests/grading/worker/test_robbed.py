@@ -51,20 +51,6 @@ def quickly() -> Iterator[None]:
     assert monotonic() - started < LONG
 
 
-@pytest.fixture
-def starts(monkeypatch: pytest.MonkeyPatch) -> list[str]:
-    """The modules of the processes that were started."""
-    found: list[str] = []
-    usual = Worker._start
-
-    def start(worker: Worker) -> None:
-        found.append(worker.module)
-        usual(worker)
-
-    monkeypatch.setattr(Worker, "_start", start)
-    return found
-
-
 def raised(source: str, *arguments: object, limits: Limits | None = None) -> StudentError:
     """What a call of f gives."""
     worker = Worker("m", source.encode(), limits or Limits(call_seconds=1.0))
