@@ -131,6 +131,16 @@ def test_a_long_exception_is_cut_and_told_once(run: Run, folder: Path) -> None:
     assert len(text) < 2000
 
 
+def test_nothing_that_a_submission_writes_steers_the_terminal(run: Run, folder: Path) -> None:
+    own = "\n\ndef displacement(*_):\n    print('\\x1b]0;here\\x07')\n"
+    own += "    raise ValueError('\\x1b]0;there\\x07 \\u202e')\n"
+    (folder / "motion_blur.py").write_text(SOLUTION + own, encoding="utf-8")
+    said = run("check", "motion_blur", "--folder", folder, "--only", "displacement").stdout
+    assert "here" in said
+    assert "there" in said
+    assert not {"\x1b", "\x07", "\u202e"} & set(said)
+
+
 def test_copies_of_other_modules_block_nothing(run: Run, tmp_path: Path) -> None:
     mine = tmp_path / "mine"
     for name in (".", "old", "older"):
