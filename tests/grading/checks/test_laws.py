@@ -79,8 +79,9 @@ def test_a_law_passes_the_right_and_fails_the_nearly_right(name: str) -> None:
     law, wrong = SAME[name]
     for seed in range(3):
         run(law, lambda u: u.copy(), seed)
-        with pytest.raises(Failure):
+        with pytest.raises(Failure) as caught:
             run(law, wrong, seed)
+        assert caught.value.example or caught.value.where
 
 
 def test_no_number_is_no_right_number() -> None:
