@@ -171,7 +171,9 @@ def _checked(name: str, part: Part, weights: Weights) -> Mesh:
         triangles = triangles.astype(np.int32)
     normals, given = _normals(name, part, len(vertices))
     if given.any():
-        triangles = _outwards(name, vertices, triangles, normals)
+        stored = np.asarray(part.vertices).dtype
+        precision = float(np.finfo(stored).eps) if stored.kind == "f" else 0.0
+        triangles = _outwards(name, vertices, triangles, normals, precision)
     if not given.all():
         compute = area_normals if weights == "area" else smooth_normals
         normals = np.where(given, normals, compute(vertices, triangles))
@@ -194,14 +196,15 @@ def _outwards(
     vertices: NDArray[np.float64],
     triangles: NDArray[np.integer],
     normals: NDArray[np.float64],
+    precision: float,
 ) -> NDArray[np.integer]:
     """Return triangles that look where the sum of their corners' normals does; warn of those that were turned."""
     _, faces, lengths = edges_and_faces(vertices, triangles)
     ahead = np.sum(faces * normals[triangles].sum(axis=1), axis=1)
-    # A sliver that rounding alone gives an area looks nowhere. Many files hold single precision, so the error of
-    # a coordinate is in proportion to its distance from 0.
+    # A sliver that rounding alone gives an area looks nowhere: a coordinate as the file holds it is right to
+    # ``precision`` times its distance from 0.
     far = np.abs(vertices[triangles]).max(axis=(1, 2), initial=0.0)
-    wrong = ahead < -(SLIVER + 16 * float(np.finfo(np.float32).eps) * far / lengths)
+    wrong = ahead < -(SLIVER + 16 * precision * far / lengths)
     if not wrong.any():
         return triangles
     warnings.warn(
