@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from math import fsum
 from typing import Protocol
 
 from course.effects import COURSE
@@ -37,12 +38,12 @@ class Total:
     @property
     def points(self) -> float:
         """Earned."""
-        return sum(part.points for part in self.parts())
+        return fsum(part.points for part in self.parts())
 
     @property
     def of(self) -> float:
         """That could be earned."""
-        return sum(part.of for part in self.parts())
+        return fsum(part.of for part in self.parts())
 
 
 UNPROTECTED = "NOT PROTECTED"

@@ -7,6 +7,7 @@ import re
 import shlex
 import subprocess
 import uuid
+from math import fsum
 from pathlib import Path
 from typing import Any
 
@@ -85,7 +86,8 @@ def test_right_and_wrong_are_graded(question: Path, tmp_path: Path) -> None:
     right = grade(question, tmp_path / "right", **{"motion_blur.py": RIGHT})
     assert (right["gradable"], right["score"]) == (True, 1.0)
     assert (
-        sum(test["max_points"] for test in right["tests"]) == totals(["motion_blur"])["motion_blur"]
+        fsum(test["max_points"] for test in right["tests"])
+        == totals(["motion_blur"])["motion_blur"]
     )
     wrong = grade(question, tmp_path / "wrong", **{"motion_blur.py": WRONG.source})
     assert 0 < wrong["score"] < 1

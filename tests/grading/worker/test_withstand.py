@@ -9,6 +9,7 @@ from __future__ import annotations
 import threading
 from dataclasses import dataclass
 from functools import cache
+from math import fsum
 from textwrap import indent
 
 import numpy as np
@@ -45,7 +46,7 @@ def quick(check: Check) -> bool:
 
 
 def points() -> float:
-    return sum(check.points for check in module_checks(MODULE).checks if quick(check))
+    return fsum(check.points for check in module_checks(MODULE).checks if quick(check))
 
 
 @cache
@@ -196,7 +197,7 @@ ATTACKS = {
     "patches NumPy": Attack(
         "return np.zeros((3, len(time)), time.dtype)",
         "np.allclose = np.array_equal = lambda *a, **k: True\n",
-        lost={"contract", "at-rest", "at-start", "travels-along", "own-time"},
+        lost={"contract", "at-rest", "travels-along", "own-time"},
     ),
     "signals its parent": Attack(f"import os\nos.kill(os.getppid(), 9)\n{RIGHT}"),
     "C through ctypes": Attack(f"import ctypes\nctypes.CDLL(None).fork()\n{RIGHT}"),
@@ -230,7 +231,7 @@ def test_an_attack_costs_its_own_function(name: str, bubblewrap: bool) -> None:
     # Whatever it cost, it cost this function.
     others = [result for result in report.results if result.function != FUNCTION]
     assert {result.status for result in others} == {Status.PASSED}
-    earned = sum(
+    earned = fsum(
         result.of for result in report.results if result.check not in wrong or result in others
     )
     assert report.points == earned
