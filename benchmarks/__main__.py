@@ -31,6 +31,7 @@ from benchmarks.process import measure_processes
 from benchmarks.quasi_monte_carlo import measure_quasi_monte_carlo
 from benchmarks.radiosity import measure_radiosity
 from benchmarks.ratios import write_ratios
+from benchmarks.reached_error import measure_quickly, measure_reached_error
 from benchmarks.sampling import measure_sampling
 from course.benchmarking.machine import machine
 from course.cli.bench import DOCUMENTS, bench
@@ -45,6 +46,7 @@ MEASURES = {
     "convergence": measure_convergence,
     "dragons": measure_dragons,
     "adaptive": measure_adaptive,
+    "reached_error": measure_reached_error,
     "radiosity": measure_radiosity,
     "bounding_volumes": measure_bounding_volumes,
     "grading": measure_grading,
@@ -58,7 +60,9 @@ MEASURES = {
 
 @click.command()
 @click.argument("names", metavar="[NAME]...", nargs=-1, type=click.Choice([*MEASURES, "errors"]))
-@click.option("--quick", is_flag=True, help="Measure errors over time in about a minute.")
+@click.option(
+    "--quick", is_flag=True, help="Measure errors over time, and reached_error, in about a minute."
+)
 @click.option(
     "--write-docs",
     is_flag=True,
@@ -67,13 +71,14 @@ MEASURES = {
 def main(names: tuple[str, ...], quick: bool, write_docs: bool) -> None:
     """Measure everything, or what NAME says; print and write it.
 
-    NAME: engine, effects, degenerate, process, convergence, dragons, adaptive, bounding_volumes, grading,
-    path_tracing, radiosity, sampling, adaptive_sampling, importance_sampling, quasi_monte_carlo, or errors
+    NAME: engine, effects, degenerate, process, convergence, dragons, adaptive, reached_error, bounding_volumes,
+    grading, path_tracing, radiosity, sampling, adaptive_sampling, importance_sampling, quasi_monte_carlo, or errors
     (`course bench`).
     """
     OUT.mkdir(parents=True, exist_ok=True)
     _keep_bytecode()
-    found = {name: measure() for name, measure in MEASURES.items() if not names or name in names}
+    measures = {**MEASURES, **({"reached_error": measure_quickly} if quick else {})}
+    found = {name: measure() for name, measure in measures.items() if not names or name in names}
     if found:
         _report(found, write_docs)
     if not names or "errors" in names:

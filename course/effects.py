@@ -6,14 +6,16 @@ function of it is asked for. A scene that doesn't use an effect never imports it
 
 from __future__ import annotations
 
+import os
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from course.errors import EffectError
+from course.errors import EffectError, Ended
 
 MODULES: dict[str, tuple[str, ...]] = {
     "supersampling": ("regular", "random", "jittered", "gaussian_weights", "resolve"),
@@ -70,6 +72,20 @@ COURSE = MODULES | FURTHER
 PROJECT = Path(__file__).resolve().parent.parent
 
 
+@dataclass(frozen=True)
+class Need:
+    """A function that rendering a scene calls.
+
+    Attributes
+    ----------
+    function : "module.function"
+    asked_by : the key path in the scene file whose value makes it necessary
+    """
+
+    function: str
+    asked_by: tuple[str | int, ...]
+
+
 class Effects:
     """The student-facing functions, from one folder of ``NAME.py`` files.
 
@@ -77,6 +93,7 @@ class Effects:
     ----------
     folder : where the modules are; ``solutions`` and ``assignments`` mean the project's own folders. None means the
         solutions where they are, and else the assignments.
+    trusted : whether what the functions return is taken as it is; None means the project's own solutions, and no others
 
     Raises
     ------
@@ -84,18 +101,21 @@ class Effects:
         When the folder doesn't exist.
     """
 
-    def __init__(self, folder: str | Path | None = None) -> None:
+    def __init__(self, folder: str | Path | None = None, trusted: bool | None = None) -> None:
         if folder is None:
             # A student's copy has no solutions.
             folder = "solutions" if (PROJECT / "solutions").is_dir() else "assignments"
         path = Path(folder)
         if str(folder) in ("solutions", "assignments") and not path.is_dir():
             path = PROJECT / path
-        if not path.is_dir():
+        # Path.is_dir raises an error of its own for a name that is too long.
+        if not os.path.isdir(path):  # noqa: PTH112
             raise EffectError(
                 f"no folder {path} with effect functions; --effects takes solutions, assignments or a folder"
             )
         self.folder = path
+        self.trusted = path.resolve() == PROJECT / "solutions" if trusted is None else trusted
+        self._functions: dict[tuple[str, str], Callable[..., Any]] = {}
         self._modules: dict[str, ModuleType] = {}
 
     @property
@@ -104,22 +124,69 @@ class Effects:
         return tuple(self._modules)
 
     def function(self, module: str, name: str) -> Callable[..., Any]:
-        """One function of a module, importing the module if this is its first.
+        """One function of a module, importing the module if this is its first; guarded where it isn't trusted.
 
         Raises
         ------
         EffectError
             When the file or the function is missing or the file can't be imported.
         """
-        function = getattr(self._module(module), name, None)
-        if not callable(function):
-            raise EffectError(f"{self.folder / module}.py has no function {name}")
-        return function  # type: ignore[no-any-return]
+        known = self._functions.get((module, name))
+        if known is not None:
+            return known
+        file = self.folder / f"{module}.py"
+        function: Callable[..., Any] | None = getattr(self._module(module), name, None)
+        if function is None or not callable(function):
+            raise EffectError(f"{file} has no function {name}")
+        if not self.trusted:
+            # Here, for a command line's help needs no NumPy.
+            from course.guard import guarded
+
+            function = guarded(f"{module}.{name}", function, file)
+        self._functions[module, name] = function
+        return function
 
     def _module(self, name: str) -> ModuleType:
         if name not in self._modules:
             self._modules[name] = _import_file(self.folder / f"{name}.py")
         return self._modules[name]
+
+
+class Bound:
+    """The functions that one scene is bound to, with what asks for them: its receipt and its errors follow from that.
+
+    Parameters
+    ----------
+    effects : whose functions
+    needs : what was bound before
+
+    Attributes
+    ----------
+    needs : of each function the first that asked
+    """
+
+    def __init__(self, effects: Effects, needs: Iterable[Need] = ()) -> None:
+        self._effects = effects
+        self._needs = {need.function: need for need in needs}
+
+    @property
+    def needs(self) -> tuple[Need, ...]:
+        """In the course's order."""
+        order = {f"{module}.{name}": None for module in COURSE for name in COURSE[module]}
+        return tuple(self._needs[function] for function in order if function in self._needs)
+
+    def asked_by(self, function: str) -> tuple[str | int, ...] | None:
+        """The key path that makes "module.function" necessary, if any does."""
+        need = self._needs.get(function)
+        return None if need is None else need.asked_by
+
+    def function(
+        self, module: str, name: str, asked_by: tuple[str | int, ...]
+    ) -> Callable[..., Any]:
+        """See ``Effects.function``; it is noted down."""
+        function = self._effects.function(module, name)
+        self._needs.setdefault(f"{module}.{name}", Need(f"{module}.{name}", asked_by))
+        return function
 
 
 def _import_file(path: Path) -> ModuleType:
@@ -132,9 +199,16 @@ def _import_file(path: Path) -> ModuleType:
         raise EffectError(f"{path} can't be imported")
     module = module_from_spec(spec)
     sys.modules[name] = module
+    here = Path.cwd()
     try:
         spec.loader.exec_module(module)
-    except Exception as error:
+    except (KeyboardInterrupt, Ended):
+        raise
+    except BaseException as error:
+        # SystemExit at import would end the render in silence.
         del sys.modules[name]
         raise EffectError(f"{path} can't be imported: {type(error).__name__}: {error}") from error
+    finally:
+        # Scripts like to go to their own folder; outputs and other modules are named from ours.
+        os.chdir(here)
     return module

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 
 class CourseError(Exception):
     """A mistake in what the user gave; its message is shown without a traceback."""
@@ -21,6 +23,32 @@ class GeometryError(CourseError):
 
 class EffectError(CourseError):
     """A student function that is missing, not written yet, or returned what it must not."""
+
+
+class FunctionError(EffectError):
+    """A student function that raised an exception or returned what it must not.
+
+    Attributes
+    ----------
+    function : "module.function"
+    """
+
+    def __init__(self, message: str, function: str) -> None:
+        # Both, so that a copy that a cluster sends has both.
+        super().__init__(message, function)
+        self.function = function
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+    def asked_by(self, where: str, keys: Iterable[str | int]) -> FunctionError:
+        """The same with the place of the scene that makes the function necessary: file and line, and the key path."""
+        place = f"{where}: {'.'.join(map(str, keys))} asks for it"
+        return FunctionError(f"{self}; {place}", self.function)
+
+
+class Ended(SystemExit):
+    """The process was told to end by a signal."""
 
 
 class OutputError(CourseError):

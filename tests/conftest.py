@@ -13,6 +13,8 @@ import pytest
 from numpy.typing import NDArray
 
 from course import Scene, load_scene
+from course.geometry import packets
+from course.rendering import rendering
 
 MakeScene = Callable[..., Scene]
 PixelRays = Callable[[Scene], tuple[NDArray[np.float64], NDArray[np.float64]]]
@@ -41,6 +43,33 @@ def make_scene(tmp_path: Path) -> MakeScene:
         return load_scene(path)
 
     return make
+
+
+@pytest.fixture(
+    params=[
+        False,
+        pytest.param(
+            True,
+            marks=pytest.mark.skipif(
+                not packets.available(), reason="Numba is not installed (pip install .[fast])"
+            ),
+        ),
+    ],
+    ids=["NumPy", "compiled"],
+)
+def each_form(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> bool:
+    """Run a test once with passes over arrays and once with compiled loops, whichever small renders would take.
+
+    Without it that depends on which tests ran before: once Numba is imported it is used. So laws that a renderer must
+    keep are tested with it, or one of the two forms is held against the other alone.
+    """
+    form = bool(request.param)
+
+    def chosen(_settings: object, wanted: bool | None) -> bool:
+        return form if wanted is None else wanted
+
+    monkeypatch.setattr(rendering, "_use_compiled", chosen)
+    return form
 
 
 @pytest.fixture

@@ -14,7 +14,10 @@ COURSE = ROOT / "course"
 
 FLOORS = {
     "errors": 0,
+    "contracts": 0,
+    "guard": 0,
     "effects": 0,
+    "inputs": 0,
     "core": 0,
     "geometry": 1,
     "appearance": 2,

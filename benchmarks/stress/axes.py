@@ -31,6 +31,13 @@ VISIBLE_TWIN = 1e-4
 ONE_POINT = 1e-5
 """Lights up to this size are as good as a point [half extents]."""
 
+COARSE = {1e3: 1e3, 1e8: 8.0}
+"""The size of what is huge, and in which unit numbers are rounded beside it [half extents].
+
+That is its own size, in units of which the room is tiny; unless it is so much larger that the engine puts the origin
+into the room, and cuts triangles there down to the room's size (``course.scene.small_objects``).
+"""
+
 ANGLES = (1e-2, 1e-4, 1e-6)
 
 
@@ -109,8 +116,7 @@ AXES: dict[str, tuple[Level, ...]] = {
         _triangles("doubled"),
         _triangles("sheets", 1e-6),
         _triangles("fine", 24),
-        # In units of what is huge, to which rounding and the offset of rays belong, the room is tiny.
-        _triangles("huge", 1e3, 1e3 * (OFFSET + 2 * U)),
+        *(_triangles("huge", size, coarse * (OFFSET + 2 * U)) for size, coarse in COARSE.items()),
     ),
     "angle": (
         _same("steep", ("steep", 1.0)),
@@ -194,6 +200,22 @@ AXES: dict[str, tuple[Level, ...]] = {
     "normals": tuple(_same(kind, kind) for kind in ("bent", "interpolated")),
     "filter": tuple(_same(kind, kind) for kind in ("box", "gaussian")),
     "corner": tuple(_same(f"{degrees} degrees", degrees) for degrees in (90, 60, 35)),
+    "substance": tuple(
+        _same(kind, kind)
+        for kind in (
+            "glass",
+            "thin",
+            "diamond",
+            "coloured glass",
+            "frosted glass",
+            "gold",
+            "chromium",
+        )
+    ),
+    "incidence": tuple(
+        _same(f"{degrees:g} degrees", degrees) for degrees in (30.0, 0.0, 56.31, 75.0, 85.0)
+    ),
+    "beyond": tuple(_same(kind, kind) for kind in ("the same", "darker")),
 }
 """Each axis and its levels."""
 

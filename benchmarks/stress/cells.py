@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.stress.axes import AXES, ONE_POINT, TAME, VISIBLE_TWIN, Level, U, level
+from benchmarks.stress.axes import AXES, COARSE, ONE_POINT, TAME, VISIBLE_TWIN, Level, U, level
 
 Row = tuple[str, ...]
 """Names of levels, one for each axis."""
@@ -68,7 +68,7 @@ class Cell:
     def rounding(self) -> float:
         """By how much coordinates may err [half extents]."""
         kind, size = self["triangles"]
-        return self.levels["offset"].shift + U * (1 + size if kind == "huge" else 1)
+        return self.levels["offset"].shift + U * (1 + COARSE[size] if kind == "huge" else 1)
 
     @property
     def family(self) -> Row:
@@ -117,11 +117,24 @@ STAGES: dict[str, tuple[str, ...]] = {
     "room": (*OUTER, *_COMMON, "light", "light size", "motion", "glass", "environment"),
     "patch": (*OUTER[:3], *_COMMON),
     "box": (*OUTER[:3], *_COMMON, "light", "light size", "corner"),
+    "optics": (
+        *OUTER[:2],
+        "resolution",
+        "depth",
+        "near plane",
+        "normals",
+        "sampler",
+        "orientation",
+        "filter",
+        "substance",
+        "incidence",
+        "beyond",
+    ),
 }
 """The axes of each stage."""
 
 FAMILIES, MEMBERS = 190, 7
-PATCHES, BOXES = 500, 400
+PATCHES, BOXES, OPTICS = 500, 400, 300
 
 
 @lru_cache(maxsize=1)
@@ -131,6 +144,7 @@ def all_cells() -> tuple[Cell, ...]:
         *_numbered("room", _rooms(FAMILIES, MEMBERS)),
         *_numbered("patch", _any_rows("patch", PATCHES, Random(2))),
         *_numbered("box", _any_rows("box", BOXES, Random(3))),
+        *_numbered("optics", _any_rows("optics", OPTICS, Random(4))),
     )
 
 
@@ -139,7 +153,9 @@ def cell_named(name: str) -> Cell:
     for cell in all_cells():
         if cell.name == name:
             return cell
-    raise KeyError(f"no cell {name}: they are called room-0000, patch-0000, box-0000 and so on")
+    raise KeyError(
+        f"no cell {name}: they are called room-0000, patch-0000, box-0000, optics-0000 and so on"
+    )
 
 
 def tame(stage: str) -> Cell:
@@ -176,7 +192,13 @@ def legal(cell: Cell) -> bool:
     put its triangles into other groups, where a number would choose another one. Points by rejection are all other ones
     as soon as one ray more or less meets something, so the room has them only where a light is so small that it does
     not matter.
+
+    A frosted plate's radiance is known in a furnace, where its rays may get out.
     """
+    if cell.stage == "optics":
+        return cell["substance"] != "frosted glass" or (
+            cell["beyond"] == "the same" and cell["depth"] >= 2
+        )
     what, angle = cell["angle"]
     kind, size = cell["triangles"]
     if "light" in cell.levels:

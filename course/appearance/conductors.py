@@ -20,11 +20,13 @@ class Conductors:
     ----------
     metal : (M,) which materials are metals
     n, k : (3, M) float32, of no meaning where a material is none
+    approximate : (M,) which metals have the approximate reflectance; None where none has
     """
 
     metal: Mask
     n: Floats32
     k: Floats32
+    approximate: Mask | None = None
 
     def weakened(self, mirror: Floats32, material: Materials, cos_i: Floats32) -> Floats32:
         """The mirror's reflectance at hits, that of metals times their Fresnel reflectance.
@@ -44,10 +46,38 @@ class Conductors:
             return mirror
         number = material.take(which)
         result = np.array(np.broadcast_to(mirror, (3, len(material))))
-        result[:, which] *= conductor_reflectance(
-            cos_i.take(which), self.n.take(number, axis=1), self.k.take(number, axis=1)
-        )
+        arrays = cos_i.take(which), self.n.take(number, axis=1), self.k.take(number, axis=1)
+        share = conductor_reflectance(*arrays)
+        if self.approximate is not None:
+            share = np.where(self.approximate.take(number), approximate_reflectance(*arrays), share)
+        result[:, which] *= share
         return result
+
+
+def approximate_reflectance(cos_i: Floats32, n: Floats32, k: Floats32) -> Floats32:
+    """Unpolarised reflectance of a metal whose n^2 + k^2 is much larger than 1, so that light in it goes straight down.
+
+    Parameters
+    ----------
+    cos_i : (N,) floating in [0, 1]
+    n, k : (3, N) floating, not negative
+
+    Returns
+    -------
+    (3, N) in [0, 1], 1 at grazing incidence
+
+    Notes
+    -----
+    The mean of |(cos - n - i k) / (cos + n + i k)|^2 and the same with 1 / cos in place of cos. M. Pharr, G. Humphreys,
+    "Physically based rendering", 2004, 9.2.
+    """
+    cos_i = np.minimum(np.maximum(cos_i, 0), 1)
+    squares, twice = n * n + k * k, 2 * n * cos_i
+    across, within = squares + cos_i * cos_i, squares * cos_i * cos_i + 1
+    # Where there is neither index nor cosine, nothing is left to divide by, and all light is mirrored.
+    s = np.where(across > 0, (across - twice) / np.maximum(across + twice, np.float32(1e-30)), 1)
+    result: Floats32 = np.clip((s + (within - twice) / (within + twice)) / 2, 0, 1)
+    return result
 
 
 def conductor_reflectance(cos_i: Floats32, n: Floats32, k: Floats32) -> Floats32:

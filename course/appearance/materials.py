@@ -17,7 +17,7 @@ from functools import cached_property
 import numpy as np
 
 from course.appearance.conductors import Conductors
-from course.core.types import Floats32, Mask, Materials
+from course.core.types import Floats32, Mask, Materials, Media
 
 
 @dataclass(frozen=True)
@@ -29,13 +29,14 @@ class MaterialTable:
     ambient, diffuse, specular, mirror : (3, M) float32
         Factors of the terms; ambient and diffuse contain the colour.
     exponent : (M,) float32
-    refraction_index : (M,) float32, 0 where the material is opaque
+    refraction_index : (M,) float32 against what lies around it, 0 where the material is opaque
     absorption : (3, M) float32 [1 / unit of the compiled scene]
     emission : (3, M) float32 [W/(m^2 sr)], of the surfaces of lights and of all that glows by itself
     conductors : the metals, None where there are none
     plain : (M,) which materials have highlights without the cosine in E, None where none has
     lamps : (M,) which are the surfaces of lights: they shine from their fronts alone, and shadow rays look for them;
         None where none is
+    outside : (M,) the material around each dielectric, -1 for vacuum; None where all lie in vacuum
     """
 
     ambient: Floats32
@@ -49,6 +50,7 @@ class MaterialTable:
     conductors: Conductors | None = None
     plain: Mask | None = None
     lamps: Mask | None = None
+    outside: Media | None = None
 
     @cached_property
     def shaded(self) -> Mask:

@@ -205,6 +205,7 @@ class _Printer:
         self._pending.append(result)
 
     def end(self, report: Report) -> None:
+        from course.grading.report import as_points
         from course.grading.reports.text import clean
 
         self._flush()
@@ -213,8 +214,8 @@ class _Printer:
             click.echo("\n".join(f"  | {line}" for line in clean(text).splitlines()[:12]))
         passed = sum(result.status == "passed" for result in report.results)
         click.secho(
-            f"\n{report.points:g} of {report.of:g} points, {passed} of {count(len(report.results), 'check')} passed, "
-            f"{report.seconds:.1f} s",
+            f"\n{as_points(report.points)} of {as_points(report.of)} points, "
+            f"{passed} of {count(len(report.results), 'check')} passed, {report.seconds:.1f} s",
             bold=True,
         )
 

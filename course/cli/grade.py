@@ -66,11 +66,14 @@ def grade(
 
 
 def _tell(result: ClassResult) -> None:
+    from course.grading.report import as_points
+
     tell_submissions(result)
     for report in result.reports:
         for broken in report.broken:
             click.echo(
-                f"{report.student}: the check {broken.id} broke, {broken.points:g} of {broken.of:g} points given; "
+                f"{report.student}: the check {broken.id} broke, "
+                f"{as_points(broken.points)} of {as_points(broken.of)} points given; "
                 f"the same command checks it again\n{broken.instructor.rstrip()}",
                 err=True,
             )

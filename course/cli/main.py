@@ -1,11 +1,12 @@
 """The command `course`: its subcommands, and what becomes of errors.
 
 Exit codes: 0 done, 1 refused (a mistake in the input, told in one message), 2 wrong usage,
-3 a check that found something wrong, 130 interrupted by Ctrl-C.
+3 a check that found something wrong, 130 interrupted by Ctrl-C. `compare` has those of `diff`: 0, 1 different, 2.
 """
 
 from __future__ import annotations
 
+import errno
 import sys
 import warnings
 from importlib import import_module
@@ -24,6 +25,7 @@ COMMANDS = (
     "radiosity",
     "info",
     "convert",
+    "compare",
     "schema",
     "demo",
     "bench",
@@ -71,6 +73,13 @@ class Commands(click.Group):
                 return super().invoke(ctx)
         except (CourseError, NotImplementedError) as error:
             raise Refusal(str(error)) from error
+        except OSError as error:
+            # Of folders and outputs; whatever is read tells of such a name by itself.
+            if error.errno != errno.ENAMETOOLONG:
+                raise
+            raise Refusal(
+                f"a name is too long for a file: {str(error.filename)[:80]}..."
+            ) from error
         except MemoryError as error:
             raise Refusal(f"not enough memory: {error}".removesuffix(": ")) from error
         except KeyboardInterrupt:

@@ -105,16 +105,18 @@ def _tell_all(changes: tuple[Change, ...], students: int, dry_run: bool) -> None
 
 
 def _score(report: Report | None) -> str:
+    from course.grading.report import as_points
+
     if report is None:
         return "not graded before"
     if report.trouble:
         return "not gradable"
-    return f"{report.points:g} of {report.of:g} points ({100.0 * report.score:.1f} %)"
+    return f"{as_points(report.points)} of {as_points(report.of)} points ({100.0 * report.score:.1f} %)"
 
 
 def _ended(result: Result | None) -> str:
-    return (
-        "no such check"
-        if result is None
-        else f"{result.status}, {result.points:g} of {result.of:g}"
-    )
+    from course.grading.report import as_points
+
+    if result is None:
+        return "no such check"
+    return f"{result.status}, {as_points(result.points)} of {as_points(result.of)}"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from time import monotonic
 from typing import Any
 
 import click
@@ -66,7 +67,7 @@ SAMPLERS = (
     "--time-limit",
     metavar="S",
     callback=options.seconds,
-    help="Give the best picture in S seconds.",
+    help="Give the best picture in S seconds, from reading the scene on; a tenth of them is for rays in any case.",
 )
 @click.option(
     "--error",
@@ -158,15 +159,16 @@ def _render_one(
     """Render one scene file to one picture; `scene` is what messages call it."""
     from course import load_scene
     from course import render as render_picture
-    from course.scene.needs import why_black
+    from course.scene.darkness import warn_of_darkness
 
+    began = monotonic()
     with told_of(scene, file):
         world = load_scene(file, effects=effects)
+    if choices["time_limit"] is not None:
+        choices = choices | {"since": began}
     if file != scene:
         _check_error(scene, world.settings.sampler, world.settings.samples, choices)
-    black = why_black(world)
-    if black:
-        click.echo(f"hint: {scene}: {black}", err=True)
+    warn_of_darkness(world, scene)
     with progress_bar(out.name) as progress:
         picture = render_picture(world, progress=progress, **choices)
     if picture.interrupted:

@@ -5,11 +5,12 @@ from __future__ import annotations
 import os
 import shutil
 import signal
-import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
+
+from course.errors import Ended
 
 ENDS = ("SIGTERM", "SIGHUP")
 """Signals that end a process, and have no exception as Ctrl-C has; not every system has both."""
@@ -70,7 +71,7 @@ class _End:
         if hasattr(signal, "setitimer"):
             signal.signal(signal.SIGALRM, self._force)
             signal.setitimer(signal.ITIMER_REAL, GRACE)
-        sys.exit(self._status)
+        raise Ended(self._status)
 
     def _force(self, _number: int, _frame: object) -> None:
         assert self._status is not None

@@ -19,7 +19,7 @@ from course.errors import EffectError
 from course.geometry.convex import ConvexObjects, Objects
 from course.geometry.embree import NO_HIT, Intersections, QueryTime
 
-BUILD, TRAVERSE = "bounding_volumes.build", "bounding_volumes.traverse"
+TRAVERSE = "bounding_volumes.traverse"
 
 
 @dataclass(frozen=True)
@@ -136,12 +136,8 @@ class HierarchyAccelerator:
             none = np.zeros(n, np.int32)
             return none - 1, np.full(n, NO_HIT, np.float32), none, none
         rays = np.ascontiguousarray(_columns(origin, n)), np.ascontiguousarray(direction)
-        found = self._functions.traverse(self._built(), *self._corners, *rays)
-        if not isinstance(found, tuple) or [np.shape(each) for each in found] != 4 * [(n,)]:
-            raise EffectError(
-                f"{TRAVERSE} returned something else than four arrays of shape ({n},)"
-            )
-        triangle, t, boxes, triangles = found
+        traverse = self._functions.traverse
+        triangle, t, boxes, triangles = traverse(self._built(), *self._corners, *rays)
         if not (triangle.min() >= -1 and triangle.max() < self._size):
             raise EffectError(
                 f"{TRAVERSE} returned triangles from {triangle.min()} to {triangle.max()}:"
@@ -157,12 +153,7 @@ class HierarchyAccelerator:
             if self._hierarchy is None:
                 lo = np.minimum.reduce(self._corners)
                 hi = np.maximum.reduce(self._corners)
-                made = self._functions.build(lo, hi, self._functions.leaf_size)
-                if not isinstance(made, tuple) or len(made) != 5:
-                    raise EffectError(
-                        f"{BUILD} returned something else than a tuple of five arrays"
-                    )
-                self._hierarchy = made
+                self._hierarchy = self._functions.build(lo, hi, self._functions.leaf_size)
         return self._hierarchy
 
     def _places(

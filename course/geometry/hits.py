@@ -9,6 +9,7 @@ import numpy as np
 from course.core.gathering import gather
 from course.core.types import Floats32, Indices, Mask, Materials, Numbers
 from course.core.vectors import cross, dot
+from course.geometry.behind import keep_normals
 from course.geometry.convex import ConvexObjects, Objects
 from course.geometry.embree import Intersections
 from course.geometry.moving import MovingAccelerator
@@ -105,6 +106,7 @@ def find_hits(
     found: Intersections,
     direction: Floats32,
     time: Floats32 | None = None,
+    of_camera: bool = False,
 ) -> Hits:
     """Everything that shading needs to know about the hits of a batch of rays.
 
@@ -112,6 +114,7 @@ def find_hits(
     ----------
     direction : (3, N) float32, unit length, of all rays of the batch
     time : (N,) float32 of all rays, None where nothing moves
+    of_camera : whether they are camera rays
     """
     compiled = surface.accelerator.compiled
     find = _find_by_loop if compiled else _find
@@ -127,6 +130,8 @@ def find_hits(
         turned = ns.take(some, axis=1)
         _turn_to_viewer(turned, direction.take(some, axis=1))
         ns[:, some] = turned
+    if of_camera and surface.kept is not None:
+        keep_normals(surface.kept, triangle, side, p, ng, ns, offset, above)
     tint = None if surface.painting is None else surface.painting.tint(triangle, u, v)
     return Hits(
         *(ray, triangle, u, v, t, material, direction, p, ng, ns, offset, above, side),

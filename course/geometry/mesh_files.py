@@ -27,6 +27,7 @@ from course.geometry.smooth_normals import (
 )
 from course.geometry.transforms import apply
 from course.geometry.welding import same
+from course.inputs import LARGEST_DATA, Bound, read_input, shown
 
 FORMATS = {".ply": parse_ply, ".obj": parse_obj, ".stl": parse_stl, ".glb": parse_glb}
 
@@ -37,11 +38,13 @@ FARTHEST = 1e150
 SLIVER = 1e-6
 
 
+USUAL = Bound(LARGEST_DATA)
+
 Weights = Literal["angle", "area"]
 """By what the faces around a vertex count in its normal."""
 
 
-def read_mesh(path: Path, weights: Weights = "angle") -> Mesh:
+def read_mesh(path: Path, weights: Weights = "angle", bound: Bound = USUAL) -> Mesh:
     """Read a mesh file; several geometries in it become one mesh, in the file's own frame.
 
     Normals and uv are the file's where it has them. Without normals, triangles that share a vertex
@@ -56,19 +59,26 @@ def read_mesh(path: Path, weights: Weights = "angle") -> Mesh:
         Ends in .ply, .obj, .stl or .glb, in capitals or not. No other file is read.
     weights : "angle" or "area"
         By what faces count in normals that the file doesn't have.
+    bound : Bound
+        The most bytes that the file may have.
 
     Raises
     ------
     GeometryError
-        Naming the file and the trouble: missing, a folder, empty, unreadable, no triangles, an
+        Naming the file and the trouble: missing, no regular file, too large, empty, unreadable, no triangles, an
         index out of range, a vertex or a normal that is not finite; in a PLY or OBJ file a face of
         fewer than three corners. Of text the line is told.
     """
     path = Path(path)
     parse = FORMATS.get(path.suffix.lower())
     if parse is None:
-        raise GeometryError(f"{path}: expected a file that ends in {', '.join(sorted(FORMATS))}")
-    data = _bytes(path)
+        raise GeometryError(
+            f"{shown(path)}: expected a file that ends in {', '.join(sorted(FORMATS))}"
+        )
+    data = read_input(path, "mesh file", bound, GeometryError)
+    file = shown(path)
+    if not data.strip():
+        raise GeometryError(f"{file}: the file is empty")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         # NumPy before 2.3 only warns of text it can't read to the end, and goes on without it.
@@ -76,16 +86,16 @@ def read_mesh(path: Path, weights: Weights = "angle") -> Mesh:
         try:
             parts = parse(data)
         except MemoryError as error:
-            raise GeometryError(f"{path}: too large for this computer's memory") from error
+            raise GeometryError(f"{file}: too large for this computer's memory") from error
         except Exception as error:
             raise GeometryError(
-                f"{path}: not a {path.suffix[1:].upper()} file that can be read: {_reason(error)}"
+                f"{file}: not a {path.suffix[1:].upper()} file that can be read: {_reason(error)}"
             ) from error
     if not parts:
-        raise GeometryError(f"{path}: no triangles")
+        raise GeometryError(f"{file}: no triangles")
     meshes = []
     for number, part in enumerate(parts):
-        name = str(path) if len(parts) == 1 else f"{path}: geometry {number}"
+        name = file if len(parts) == 1 else f"{file}: geometry {number}"
         mesh = _checked(name, part, weights)
         try:
             meshes.append(apply(mesh, part.transform))
@@ -121,24 +131,6 @@ def save_ply(mesh: Mesh, path: Path) -> None:
         Path(path).write_bytes(exported)
     except OSError as error:
         raise OutputError(f"{path}: can't be written: {error.strerror or error}") from error
-
-
-def _bytes(path: Path) -> bytes:
-    try:
-        data = path.read_bytes()
-    except FileNotFoundError:
-        raise GeometryError(f"{path}: no such file") from None
-    except IsADirectoryError:
-        raise GeometryError(f"{path}: a folder, expected a mesh file") from None
-    except OSError as error:
-        # Windows reports a folder as a lack of permission.
-        trouble = "a folder, expected a mesh file" if path.is_dir() else f"{error.strerror}"
-        raise GeometryError(f"{path}: {trouble}") from error
-    except ValueError as error:
-        raise GeometryError(f"{path!r}: {error}") from error
-    if not data.strip():
-        raise GeometryError(f"{path}: the file is empty")
-    return data
 
 
 def _reason(error: Exception) -> str:

@@ -5,6 +5,7 @@ The parsers are called without the classes above them, which would merge, drop o
 
 from __future__ import annotations
 
+import logging
 from dataclasses import dataclass
 from io import BytesIO
 from typing import Any
@@ -13,6 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[Any]
+
+# What trimesh makes of a wrong file it writes to its log, tracebacks too, which Python prints if nobody listens.
+logging.getLogger("trimesh").addHandler(logging.NullHandler())
 
 
 @dataclass(frozen=True)

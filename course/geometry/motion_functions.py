@@ -16,9 +16,9 @@ class MotionFunctions:
     ----------
     shutter_times : (open, close, u) -> (N,)
     displacement : (velocity, time) -> (3, N)
-    to_object_space : (origins, velocity, time) -> (3, N)
+    to_object_space : (origins, velocity, time) -> (3, N); None where nothing moves that rays meet
     """
 
     shutter_times: Callable[[float, float, Floats32], Floats32]
     displacement: Callable[[Floats32, Floats32], Floats32]
-    to_object_space: Callable[[Floats32, Floats32, Floats32], Floats32]
+    to_object_space: Callable[[Floats32, Floats32, Floats32], Floats32] | None

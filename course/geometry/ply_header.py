@@ -34,6 +34,12 @@ CORNERS = ("vertex_indices", "vertex_index")
 WEDGES = "texcoord"
 """Name of a face's list of uv, u and v for each of its corners."""
 
+MOST_NAMES = 1000
+"""Elements and properties that a header may have; usual ones have ten or twenty."""
+
+LONGEST = 16 << 20
+"""Bytes of a header."""
+
 _END = re.compile(rb"^end_header[ \t]*(?:\r?\n|\Z)", re.MULTILINE)
 _COUNT = re.compile(r"\d{1,30}")
 
@@ -90,19 +96,30 @@ def read_header(data: bytes) -> Header:
     Raises
     ------
     ValueError
-        Naming the line: for one that isn't known, a type or a count that isn't one, an element or a property twice; and
-        where vertices have no x, y or z, faces no list of corners, or the file is too short for what is announced.
+        Naming the line: for one that isn't known, a type or a count that isn't one, an element or a property twice or
+        more than MOST_NAMES; and where vertices have no x, y or z, faces no list of corners, or the file is too short
+        for what is announced.
     """
     if re.match(rb"(?i)ply\s", data) is None:
         raise ValueError("it doesn't begin with a line that says ply")
-    end = _END.search(data)
+    end = _END.search(data, 0, LONGEST)
     if end is None:
-        raise ValueError("its header has no line end_header (lines must end in LF or CR LF)")
+        where = f" in the first {LONGEST >> 20} MB" if len(data) > LONGEST else ""
+        raise ValueError(
+            f"its header has no line end_header{where} (lines must end in LF or CR LF)"
+        )
     lines = data[: end.start()].decode("ascii", "replace").split("\n")[:-1]
     order: str | None = None
     elements: list[Element] = []
+    names = 0
     for number, line in enumerate(lines[1:], start=2):
         words = line.split()
+        # Each name is looked for among the others, and messages list them.
+        names += words[:1] in (["element"], ["property"])
+        if names > MOST_NAMES:
+            raise ValueError(
+                f"line {number}: more than {MOST_NAMES} elements and properties: write it anew with those of a mesh"
+            )
         try:
             match words:
                 case [] | ["comment" | "obj_info", *_]:

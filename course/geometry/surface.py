@@ -32,6 +32,7 @@ from numpy.typing import NDArray
 from course.core.types import Floats, Floats32, Floats64, Mask, Materials, Numbers
 from course.core.vectors import cross, dot
 from course.geometry.accelerators import AnyAccelerator
+from course.geometry.behind import Behind, FrontAccelerator, SeenThrough
 from course.geometry.convex import Extent
 from course.geometry.embree import Accelerator
 from course.geometry.hierarchy import HierarchyAccelerator, HierarchyFunctions
@@ -81,13 +82,17 @@ it, but the point at their own corner has a direction."""
 
 @dataclass(frozen=True)
 class Part:
-    """One object's mesh on its way into a surface; ``convex`` as ``course.geometry.convex`` means it."""
+    """One object's mesh on its way into a surface.
+
+    ``convex`` is as ``course.geometry.convex`` means it, ``behind`` as ``course.geometry.behind``.
+    """
 
     mesh: Mesh
     material: int
     velocity: tuple[float, float, float] = (0.0, 0.0, 0.0)
     paint: Paint | None = None
     convex: bool = False
+    behind: Behind = "turned"
 
 
 @dataclass(frozen=True)
@@ -111,6 +116,8 @@ class Surface:
     painting : the textures, None where there are none
     bent : (M,) bool, of which materials shading normals that look away from the viewer are bent until they no longer
         do; None for all
+    kept : (T,) bool, whose normals camera rays see as they are from behind; None for none
+    through : what camera rays meet where they see through backs; None where they meet what all rays do
     """
 
     planes: Floats32
@@ -123,6 +130,13 @@ class Surface:
     accelerator: AnyAccelerator
     painting: Painting | None = None
     bent: Mask | None = None
+    kept: Mask | None = None
+    through: SeenThrough | None = None
+
+    @property
+    def seen(self) -> AnyAccelerator | SeenThrough:
+        """What camera rays meet."""
+        return self.accelerator if self.through is None else self.through
 
     @property
     def size(self) -> int:
@@ -136,20 +150,23 @@ def build_surface(
     bulges: bool = True,
     hierarchy: HierarchyFunctions | None = None,
     bent: Mask | None = None,
+    least_offset: float = 0.0,
+    eye: Floats64 | None = None,
 ) -> Surface:
     """Gather the triangles of all parts, whose coordinates lie in about [-1, 1].
 
     Triangles that have no area in float32 are left out: no ray can hit them. ``motion`` is needed where a part has a
     velocity; parts that move alike share a hierarchy, and come after those that stand still. Without ``bulges`` shadow
     rays start from the triangles themselves. ``hierarchy`` takes the place of Embree, where nothing moves. ``bent`` as
-    ``Surface`` has it.
+    ``Surface`` has it. Rays leave surfaces at ``least_offset`` or farther. ``eye``
+    (3,) is where all camera rays begin, None where they don't begin in one place.
     """
     still = (0.0, 0.0, 0.0)
     parts = sorted(parts, key=lambda part: (part.velocity != still, part.velocity))
     smooth = any(part.mesh.normals is not None for part in parts)
-    tables = [_tables(part, smooth) for part in parts]
+    tables = [_tables(part, smooth, least_offset) for part in parts]
     if not tables:
-        tables = [_tables(Part(Mesh(np.zeros((0, 3)), np.zeros((0, 3), np.intp)), 0), smooth)]
+        tables = [_tables(Part(Mesh(np.zeros((0, 3)), np.zeros((0, 3), np.intp)), 0), smooth, 0.0)]
     groups: dict[tuple[float, float, float], list[_Tables]] = {still: []}
     for table in tables:
         groups.setdefault(table.velocity, []).append(table)
@@ -160,6 +177,7 @@ def build_surface(
         accelerator = HierarchyAccelerator(*_joined(static), hierarchy)
     elif groups:
         assert motion is not None
+        assert motion.to_object_space is not None
         accelerator = MovingAccelerator(
             _accelerator(static),
             tuple(_movers(groups, tables)),
@@ -168,9 +186,17 @@ def build_surface(
         )
     else:
         extents = [Extent(len(t.vertices), len(t.triangles), t.convex) for t in static]
-        accelerator = Accelerator(*_joined(static), extents)
+        hidden = np.concatenate([_hidden(table, eye) for table in static])
+        arrays = *_joined(static), extents
+        accelerator = FrontAccelerator(*arrays, hidden) if hidden.any() else Accelerator(*arrays)
+    kept, unseen = _of_kind(tables, "kept"), _of_kind(tables, "unseen")
+    planes = np.concatenate([table.planes for table in tables])
+    through = None
+    if unseen is not None:
+        front = accelerator.front if isinstance(accelerator, FrontAccelerator) else accelerator
+        through = SeenThrough(front, unseen, planes)
     return Surface(
-        planes=np.concatenate([table.planes for table in tables]),
+        planes=planes,
         edges=np.concatenate([table.edges for table in tables]),
         inset=np.concatenate([table.inset for table in tables]),
         corner_normals=np.concatenate([t.corner_normals for t in tables]) if smooth else None,
@@ -180,7 +206,23 @@ def build_surface(
         accelerator=accelerator,
         painting=make_painting([(len(table.triangles), table.paint) for table in tables]),
         bent=bent,
+        kept=kept,
+        through=through,
     )
+
+
+def _of_kind(tables: list[_Tables], behind: Behind) -> Mask | None:
+    """(T,) which triangles are seen like that from behind; None for none."""
+    kinds = [np.full(len(table.triangles), table.behind == behind) for table in tables]
+    return np.concatenate(kinds) if any(kind.any() for kind in kinds) else None
+
+
+def _hidden(table: _Tables, eye: Floats64 | None) -> Mask:
+    """(T,) which triangles are seen through by an eye (3,), None for an eye of which that is not known."""
+    if eye is None or table.behind != "unseen":
+        return np.zeros(len(table.triangles), np.bool_)
+    corner, normal = table.planes[:, :3].T.astype(np.float64), table.planes[:, 3:6].T
+    return np.asarray(dot(eye[:, None] - corner, normal.astype(np.float64)) <= 0)
 
 
 def _accelerator(tables: list[_Tables]) -> Accelerator:
@@ -225,9 +267,10 @@ class _Tables:
     velocity: tuple[float, float, float]
     paint: Paint | None
     convex: bool
+    behind: Behind
 
 
-def _tables(part: Part, smooth: bool) -> _Tables:
+def _tables(part: Part, smooth: bool, least_offset: float) -> _Tables:
     mesh = part.mesh
     # Rounded to float32 once, so that every number below agrees with Embree's vertices.
     vertices = mesh.vertices.astype(np.float32)
@@ -264,7 +307,7 @@ def _tables(part: Part, smooth: bool) -> _Tables:
     return _Tables(
         vertices,
         triangles.astype(np.int32),
-        _table(p[0], ng, offset[None], flat[None]),
+        _table(p[0], ng, np.maximum(offset, least_offset)[None], flat[None]),
         _table(e1, e2, inset.max(axis=0)[None], np.zeros((1, len(flat)))),
         _table(inset),
         np.full(len(triangles), part.material, np.uint16),
@@ -274,6 +317,7 @@ def _tables(part: Part, smooth: bool) -> _Tables:
         part.velocity,
         None if part.paint is None else Paint(part.paint.corners[has_area], part.paint.color_at),
         part.convex,
+        part.behind,
     )
 
 

@@ -21,6 +21,7 @@ from course.grading.checks.trusted import TrustedModule
 from course.grading.pictures.whole import ALL, NAME, Together
 from course.grading.report import USUAL_SEED
 from course.imaging.atomic import replacing
+from course.inputs import read_arrays, shown
 
 SOLUTIONS = PROJECT / "solutions"
 
@@ -63,12 +64,10 @@ def read_references(path: Path, seed: int) -> References:
     CourseError
         The file can't be read, or was made for another seed.
     """
-    try:
-        with np.load(path, allow_pickle=False) as file:
-            arrays = {name: file[name] for name in file.files}
-    except (OSError, ValueError) as error:
-        raise CourseError(f"{path}: is no file of references: {error}") from error
-    found = int(arrays.pop("seed", -1))
+    arrays = read_arrays(path, "file of references")
+    found = arrays.pop("seed", np.zeros(0)).tolist()
+    if not isinstance(found, int) or any(name.count("/") < 2 for name in arrays):
+        raise CourseError(f"{shown(path)}: is no file of references")
     if found != seed:
         raise CourseError(f"{path}: holds references for the seed {found}, not {seed}")
     by_check: dict[str, dict[str, Array]] = {}

@@ -132,6 +132,11 @@ def findings(result: Result, rungs: int = RUNGS) -> list[tuple[str, str]]:
     return [(label, text) for rung in ladder[:rungs] for label, text in rung if text]
 
 
+def as_points(number: float) -> str:
+    """Points as people read them: two decimals at most."""
+    return f"{round(number, 2):g}"
+
+
 def ending(result: Result) -> str:
     """How a check ended, and whether it broke."""
     return f"{result.status}, the check broke" if result.broken else str(result.status)

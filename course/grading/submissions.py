@@ -14,9 +14,13 @@ from pathlib import Path
 from course.effects import COURSE
 from course.errors import CourseError
 from course.grading.errors import StudentError, meant
+from course.inputs import Bound, opened
 
 LARGEST_FILE = 2_000_000
 """Bytes of one file that are read; the worker refuses less than that, with a message of its own."""
+
+ANY_SIZE = Bound(1 << 63)
+"""Files of any size are opened, for only their beginning is read."""
 
 
 class SubmissionError(CourseError):
@@ -90,10 +94,7 @@ def read_found(folder: Path, paths: Mapping[str, Path]) -> dict[str, bytes]:
         for module, path in paths.items():
             if path.is_symlink() or not path.resolve().is_relative_to(folder.resolve()):
                 raise SubmissionError(f"{path}: is a link; submit the file itself")
-            if not path.is_file():
-                # To open a pipe would wait for somebody to write to it.
-                raise SubmissionError(f"{path}: is no ordinary file")
-            with path.open("rb") as file:
+            with opened(path, "file of a submission", ANY_SIZE, SubmissionError) as file:
                 found[module] = file.read(LARGEST_FILE)
     return found
 

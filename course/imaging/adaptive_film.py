@@ -6,7 +6,8 @@ import math
 
 import numpy as np
 
-from course.core.types import Floats32
+from course.core.types import Floats32, Floats64, Indices
+from course.imaging.pixel_groups import TwinGroup
 from course.imaging.tiles import Area
 from course.imaging.variance import INDEPENDENT, measured_order, variance_share
 
@@ -49,6 +50,11 @@ class AdaptiveFilm:
         self._sums = np.zeros((pixels, 4))
         self._differences: dict[int, tuple[float, float]] = {}
         self._begun = False
+        self.correction = 1.0
+        """By what an audit multiplies the variance of the whole picture."""
+        self.audited = 0
+        """Samples that audits have taken, which are not in the picture."""
+        self._twins: dict[int, tuple[Indices, Floats64]] = {}
 
     def add(
         self, group: Area, mean: Floats32, weight: Floats32 | float, samples: int, whole: bool
@@ -65,6 +71,9 @@ class AdaptiveFilm:
         samples : how many samples of each pixel the picture holds with this stretch
         whole : false for a preview without parts, (3, n), which later stretches replace
         """
+        if isinstance(group, TwinGroup):
+            self._add_twins(group, mean, weight)
+            return
         which, n = group.pixel_numbers(self.width).astype(np.intp), group.size
         if not whole:
             self.linear.reshape(3, -1)[:, which] = mean
@@ -101,10 +110,29 @@ class AdaptiveFilm:
         self.variance.reshape(-1)[which] = estimates.mean()
         self.samples.reshape(-1)[which] = samples
 
+    def _add_twins(self, group: TwinGroup, mean: Floats32, weight: Floats32 | float) -> None:
+        weights = np.broadcast_to(np.asarray(weight, np.float64).reshape(-1), mean.shape[1:])
+        weights = np.maximum(weights, _NEARLY_NOTHING).reshape(group.size, PARTS)
+        colours = (mean[:3].reshape(3, group.size, PARTS) * weights).sum(axis=2)
+        self._twins[group.number] = group.pixels, colours / weights.sum(axis=1)
+
+    def twins_apart(self, pixels: Indices) -> Floats64:
+        """Squared differences (n,) of pixels (n,) from their second pictures, which are forgotten then.
+
+        All of them were added since the last call, in `course.imaging.pixel_groups.TwinGroup`.
+        """
+        twins = np.zeros((3, self.width * self.height))
+        for which, colours in self._twins.values():
+            twins[:, which] = colours
+        self._twins.clear()
+        difference = self.linear.reshape(3, -1)[:, pixels] - twins[:, pixels]
+        squared: Floats64 = (difference * difference).mean(axis=0)
+        return np.minimum(squared, float(_FARTHEST_APART))
+
     @property
     def error(self) -> float:
         """Estimated root-mean-square error of the whole picture [radiance]."""
-        return math.sqrt(self.variance.mean(dtype=np.float64))
+        return math.sqrt(self.correction * self.variance.mean(dtype=np.float64))
 
     @property
     def uniform_samples(self) -> float:
@@ -113,7 +141,7 @@ class AdaptiveFilm:
             return float(self.samples.max(initial=0))
         exponent = 2 * self.order
         unit = self.variance * self.samples.astype(np.float64) ** exponent
-        return float((unit.mean() / self.error**2) ** (1 / exponent))
+        return float((self.correction * unit.mean() / self.error**2) ** (1 / exponent))
 
     def end_round(self) -> None:
         """Measure the order of convergence on the stretches that were added since the last call.

@@ -42,6 +42,22 @@ class PixelGroup:
         return x.astype(np.float32), y.astype(np.float32)
 
 
+@dataclass(frozen=True)
+class TwinGroup(PixelGroup):
+    """Pixels that are rendered a second time, by other points: samplers take them for pixels of another picture.
+
+    Attributes
+    ----------
+    shift : added to the numbers that samplers see; a multiple of the picture's pixels, different for every time
+    """
+
+    shift: int
+
+    def pixel_numbers(self, picture_width: int) -> Words:
+        """(size,) number of each pixel, as if the pictures lay one below the other."""
+        return (self.pixels + self.shift).astype(np.uint32)
+
+
 def nearby_order(width: int, height: int) -> Indices:
     """Numbers of all pixels in blocks of 32 x 32, row by row of blocks and along Morton's curve within each.
 

@@ -36,6 +36,10 @@ def check_accepted(loaded: Loaded) -> None:
         raise loaded.document.error(("lights",), f"nothing shines: expected {SHINES}")
     for number, thing in enumerate(scene.objects):
         _check_still(thing.motion, ("objects", number, "motion"), loaded)
+        if thing.from_behind != "turned":
+            raise loaded.document.unexpected(
+                ("objects", number, "from_behind"), "turned: patches are seen from both sides"
+            )
     _check_surroundings(loaded)
 
 

@@ -16,9 +16,9 @@ from scipy.sparse.csgraph import connected_components
 
 from course.core.types import Floats32, Floats64, Indices, Mask
 from course.geometry import shapes
+from course.geometry.bisection import Triangles, bisected, undivided
 from course.geometry.mesh import Mesh
 from course.radiosity.accepting import check_accepted
-from course.radiosity.bisection import Triangles, bisected, undivided
 from course.scene import description as d
 from course.scene.description.values import rgb
 from course.scene.frame import Frame

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import zipfile
 from dataclasses import dataclass, fields
 from functools import cached_property
 from pathlib import Path
@@ -14,6 +13,7 @@ from course.core.types import Floats32, Floats64, Numbers
 from course.errors import CourseError
 from course.geometry.embree import Accelerator
 from course.imaging.atomic import replacing
+from course.inputs import read_arrays
 
 FORMAT = 1
 """Of the file."""
@@ -74,24 +74,38 @@ def load_solution(path: Path) -> Solution:
         The file can't be read or holds no solution.
     """
     remedy = f"{path}: no radiosity solution: expected a file that course radiosity has written"
+    arrays = read_arrays(path, "solution that course radiosity has written")
+    if "format" not in arrays or arrays["format"].tolist() != [FORMAT]:
+        raise CourseError(remedy)
     try:
-        with np.load(path, allow_pickle=False) as file:
-            if "format" not in file or file["format"].tolist() != [FORMAT]:
-                raise CourseError(remedy)
-            solution = Solution(**{field.name: file[field.name] for field in fields(Solution)})
-    except OSError as error:
-        raise CourseError(f"{path}: can't be read: {error.strerror or error}") from error
-    except (ValueError, KeyError, EOFError, zipfile.BadZipFile) as error:
+        solution = Solution(**{field.name: arrays[field.name] for field in fields(Solution)})
+    except KeyError as error:
         raise CourseError(remedy) from error
-    count, vertices = len(solution.triangles), len(solution.vertices)
-    if not (
-        solution.vertices.shape == (vertices, 3)
-        and solution.triangles.shape == (count, 3)
-        and solution.corners.shape == (3, 3, 2 * count)
-        and solution.camera.shape == (10,)
-        and solution.size.shape == (2,)
-        and ((solution.triangles >= 0) & (solution.triangles < vertices)).all()
-        and all(np.isfinite(array).all() for array in (solution.vertices, solution.corners))
-    ):
+    if not _usable(solution):
         raise CourseError(remedy)
     return solution
+
+
+def _usable(solution: Solution) -> bool:
+    """Whether all arrays have the shapes and types that a solution has, and numbers that a picture can be made of."""
+    count, vertices = solution.triangles.size // 3, solution.vertices.size // 3
+    shapes = {
+        "vertices": ("f4", (vertices, 3)),
+        "triangles": ("i4", (count, 3)),
+        "corners": ("f4", (3, 3, 2 * count)),
+        "radiosity": ("f4", (3, 2 * count)),
+        "center": ("f8", (3,)),
+        "scale": ("f8", (1,)),
+        "camera": ("f8", (10,)),
+        "size": ("i8", (2,)),
+        "steps": ("i8", (1,)),
+        "left": ("f8", (1,)),
+    }
+    arrays = {name: getattr(solution, name) for name in shapes}
+    return (
+        all((arrays[name].dtype, arrays[name].shape) == shapes[name] for name in shapes)
+        and bool(((solution.triangles >= 0) & (solution.triangles < vertices)).all())
+        and bool(((solution.size >= 1) & (solution.size <= 65536)).all())
+        # How far it is from convergence may be unknown.
+        and all(np.isfinite(array).all() for name, array in arrays.items() if name != "left")
+    )

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from course.core.types import Floats32, Floats64, Indices, Mask
+from course.errors import FunctionError
 from course.radiosity.functions import Functions
 from course.radiosity.hemicubes import Hemicube, Seen, Views, make_hemicube
 from course.radiosity.patches import Patches
@@ -36,6 +37,10 @@ KEPT_BYTES = 256 << 20
 
 BATCH = 64
 """Patches with the most unshot power whose hemicubes are rendered together."""
+
+APART, ROUNDING = 1.01, 1e-4
+"""Changes of radiosity that grow by more than APART from one iteration to the next are a mistake, if they are more than
+ROUNDING of the largest radiosity."""
 
 Report = Callable[[float, bool], None]
 
@@ -82,10 +87,17 @@ def gathered(
     emission, reflectance, _ = _both_sides(patches)
     rho = float(reflectance.max())
     radiosity = emission
-    steps, left = 0, math.inf
+    steps, left, change = 0, math.inf, math.inf
     while left > tolerance and steps < (most if most is not None else steps + 1):
         after = functions.gather(radiosity, emission, reflectance, factors)
-        change = float(np.abs(after - radiosity).max())
+        change, last = float(np.abs(after - radiosity).max()), change
+        # Where no patch lets out more than it gets, changes become smaller; rounding is left out.
+        if change > APART * last and change > ROUNDING * float(np.abs(after).max()):
+            raise FunctionError(
+                f"radiosity.gather changed a radiosity by {change:g} W/m^2 in iteration {steps + 1}, "
+                f"after {last:g} in the one before: expected at most {rho:g} times that, or it would never end",
+                "radiosity.gather",
+            )
         radiosity, steps = after, steps + 1
         lit = radiosity.max(axis=0)
         mean = float(lit[lit > 0].mean()) if lit.any() else 1.0
@@ -195,6 +207,13 @@ class Shooting:
             row.take(reached),
             place,
         )
+        before = self.unshot[:, patch]
+        if (unshot[:, place] >= before).any(where=before > 0) or (unshot[:, place] > before).any():
+            raise FunctionError(
+                f"radiosity.shoot left the shooter's unshot light at {unshot[:, place].max():g} W/m^2, "
+                f"{before.max():g} before: expected less, or shooting would never end",
+                "radiosity.shoot",
+            )
         self.radiosity[:, reached], self.unshot[:, reached] = radiosity, unshot
         self.steps += 1
 

@@ -6,6 +6,7 @@ many (``allocation``). The film alone decides, between the rounds, so the pictur
 
 from __future__ import annotations
 
+import math
 from typing import Protocol
 
 import numpy as np
@@ -24,13 +25,30 @@ from course.rendering.allocation import (
     rung,
     smoothed,
 )
+from course.rendering.audit import draw, judge, work_for
 from course.rendering.passes import Work, fair_share
 
 ADAPTABLE = ("sobol", "random", "xorshift")
 """Samplers that can go on where the error is, and whose samples tell it."""
 
-SAFETY = 0.95
+SAFETY = 0.97
 """Part of the target that a round aims at, so that the last one doesn't miss it by a hair and another must follow."""
+
+AUDITED = (math.inf, 4.0, 1.5, 1.2, 1.0, 1.0)
+"""An audit follows where the told error is at most so many times the target: some early, so that no more is spent than
+must be, the last before the end. They don't make rounds smaller, for each look at a pixel's samples that decides on its
+end makes rare light a little darker."""
+
+CLOSE = 1.5
+"""So many times the target the told error is audited within a round, too: by then a power law may be off by as much."""
+
+FINEST = 32
+"""Parts at most into which a round is divided where its end may be beyond the target. The parts are random, so that
+where it stops doesn't depend on what single pixels have found, and rare light gets no darker than by whole rounds."""
+
+FEWEST = 64
+"""Pixels of such a part at least: of fewer, it is chance whether they have found what there is, and each look at them
+is one more chance to stop too early."""
 
 SMALLEST, LARGEST = RAYS, 2 * RAYS
 """Camera rays in a group of pixels, as far as pixels have so many samples to go: more than in a tile, for the hard
@@ -62,34 +80,98 @@ def render_adaptively(
     order = nearby_order(film.width, film.height)
     have = film.samples.reshape(-1)
     wanted = np.full(len(have), min(FIRST, max(budget // len(have), 1)), np.int32)
-    aim = (SAFETY * error) ** 2
+    audits = 0
+    # Of the film alone, like everything between the rounds.
+    rng = np.random.default_rng(0)
     # Nothing is known yet of how much there is to do.
     done, total = 0.0, GROWTH * float(wanted.sum())
     cost = film.cost.reshape(-1)
     while True:
-        work = groups.stretches(have, wanted, order)
-        share = _sum(wanted - have, cost) / (total - _sum(have, cost))
-        after = done + (1 - done) * share
-        if not run(work, done, after):
-            return False
-        done = after
-        film.end_round()
-        if film.error <= error:
-            return True
+        pixels, taken, begun = rng.permutation(np.flatnonzero(wanted > have)), 0, _told(film)
+        while taken < len(pixels):
+            part = pixels[taken : taken + _enough(film, pixels, taken, wanted, begun, error)]
+            reach = have.copy()
+            reach[part] = wanted[part]
+            work = groups.stretches(have, reach, order)
+            share = _sum(reach - have, cost) / (total - _sum(have, cost))
+            after = done + (1 - done) * share
+            if not run(work, done, after):
+                return False
+            done = after
+            taken += len(part)
+            if taken == len(pixels):
+                film.end_round()
+            elif film.error > CLOSE * error:
+                continue
+            if audits < len(AUDITED) and film.error <= AUDITED[audits] * error:
+                if not _audit(film, audits, groups, run, done):
+                    return False
+                audits += 1
+            if film.error <= error:
+                return True
+        aim = (SAFETY * error) ** 2 / film.correction
         variance = smoothed(film.variance, film.samples, film.order).reshape(-1)
         cost = smoothed(film.cost, film.samples, 0).reshape(-1)
         best = best_samples(variance, have, cost, film.order, aim)
         wanted = next_rung(have, best)
         if (wanted == have).all():
-            excess = (film.error**2 - aim) * len(have)
+            excess = (film.error**2 / film.correction - aim) * len(have)
             wanted = one_rung_more(have, variance, cost, film.order, excess)
-        wanted = _within(wanted, have, best, budget)
+        wanted = _within(wanted, have, best, budget - film.audited)
         if (wanted == have).all():
             return True
         most = np.maximum(best, have)
         # Within the budget, which is of samples.
         most *= min(1, budget / float(most.sum()))
         total = _sum(np.maximum(most, wanted), cost)
+
+
+def _told(film: AdaptiveFilm) -> float:
+    """Sum of the variances of all pixels, before what audits have corrected."""
+    return float(film.variance.sum(dtype=np.float64))
+
+
+def _enough(
+    film: AdaptiveFilm, pixels: Indices, taken: int, wanted: Numbers, begun: float, error: float
+) -> int:
+    """How many more of a round's pixels to render before the told error is looked at again.
+
+    They are in random order, so the variance falls in proportion to how many were taken: by at most as much as for
+    points whose error falls as 1 / n, and then by as much as it has been seen to fall.
+
+    Parameters
+    ----------
+    taken : how many of ``pixels`` have been rendered in this round
+    wanted : (P,) int32 samples of all pixels after it
+    begun : what ``_told`` said before it
+    """
+    left = pixels[taken:]
+    have = film.samples.reshape(-1)[left]
+    if not have[0]:
+        return len(left)
+    now = _told(film)
+    gain = (begun - now) / max(taken, 1)
+    if not taken:
+        gains = film.variance.reshape(-1)[left] * (1 - (have / wanted[left]) ** 2)
+        gain = float(gains.mean(dtype=np.float64))
+    excess = now - error**2 / film.correction * film.variance.size
+    if excess >= gain * len(left):
+        return len(left)
+    return max(math.ceil(excess / gain), len(pixels) // FINEST, FEWEST)
+
+
+def _audit(film: AdaptiveFilm, number: int, groups: Groups, run: Run, done: float) -> bool:
+    """Correct the film's error by an audit, where it is worth one; whether that was finished."""
+    sample = draw(film, number)
+    if sample is None:
+        return True
+    work = work_for(sample, film, number, groups.next_number)
+    groups.next_number += len(work)
+    if not run(work, done, done):
+        return False
+    film.correction = judge(film, sample, number)
+    film.audited += int(sample.samples.sum())
+    return True
 
 
 def _sum(samples: Numbers | Floats32, cost: Floats32) -> float:
@@ -123,7 +205,8 @@ class Groups:
 
     def __init__(self, width: int, batches: int = 1, threads: int = 1) -> None:
         self._width = width
-        self._count = 0
+        self.next_number = 0
+        """Of the groups that were made so far, each of which has a number of its own."""
         self._batches, self._threads = batches, threads
 
     def stretches(self, have: Numbers, wanted: Numbers, order: Indices) -> list[Work]:
@@ -145,9 +228,9 @@ class Groups:
                 most = max(self._most(left) // step, 1)
                 # Equal groups rather than full ones and a rest.
                 part = spread_pixels(-(-len(chosen) // -(-len(chosen) // most)), step)
-                group = PixelGroup(self._count, chosen[:part], self._width)
+                group = PixelGroup(self.next_number, chosen[:part], self._width)
                 work.append(Work(group, 0, first, step, True, PARTS))
-                self._count += 1
+                self.next_number += 1
                 left -= part * step
                 chosen = chosen[part:]
         return work

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from course.core.samplers import FUNCTIONS, make_sampler
+from course.effects import Bound, Need
 from course.imaging.reconstruction import Reconstruction
 from course.rendering.corners import CornerSampler
+from course.rendering.subdivision import Functions
 from course.scene.compiling import compile_camera
 from course.scene.scene import Scene
 from course.scene.world import Settings
@@ -14,19 +16,25 @@ NARROWEST = 1e-6
 """Deviation [pixels] of a Gaussian that sees no sample beside the centre; the function is asked for no less."""
 
 
-def bind(scene: Scene, settings: Settings) -> Tracer:
-    """Bind a scene to its settings and to the functions that place and weigh its samples."""
-    effects = scene.effects
-    functions = [effects.function(*function) for function in FUNCTIONS[settings.sampler]]
-    film = scene.loaded.description.film
-    reconstruction = Reconstruction(
-        effects.function("supersampling", "resolve") if settings.samples > 1 else None,
-        effects.function("supersampling", "gaussian_weights")
-        if film.filter == "gaussian"
-        else None,
-        max(film.sigma, NARROWEST),
-    )
+def bind(scene: Scene, settings: Settings, bound: Bound | None = None) -> Tracer:
+    """Bind a scene to its settings and to the functions that place and weigh its samples.
+
+    Parameters
+    ----------
+    bound : where those functions are noted down
+    """
     compiled = scene.compiled
+    bound = bound or Bound(scene.effects)
+    functions = [
+        bound.function(*function, ("sampler", "type")) for function in FUNCTIONS[settings.sampler]
+    ]
+    film = scene.loaded.description.film
+    resolve = weights = None
+    if settings.samples > 1:
+        resolve = bound.function("supersampling", "resolve", ("sampler", "samples"))
+    if film.filter == "gaussian":
+        weights = bound.function("supersampling", "gaussian_weights", ("film", "filter"))
+    reconstruction = Reconstruction(resolve, weights, max(film.sigma, NARROWEST))
     sampler = make_sampler(settings.sampler, settings.seed, *functions)
     if settings.subdivision is not None:
         sampler = CornerSampler(settings.seed)
@@ -43,3 +51,12 @@ def bind(scene: Scene, settings: Settings) -> Tracer:
         reconstruction,
         kind,
     )
+
+
+def needs_of(scene: Scene, settings: Settings) -> tuple[Need, ...]:
+    """Every function that rendering with these settings calls, and what asks for it."""
+    bound = Bound(scene.effects, scene.compiled.needs)
+    bind(scene, settings, bound)
+    if settings.subdivision is not None:
+        Functions(bound, settings.subdivision)
+    return bound.needs

@@ -56,7 +56,7 @@ def pack(scene: Scene) -> Parcel:
     # Lines are for messages about mistakes, and a scene that has been compiled here has none.
     document = replace(loaded.document, lines={})
     functions = {path.name: path.read_bytes() for path in sorted(scene.effects.folder.glob("*.py"))}
-    effects = (scene.effects.folder.resolve().name, functions)
+    effects = (scene.effects.folder.resolve().name, scene.effects.trusted, functions)
     content = pickle.dumps((description, document, loaded.path.name, files.contents, effects))
     return Parcel(content, sha256(content).hexdigest())
 
@@ -68,13 +68,13 @@ def unpack(content: bytes, folder: Path) -> Scene:
     ----------
     folder : an empty one for the functions, which must stay as long as the scene is used
     """
-    description, document, name, files, (effects, functions) = pickle.loads(content)
+    description, document, name, files, (effects, trusted, functions) = pickle.loads(content)
     home = folder / EFFECTS / (effects or "root")
     _write(functions, home)
     with TemporaryDirectory(dir=folder) as temporary:
         _write(files, Path(temporary))
         loaded = Loaded(description, document, Path(temporary, name))
-        bound = Effects(home)
+        bound = Effects(home, trusted)
         return Scene(loaded, compile_scene(loaded, bound), bound)
 
 

@@ -170,7 +170,7 @@ class Pool(Runner):
         self.threads = threads
 
     def prepare(self, began: float) -> float:
-        """When a time limit begins to count [``time.monotonic()``]: with the render, for threads have the scene."""
+        """When a time limit begins to count [``time.monotonic()``]: when the render was asked for."""
         return began
 
     def run(

@@ -11,7 +11,8 @@ from time import monotonic
 from typing import TYPE_CHECKING
 
 from course import __version__
-from course.errors import CourseError, EffectError, OutputError
+from course.effects import Bound, Need
+from course.errors import CourseError, EffectError, FunctionError, OutputError
 from course.geometry.packets import available as packets_available
 from course.imaging.adaptive_film import AdaptiveFilm
 from course.imaging.film import Film
@@ -32,8 +33,8 @@ from course.rendering.pool import Pool, default_threads
 from course.rendering.receipt import Receipt
 from course.rendering.subdivision import Functions, Saving, render_subdivided
 from course.scene.consistency import nearest_squares
-from course.scene.needs import Need, needs_of, skipped_modules
 from course.scene.scene import Scene
+from course.scene.skipped_modules import skipped_modules
 from course.scene.world import Settings
 from course.transport.counters import Counters
 from course.transport.plan import Plan
@@ -58,6 +59,9 @@ BYTES_A_PIXEL = 64
 BYTES_A_DIVIDED_PIXEL = 400
 """Those of a render by subdivision: cells, their corners and what is known of them; measured, 350 or less."""
 
+LEAST_FOR_RAYS = 0.1
+"""The share of a time limit that is left for rays, however long reading and building took."""
+
 
 def render(
     scene: Scene,
@@ -68,6 +72,7 @@ def render(
     seed: int | None = None,
     threads: int | None = None,
     time_limit: float | None = None,
+    since: float | None = None,
     error: float | None = None,
     progress: Progress | None = None,
     start: Picture | None = None,
@@ -83,7 +88,10 @@ def render(
     sampler : "sobol", "random", "jittered", "regular", "halton", "hammersley", "chained" or "xorshift"
     seed : chooses the random numbers
     threads : how many; the picture doesn't depend on it
-    time_limit : seconds; the best picture in that time, with as many samples as fit (at most ``spp`` if that is given)
+    time_limit : seconds; the best picture in that time, with as many samples as fit (at most ``spp`` if that is given);
+        building the scene's hierarchy counts, but a tenth of the limit is left for rays in any case. On a cluster it
+        counts from when the workers have the scene
+    since : ``time.monotonic()`` from which a time limit counts; None for now
     error : root-mean-square error of the whole picture [radiance] at which sampling ends: samples go where the
         estimated error is, with ``spp`` a pixel on average at most
     progress : called from this thread with the share done, and whether the whole picture has been covered once
@@ -113,17 +121,17 @@ def render(
         raise CourseError(
             "threads are for renders on this machine; the workers of a cluster have their own"
         )
+    since = monotonic() if since is None else since
     keep_freed_memory()
     settings = _settings(scene, spp, size, sampler, seed, time_limit, error)
     _check_memory(settings)
-    needs = needs_of(scene.loaded, settings, scene.compiled.world)
+    bound = Bound(scene.effects, scene.compiled.needs)
     packets = _use_compiled(settings, compiled)
     if address is None:
         scene.compiled.world.surface.accelerator.use_packets(packets)
-    # A time limit counts from here, where the hierarchy stands.
     began = monotonic()
     try:
-        tracer = bind(scene, settings)
+        tracer = bind(scene, settings, bound)
         film: Film | AdaptiveFilm
         done = 0
         saving = None
@@ -150,10 +158,13 @@ def render(
 
             pool = Cluster(address, scene, settings, sink, packets)
         with closing(pool):
-            deadline = None if time_limit is None else pool.prepare(began) + time_limit
+            deadline = None
+            if time_limit is not None:
+                deadline = pool.prepare(since) + time_limit
+                deadline = max(deadline, monotonic() + LEAST_FOR_RAYS * time_limit)
             if corners is not None:
                 complete, saving = _render_subdivided(
-                    pool, scene, film, corners, settings, progress
+                    pool, bound, film, corners, settings, progress
                 )
             elif isinstance(film, AdaptiveFilm):
                 complete = _render_adaptively(pool, tracer, film, settings, deadline, progress)
@@ -163,10 +174,16 @@ def render(
                 complete = _render_until(
                     pool, tracer, settings, done, deadline, time_limit, progress
                 )
+    except FunctionError as error:
+        if (path := bound.asked_by(error.function)) is None:
+            raise
+        raise error.asked_by(scene.loaded.document.where(path), path) from error.__cause__
     except NotImplementedError as error:
-        raise _not_written(scene, needs, error) from error
+        raise _not_written(scene, bound, error) from error
     wall = monotonic() - began
-    receipt = _receipt(scene, settings, needs, tracer.plan, pool.counters, film, pool.threads, wall)
+    receipt = _receipt(
+        scene, settings, bound.needs, tracer.plan, pool.counters, film, pool.threads, wall
+    )
     if saving is not None:
         receipt = replace(receipt, subdivision=saving.to_dict())
     return Picture(film, settings, receipt, complete, pool.interrupted)
@@ -389,7 +406,7 @@ def _render_adaptively(
 
 def _render_subdivided(
     pool: Pool | Cluster,
-    scene: Scene,
+    bound: Bound,
     film: Film | AdaptiveFilm,
     corners: Corners,
     settings: Settings,
@@ -399,23 +416,21 @@ def _render_subdivided(
     assert settings.subdivision is not None
     assert isinstance(film, Film)
     run = _Rounds(pool, None, progress)
-    functions = Functions(scene.effects, settings.subdivision)
+    functions = Functions(bound, settings.subdivision)
     return render_subdivided(corners, film, functions, settings.subdivision.depth, run)
 
 
-def _not_written(scene: Scene, needs: list[Need], error: NotImplementedError) -> EffectError:
+def _not_written(scene: Scene, bound: Bound, error: NotImplementedError) -> EffectError:
     """Which line of the scene asked for the function that says it isn't there yet."""
     function = str(error).partition(":")[0]
-    for need in needs:
-        if need.function == function:
-            where = scene.loaded.document.where(need.asked_by)
-            keys = ".".join(map(str, need.asked_by))
-            return EffectError(
-                f"{error} ({scene.effects.folder / function.partition('.')[0]}.py); {where}: {keys} asks for it"
-            )
-    return EffectError(
-        f"{str(error) or 'a function is not written yet'} (in {scene.effects.folder})"
-    )
+    path = bound.asked_by(function)
+    if path is None:
+        return EffectError(
+            f"{str(error) or 'a function is not written yet'} (in {scene.effects.folder})"
+        )
+    file = scene.effects.folder / function.partition(".")[0]
+    told = FunctionError(f"{error} ({file}.py)", function)
+    return told.asked_by(scene.loaded.document.where(path), path)
 
 
 def _error(film: Film | AdaptiveFilm, settings: Settings) -> dict[str, float] | None:
@@ -427,8 +442,11 @@ def _error(film: Film | AdaptiveFilm, settings: Settings) -> dict[str, float] | 
         "estimated": film.error,
         "fewest": int(film.samples.min()),
         "most": int(film.samples.max()),
+        "audited": film.audited,
         "uniform": uniform,
-        "saved": 1.0 - float(film.samples.mean()) / uniform if uniform else 0.0,
+        "saved": 1.0 - (float(film.samples.sum()) + film.audited) / film.samples.size / uniform
+        if uniform
+        else 0.0,
     }
 
 
@@ -449,7 +467,7 @@ def _tests(scene: Scene, counters: Counters) -> dict[str, int] | None:
 def _receipt(
     scene: Scene,
     settings: Settings,
-    needs: list[Need],
+    needs: tuple[Need, ...],
     plan: Plan,
     counters: Counters,
     film: Film | AdaptiveFilm,
@@ -471,7 +489,7 @@ def _receipt(
         rays=dict(counters.rays),
         numbers=_numbers(settings, counters),
         effects={
-            "called": list(dict.fromkeys(need.function for need in needs)),
+            "called": [need.function for need in needs],
             "skipped": skipped,
         },
         seconds=dict(counters.seconds),

@@ -15,14 +15,13 @@ from typing import Any
 import numpy as np
 
 from course.core.types import Floats32, Floats64, Indices, Mask
-from course.effects import Effects
+from course.effects import Bound
 from course.errors import EffectError
 from course.imaging.film import Film
 from course.rendering.adaptive import Run
 from course.rendering.corners import Corners
 from course.scene.world import Subdivision
 
-NEEDS = "adaptive_sampling.needs_subdivision"
 SUBDIVIDE = "adaptive_sampling.subdivide"
 _SIDES = ("x0", "y0", "x1", "y1")
 
@@ -79,35 +78,24 @@ class Functions:
         A function is missing, or returns what the renderer can't go on with.
     """
 
-    def __init__(self, effects: Effects, rule: Subdivision) -> None:
-        module = "adaptive_sampling"
-        self._needs = effects.function(module, "needs_subdivision")
+    def __init__(self, bound: Bound, rule: Subdivision) -> None:
+        asked_by = ("film", "subdivision")
+        self._needs = bound.function("adaptive_sampling", "needs_subdivision", asked_by)
         self._subdivide: Callable[..., Any] | None = None
         if rule.depth:
-            self._subdivide = effects.function(module, "subdivide")
+            self._subdivide = bound.function("adaptive_sampling", "subdivide", asked_by)
         # Corners are float32: beyond its range a number can't even be compared with them.
         self._threshold = min(rule.threshold, float(np.finfo(np.float32).max))
 
     def divides(self, corners: Floats32) -> Mask:
         """(n,) which cells to divide, by their corners (3, 4, n)."""
-        result = self._needs(corners, self._threshold)
-        found = (getattr(result, "shape", None), getattr(result, "dtype", None))
-        expected = (corners.shape[2:], np.dtype(bool))
-        if found != expected:
-            raise EffectError(f"{NEEDS} returned {found}, expected shape and dtype {expected}")
-        return np.asarray(result)
+        chosen: Mask = self._needs(corners, self._threshold)
+        return chosen
 
     def children(self, cells: Cells) -> Cells:
         """Four for each cell."""
         assert self._subdivide is not None
-        result = self._subdivide(*cells.sides)
-        shape = (4, len(cells.pixel))
-        if (
-            not isinstance(result, tuple | list)
-            or [np.shape(side) for side in result] != [shape] * 4
-        ):
-            raise EffectError(f"{SUBDIVIDE} returned something else than four arrays {shape}")
-        sides = np.stack([np.asarray(side) for side in result]).astype(np.float32)
+        sides = np.stack(self._subdivide(*cells.sides))
         x0, y0, x1, y1 = cells.sides
         ends = np.stack((x0, x1)), np.stack((y0, y1))
         for name, side, (low, high) in zip(_SIDES, sides, ends * 2, strict=True):

@@ -6,10 +6,12 @@ from collections import Counter
 
 import numpy as np
 
+from course.rendering.binding import needs_of
+from course.scene.darkness import why_dark
 from course.scene.document import spell
 from course.scene.material_table import returned_share
-from course.scene.needs import needs_of, skipped_modules, why_black
 from course.scene.scene import Scene
+from course.scene.skipped_modules import skipped_modules
 from course.transport.plan import make_plan
 
 MOST_OBJECTS = 20
@@ -21,7 +23,7 @@ def summarize(scene: Scene) -> dict[str, dict[str, object]]:
     description, settings = scene.loaded.description, scene.settings
     compiled, world = scene.compiled, scene.compiled.world
     plan = make_plan(world, settings)
-    needs = needs_of(scene.loaded, settings, world)
+    needs = needs_of(scene, settings)
     frame = compiled.frame
     dimensions = {"pixel": "2 numbers a sample"}
     samples = f"{settings.samples} a pixel, {settings.sampler}"
@@ -48,9 +50,10 @@ def summarize(scene: Scene) -> dict[str, dict[str, object]]:
         "objects": {
             **{str(shape): number for shape, number in shapes.items()},
             "triangles": sum(compiled.triangles),
+            **({"pieces": f"{compiled.pieces:,} triangles more"} if compiled.pieces else {}),
             "materials": len(description.materials),
             "center": "{:g} {:g} {:g}".format(*frame.center),
-            "half extent": f"{frame.scale:g}",
+            "half extent": f"{frame.scale * frame.reach:g}",
         },
         "bounds": _bounds(scene),
         "lights": {str(kind): number for kind, number in kinds.items()},
@@ -102,5 +105,5 @@ def _hints(scene: Scene) -> dict[str, object]:
             hints[spell(path)] = (
                 f"{document.where(path)}: returns more light than it gets: {rest} + mirror is [{numbers}]"
             )
-    black = why_black(scene)
+    black = why_dark(scene)
     return hints | ({"lights": black} if black else {})

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from course.effects import Effects
+from course.effects import Bound
 from course.geometry.hierarchy import HierarchyFunctions
 from course.scene import description as d
 from course.scene.document import KeyPath, spell
@@ -16,7 +16,7 @@ FUNCTIONS = ("build", "traverse")
 
 
 def compile_acceleration(
-    loaded: Loaded, shutter: Shutter, effects: Effects
+    loaded: Loaded, shutter: Shutter, bound: Bound
 ) -> HierarchyFunctions | None:
     """None where Embree answers, and then the bounding_volumes module is not even imported.
 
@@ -35,7 +35,9 @@ def compile_acceleration(
                 f"a hierarchy holds what stands still, and {spell(path)} moves while the shutter is open;"
                 " leave its motion out, or take embree",
             )
-    build, traverse = (effects.function("bounding_volumes", name) for name in FUNCTIONS)
+    build, traverse = (
+        bound.function("bounding_volumes", name, ("acceleration", "type")) for name in FUNCTIONS
+    )
     return HierarchyFunctions(build, traverse, scene.acceleration.leaf_size)
 
 

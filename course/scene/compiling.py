@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from course.appearance.lobes import Lobe
 from course.core.types import Floats64
-from course.effects import Effects
+from course.effects import Bound, Effects, Need
+from course.geometry.cutting import cut
 from course.geometry.mesh import Mesh
 from course.geometry.surface import Part, build_surface
 from course.imaging.camera import Camera, make_camera, make_window_camera
@@ -18,7 +20,7 @@ from course.scene.brightness import in_range
 from course.scene.description.values import rgb
 from course.scene.emitters import emitter_parts
 from course.scene.environment_compiling import compile_environment
-from course.scene.frame import Frame, bounds_of, frame_of
+from course.scene.frame import Frame, bounds_of
 from course.scene.growth import check_growth
 from course.scene.instancing import CONVEX, object_mesh
 from course.scene.lens_compiling import compile_lens
@@ -32,6 +34,14 @@ from course.scene.path_compiling import compile_paths
 from course.scene.reach import in_reach
 from course.scene.roughness_compiling import reflecting, with_rough_glass
 from course.scene.shutter import shutter_of
+from course.scene.small_objects import (
+    CUT,
+    extents_of_lamps,
+    extents_of_objects,
+    frame_for,
+    warn_of_small,
+)
+from course.scene.surroundings import in_its_surroundings, outsides, warn_of_nested
 from course.scene.texture_compiling import Painter, shows_texture
 from course.scene.world import World
 
@@ -46,12 +56,16 @@ class Compiled:
     triangles : of each object
     bounds : of each object its lowest and its highest corner, (2, 3) float64 in the units of the scene file, where the
         file puts it: what moves is there at time 0
+    pieces : how many triangles there are more because large ones were cut beside small things
+    needs : the functions of the course that rendering calls, whatever its settings
     """
 
     world: World
     frame: Frame
     triangles: tuple[int, ...]
     bounds: tuple[Floats64, ...]
+    pieces: int = 0
+    needs: tuple[Need, ...] = ()
 
 
 def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
@@ -63,6 +77,7 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
         For what only shows when meshes are there; names file, line and key path.
     """
     scene, document = loaded.description, loaded.document
+    bound = Bound(effects)
     shutter = shutter_of(loaded)
     meshes: list[Mesh] = []
     files: dict[str, Mesh] = {}
@@ -74,11 +89,17 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
         start = shutter.start(thing.motion)
         meshes.append(_moved(mesh, start))
         boxes += [bounds[-1] + start, bounds[-1] + start + shutter.sweep(thing.motion)]
-    frame = frame_of(boxes)
+    extents = extents_of_objects(bounds, boxes)
+    lamps = extents_of_lamps(loaded, shutter, extents, meshes)
+    frame, small = frame_for(extents + lamps, len(bounds))
+    pieces = 0
     check_sweeps(loaded, frame, shutter)
     columns = material_columns(scene)
-    used = {str(number): scene.materials[name] for number, name in enumerate(columns.names)}
-    painter = _painter(used, loaded, effects, files)
+    used = {
+        str(number): in_its_surroundings(scene.materials[name], scene.materials)
+        for number, name in enumerate(columns.names)
+    }
+    painter = _painter(used, loaded, bound, files)
     parts = [
         Part(
             frame.mesh(mesh),
@@ -86,6 +107,7 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
             shutter.velocity(thing.motion, frame),
             None if painter is None else painter.paint(number, mesh),
             isinstance(thing, CONVEX),
+            thing.from_behind,
         )
         for number, (mesh, thing) in enumerate(zip(meshes, scene.objects, strict=True))
     ]
@@ -93,17 +115,32 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
         in_range(rgb(material.emission), loaded, ("materials", name, "emission"), "the emission")
     emitters, emission = emitter_parts(loaded, frame, shutter, first_material=len(used))
     materials = compile_materials(used, emission, frame)
-    motion = compile_motion(loaded, frame, shutter, effects, materials)
+    around = outsides(columns.names, scene.materials, len(materials.exponent))
+    materials = materials if around is None else replace(materials, outside=around)
+    if scene.integrator.into_surface == "mirror":
+        # Where directions are kept the picture is another renderer's, which knows of no media in each other.
+        warn_of_nested(scene, document, bounds, meshes)
+    motion = compile_motion(loaded, frame, shutter, bound, materials)
+    parts += emitters
+    if small is not None:
+        whole, parts = parts, cut(parts, small, CUT)
+        pieces = sum(len(part.mesh.triangles) for part in parts)
+        pieces -= sum(len(part.mesh.triangles) for part in whole)
+    offset = scene.integrator.surface_offset / frame.scale
+    path = ("integrator", "surface_offset")
+    in_reach(np.array(offset), loaded, path, "the distance by which rays leave surfaces")
     surface = build_surface(
-        parts + emitters,
+        parts,
         motion.functions if motion else None,
         bulges=scene.integrator.terminator == "round",
         # Refraction is not defined by a normal that looks away.
         bent=None if scene.integrator.shading_normals == "bent" else materials.refracts,
-        hierarchy=compile_acceleration(loaded, shutter, effects),
+        hierarchy=compile_acceleration(loaded, shutter, bound),
+        least_offset=offset,
+        eye=_still_eye(loaded, frame),
     )
     objects = Lit(surface, columns.of_lights)
-    lights, skipped = compile_lights(loaded, frame, shutter, effects, materials, objects)
+    lights, skipped = compile_lights(loaded, frame, shutter, bound, materials, objects)
     ambient = np.zeros(3)
     for light in scene.lights:
         if isinstance(light, d.AmbientLight):
@@ -114,34 +151,48 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
         lights=lights,
         skipped_lights=skipped,
         ambient=in_range(ambient, loaded, ("lights",), "ambient radiance"),
-        environment=compile_environment(loaded, effects),
-        lobes=_lobes(used, effects, scene.integrator),
-        lens=compile_lens(loaded, frame, effects),
+        environment=compile_environment(loaded, bound),
+        lobes=_lobes(list(zip(columns.names, used.values(), strict=True)), bound, scene.integrator),
+        lens=compile_lens(loaded, frame, bound),
         motion=motion,
-        paths=compile_paths(scene, effects, materials, columns.of_lights.values()),
+        paths=compile_paths(scene, bound, materials, columns.of_lights.values()),
         backdrop=scene.environment.seen_by == "camera",
         keeps=scene.integrator.into_surface == "keep",
+        lifted=scene.integrator.surface_offset > 0,
     )
     check_growth(loaded, columns.names, world)
-    return Compiled(world, frame, tuple(len(mesh.triangles) for mesh in meshes), tuple(bounds))
+    if small is not None:
+        warn_of_small(loaded, extents, frame)
+    triangles = tuple(len(mesh.triangles) for mesh in meshes)
+    return Compiled(world, frame, triangles, tuple(bounds), pieces, bound.needs)
+
+
+def _still_eye(loaded: Loaded, frame: Frame) -> Floats64 | None:
+    """Where all camera rays begin, (3,); None where they don't begin in one place."""
+    camera, shutter = loaded.description.camera, shutter_of(loaded)
+    if shutter.moves(camera.motion) or (camera.lens and camera.lens.aperture_radius):
+        return None
+    return frame.position(np.array(camera.eye) + shutter.start(camera.motion))
 
 
 def _painter(
-    used: dict[str, d.MaterialDescription], loaded: Loaded, effects: Effects, files: dict[str, Mesh]
+    used: dict[str, d.MaterialDescription], loaded: Loaded, bound: Bound, files: dict[str, Mesh]
 ) -> Painter | None:
     """What paints the objects; None where no surface shows a texture."""
     if not any(shows_texture(material) for material in used.values()):
         return None
-    return Painter(loaded, effects, files)
+    return Painter(loaded, bound, files)
 
 
 def _lobes(
-    used: dict[str, d.MaterialDescription], effects: Effects, integrator: d.IntegratorDescription
+    used: Sequence[tuple[str, d.MaterialDescription]],
+    bound: Bound,
+    integrator: d.IntegratorDescription,
 ) -> tuple[Lobe, ...]:
     """Of what is glossy, and of rough glass."""
-    mirrors = {name: reflecting(material) for name, material in used.items()}
-    lobes = compile_lobes(mirrors, effects, integrator)
-    return with_rough_glass(lobes, used, effects, integrator)
+    mirrors = [(name, reflecting(material)) for name, material in used]
+    lobes = compile_lobes(mirrors, bound, integrator)
+    return with_rough_glass(lobes, used, bound, integrator)
 
 
 def _moved(mesh: Mesh, by: Floats64) -> Mesh:

@@ -20,6 +20,7 @@ from course.scene.description.transforms import Affine, Rotate, Scale, Transform
 from course.scene.description.values import Vector, rgb
 from course.scene.document import Document, KeyPath, suggest
 from course.scene.object_lights import check_object_lights
+from course.scene.surroundings import check_surroundings, in_its_surroundings
 
 # Below these sines two directions are held to be one: a picture turned by a rounding error, or a
 # light without area.
@@ -46,12 +47,6 @@ def check_consistency(description: SceneDescription, document: Document) -> None
             raise document.unexpected(
                 ("materials", name, "specular"), f"numbers of at most {_SHARPEST:g}"
             )
-        glass = material.dielectric
-        if glass is not None and glass.roughness and not 0.1 < glass.refraction_index < 10:
-            raise document.unexpected(
-                ("materials", name, "dielectric", "refraction_index"),
-                "a number between 0.1 and 10 for rough glass",
-            )
         if material.dielectric is not None and material.conductor is not None:
             raise document.error(
                 ("materials", name), "both dielectric and conductor are given: expected one of them"
@@ -61,6 +56,14 @@ def check_consistency(description: SceneDescription, document: Document) -> None
     for index, thing in enumerate(description.objects):
         _check_object(thing, ("objects", index), description, document)
     check_object_lights(description, document)
+    check_surroundings(description, document)
+    for name, material in description.materials.items():
+        glass = in_its_surroundings(material, description.materials).dielectric
+        if glass is not None and glass.roughness and not 0.1 < glass.refraction_index < 10:
+            raise document.unexpected(
+                ("materials", name, "dielectric", "refraction_index"),
+                "a number between 0.1 and 10 for rough glass, against what surrounds it",
+            )
 
 
 def nearest_squares(samples: int) -> tuple[int, ...]:
@@ -159,6 +162,16 @@ def _check_object(
     if thing.material not in description.materials:
         hint = suggest(thing.material, description.materials)
         raise document.unexpected((*path, "material"), f"the name of one of the materials; {hint}")
+    if thing.from_behind == "kept":
+        if description.materials[thing.material].dielectric is not None:
+            raise document.unexpected(
+                (*path, "from_behind"), "turned for glass, whose inside is another than its outside"
+            )
+        if description.integrator.shading_normals == "bent":
+            raise document.unexpected(
+                ("integrator", "shading_normals"),
+                f"interpolated, as objects[{path[-1]}].from_behind is kept",
+            )
     if isinstance(thing, Torus):
         _check_less(("tube", thing.tube), ("radius", thing.radius), path, document)
     if isinstance(thing, DisplacedSphere):

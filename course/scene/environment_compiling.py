@@ -13,12 +13,13 @@ from course.appearance.environment import ConstantEnvironment
 from course.appearance.environment_hemispheres import HemisphereSampling
 from course.appearance.environment_sampling import ProductSampling, product_sampling
 from course.core.types import Floats32
-from course.effects import Effects
+from course.effects import Bound
 from course.errors import SceneError
 from course.imaging.reading import read_picture
 from course.scene import description as d
 from course.scene.brightness import in_range
 from course.scene.description.values import rgb
+from course.scene.limits import bytes_of_files, pixels_of_pictures
 from course.scene.loading import Loaded
 from course.scene.material_table import base_color, has_body
 
@@ -36,7 +37,7 @@ HEMISPHERES = {
 """The importance_sampling functions for each value of ``sampling``, but for ``automatic``."""
 
 
-def compile_environment(loaded: Loaded, effects: Effects) -> ConstantEnvironment | CubeEnvironment:
+def compile_environment(loaded: Loaded, bound: Bound) -> ConstantEnvironment | CubeEnvironment:
     """Read the pictures, if there are any, and make a cube of them.
 
     Raises
@@ -47,7 +48,7 @@ def compile_environment(loaded: Loaded, effects: Effects) -> ConstantEnvironment
     environment = loaded.description.environment
     if isinstance(environment, d.ConstantEnvironment):
         radiance = in_range(rgb(environment.radiance), loaded, ("environment",), "radiance")
-        chosen = _hemispheres(loaded, effects) if radiance.any() else None
+        chosen = _hemispheres(loaded, bound) if radiance.any() else None
         return ConstantEnvironment(radiance, environment.lights, chosen)
     if isinstance(environment, d.CubeEnvironment):
         faces = _faces(environment, loaded)
@@ -69,8 +70,8 @@ def compile_environment(loaded: Loaded, effects: Effects) -> ConstantEnvironment
     # In double precision, for a scale may be larger than any radiance.
     faces = np.multiply(faces, scale, out=np.empty_like(faces), casting="same_kind")
     faces = np.ascontiguousarray(faces, np.float32)
-    lookup = effects.function("cube_map", LOOKUPS[environment.lookup])
-    product: ProductSampling | HemisphereSampling | None = _hemispheres(loaded, effects)
+    lookup = bound.function("cube_map", LOOKUPS[environment.lookup], ("environment", "type"))
+    product: ProductSampling | HemisphereSampling | None = _hemispheres(loaded, bound)
     if product is None and environment.lights and faces.any() and _anything_diffuse(loaded):
         product = product_sampling(faces, seamless=environment.lookup == "seamless")
     return CubeEnvironment(faces, lookup, environment.lights, product)
@@ -84,10 +85,11 @@ def hemisphere_functions(loaded: Loaded) -> list[str]:
     return list(HEMISPHERES[environment.sampling]) if _anything_diffuse(loaded) else []
 
 
-def _hemispheres(loaded: Loaded, effects: Effects) -> HemisphereSampling | None:
+def _hemispheres(loaded: Loaded, bound: Bound) -> HemisphereSampling | None:
     """None where no function of the importance_sampling module is called; it is not even imported then."""
     called = {
-        name: effects.function("importance_sampling", name) for name in hemisphere_functions(loaded)
+        name: bound.function("importance_sampling", name, ("environment", "sampling"))
+        for name in hemisphere_functions(loaded)
     }
     ways = []
     if "uniform_hemisphere" in called:
@@ -130,6 +132,10 @@ def _faces(environment: d.CubeEnvironment, loaded: Loaded) -> Floats32:
 
 def _read(file: str, path: tuple[str | int, ...], loaded: Loaded) -> Floats32:
     try:
-        return read_picture(loaded.path.parent / file)
+        return read_picture(
+            loaded.path.parent / file,
+            bytes_of_files(loaded.document),
+            pixels_of_pictures(loaded.document),
+        )
     except SceneError as error:
         raise loaded.document.error(path, str(error)) from error

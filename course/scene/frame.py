@@ -22,11 +22,13 @@ class Frame:
     Attributes
     ----------
     center : (3,) float64
-    scale : float > 0, half the longest extent of all objects
+    scale : float > 0 [units of the scene file]
+    reach : largest compiled coordinate of all objects; 1 unless some are very small (``course.scene.small_objects``)
     """
 
     center: Floats64
     scale: float
+    reach: float = 1.0
 
     def position(self, x: Sequence[float] | Floats64) -> Floats64:
         """Compiled positions, (3,) or (V, 3) float64."""

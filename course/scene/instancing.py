@@ -10,8 +10,10 @@ from course.core.types import Floats64
 from course.errors import GeometryError, SceneError
 from course.geometry import shapes, transforms
 from course.geometry.mesh import Mesh
+from course.inputs import Bound
 from course.scene import description as d
 from course.scene.document import Document
+from course.scene.limits import bytes_of_files
 
 CONVEX = (d.Sphere, d.Box, d.Cylinder, d.Cone)
 """Shapes that are closed and convex, however they are transformed."""
@@ -37,7 +39,7 @@ def object_mesh(
     """
     path = ("objects", number)
     try:
-        mesh = _local_mesh(thing, folder, {} if files is None else files)
+        mesh = _local_mesh(thing, folder, {} if files is None else files, bytes_of_files(document))
         if thing.transform:
             mesh = transforms.apply(
                 mesh, transforms.compose([_matrix(step) for step in thing.transform])
@@ -50,14 +52,14 @@ def object_mesh(
     return mesh
 
 
-def _local_mesh(thing: d.Object, folder: Path, files: dict[str, Mesh]) -> Mesh:
+def _local_mesh(thing: d.Object, folder: Path, files: dict[str, Mesh], bound: Bound) -> Mesh:
     if isinstance(thing, d.MeshFile):
         # trimesh behind it is heavy; a scene of named shapes never imports it.
         from course.geometry.mesh_files import read_mesh
 
         read = f"{thing.normals} {thing.file}"
         if read not in files:
-            files[read] = read_mesh(folder / thing.file, thing.normals)
+            files[read] = read_mesh(folder / thing.file, thing.normals, bound)
         return files[read]
     match thing:
         case d.Quad():

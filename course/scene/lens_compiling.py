@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from course.effects import Effects
+from course.effects import Bound
 from course.imaging.lens import Lens, PointOnDisk
 from course.scene.description.camera import LensDescription
 from course.scene.frame import Frame
@@ -24,7 +24,7 @@ NEAREST = 1e-6
 """Least distance of the plane in focus, in sizes of the scene: the functions of the course are asked for no less."""
 
 
-def compile_lens(loaded: Loaded, frame: Frame, effects: Effects) -> Lens | None:
+def compile_lens(loaded: Loaded, frame: Frame, bound: Bound) -> Lens | None:
     """The lens, or None for a pinhole (no lens, or an aperture of 0).
 
     Raises
@@ -62,11 +62,12 @@ def compile_lens(loaded: Loaded, frame: Frame, effects: Effects) -> Lens | None:
         focus_distance=focus,
         shape=lens.shape,
         blades=lens.blades,
-        point_on_disk=_points(lens, effects) if lens.shape == "disk" else None,
-        lens_rays=effects.function("thin_lens", "lens_rays"),
+        point_on_disk=_points(lens, bound) if lens.shape == "disk" else None,
+        lens_rays=bound.function("thin_lens", "lens_rays", (*path, "aperture_radius")),
     )
 
 
-def _points(lens: LensDescription, effects: Effects) -> PointOnDisk:
-    function = effects.function(*DISKS[lens.samples])
+def _points(lens: LensDescription, bound: Bound) -> PointOnDisk:
+    key = "aperture_radius" if lens.samples == "point" else "samples"
+    function = bound.function(*DISKS[lens.samples], ("camera", "lens", key))
     return by_rejection(function) if lens.samples == DISK else function

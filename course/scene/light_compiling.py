@@ -19,8 +19,8 @@ from course.appearance.lights import (
 from course.appearance.lights.mesh import areas, shares
 from course.appearance.materials import MaterialTable
 from course.core.types import Floats32, Floats64
-from course.effects import Effects
-from course.errors import EffectError
+from course.effects import Bound
+from course.errors import FunctionError
 from course.geometry.surface import Surface
 from course.scene import description as d
 from course.scene.brightness import in_range
@@ -30,7 +30,7 @@ from course.scene.light_power import given, why_dark
 from course.scene.loading import Loaded
 from course.scene.reach import in_reach
 from course.scene.shutter import Shutter
-from course.scene.sphere_points import NUMBERS, SPHERES, sphere_points
+from course.scene.sphere_points import NUMBERS, sphere_points
 
 
 @dataclass(frozen=True)
@@ -51,7 +51,7 @@ def compile_lights(
     loaded: Loaded,
     frame: Frame,
     shutter: Shutter,
-    effects: Effects,
+    bound: Bound,
     materials: MaterialTable,
     objects: Lit,
 ) -> tuple[tuple[Light, ...], dict[str, str]]:
@@ -69,7 +69,7 @@ def compile_lights(
         if reason:
             skipped[name] = reason
             continue
-        compiler = _Compiler(name, ("lights", number), loaded, frame, shutter, effects)
+        compiler = _Compiler(name, ("lights", number), loaded, frame, shutter, bound)
         if isinstance(light, d.ObjectLight):
             lights.append(compiler.of_object(light, objects.surface, objects.materials[number]))
         else:
@@ -86,7 +86,7 @@ class _Compiler:
     loaded: Loaded
     frame: Frame
     shutter: Shutter
-    effects: Effects
+    bound: Bound
 
     def __call__(
         self, light: d.PointLight | d.DirectionalLight | d.RectangleLight | d.SphereLight
@@ -96,7 +96,9 @@ class _Compiler:
                 power = rgb(light.intensity) / self.frame.scale / self.frame.scale
                 position = self._position(light.position, light.motion)
                 color = self._color(power)
-                return [PointLight(self.name, position, color, velocity=self._velocity(light))]
+                whole = light.shadow_rays == "whole"
+                velocity = self._velocity(light)
+                return [PointLight(self.name, position, color, velocity=velocity, whole=whole)]
             case d.DirectionalLight():
                 direction = np.array(light.direction) / np.abs(light.direction).max()
                 towards = -direction / np.linalg.norm(direction)
@@ -143,7 +145,7 @@ class _Compiler:
         power = self._power(light, area)
         velocity = self._velocity(light)
         if light.samples == "point":
-            place = self.effects.function("soft_shadows", "point_on_rectangle")
+            place = self.bound.function("soft_shadows", "point_on_rectangle", self.path)
             edges = _single(edge_u), _single(edge_v)
             color = self._color(power)
             return [
@@ -160,12 +162,14 @@ class _Compiler:
                 )
             ]
         k = grid_size(light.samples)
-        grid = self.effects.function("soft_shadows", "light_grid")
-        points = grid(corner, _single(edge_u), _single(edge_v), k)
-        if np.shape(points) != (3, k * k):
-            raise EffectError(
-                f"soft_shadows.light_grid returned {np.shape(points)}, expected (3, {k * k})"
-            )
+        grid = self.bound.function("soft_shadows", "light_grid", self.path)
+        try:
+            points = grid(corner, _single(edge_u), _single(edge_v), k)
+        except FunctionError as error:
+            # It is called before there is a render that would say so.
+            raise error.asked_by(
+                self.loaded.document.where(self.path), self.path
+            ) from error.__cause__
         color = self._color(power / (k * k))
         return [
             PointLight(
@@ -197,7 +201,7 @@ class _Compiler:
             light.radiance is not None,
             color,
             light.samples,
-            sphere_points(light.samples, self.effects),
+            sphere_points(light.samples, self.bound, self.path),
             NUMBERS.get(light.samples, 2),
             velocity,
         )
@@ -221,17 +225,6 @@ class _Compiler:
         if not self.shutter.moves(mover.motion):
             return None
         return np.array(self.shutter.velocity(mover.motion, self.frame), np.float32)
-
-
-def light_function(light: d.Light) -> tuple[str, str] | None:
-    """Module and name of the function that a light calls, if any."""
-    match light:
-        case d.RectangleLight():
-            name = "point_on_rectangle" if light.samples == "point" else "light_grid"
-            return "soft_shadows", name
-        case d.SphereLight() if light.radius > 0:
-            return SPHERES.get(light.samples)
-    return None
 
 
 def grid_size(samples: str) -> int:

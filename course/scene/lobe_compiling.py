@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Sequence
 
 import numpy as np
 
 from course.appearance.lobes import Lobe
+from course.appearance.turned_square import jitter_on_turned_square
 from course.core.types import Floats32
-from course.effects import Effects
+from course.effects import Bound
 from course.scene import description as d
 from course.scene.description.values import rgb
 
@@ -37,19 +38,24 @@ def lobe_function(material: d.MaterialDescription, cutoff: float) -> str | None:
     return None
 
 
+def calls_module(gloss: d.Gloss | None) -> bool:
+    """Whether a gloss takes its directions from the module glossy."""
+    return not (isinstance(gloss, d.PlaneLobe) and gloss.basis == "smallest")
+
+
 def as_it_is(direction: Floats32, *_: object) -> Floats32:
     """A direction that stays what it is."""
     return direction
 
 
 def compile_lobes(
-    materials: Mapping[str, d.MaterialDescription],
-    effects: Effects,
+    materials: Sequence[tuple[str, d.MaterialDescription]],
+    bound: Bound,
     integrator: d.IntegratorDescription,
 ) -> tuple[Lobe, ...]:
     """One lobe for each glossy material; none where the depth allows no reflection."""
     lobes = []
-    for number, material in enumerate(materials.values()):
+    for number, (which, material) in enumerate(materials):
         name = lobe_function(material, integrator.cutoff)
         if name is None or integrator.max_depth == 0:
             continue
@@ -60,8 +66,14 @@ def compile_lobes(
                 width = 3
             case d.PhongLobe(exponent=parameter):
                 width = 2
+        asked_by = ("materials", which, "gloss")
         keep_above = as_it_is
         if integrator.into_surface == "mirror":
-            keep_above = effects.function("glossy", "keep_above")
-        lobes.append(Lobe(number, width, parameter, effects.function("glossy", name), keep_above))
+            keep_above = bound.function("glossy", "keep_above", asked_by)
+        jitter = (
+            bound.function("glossy", name, asked_by)
+            if calls_module(material.gloss)
+            else jitter_on_turned_square
+        )
+        lobes.append(Lobe(number, width, parameter, jitter, keep_above))
     return tuple(lobes)

@@ -74,7 +74,9 @@ def _conductors(materials: Mapping[str, MaterialDescription], count: int) -> Con
         # Beyond it the metal is a perfect mirror to float32, and the square of a square overflows.
         n[:, column] = np.minimum(rgb(conductor.refraction_index), LARGEST_INDEX)
         k[:, column] = np.minimum(rgb(conductor.absorption_index), LARGEST_INDEX)
-    return Conductors(metal, n, k)
+    approximate = np.zeros(count, np.bool_)
+    approximate[[column for column in metals if metals[column].fresnel == "approximate"]] = True
+    return Conductors(metal, n, k, approximate if approximate.any() else None)
 
 
 def _plain(materials: Mapping[str, MaterialDescription], count: int) -> Mask | None:

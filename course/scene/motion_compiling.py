@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from course.appearance.materials import MaterialTable
-from course.effects import Effects
+from course.effects import Bound
 from course.geometry.motion_functions import MotionFunctions
 from course.scene import description as d
 from course.scene.frame import Frame
@@ -18,16 +18,16 @@ from course.scene.world import Motion
 
 def movers(
     loaded: Loaded, shutter: Shutter, materials: MaterialTable
-) -> list[tuple[str | int, ...]]:
-    """Key paths of everything that moves while the shutter is open, and that anybody could see moving.
+) -> list[tuple[tuple[str | int, ...], bool]]:
+    """Key paths of all that moves while the shutter is open, and that anybody could see moving; whether rays meet it.
 
     A light by radiance is a surface, and hides things even if it lights nothing; others only count if they light.
     """
     scene = loaded.description
-    found: list[tuple[str | int, ...]] = []
+    found: list[tuple[tuple[str | int, ...], bool]] = []
     for number, thing in enumerate(scene.objects):
         if shutter.moves(thing.motion):
-            found.append(("objects", number, "motion"))
+            found.append((("objects", number, "motion"), True))
     for number, light in enumerate(scene.lights):
         # What moves of an object that is a light is the object.
         if isinstance(light, d.AmbientLight | d.DirectionalLight | d.ObjectLight):
@@ -35,9 +35,9 @@ def movers(
         surface = not isinstance(light, d.PointLight) and light.radiance is not None
         surface = surface and not (isinstance(light, d.RectangleLight) and not light.visible)
         if shutter.moves(light.motion) and (surface or not why_dark(light, materials)):
-            found.append(("lights", number, "motion"))
+            found.append((("lights", number, "motion"), surface))
     if shutter.moves(scene.camera.motion):
-        found.append(("camera", "motion"))
+        found.append((("camera", "motion"), False))
     return found
 
 
@@ -59,20 +59,23 @@ def check_sweeps(loaded: Loaded, frame: Frame, shutter: Shutter) -> None:
 
 
 def compile_motion(
-    loaded: Loaded, frame: Frame, shutter: Shutter, effects: Effects, materials: MaterialTable
+    loaded: Loaded, frame: Frame, shutter: Shutter, bound: Bound, materials: MaterialTable
 ) -> Motion | None:
     """None where nothing moves, and then the motion_blur module is not even imported."""
-    if not movers(loaded, shutter, materials):
+    moving = movers(loaded, shutter, materials)
+    if not moving:
         return None
+    first, _ = moving[0]
+    surfaces = [path for path, surface in moving if surface]
     camera = loaded.description.camera.motion
     velocity = None
     if shutter.moves(camera):
         velocity = np.array(shutter.velocity(camera, frame), np.float32)
     return Motion(
         MotionFunctions(
-            effects.function("motion_blur", "shutter_times"),
-            effects.function("motion_blur", "displacement"),
-            effects.function("motion_blur", "to_object_space"),
+            bound.function("motion_blur", "shutter_times", first),
+            bound.function("motion_blur", "displacement", first),
+            bound.function("motion_blur", "to_object_space", surfaces[0]) if surfaces else None,
         ),
         velocity,
     )

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from course.appearance.materials import MaterialTable
-from course.effects import Effects
+from course.effects import Bound
 from course.scene import description as d
 from course.scene.rejection import takes_rejection
 from course.scene.world import Paths
@@ -27,7 +27,7 @@ def path_functions(
 
 def compile_paths(
     scene: d.SceneDescription,
-    effects: Effects,
+    bound: Bound,
     materials: MaterialTable,
     objects: Iterable[int],
 ) -> Paths | None:
@@ -41,7 +41,7 @@ def compile_paths(
     if integrator.type != "path":
         return None
     functions = {
-        name: effects.function("path_tracing", name)
+        name: bound.function("path_tracing", name, ("integrator", "type"))
         for name in path_functions(integrator, integrator.max_depth, materials)
     }
     none = np.zeros(materials.emission.shape[1], np.bool_)

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Sequence
 from dataclasses import fields
 
 import msgspec
 
 from course.appearance.lobes import Lobe
 from course.appearance.rough_glass import RoughGlass
-from course.effects import Effects
+from course.effects import Bound
 from course.scene import description as d
 from course.scene.lobe_compiling import FLAT, as_it_is
 
@@ -29,19 +29,22 @@ def reflecting(material: d.MaterialDescription) -> d.MaterialDescription:
 
 def with_rough_glass(
     lobes: tuple[Lobe, ...],
-    materials: Mapping[str, d.MaterialDescription],
-    effects: Effects,
+    materials: Sequence[tuple[str, d.MaterialDescription]],
+    bound: Bound,
     integrator: d.IntegratorDescription,
 ) -> tuple[Lobe, ...]:
     """Lobes of glossy materials, with those of rough glass; none where the depth allows no refraction."""
     if integrator.max_depth == 0:
         return lobes
     found = {lobe.material: lobe for lobe in lobes}
-    for number, material in enumerate(materials.values()):
+    for number, (which, material) in enumerate(materials):
         if material.dielectric is None or not is_rough(material):
             continue
         refract, fresnel, jitter = (
-            effects.function("blurred_transparency", name) for name in FUNCTIONS
+            bound.function(
+                "blurred_transparency", name, ("materials", which, "dielectric", "roughness")
+            )
+            for name in FUNCTIONS
         )
         mirrored = found.get(number, Lobe(number, 0, 0.0, as_it_is, as_it_is))
         found[number] = RoughGlass(

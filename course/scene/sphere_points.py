@@ -7,8 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from course.core.types import Floats32
-from course.effects import Effects
-from course.errors import EffectError
+from course.effects import Bound
 from course.scene.rejection import BALL, by_rejection
 
 SPHERES = {
@@ -28,27 +27,22 @@ Place = Callable[..., Floats32]
 """(center, radius, u) -> (3, N) points; of a facing disk (center, radius, points, u)."""
 
 
-def sphere_points(samples: str, effects: Effects) -> Place:
+def sphere_points(samples: str, bound: Bound, asked_by: tuple[str | int, ...]) -> Place:
     """The function that places points on a spherical light.
 
     Raises
     ------
     EffectError
-        It isn't there; when it is called, it returns another shape than `sampling` says.
+        It isn't there.
     """
     module, name = SPHERES[samples]
-    function = effects.function(module, name)
+    function = bound.function(module, name, asked_by)
     if module == "soft_shadows":
         return function
     unit = by_rejection(function) if samples == BALL else function
 
     def place(center: Floats32, radius: float, u: Floats32) -> Floats32:
-        points = unit(u)
-        if np.shape(points) != (3, u.shape[1]):
-            raise EffectError(
-                f"{module}.{name} returned {np.shape(points)}, expected (3, {u.shape[1]})"
-            )
-        moved: Floats32 = np.float32(radius) * points
+        moved: Floats32 = np.float32(radius) * unit(u)
         moved += center[:, None]
         return moved
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from course.appearance.textures import OnMesh, OnRectangle, OnSphere, Texture
 from course.core.types import Floats32, Floats64
-from course.effects import Effects
+from course.effects import Bound
 from course.errors import SceneError
 from course.geometry.mesh import Mesh
 from course.geometry.painting import Paint
@@ -16,6 +16,7 @@ from course.scene import description as d
 from course.scene.description.materials import TextureDescription
 from course.scene.document import KeyPath
 from course.scene.instancing import object_mesh
+from course.scene.limits import bytes_of_files, pixels_of_pictures
 from course.scene.loading import Loaded
 from course.scene.material_table import ambient_color, base_color, has_body
 
@@ -43,9 +44,9 @@ class Painter:
     files : mesh files that have been read, by their normals and names in the scene
     """
 
-    def __init__(self, loaded: Loaded, effects: Effects, files: dict[str, Mesh]) -> None:
+    def __init__(self, loaded: Loaded, bound: Bound, files: dict[str, Mesh]) -> None:
         self._loaded = loaded
-        self._effects = effects
+        self._bound = bound
         self._files = files
         self._images: dict[str, Floats32] = {}
 
@@ -68,7 +69,8 @@ class Painter:
             return None
         texture = self._texture(material.texture, ("materials", thing.material, "texture", "image"))
         name = places_function(thing)
-        places = self._effects.function("textures", name)
+        asked_by = ("materials", thing.material, "texture")
+        places = self._bound.function("textures", name, asked_by)
         if name == "triangle_uv":
             if mesh.uv is None:
                 raise self._loaded.document.error(
@@ -101,17 +103,21 @@ class Painter:
         return Texture(
             self._images[texture.image],
             np.array(texture.repeat, np.float32),
-            self._effects.function("textures", "texture_lookup"),
+            self._bound.function("textures", "texture_lookup", path[:-1]),
         )
 
     def _read(self, file: str, path: KeyPath) -> Floats32:
         try:
-            image = read_picture(self._loaded.path.parent / file)
+            image = read_picture(
+                self._loaded.path.parent / file,
+                bytes_of_files(self._loaded.document),
+                pixels_of_pictures(self._loaded.document),
+            )
         except SceneError as error:
             raise self._loaded.document.error(path, str(error)) from error
-        above = np.argwhere(image > 1)
-        if len(above):
-            y, x, channel = above[0]
+        # By its largest value, for which no array of the picture's size is made.
+        if image.max(initial=0) > 1:
+            y, x, channel = np.argwhere(image > 1)[0]
             raise self._loaded.document.error(
                 path,
                 f"{file}: the pixel in column {x}, row {y} is {image[y, x, channel]:g}: a surface returns a share"

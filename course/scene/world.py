@@ -71,6 +71,7 @@ class World:
     paths : None for the distribution ray tracer
     backdrop : whether only camera rays see the environment
     keeps : whether directions into the surface are kept
+    lifted : whether rays leave surfaces so far off that light is worked out at the surface itself
     """
 
     surface: Surface
@@ -85,6 +86,7 @@ class World:
     paths: Paths | None = None
     backdrop: bool = False
     keeps: bool = False
+    lifted: bool = False
 
 
 @dataclass(frozen=True)

@@ -9,15 +9,14 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
-from typing import Any, Final
+from typing import Any
 
 import yaml
 
 from course.errors import SceneError
+from course.inputs import LARGEST_SCENE, Bound, read_input, shown
 from course.scene.document import Document, show, suggest
 from course.scene.tree_builder import TreeBuilder
-
-LARGEST_FILE: Final = 16 * 2**20  # bytes
 
 _NOT_TEXT = re.compile("[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 _SCENE_KEYS = "keys such as camera, materials, lights and objects"
@@ -33,10 +32,7 @@ def read_document(path: Path, what: str = "scene") -> Document:
         For a file that is missing, unreadable, too large, not UTF-8 or not YAML, and for YAML that
         repeats a key, carries tags, holds numbers that are not finite, or grows beyond bounds.
     """
-    name = str(path)
-    # A file's name may hold line breaks, or bytes that are no text; messages are one line of text.
-    file = name if name.isprintable() else name.encode("unicode_escape").decode("ascii")
-    return parse_document(_read(path, file, what), file, what)
+    return parse_document(_read(path, what), shown(path), what)
 
 
 def parse_document(content: bytes, file: str, what: str = "scene") -> Document:
@@ -60,23 +56,13 @@ def parse_document(content: bytes, file: str, what: str = "scene") -> Document:
     return Document(file, builder.root, builder.lines)
 
 
-def _read(path: Path, file: str, what: str) -> bytes:
+def _read(path: Path, what: str) -> bytes:
     try:
-        if path.is_dir():
-            raise SceneError(f"{file}: is a folder: expected a {what} file")
-        # A pipe or device might never end, or never begin.
-        if path.exists() and not path.is_file():
-            raise SceneError(f"{file}: is not a regular file: expected a {what} file")
-        with path.open("rb") as stream:
-            content = stream.read(LARGEST_FILE + 1)
-    except FileNotFoundError:
-        raise SceneError(f"{file}: no such file{_near(path)}") from None
-    except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        raise SceneError(f"{file}: can't be read: {reason}") from None
-    if len(content) > LARGEST_FILE:
-        raise SceneError(f"{file}: more than {LARGEST_FILE >> 20} MB: too large for a {what} file")
-    return content
+        return read_input(path, f"{what} file", Bound(LARGEST_SCENE), SceneError)
+    except SceneError as error:
+        if isinstance(error.__cause__, FileNotFoundError):
+            raise SceneError(f"{error}{_near(path)}") from None
+        raise
 
 
 def _near(path: Path) -> str:

@@ -45,12 +45,12 @@ def bounced(
     mirror = reflectance(lookups, hits, None)
     if not plan.refracts:
         weight = _weight(mirror, throughput)
-        return _reflected(hits, weight, path, medium, cutoff, blur), None
+        return _reflected(plan, hits, weight, path, medium, cutoff, blur), None
     share, passed, boundary = divided(plan, lookups, hits, None, blur)
     weight = _weight(mirror + share, throughput)
-    reflected = _reflected(hits, weight, path, medium, cutoff, blur)
+    reflected = _reflected(plan, hits, weight, path, medium, cutoff, blur)
     weight = _weight(passed, throughput)
-    return reflected, _refracted(plan, hits, weight, boundary, path, medium, cutoff, blur)
+    return reflected, _refracted(plan, lookups, hits, weight, boundary, path, medium, cutoff, blur)
 
 
 def _weight(factor: Floats32, throughput: Floats32 | None) -> Floats32:
@@ -78,6 +78,7 @@ def _departures(
 
 
 def _reflected(
+    plan: Plan,
     hits: Hits,
     weight: Floats32,
     path: Indices | None,
@@ -91,7 +92,7 @@ def _reflected(
     path = which if path is None else path.take(which)
     ng = hits.ng.take(which, axis=1)
     origin, rest = _departures(hits, which, len(which), weight)
-    direction = mirrored(hits, which, ng, path, blur)
+    direction = mirrored(plan, hits, which, ng, path, blur)
     return Rays(
         origin,
         direction,
@@ -100,11 +101,13 @@ def _reflected(
         None if medium is None else medium.take(which),
         None if hits.time is None else hits.time.take(which),
         hits.leaving(which, direction),
+        None if medium is None else hits.p.take(which, axis=1),
     )
 
 
 def _refracted(
     plan: Plan,
+    lookups: Lookups,
     hits: Hits,
     weight: Floats32,
     boundary: Boundary,
@@ -124,7 +127,8 @@ def _refracted(
         direction,
         rest,
         path,
-        None if medium is None else beyond(hits, which),
+        None if medium is None else beyond(lookups, hits, which),
         None if hits.time is None else hits.time.take(which),
         hits.leaving(which, direction),
+        None if medium is None else hits.p.take(which, axis=1),
     )

@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from course.appearance.lights import Light
+from course.appearance.lights.sample import TO_THE_LIGHT
 from course.appearance.materials import Lookup
 from course.core.types import Floats32, Indices, Mask
 from course.core.vectors import dot
@@ -78,7 +79,7 @@ def direct_light(
 
 def _faced(world: World, plan: Plan, light: Light, hits: Hits, u: Floats32 | None) -> Facing | None:
     """The hits that can show light, face the light, and are faced by it: only these cast a shadow ray."""
-    points = hits.above
+    points = hits.p if world.lifted else hits.above
     if light.velocity is not None and world.motion is not None and hits.time is not None:
         # A light that has moved by d looks from p as one that stands still does from p - d.
         points = points - world.motion.functions.displacement(light.velocity, hits.time)
@@ -98,6 +99,10 @@ def _sees(world: World, light: Light, hits: Hits, faced: Facing, counters: Count
     origin, to_light, asked = faced.origin, faced.to_light, faced.asked
     if to_light.shape[1] != origin.shape[1]:
         to_light = np.repeat(to_light, origin.shape[1], axis=1)
+    near = light.limit <= TO_THE_LIGHT
+    if world.lifted and near:
+        # The light was looked at from the surface, the shadow ray starts above it.
+        to_light = to_light + faced.chosen(hits.p) - origin
     query = light.limit, counters.embree
     if world.surface.bulge is None:
         return unoccluded(origin, to_light, *query, time, asked=asked)
@@ -116,7 +121,7 @@ def _sees(world: World, light: Light, hits: Hits, faced: Facing, counters: Count
     # Changed in place for the query and put back: only a few hits are raised, and copies of all would cost more.
     way = to_light.take(place, axis=1)
     origin[:, place] = foot + up
-    if light.limit <= 1:
+    if near:
         to_light[:, place] -= up
     free = unoccluded(origin, to_light, *query, time, asked=asked)
     origin[:, place] = foot

@@ -20,12 +20,14 @@ class Blur:
     lobes : of the glossy materials, and of rough glass
     dimension : the first dimension of this bounce's gloss
     keeps : whether directions into the surface are kept
+    lets_out : whether rough glass lets all light out that is inside: no later bounce can
     """
 
     lobes: tuple[Lobe, ...]
     dimension: int
     draws: Draws
     keeps: bool = False
+    lets_out: bool = False
 
     def __call__(
         self, material: Materials, mirrored: Floats32, ng: Floats32, path: Indices

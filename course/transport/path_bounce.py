@@ -93,6 +93,9 @@ class PathBounce:
         if self.plan.absorbs and medium is None:
             medium = np.full(hits.size, OPEN)
         whole = kind is None and len(which) == hits.size
+        start = None
+        if medium is not None:
+            start = hits.p if whole else hits.p.take(which, axis=1)
         origin = hits.above
         if not whole:
             origin, after = departures(hits, which, crossing, after)
@@ -104,12 +107,12 @@ class PathBounce:
         if kind is None:
             direction = self._diffuse(hits, None if whole else which, path)
             left = hits.leaving(which, direction)
-            return Rays(origin, direction, after, path, medium, time, left), None
+            return Rays(origin, direction, after, path, medium, time, left, start), None
         scattered, back, through = which[:optical], which[optical:crossing], which[crossing:]
         directions = [self._diffuse(hits, scattered, path[:optical])] if optical else []
         if len(back):
             ng = hits.ng.take(back, axis=1)
-            directions.append(mirrored(hits, back, ng, path[optical:crossing], blur))
+            directions.append(mirrored(self.plan, hits, back, ng, path[optical:crossing], blur))
         if len(through):
             assert other is not None
             assert boundary is not None
@@ -118,10 +121,10 @@ class PathBounce:
             within = boundary.of(np.flatnonzero(refracts))
             directions.append(refracted(self.plan, hits, through, within, path[crossing:], blur))
             if medium is not None:
-                medium[crossing:] = beyond(hits, through)
+                medium[crossing:] = beyond(self.lookups, hits, through)
         direction = np.concatenate(directions, axis=1)
         left = hits.leaving(which, direction)
-        rays = Rays(origin, direction, after, path, medium, time, left)
+        rays = Rays(origin, direction, after, path, medium, time, left, start)
         return rays, np.arange(len(which)) >= optical
 
     def _scattered(self, hits: Hits, beta: Floats32 | None) -> Floats32:

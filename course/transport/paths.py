@@ -31,6 +31,8 @@ class Rays:
     time : (n,) float32 since the shutter opened, in exposures; None where nothing moves
     medium : (n,) int16, material that the ray travels in, OPEN outside; None where nothing absorbs, and for camera rays
     left : (n,) int8, the convex object that a ray leaves for good, -1 for none; None where nobody asks
+    start : (3, n) float32, the hit that a ray leaves, beside which its origin lies; None where nothing absorbs, and for
+        camera rays
     """
 
     origin: Floats32
@@ -40,6 +42,7 @@ class Rays:
     medium: Media | None = None
     time: Floats32 | None = None
     left: Objects | None = None
+    start: Floats32 | None = None
 
     @property
     def size(self) -> int:
@@ -62,6 +65,7 @@ class Rays:
             None if self.medium is None else self.medium[columns],
             None if self.time is None else self.time[columns],
             None if self.left is None else self.left[columns],
+            None if self.start is None else self.start[:, columns],
         )
 
 

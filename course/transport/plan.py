@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from course.appearance.conductors import Conductors
 from course.appearance.materials import Lookup
 from course.appearance.rough_glass import RoughGlass
+from course.core.types import Media
 from course.scene.world import Settings, World
 
 
@@ -72,6 +73,7 @@ class Lookups:
     ambient : what surfaces reflect of ambient light
     glow : what they send out by themselves, from both sides; textures don't colour it
     emission : of the surfaces of lights
+    outside : (M,) as ``MaterialTable`` has it
     """
 
     ambient: Lookup
@@ -84,6 +86,7 @@ class Lookups:
     absorption: Lookup
     emission: Lookup
     conductors: Conductors | None = field(default=None, kw_only=True)
+    outside: Media | None = field(default=None, kw_only=True)
 
 
 PIXEL_WIDTH = 2
@@ -172,4 +175,5 @@ def make_lookups(world: World) -> Lookups:
             )
         ),
         conductors=m.conductors,
+        outside=m.outside,
     )

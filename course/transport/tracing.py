@@ -24,6 +24,7 @@ from course.transport.gloss import Blur
 from course.transport.insides import insides
 from course.transport.paths import OPEN, Draws, Rays, together
 from course.transport.plan import PIXEL_WIDTH, Lookups, Plan, make_lookups, make_plan
+from course.transport.travelled import way_between
 
 LARGEST_BATCH = 4 * RAYS
 """Rays followed at once."""
@@ -170,7 +171,8 @@ class Tracer:
         sees : (n,) or for all, which rays bring the environment's light
         """
         counters = draws.counters
-        found = self.world.surface.accelerator.intersect(
+        surface = self.world.surface
+        found = (surface.accelerator if depth else surface.seen).intersect(
             rays.origin,
             rays.direction,
             counters.embree,
@@ -184,7 +186,7 @@ class Tracer:
         shown = depth == 0 or not self.world.backdrop
         if self.plan.sees_environment and shown and sees is not False:
             self._add_environment(film, rays, (found.triangle < 0) & sees)
-        hits = find_hits(self.world.surface, found, rays.direction, rays.time)
+        hits = find_hits(surface, found, rays.direction, rays.time, depth == 0)
         throughput, path, medium = _of_hits(rays, hits)
         if depth > 0:
             draws.spend(costs.FURTHER_RAY, rays.path)
@@ -193,7 +195,7 @@ class Tracer:
             before = None
             if depth == 0 and self.camera.near:
                 before = self.camera.way_to_near_plane(hits.direction)
-            throughput = self._absorbed(hits, throughput, medium, before)
+            throughput = self._absorbed(rays, hits, throughput, medium, before)
         counters.lap("hits")
         return hits, throughput, path, medium
 
@@ -217,9 +219,9 @@ class Tracer:
         direction = rays.direction.take(stuck, axis=1)
         origin = rays.origin if rays.origin.shape[1] == 1 else rays.origin.take(stuck, axis=1)
         time = None if rays.time is None else rays.time.take(stuck)
-        again = self.world.surface.accelerator.intersect(
-            origin + direction * np.float32(OFFSET), direction, counters.embree, time
-        )
+        surface = self.world.surface
+        step = np.maximum(surface.planes[found.triangle.take(stuck), 6], np.float32(OFFSET))
+        again = surface.seen.intersect(origin + direction * step, direction, counters.embree, time)
         for mine, theirs in (
             (found.triangle, again.triangle),
             (found.u, again.u),
@@ -232,7 +234,9 @@ class Tracer:
         if not (self.world.lobes or self.world.keeps):
             return None
         dimension = self.plan.gloss_dimension + depth * self.plan.bounce_stride
-        return Blur(self.world.lobes, dimension, draws, self.world.keeps)
+        # What is kept as the functions made it is another renderer's picture, which loses that light.
+        lets_out = depth + 1 == self.plan.max_depth and not self.world.keeps
+        return Blur(self.world.lobes, dimension, draws, self.world.keeps, lets_out)
 
     def _shade(self, hits: Hits, path: Indices | None, depth: int, draws: Draws) -> Floats32 | None:
         """Radiance (3, n) that leaves the hits towards the viewer without another bounce."""
@@ -274,15 +278,17 @@ class Tracer:
 
     def _absorbed(
         self,
+        rays: Rays,
         hits: Hits,
         throughput: Floats32 | None,
         medium: Media | None,
         before: Floats32 | None,
     ) -> Floats32 | None:
-        """Beer's law along the way just travelled: exp(-absorption t) for what crossed a dielectric.
+        """Beer's law along the way just travelled: exp(-absorption length) for what crossed a dielectric.
 
         A ray that hits the back of a dielectric came through it, whatever we believed (the camera may stand in
-        glass); one that hits anything else came through the medium it carries.
+        glass), and one that hits its front through what surrounds it; one that hits anything else came through the
+        medium it carries.
 
         Parameters
         ----------
@@ -291,12 +297,15 @@ class Tracer:
         """
         dielectric = self.world.materials.refracts.take(hits.material)
         through = np.where(~hits.entering & dielectric, hits.material.astype(np.int16), OPEN)
+        if self.lookups.outside is not None:
+            around = self.lookups.outside.take(hits.material)
+            through = np.where(hits.entering, around, through)
         if medium is not None:
             through = np.where(through < 0, medium, through)
         which = np.flatnonzero(through >= 0)
         if len(which) == 0:
             return throughput
-        length = hits.t.take(which)
+        length = way_between(rays, hits, which)
         if before is not None:
             length = length + before.take(which)
         left = np.exp(-self.lookups.absorption(through.take(which)) * length)

@@ -73,14 +73,15 @@ def divided(
         direction, ns = direction.take(which, axis=1), ns.take(which, axis=1)
     index = lookups.refraction_index(material)
     glass = index > 0
-    # Outside is vacuum: a ray that enters goes from 1 to the index, one that leaves from the index to 1.
+    # Against what is outside: a ray that enters goes from 1 to the index, one that leaves from the index to 1.
     safe = np.where(glass, index, np.float32(1))
     eta = np.where(entering, 1 / safe, safe)
     cos_i = np.clip(-dot(direction, ns), 0, 1)
     share, cos_t = fresnel_and_cos_t(cos_i, eta)
     bent = None
     if plan.refraction_dimension is not None and blur is not None:
-        bent = bend(blur.lobes, material, direction, ns, cos_i, eta, share)
+        ends = ~entering if blur.lets_out else None
+        bent = bend(blur.lobes, material, direction, ns, cos_i, eta, ends, share)
     return share * glass, (1 - share) * glass, Boundary(cos_i, cos_t, eta, bent)
 
 
@@ -102,9 +103,9 @@ def _divided_by_loop(
 
 
 def mirrored(
-    hits: Hits, which: Indices, ng: Floats32, path: Indices, blur: Blur | None
+    plan: Plan, hits: Hits, which: Indices, ng: Floats32, path: Indices, blur: Blur | None
 ) -> Floats32:
-    """Directions (3, m) in which some of the hits mirror.
+    """Directions (3, m) in which some of the hits mirror, on the inside of rough glass that has no gloss jittered too.
 
     Parameters
     ----------
@@ -112,7 +113,17 @@ def mirrored(
     path : (m,) of those hits
     """
     way = mirrored_above(hits, which, ng, blur is not None and blur.keeps)
-    return way if blur is None else blur(hits.material.take(which), way, ng, path)
+    if blur is None:
+        return way
+    material = hits.material.take(which)
+    way = blur(material, way, ng, path)
+    if plan.refraction_dimension is None:
+        return way
+    inside = np.flatnonzero(~hits.entering.take(which))
+    back, away = way.take(inside, axis=1), -ng.take(inside, axis=1)
+    scatter(plan, blur, material.take(inside), back, away, path.take(inside), back, glossy=False)
+    way[:, inside] = back
+    return way
 
 
 def refracted(
@@ -138,16 +149,15 @@ def refracted(
     if not keeps:
         way = kept_above(way, -ng)
     if boundary.bent is not None and blur is not None and plan.refraction_dimension is not None:
-        # As far into this depth's dimensions as the gloss is.
-        dimension = plan.refraction_dimension + blur.dimension - plan.gloss_dimension
-        scatter(blur, dimension, hits.material.take(which), boundary.bent, ng, path, way)
+        scatter(plan, blur, hits.material.take(which), boundary.bent, ng, path, way)
     return way
 
 
-def beyond(hits: Hits, which: Indices) -> Media:
+def beyond(lookups: Lookups, hits: Hits, which: Indices) -> Media:
     """The medium (m,) behind some of the hits, for rays that go through."""
     material = hits.material.take(which).astype(np.int16)
-    return np.where(hits.entering.take(which), material, OPEN)
+    outside = OPEN if lookups.outside is None else lookups.outside.take(material)
+    return np.where(hits.entering.take(which), material, outside)
 
 
 def departures(

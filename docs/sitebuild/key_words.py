@@ -27,6 +27,10 @@ WORDS: dict[tuple[str, str], str] = {
         "LensDescription",
         "samples",
     ): "All fill the disk evenly: noise and time change, not what is shown.",
+    **{
+        ("LimitsDescription", key): "It decides what is refused, not what is shown."
+        for key in ("bytes", "pixels")
+    },
     **{(shape, "name"): NOTHING for shape in SHAPES},
     **{(shape, "shading"): "Its faces are flat: both look the same." for shape in FLAT},
 }

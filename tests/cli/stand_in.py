@@ -54,7 +54,7 @@ class Scene:
     """A scene that knows its title."""
 
     title: str = "A <box> & a ball"
-    why_black: str = ""
+    why_dark: str = ""
 
     def summary(self) -> dict[str, dict[str, object]]:
         return {
@@ -73,11 +73,11 @@ class Engine:
     picture: Picture = field(default_factory=Picture)
     error: BaseException | None = None
     title: str = "A <box> & a ball"
-    why_black: str = ""
+    why_dark: str = ""
 
     def load_scene(self, path: Path, **options: Any) -> Scene:
         self.loaded.append((path, options))
-        return Scene(self.title, self.why_black)
+        return Scene(self.title, self.why_dark)
 
     def render(self, _scene: Scene, **options: Any) -> Picture:
         self.rendered.append(options)

@@ -93,7 +93,7 @@ def test_a_scene_without_light_says_so_on_one_line_and_is_rendered(
     scene.write_text(SCENE.replace("lights:", "lights: [] #"), encoding="utf-8")
     done = course(tmp_path, "render", scene.name)
     assert done.returncode == 0
-    assert done.stderr.startswith("hint: box.yaml: the picture will be black: the scene has no ")
+    assert done.stderr.startswith("warning: box.yaml: the picture will be black: the scene has no ")
     assert done.stderr.count("\n") == 1
     assert (tmp_path / "box.png").exists()
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import json
 from collections.abc import Callable
 from pathlib import Path
@@ -52,6 +53,7 @@ def test_options_reach_the_renderer(run: Run, engine: Engine, tmp_path: Path) ->
     result = run("render", "box.yaml", "-o", "a.EXR", "--effects", "assignments", *options.split())
     assert result.exit_code == 0
     assert engine.loaded[0][1] == {"effects": "assignments"}
+    assert engine.rendered[0].pop("since") > 0
     assert engine.rendered == [
         {
             "spp": 9,
@@ -172,6 +174,7 @@ def test_a_place_that_cannot_be_is_told_before_the_work(
         (NotImplementedError("thin_lens.lens_rays: not written yet"), "not written yet"),
         (MemoryError(), "not enough memory"),
         (MemoryError("3 TB"), "not enough memory: 3 TB"),
+        (OSError(errno.ENAMETOOLONG, "", "x" * 300), f"too long for a file: {'x' * 80}..."),
     ],
 )
 def test_a_refusal_is_one_message_and_nothing_else(
@@ -190,10 +193,10 @@ def test_a_refusal_is_one_message_and_nothing_else(
 def test_a_black_picture_is_rendered_with_one_line_that_says_why(
     run: Run, engine: Engine, tmp_path: Path
 ) -> None:
-    engine.why_black = "the picture will be black: there are no lights"
+    engine.why_dark = "the picture will be black: there are no lights"
     result = run("render", "box.yaml")
     assert result.exit_code == 0
-    assert result.stderr == "hint: box.yaml: the picture will be black: there are no lights\n"
+    assert result.stderr == "warning: box.yaml: the picture will be black: there are no lights\n"
     assert files(tmp_path) == {"box.png"}
 
 
@@ -220,6 +223,14 @@ def test_ctrl_c_without_a_picture_writes_nothing(run: Run, engine: Engine, tmp_p
     assert result.exit_code == 130
     assert result.stderr == "interrupted\n"
     assert not files(tmp_path)
+
+
+def test_a_time_limit_counts_from_reading_the_scene_on(
+    run: Run, engine: Engine, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("course.cli.render.monotonic", lambda: 100.0 + len(engine.loaded))
+    assert run("render", "box.yaml", "--time-limit", "10").exit_code == 0
+    assert engine.rendered[0]["since"] == 100.0
 
 
 def test_a_time_limit_gives_the_picture_its_own_name(

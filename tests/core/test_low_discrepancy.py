@@ -6,7 +6,6 @@ asked. What a pixel is moved by is hidden in a hash, but Halton's point 0 is 0 i
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
 
@@ -16,7 +15,6 @@ from numpy.typing import NDArray
 
 from course.core.samplers import FUNCTIONS, Block, Sampler, make_sampler
 from course.effects import Effects
-from course.errors import EffectError
 
 PRIMES = (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53, 59, 61, 67, 71)
 PIXELS = 40
@@ -194,28 +192,3 @@ def test_each_chained_effect_has_a_generator_of_its_own() -> None:
             one.draw(block(8), dimension, 2)
             one.draw(block(8, pixels=3), dimension, 2)
     assert len(first) == len(set(first)) == 6
-
-
-def wrong(points: Any) -> Callable[..., Any]:
-    return lambda *_: points
-
-
-@pytest.mark.parametrize(
-    ("name", "functions", "message"),
-    [
-        ("halton", [wrong(np.zeros((3, 4)))], r"halton gave points of shape \(3, 4\) .*\(16, 8\)"),
-        ("hammersley", [wrong(np.zeros(8))], r"hammersley gave points of shape \(8,\)"),
-        ("chained", [wrong(np.zeros((8, 2))), wrong(())], "hammersley gave points of shape"),
-        ("chained", [wrong(np.zeros((2, 8))), wrong(())], "chain gave 0 arrays for 256 patterns"),
-        (
-            "chained",
-            [wrong(np.zeros((2, 8))), lambda patterns, *_: [p.T for p in patterns]],
-            r"chain gave points of shape \(8, 2\) where the sampler needs \(2, 8\)",
-        ),
-    ],
-)
-def test_points_of_another_shape_are_refused_by_name(
-    name: str, functions: list[Callable[..., Any]], message: str
-) -> None:
-    with pytest.raises(EffectError, match=f"quasi_monte_carlo.{message}"):
-        make_sampler(name, 0, *functions).draw(block(8), 0, 2)

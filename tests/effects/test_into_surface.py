@@ -160,6 +160,7 @@ def test_rough_glass(make_scene: MakeScene, kind: str, into_surface: str) -> Non
     expect_mean(scene, 1 if into_surface == "mirror" else reflected + (1 - reflected) / 2)
 
 
+@pytest.mark.usefixtures("each_form")
 @pytest.mark.parametrize("terminator", ["round", "facets"])
 def test_a_facet_that_turns_from_a_light_is_dark_unless_the_surface_is_round(
     make_scene: MakeScene, terminator: str

@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -18,7 +17,7 @@ import pytest
 from numpy.typing import NDArray
 
 from course import EffectError, Scene, load_scene, render
-from course.effects import PROJECT, Effects
+from course.effects import PROJECT, Bound, Effects
 from course.errors import SceneError
 from course.scene.sphere_points import NUMBERS, SPHERES, sphere_points
 
@@ -42,7 +41,7 @@ def far(values: Array, mean: float) -> float:
 @pytest.mark.parametrize("samples", WAYS)
 def test_points_have_the_moments_of_the_lamp(samples: str) -> None:
     center, radius = np.array([3.0, -1.0, 0.5], np.float32), 0.25
-    place = sphere_points(samples, SOLUTIONS)
+    place = sphere_points(samples, Bound(SOLUTIONS), ("lights", 0))
     found = place(center, radius, numbers(samples))
     assert found.shape == (3, N)
     assert found.dtype == np.float32
@@ -64,7 +63,7 @@ def test_points_have_the_moments_of_the_lamp(samples: str) -> None:
 
 
 def test_rejection_draws_the_same_for_the_same_numbers_and_others_for_others() -> None:
-    place = sphere_points("ball by rejection", SOLUTIONS)
+    place = sphere_points("ball by rejection", Bound(SOLUTIONS), ("lights", 0))
     center = np.zeros(3, np.float32)
     one, other = numbers("ball by rejection", 1), numbers("ball by rejection", 2)
     first, again, elsewhere = (place(center, 1.0, u) for u in (one, one, other))
@@ -76,7 +75,9 @@ def test_rejection_draws_the_same_for_the_same_numbers_and_others_for_others() -
 def test_the_other_ways_call_what_they_called() -> None:
     for samples, (module, name) in SPHERES.items():
         if module == "soft_shadows":
-            assert sphere_points(samples, SOLUTIONS) is SOLUTIONS.function(module, name)
+            assert sphere_points(samples, Bound(SOLUTIONS), ("lights", 0)) is SOLUTIONS.function(
+                module, name
+            )
 
 
 def lit(make_scene: MakeScene, integrator: str = "distribution", **light: Any) -> Scene:
@@ -182,28 +183,6 @@ def test_a_receipt_names_the_function_and_what_it_draws(
     assert receipt.numbers["light 0"] == width * 16 * 12 * 4
     assert "soft_shadows" in receipt.effects["skipped"]
     assert "soft_shadows" not in scene.effects.imported
-
-
-@pytest.mark.parametrize(
-    ("source", "told"),
-    [
-        ("lambda n, rng: np.zeros((3, n // 2), np.float32)", r"returned \(3, \d+\), expected"),
-        ("lambda n, rng: np.zeros((n, 3), np.float32)", r"returned \(\d+, 3\), expected \(3, "),
-        ("lambda n, rng: None", r"returned \(\), expected"),
-    ],
-)
-def test_points_of_another_shape_are_told(
-    make_scene: MakeScene, tmp_path: Path, source: str, told: str
-) -> None:
-    folder = tmp_path / "mine"
-    folder.mkdir()
-    text = f"import numpy as np\nball_by_rejection = {source}\nball_by_polar = ball_by_rejection\n"
-    (folder / "sampling.py").write_text(text, encoding="utf-8")
-    right = (PROJECT / "solutions" / "supersampling.py").read_text(encoding="utf-8")
-    (folder / "supersampling.py").write_text(right, encoding="utf-8")
-    scene = load_scene(lit(make_scene, samples="ball by rejection").path, effects=folder)
-    with pytest.raises(EffectError, match=r"sampling\.ball_by_rejection " + told):
-        render(scene, spp=4)
 
 
 def test_a_function_that_is_not_written_is_told_with_the_line_that_asks(

@@ -9,6 +9,8 @@ import pytest
 
 from course import Scene, render
 
+pytestmark = pytest.mark.usefixtures("each_form")
+
 MakeScene = Callable[..., Scene]
 
 

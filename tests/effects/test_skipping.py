@@ -28,7 +28,7 @@ MOVES = {"motion": {"velocity": [1, 0, 0]}}
 GLOSS = {"lobe": "plane", "roughness": 0.2}
 REASONS = {
     "soft_shadows": "no light takes its points on a rectangle or in a ball",
-    "glossy": "no mirror is glossy",
+    "glossy": "no mirror is glossy by its functions",
     "thin_lens": "the aperture is 0",
     "motion_blur": "nothing moves",
 }

@@ -18,6 +18,8 @@ from numpy.typing import NDArray
 
 from course import Scene, render
 
+pytestmark = pytest.mark.usefixtures("each_form")
+
 MakeScene = Callable[..., Scene]
 Array = NDArray[np.float64]
 FLOOR = {"shape": "quad", "material": "white", "width": 6, "depth": 6}

@@ -163,9 +163,6 @@ def _returning(**replaced: object) -> HierarchyAccelerator:
 @pytest.mark.parametrize(
     ("replaced", "said"),
     [
-        ({"build": None}, "build returned something else than a tuple of five arrays"),
-        ({"traverse": None}, "traverse returned something else than four arrays"),
-        ({"traverse": (np.zeros(1),) * 4}, r"four arrays of shape \(4000,\)"),
         ({"traverse": (np.full(N, 10**6),) * 4}, "expected -1, or one of 0 to "),
         ({"traverse": (np.full(N, -2),) * 4}, "returned triangles from -2"),
     ],

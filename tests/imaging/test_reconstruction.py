@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from course.effects import Effects
-from course.errors import EffectError
 from course.imaging.reconstruction import Reconstruction
 
 EFFECTS = Effects("solutions")
@@ -51,21 +50,3 @@ def test_stretches_of_samples_add_up_to_the_whole() -> None:
     halves = [one.pixels(radiance[:, :, h], offsets[:, :, h]) for h in (slice(16), slice(16, 32))]
     total = sum(weight for _, weight in halves)
     assert np.allclose(sum(mean * weight for mean, weight in halves) / total, whole, rtol=1e-5)
-
-
-@pytest.mark.parametrize(
-    ("answer", "told"),
-    [(np.zeros((4, 20)), r"\(4, 20\)"), (None, "NoneType"), (np.zeros(3), r"\(3,\)")],
-)
-def test_a_function_that_returns_another_shape_is_named(answer: object, told: str) -> None:
-    radiance, offsets = samples()
-
-    def wrong(*_arguments: object) -> object:
-        return answer
-
-    for name, one in (
-        ("resolve", Reconstruction(wrong, None, 1.0)),  # type: ignore[arg-type]
-        ("gaussian_weights", Reconstruction(RESOLVE, wrong, 1.0)),  # type: ignore[arg-type]
-    ):
-        with pytest.raises(EffectError, match=f"supersampling.{name} returned {told}"):
-            one.pixels(radiance, offsets)

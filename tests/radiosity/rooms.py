@@ -9,7 +9,7 @@ import numpy as np
 
 from course.effects import PROJECT, Effects
 from course.geometry import shapes
-from course.radiosity.bisection import undivided
+from course.geometry.bisection import undivided
 from course.radiosity.functions import Functions
 from course.radiosity.patches import Patches
 

@@ -10,7 +10,7 @@ import pytest
 
 from course.effects import PROJECT
 from course.errors import SceneError
-from course.radiosity.bisection import Triangles, bisected, undivided
+from course.geometry.bisection import Triangles, bisected, undivided
 from course.radiosity.patches import make_patches
 from tests.conftest import MakeScene
 from tests.radiosity.rooms import CAMERA, plates

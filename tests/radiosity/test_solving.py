@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import math
+from typing import Literal
 
 import numpy as np
 import pytest
 
-from course.effects import PROJECT
-from course.errors import SceneError
+from course.core.types import Floats32
+from course.effects import PROJECT, Effects
+from course.errors import FunctionError, SceneError
 from course.radiosity.corners import at_corners
+from course.radiosity.functions import Functions
 from course.radiosity.hemicubes import Views, make_hemicube
 from course.radiosity.patches import Patches, make_patches
-from course.radiosity.radiosity import chosen_patches, solve
+from course.radiosity.radiosity import chosen_patches, solve, solve_patches
 from course.radiosity.solving import Shooting, form_factors, gathered, with_ambient
 from course.scene.scene import load_scene
 from tests.conftest import MakeScene
@@ -273,3 +276,35 @@ def test_a_white_room_has_no_limit_to_go_to(make_scene: MakeScene) -> None:
     # Gathering has nothing new to gather in its second or third iteration, as sums are rounded; shooting goes on.
     assert solve(scene, patches=20, iterations=1, method="gather").steps.tolist() == [1]
     assert solve(scene, patches=20, iterations=3, method="shoot").steps.tolist() == [3]
+
+
+class _Endless(Functions):
+    """Functions that never come to an end."""
+
+    def gather(self, radiosity: Floats32, *_: Floats32) -> Floats32:
+        """Radiosities that double."""
+        return np.asarray(2 * radiosity + 1, np.float32)
+
+    def shoot(
+        self, radiosity: Floats32, unshot: Floats32, *_: Floats32 | int
+    ) -> tuple[Floats32, Floats32]:
+        """A step that does nothing."""
+        return radiosity, unshot
+
+
+@pytest.mark.parametrize(
+    ("method", "told"),
+    [
+        ("gather", r"gather changed a radiosity by .* after "),
+        ("shoot", "left the shooter's unshot"),
+    ],
+)
+def test_what_would_never_end_is_told(
+    make_scene: MakeScene, method: Literal["gather", "shoot"], told: str
+) -> None:
+    patches = make_patches(make_scene(**plates(0.5)), 60)
+    endless = _Endless(Effects(PROJECT / "solutions"))
+    with pytest.raises(
+        FunctionError, match=rf"radiosity\.{method} {told.removeprefix(method + ' ')}"
+    ):
+        solve_patches(patches, endless, 1e-3, None, method)

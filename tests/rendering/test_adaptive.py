@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 from course import Picture, Scene, load_scene, render
 from course.errors import CourseError, SceneError
 from course.imaging.adaptive_film import PARTS, AdaptiveFilm
+from course.imaging.pixel_groups import TwinGroup
 from course.imaging.reading import read_picture
 from course.rendering import adaptive, pool, rendering
 from course.rendering.adaptive import Groups, render_adaptively
@@ -162,7 +163,7 @@ class Noise:
             return False
         self._check(work)
         for item in work:
-            deviation = self._deviation[item.tile.pixel_numbers(self.film.width)]
+            deviation = self._deviation[item.tile.pixels]
             each = np.repeat(deviation, PARTS) * math.sqrt(PARTS / item.samples)
             mean = 0.5 + each * self._rng.standard_normal((3, len(each)))
             mean = np.concatenate((mean, np.repeat(self._cost[item.tile.pixels], PARTS)[None]))
@@ -175,8 +176,12 @@ class Noise:
         pixels = np.concatenate([item.tile.pixel_numbers(self.film.width) for item in work])
         assert len(np.unique(pixels)) == len(pixels), "a pixel twice in a round"
         for item in work:
-            have = self.film.samples.ravel()[item.tile.pixel_numbers(self.film.width)]
-            assert (have == item.first).all(), "a stretch begins where the pixel's samples end"
+            have = self.film.samples.ravel()[item.tile.pixels]
+            if isinstance(item.tile, TwinGroup):
+                assert item.first == 0
+                assert (np.minimum(have, LONGEST) == item.samples).all(), "as many as the first"
+            else:
+                assert (have == item.first).all(), "a stretch begins where the pixel's samples end"
             assert item.first + item.samples in LADDER
             assert item.parts == PARTS
             assert item.samples <= LONGEST
@@ -189,6 +194,21 @@ class Noise:
     def render(self, error: float, budget: int = 65536) -> bool:
         groups = Groups(self.film.width)
         return render_adaptively(self.film, error, budget * self._deviation.size, groups, self)
+
+
+class Settling(Noise):
+    """Only the first samples of a pixel are off, so that its error falls as 1 / n."""
+
+    def __call__(self, work: list[Work], done: float, after: float) -> bool:
+        deviation = self._deviation.copy()
+        for item in work:
+            scale = 0.0
+            if not item.first:
+                scale = math.sqrt(FIRST / item.samples)
+            self._deviation = deviation * scale
+            super().__call__([item], done, after)
+        self._deviation = deviation
+        return True
 
 
 def spots(width: int, height: int, seed: int = 1) -> Array:
@@ -218,16 +238,35 @@ def test_rounds_go_on_until_the_target_is_reached(width: int, height: int, error
         assert 0.7 < np.median(over) < 1.15
 
 
+def test_the_last_round_ends_where_the_target_is_reached() -> None:
+    """Errors fall as 1 / n here, faster than a film believes: whole rounds, to four times the samples, leave half.
+
+    The mean of 10 runs is 0.93, each uncertain by 5%: 0.1 is more than 6 standard errors.
+    """
+    reached = []
+    for seed in range(10):
+        noise = Settling(np.full((60, 80), 1.0), seed)
+        target = 0.5 / math.sqrt(FIRST)
+        assert noise.render(target)
+        error = float(((noise.film.linear - 0.5) ** 2).mean()) ** 0.5
+        reached.append(error / target)
+    assert 0.8 < np.mean(reached) < 1.05
+
+
 @pytest.mark.parametrize("size", [(1, 1), (2, 1), (5, 4), (30, 20)])
 def test_where_all_pixels_are_alike_no_target_is_just_missed(size: tuple[int, int]) -> None:
     """Between two rungs of the ladder lie 30% in the variance, and what is best is often nearer to the lower one."""
+    taken = []
     for number, error in enumerate(np.geomspace(0.05, 0.1, 20)):
         noise = Noise(np.full(size, 1.0), seed=number)
         assert noise.render(error)
         assert noise.film.error <= error
-        if size == (30, 20):
-            mean = float(noise.film.samples.mean())
-            assert 0.8 / error**2 < mean < 1.35 / error**2
+        taken.append(float(noise.film.samples.mean()) * error**2)
+    if size == (30, 20):
+        # Audits of 600 pixels draw few: each is off by a tenth or two, the mean of all runs is not.
+        assert min(taken) > 0.8
+        assert max(taken) < 1.7
+        assert 1 < np.mean(taken) < 1.2
 
 
 def test_where_a_sample_costs_more_there_are_fewer() -> None:
@@ -256,7 +295,7 @@ def test_more_than_a_thousand_samples_a_pixel() -> None:
 def test_a_budget_is_spent_and_never_exceeded(budget: int) -> None:
     noise = Noise(spots(40, 30), seed=4)
     assert noise.render(1e-5, budget)
-    left = budget * 1200 - int(noise.film.samples.sum())
+    left = budget * 1200 - int(noise.film.samples.sum()) - noise.film.audited
     # Not even the cheapest step of the pixel in most need fits into what is left.
     assert 0 <= left <= LONGEST
     assert noise.film.error > 1e-5
@@ -417,15 +456,18 @@ def test_a_receipt_says_what_was_aimed_at_and_what_it_took(
     assert picture.complete
     assert isinstance(film, AdaptiveFilm)
     assert receipt.error is not None
-    assert receipt.rays["camera"] == film.samples.sum()
+    assert receipt.rays["camera"] == film.samples.sum() + film.audited
     assert receipt.samples == film.samples.mean()
+    assert receipt.error["audited"] == film.audited > 0
     assert receipt.error["target"] == 0.006
     assert receipt.error["estimated"] == film.error <= 0.006
     assert receipt.error["fewest"] == film.samples.min() >= FIRST
     assert receipt.error["most"] == film.samples.max() > 2 * FIRST
     uniform = receipt.error["uniform"]
     assert uniform == film.uniform_samples
-    assert receipt.error["saved"] == pytest.approx(1 - receipt.samples / uniform)
+    assert receipt.error["saved"] == pytest.approx(
+        1 - receipt.rays["camera"] / film.samples.size / uniform
+    )
     assert render(scene, spp=16).receipt.error is None
 
 
@@ -437,7 +479,9 @@ def test_without_enough_samples_the_budget_is_spent_and_the_receipt_says_so(
     assert picture.receipt.error is not None
     assert picture.receipt.error["estimated"] > 10 * picture.receipt.error["target"]
     rays = picture.receipt.rays["camera"]
-    assert 1200 * 40 - LONGEST <= rays == picture.film.samples.sum() <= 1200 * 40
+    assert 1200 * 40 - LONGEST <= rays <= 1200 * 40
+    assert isinstance(picture.film, AdaptiveFilm)
+    assert rays == picture.film.samples.sum() + picture.film.audited
 
 
 def test_samples_in_every_pixel_alike_would_have_brought_what_the_receipt_says(
@@ -499,6 +543,7 @@ def test_a_black_picture_is_done_after_the_first_round(make_scene: MakeScene) ->
     assert picture.receipt.error == {
         "target": 1e-12,
         "estimated": 0.0,
+        "audited": 0,
         "fewest": FIRST,
         "most": FIRST,
         "uniform": FIRST,

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from course import Scene, render
+from course import EffectError, Scene, render
 from course.errors import CourseError
 
 EveryStage = Callable[..., Scene]
@@ -101,5 +101,7 @@ def test_an_error_in_a_thread_reaches_the_caller(every_stage: EveryStage, tmp_pa
 
     plain = every_stage(lights=[])
     scene = load_scene(plain.path, effects=tmp_path)
-    with pytest.raises(ZeroDivisionError, match="in a tile"):
+    with pytest.raises(
+        EffectError, match=r"raised ZeroDivisionError: in a tile in line 2 of supersampling"
+    ):
         render(scene, spp=64, threads=2)

@@ -85,6 +85,29 @@ def test_once_a_preview_fits_every_pixel_is_covered(
     assert picture.receipt.samples == pytest.approx(picture.film.samples.mean())
 
 
+def test_building_the_hierarchy_counts(scene: Scene, monkeypatch: pytest.MonkeyPatch) -> None:
+    samples = []
+    for building, limit in ((0.0, 24.0), (24.0, 48.0), (0.0, 2.4), (1e3, 24.0)):
+        clock = Clock(monkeypatch)
+
+        def build(_packets: bool, clock: Clock = clock, building: float = building) -> None:
+            clock.now += building
+
+        monkeypatch.setattr(scene.compiled.world.surface.accelerator, "use_packets", build)
+        samples.append(render(scene, time_limit=limit, threads=1).receipt.samples)
+    assert samples[0] == samples[1], "as much as without building in what it leaves"
+    assert samples[2] == samples[3], "a tenth of the limit, if it leaves nothing"
+    assert 0 < samples[2] < samples[0]
+
+
+def test_the_limit_may_count_from_earlier(scene: Scene, monkeypatch: pytest.MonkeyPatch) -> None:
+    samples = []
+    for before, limit in ((0.0, 24.0), (24.0, 48.0), (1e3, 24.0), (0.0, 2.4)):
+        began = Clock(monkeypatch).now - before
+        samples.append(render(scene, time_limit=limit, since=began, threads=1).receipt.samples)
+    assert samples[0] == samples[1] > samples[2] == samples[3] > 0
+
+
 def test_more_time_gives_more_samples(scene: Scene, monkeypatch: pytest.MonkeyPatch) -> None:
     samples = []
     for limit in LIMITS:

@@ -178,7 +178,7 @@ def test_a_wrong_value_is_named_with_what_was_expected(
             "bend: 1.5",
             (
                 "16: materials.glass.dielectric.bend: unknown key; known are refraction_index, "
-                "absorption, shaded, roughness"
+                "absorption, shaded, roughness, surrounded_by"
             ),
         ),
         ("width: 10,", "widht: 10,", "24: objects[0].widht: unknown key; did you mean width?"),

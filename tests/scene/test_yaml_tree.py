@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import os
 import tracemalloc
 from collections.abc import Callable
 from itertools import pairwise
@@ -203,13 +204,13 @@ def test_many_values_without_aliases_are_refused_too(monkeypatch: pytest.MonkeyP
 
 
 def test_a_file_over_the_limit_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(yaml_tree, "LARGEST_FILE", 2**20)
+    monkeypatch.setattr(yaml_tree, "LARGEST_SCENE", 2**20)
     path = tmp_path / "large.yaml"
     path.write_bytes(b"#" * 2**20)
     with pytest.raises(SceneError, match="empty"):
         read_document(path)
     path.write_bytes(b"#" * (2**20 + 1))
-    with pytest.raises(SceneError, match="more than 1 MB"):
+    with pytest.raises(SceneError, match="more than 1,048,576 bytes"):
         read_document(path)
 
 
@@ -238,7 +239,7 @@ def test_an_error_of_the_operating_system_gives_its_reason(
     def refuse(*_: object, **__: object) -> None:
         raise PermissionError(13, "Permission denied")
 
-    monkeypatch.setattr(Path, "open", refuse)
+    monkeypatch.setattr(os, "open", refuse)
     with pytest.raises(SceneError, match="can't be read: Permission denied"):
         read_document(path)
 

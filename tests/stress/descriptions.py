@@ -167,6 +167,19 @@ def _text(key: str) -> Strategy:
 
 def _repaired(description: dict[str, Any]) -> dict[str, Any]:
     """What takes more than one key to be right, mostly put right."""
+    materials = description["materials"]
+    clear = [name for name in MATERIALS if materials[name].get("dielectric")]
+    for name in clear:
+        # The name of another dielectric, and none goes around itself.
+        outer = materials[name]["dielectric"].pop("surrounded_by", None)
+        if outer and name != clear[0]:
+            materials[name]["dielectric"]["surrounded_by"] = clear[0]
+    for thing in description["objects"]:
+        if thing.get("from_behind", "turned") != "turned":
+            if thing.get("material", MATERIALS[0]) in clear:
+                del thing["from_behind"]
+            else:
+                description["integrator"]["shading_normals"] = "interpolated"
     for light in description["lights"]:
         if light["type"] in ("sphere", "rectangle"):
             given = [key for key in ("intensity", "radiance") if light.get(key) is not None]

@@ -15,7 +15,7 @@ import pytest
 from click.testing import CliRunner
 from scipy.special import pdtrc
 
-from benchmarks.stress import axes, box, parts, patch, room
+from benchmarks.stress import axes, box, parts, room
 from benchmarks.stress.__main__ import main
 from benchmarks.stress.axes import AXES, NOTHING, U, level
 from benchmarks.stress.cells import (
@@ -38,7 +38,15 @@ from benchmarks.stress.rows import rows_of
 from benchmarks.stress.running import judge_all, judge_some
 from benchmarks.stress.shrinking import shrunk, wild_levels
 from benchmarks.stress.triangles import cut
-from benchmarks.stress.verdict import FALSE_FAIL, SCENES, Judge, Verdict, compare, most_of
+from benchmarks.stress.verdict import (
+    CLOSED_FORMS,
+    FALSE_FAIL,
+    SCENES,
+    Judge,
+    Verdict,
+    compare,
+    most_of,
+)
 from course import render
 from course.geometry import surface
 from course.geometry.packets import available as packets_available
@@ -95,14 +103,16 @@ def test_a_family_of_cells_has_one_twin_which_is_well_conditioned() -> None:
     assert 5 * len(families) < sum(each.stage == "room" for each in CELLS)
     for each in CELLS:
         twin = each.twin()
-        assert (twin["scale"], twin["offset"], twin["triangles"]) == (1, 0, ("two", None))
-        assert not any(0 < twin[axis] < 1e-4 and twin[axis] != NOTHING for axis in ("aperture",))
+        assert (twin["scale"], twin["offset"]) == (1, 0)
+        if each.stage != "optics":
+            assert twin["triangles"] == ("two", None)
+            assert not 0 < twin["aperture"] < 1e-4 or twin["aperture"] == NOTHING
 
 
 def test_the_short_form_has_every_level() -> None:
     levels = {(c.stage, axis, e.name) for c in CELLS for axis, e in c.levels.items()}
     assert {(c.stage, axis, e.name) for c in SHORT for axis, e in c.levels.items()} == levels
-    assert len(SHORT) < 50
+    assert len(SHORT) < 60
 
 
 def test_the_engine_offsets_rays_as_the_bound_says() -> None:
@@ -149,14 +159,14 @@ def test_the_short_form_passes(stage: str) -> None:
         assert verdict.share <= 1
 
 
-@pytest.mark.parametrize("stage", ["patch", "box"])
+@pytest.mark.parametrize("stage", CLOSED_FORMS)
 def test_the_closed_form_is_what_the_well_conditioned_twin_shows(
     stage: str, tmp_path: Path
 ) -> None:
-    module = {"patch": patch, "box": box}[stage]
+    module = CLOSED_FORMS[stage]
     for depth in ("0", "1", "5"):
         each = cell(stage, depth=depth)
-        picture = {"patch": patch.patch, "box": box.box}[stage](each).picture(tmp_path)
+        picture = SCENES[stage](each).picture(tmp_path)
         assert np.abs(picture - module.radiance(each)).max() <= module.tolerance(each).max()
 
 
@@ -266,7 +276,7 @@ def test_points_by_rejection_are_one_point_in_the_room() -> None:
 
 @pytest.mark.parametrize("angle", ["steep", "camera 0.0001", "mirror 1e-06"])
 @pytest.mark.parametrize("resolution", ["64 x 1", "24 x 18"])
-@pytest.mark.parametrize("stage", STAGES)
+@pytest.mark.parametrize("stage", ["room", "patch", "box"])
 def test_the_near_plane_hides_nothing(
     stage: str, resolution: str, angle: str, tmp_path: Path
 ) -> None:
@@ -393,11 +403,11 @@ def test_a_pixel_that_is_no_radiance_is_told(
     assert not verdict.finite
 
 
-@pytest.mark.parametrize("stage", ["patch", "box"])
+@pytest.mark.parametrize("stage", CLOSED_FORMS)
 def test_a_pixel_that_is_not_the_closed_form_is_told(
     stage: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    module, each = {"patch": patch, "box": box}[stage], cell(stage)
+    module, each = CLOSED_FORMS[stage], cell(stage)
     for factor in (1 + 1e-5, 1 - 1e-5):
         picture = np.broadcast_to(module.radiance(each), (18, 24, 3)).copy()
         monkeypatch.setattr(Judge, "_picture", lambda *_, p=picture: p)

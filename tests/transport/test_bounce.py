@@ -15,6 +15,8 @@ from course.geometry.hits import find_hits
 from course.rendering.binding import bind
 from course.transport.bounce import bounced
 
+pytestmark = pytest.mark.usefixtures("each_form")
+
 MakeScene = Callable[..., Scene]
 PixelRays = Callable[[Scene], tuple[NDArray[np.float64], NDArray[np.float64]]]
 Array = NDArray[np.float64]
@@ -293,7 +295,7 @@ def test_a_smooth_mirror_ball_shows_a_lamp_where_a_round_one_does(
 @pytest.mark.parametrize("index", [1 / 1.5, 1.5])
 @pytest.mark.parametrize("inside", [False, True])
 def test_rays_leave_a_smooth_mesh_on_the_side_they_are_meant_to(
-    make_scene: MakeScene, segments: int, index: float, inside: bool
+    make_scene: MakeScene, segments: int, index: float, inside: bool, each_form: bool
 ) -> None:
     scene = make_scene(
         objects=[{"shape": "sphere", "material": "m", "segments": segments}],
@@ -310,6 +312,7 @@ def test_rays_leave_a_smooth_mesh_on_the_side_they_are_meant_to(
     direction = (target - origin).astype(np.float32)
     direction /= np.linalg.norm(direction, axis=0)
     surface = tracer.world.surface
+    surface.accelerator.use_packets(each_form)
     hits = find_hits(
         surface, surface.accelerator.intersect(origin, direction, QueryTime()), direction
     )

@@ -24,6 +24,8 @@ from course.rendering.binding import bind
 from course.rendering.passes import passes
 from course.transport.counters import Counters
 
+pytestmark = pytest.mark.usefixtures("each_form")
+
 MakeScene = Callable[..., Scene]
 PixelRays = Callable[[Scene], tuple[NDArray[np.float64], NDArray[np.float64]]]
 Array = NDArray[np.float64]

@@ -20,6 +20,8 @@ from course.imaging.files import save
 from tests.conftest import MakeScene
 from tests.effects import skies
 
+pytestmark = pytest.mark.usefixtures("each_form")
+
 INSIDE = {"eye": [0.1, 0.05, 0.2], "look_at": [1, 0.3, 0.2], "vertical_fov": 70}
 BOX = {"shape": "box", "material": "m", "size": [2, 2, 2]}
 BALL = {"shape": "sphere", "material": "m", "radius": 1, "segments": 24}
@@ -197,7 +199,7 @@ def test_a_light_beside_it_counts_once_as_ever(make_scene: MakeScene) -> None:
 
 
 def test_a_scene_that_only_glows_is_not_said_to_be_black(make_scene: MakeScene) -> None:
-    from course.scene.needs import why_black
+    from course.scene.lightless import why_black
 
     assert why_black(over_a_floor(make_scene)) == ""
     dark = over_a_floor(make_scene, materials={"floor": {}, "panel": {"emission": 0}})

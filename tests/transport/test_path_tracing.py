@@ -26,6 +26,8 @@ from course.transport import path_pieces, path_tracing
 from course.transport.path_tracing import PathTracer
 from tests.effects import skies
 
+pytestmark = pytest.mark.usefixtures("each_form")
+
 MakeScene = Callable[..., Scene]
 Array = NDArray[np.float64]
 

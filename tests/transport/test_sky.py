@@ -24,6 +24,8 @@ from course.appearance.environment import ConstantEnvironment
 from course.core.hemisphere import cosine_directions
 from course.imaging.files import save
 
+pytestmark = pytest.mark.usefixtures("each_form")
+
 MakeScene = Callable[..., Scene]
 Array = NDArray[np.float64]
 

@@ -16,6 +16,11 @@ TO_A_SURFACE = 1 - 1e-4
 """... and to a point on the triangles of a visible light, which must not block their own light."""
 
 
+TO_THE_LIGHT = 1 + 2.0**-15
+"""... and to a point that a surface hides which passes through it. The rest is for rounding: on a way of a fiftieth of
+the scene's size, and under 60 degrees, the distance to a surface is wrong by about half of it."""
+
+
 @dataclass(frozen=True)
 class Sample:
     """Directions to the light and what arrives from there.

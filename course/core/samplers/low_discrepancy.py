@@ -17,7 +17,6 @@ from course.core.hashing import combine, hash_words
 from course.core.samplers.block import Block
 from course.core.samplers.generator import generator
 from course.core.types import Floats32, Indices
-from course.errors import EffectError
 
 if TYPE_CHECKING:
     from numpy.random import Generator
@@ -68,7 +67,7 @@ class HaltonSampler:
         if known is None or len(known) < dims:
             dims = max(_FEWEST_DIMENSIONS, 1 << (dims - 1).bit_length())
             index = np.arange(first, first + samples)
-            known = _checked("halton", self._halton(index, dims), (dims, samples))
+            known = _modulo(self._halton(index, dims))
             if len(self._tables) >= _KEPT_STRETCHES:
                 self._tables.clear()
             self._tables[first, samples] = known
@@ -95,7 +94,7 @@ class HammersleySampler:
         known = self._tables.get(samples)
         if known is None or len(known) < dims:
             dims = max(_FEWEST_DIMENSIONS, 1 << (dims - 1).bit_length())
-            known = _checked("hammersley", self._hammersley(samples, dims), (dims, samples))
+            known = _modulo(self._hammersley(samples, dims))
             self._tables[samples] = known
         return known
 
@@ -128,27 +127,17 @@ class ChainedSampler:
         key = (samples, dimension, width)
         known = self._tables.get(key)
         if known is None:
-            shape = (width, samples)
-            pattern = _checked("hammersley", self._hammersley(samples, width), shape)
+            pattern = _modulo(self._hammersley(samples, width))
             count = min(ORDERS, max(_KEPT_NUMBERS // samples, 16))
             rng = generator(self._seed, dimension, Block(np.empty(0, np.uint32), 0, samples, 0))
             chained = self._chain([pattern] * count, np.arange(samples), rng)
-            if len(chained) != count:
-                raise EffectError(
-                    f"quasi_monte_carlo.chain gave {len(chained)} arrays for {count} patterns; give one for each"
-                )
-            known = np.stack([_checked("chain", order, shape) for order in chained], axis=1)
+            known = np.stack([_modulo(order) for order in chained], axis=1)
             self._tables[key] = known
         return known
 
 
-def _checked(name: str, points: Floats32, shape: tuple[int, int]) -> Floats32:
+def _modulo(points: Floats32) -> Floats32:
     """Points from a student's function, modulo 1 as all that is rotated."""
-    if np.shape(points) != shape:
-        raise EffectError(
-            f"quasi_monte_carlo.{name} gave points of shape {np.shape(points)} where the sampler needs {shape}; "
-            "try `course check quasi_monte_carlo`"
-        )
     return np.mod(points, 1, dtype=np.float32)
 
 

@@ -17,7 +17,8 @@ from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path, PurePosixPath
 
-from course.grading.submissions import SubmissionError, readable
+from course.grading.submissions import ANY_SIZE, SubmissionError, readable
+from course.inputs import opened
 
 LARGEST_ARCHIVE = 50_000_000
 """Bytes of an archive, as it lies on the disk."""
@@ -107,10 +108,7 @@ def file_reader(path: Path) -> Callable[[int], bytes]:
         with readable(path):
             if path.is_symlink():
                 raise SubmissionError(f"{path}: is a link; submit the file itself")
-            if not path.is_file():
-                # To open a pipe would wait for somebody to write to it.
-                raise SubmissionError(f"{path}: is no ordinary file")
-            with path.open("rb") as file:
+            with opened(path, "file of a submission", ANY_SIZE, SubmissionError) as file:
                 return file.read(limit)
 
     return read

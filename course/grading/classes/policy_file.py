@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import datetime
@@ -13,8 +14,9 @@ import msgspec
 from course.errors import CourseError
 from course.grading.classes.naming import same_name
 from course.grading.classes.policy import Policy, Student
+from course.inputs import LARGEST_SCENE, Bound, read_input, shown
 from course.scene.checking import find_mistake
-from course.scene.document import Document, KeyPath, suggest
+from course.scene.document import Document, KeyPath, show, suggest
 from course.scene.yaml_tree import read_document
 
 MODIFIED = "modified"
@@ -145,13 +147,13 @@ def _time(document: Document, path: KeyPath, text: str) -> datetime:
 
 def _read_times(path: Path) -> dict[str, Handed]:
     try:
-        with path.open(encoding="utf-8-sig", newline="") as file:
-            rows = csv.DictReader(file)
-            if not {"student", "submitted"} <= {*(rows.fieldnames or ())}:
-                raise CourseError(f"{path}:1: expected the columns student and submitted")
-            return {row["student"]: _handed(row, f"{path}:{rows.line_num}") for row in rows}
-    except (OSError, UnicodeError, csv.Error) as error:
-        raise CourseError(f"{path}: can't be read: {error}") from None
+        text = read_input(path, "table of times", Bound(LARGEST_SCENE)).decode("utf-8-sig")
+        rows = csv.DictReader(io.StringIO(text, newline=""))
+        if not {"student", "submitted"} <= {*(rows.fieldnames or ())}:
+            raise CourseError(f"{path}:1: expected the columns student and submitted")
+        return {row["student"]: _handed(row, f"{path}:{rows.line_num}") for row in rows}
+    except (UnicodeError, csv.Error) as error:
+        raise CourseError(f"{shown(path)}: can't be read: {error}") from None
 
 
 def _handed(row: Mapping[str, str | None], where: str) -> Handed:
@@ -161,7 +163,8 @@ def _handed(row: Mapping[str, str | None], where: str) -> Handed:
     except ValueError:
         submitted = None
     if text and (submitted is None or submitted.tzinfo is None):
-        raise CourseError(f"{where}: submitted is {text}: expected {_TIME}")
-    if number and not number.isdecimal():
-        raise CourseError(f"{where}: attempts is {number}: expected a whole number >= 0")
+        raise CourseError(f"{where}: submitted is {show(text)}: expected {_TIME}")
+    # Python makes no number of thousands of digits.
+    if number and not (number.isdecimal() and len(number) < 10):
+        raise CourseError(f"{where}: attempts is {show(number)}: expected a whole number >= 0")
     return Handed(submitted, int(number) if number else None)

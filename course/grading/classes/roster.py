@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from course.errors import CourseError
+from course.inputs import LARGEST_SCENE, Bound, read_input, shown
 
 _NAMES = ("student", "name", "full name", "fullname")
 _FIRST, _LAST = ("first name", "firstname", "given name"), ("last name", "lastname", "surname")
@@ -67,13 +68,12 @@ def read_roster(path: Path) -> list[Listed]:
         The file can't be read, or has no column that names anybody.
     """
     try:
-        with path.open(encoding="utf-8-sig", newline="") as file:
-            text = file.read()
+        text = read_input(path, "roster", Bound(LARGEST_SCENE)).decode("utf-8-sig")
         rows = csv.DictReader(text.splitlines(keepends=True), delimiter=_delimiter(text))
         columns = [column for column in rows.fieldnames or () if column]
         found = [_listed({c: (row.get(c) or "").strip() for c in columns}) for row in rows]
-    except (OSError, UnicodeError, csv.Error) as error:
-        raise CourseError(f"{path}: can't be read: {error}") from None
+    except (UnicodeError, csv.Error) as error:
+        raise CourseError(f"{shown(path)}: can't be read: {error}") from None
     known = {*_NAMES, *_FIRST, *_LAST, *_NUMBERS, *_LOGINS, *_EMAILS}
     if not known & {_folded(column) for column in columns}:
         raise CourseError(

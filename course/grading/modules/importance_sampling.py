@@ -13,18 +13,9 @@ from typing import Any
 
 import numpy as np
 
+from course.grading.checks import declare
 from course.grading.checks.check import Array, Failure, Trial
-from course.grading.checks.declare import (
-    Argument,
-    Arguments,
-    Function,
-    Law,
-    Module,
-    Result,
-    number,
-    u,
-    values,
-)
+from course.grading.checks.declare import Argument, Arguments, Function, Law, Module, Result, values
 from course.grading.checks.drawing import Draw
 from course.grading.checks.laws import (
     EPSILON,
@@ -40,9 +31,7 @@ from course.grading.checks.statistics import FALSE_FAIL, SIGMAS
 
 SEVERAL = (1.0, 1.0, 1.0, 1.0)
 """Scales of a law without lengths: each makes other numbers."""
-
 MAGNITUDES = (1.0, 1e-3, 1e3)
-
 ENDS = (2e-5, 1.0, 5e4)
 """Scales of densities from 0.05 to 20: all between 1e-6 and 1e6."""
 
@@ -83,7 +72,7 @@ def _hemisphere(name: str, lobe: int, density: str) -> Function:
     height = ("z", "z^2")[lobe]
     return Function(
         name,
-        (u(2),),
+        (declare.u(2),),
         (Result("the directions", "3 N"),),
         (
             within(
@@ -181,7 +170,7 @@ def _sharp(draw: Draw) -> Mapping[str, Any]:
 
 PHONG = _pdf(
     "phong_lobe_pdf",
-    (number("exponent", 0.5, 5, (-1.0, -1e-6, nan)),),
+    (declare.number("exponent", 0.5, 5, (-1.0, -1e-6, nan)),),
     (
         close(
             "flat",
@@ -211,11 +200,8 @@ PHONG = _pdf(
 
 def _samples(draw: Draw) -> Mapping[str, Any]:
     """Values of both signs in one channel or three, and densities that have little to do with them."""
-    channels = int(draw.rng.choice((1, 3)))
-    return {
-        "f": draw.lengths(-2, 4, channels, draw.n),
-        "pdf": draw.uniform(0.2, 3, draw.n) / draw.scale,
-    }
+    f = draw.lengths(-2, 4, int(draw.rng.choice((1, 3))), draw.n)
+    return {"f": f, "pdf": draw.uniform(0.2, 3, draw.n) / draw.scale}
 
 
 def _some_of_none(draw: Draw) -> Mapping[str, Any]:

@@ -6,7 +6,15 @@ from collections.abc import Iterator
 from typing import Any
 
 from course.grading.checks.result import Result, Status
-from course.grading.report import Report, broke, docs_page, ending, for_students, reproduce
+from course.grading.report import (
+    Report,
+    as_points,
+    broke,
+    docs_page,
+    ending,
+    for_students,
+    reproduce,
+)
 from course.grading.reports.grouping import explained, grouped
 from course.grading.reports.text import clean, finite
 
@@ -23,7 +31,7 @@ def results(report: Report) -> dict[str, Any]:
     else:
         output = (
             f"{report.count(Status.PASSED)} of {len(report.results)} checks passed, "
-            f"{report.points:g} of {report.of:g} points.{broke(report)}"
+            f"{as_points(report.points)} of {as_points(report.of)} points.{broke(report)}"
         )
     output = "\n".join(filter(None, (report.unprotected, output)))
     return {

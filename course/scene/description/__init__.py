@@ -29,6 +29,7 @@ from course.scene.description.lights import (
     RectangleLight,
     SphereLight,
 )
+from course.scene.description.limits import LimitsDescription
 from course.scene.description.materials import Conductor, Dielectric, MaterialDescription
 from course.scene.description.motion import MotionDescription
 from course.scene.description.objects import (
@@ -86,6 +87,7 @@ __all__ = [
     "LensDescription",
     "Light",
     "LightDescription",
+    "LimitsDescription",
     "MaterialDescription",
     "MeshFile",
     "MotionDescription",

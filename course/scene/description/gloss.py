@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, TypeAlias
+from typing import Annotated, Literal, TypeAlias
 
 import msgspec
 
@@ -19,6 +19,14 @@ class PlaneLobe(GlossDescription, frozen=True, kw_only=True, tag="plane"):
     """The mirrored direction is moved on a square at right angles to it."""
 
     roughness: Annotated[float, about("Edge of the square, at distance 1; 0 is a mirror.", ge=0)]
+    basis: Annotated[
+        Literal["module", "smallest"],
+        about(
+            "How the square is turned: as `jitter_on_plane` of the module glossy has it; or with one edge at right"
+            " angles both to the direction and to what becomes of the direction if its smallest component is set to 1."
+            " Then that function is not called."
+        ),
+    ] = "module"
 
 
 class BallLobe(GlossDescription, frozen=True, kw_only=True, tag="ball"):

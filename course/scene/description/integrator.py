@@ -56,3 +56,13 @@ class IntegratorDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_un
             " to the ray, or left as they are, but for glass."
         ),
     ] = "bent"
+    surface_offset: Annotated[
+        float,
+        about(
+            "Least distance from a surface at which rays leave it. Above 0, what lights send is worked out at the"
+            " surface itself, though shadow rays start at that distance; at 0 all is done at a distance of the engine's"
+            " own, too small to be seen.",
+            "world unit",
+            ge=0,
+        ),
+    ] = 0.0

@@ -37,6 +37,13 @@ class PointLight(LightDescription, frozen=True, kw_only=True, tag="point"):
 
     position: Annotated[Vector, about("Where it is.", "world unit")]
     intensity: Annotated[Color, about("Radiant intensity.", "W/sr")]
+    shadow_rays: Annotated[
+        Literal["short", "whole"],
+        about(
+            "Whether shadow rays end just short of the light, or at the light itself: then a surface in which the light"
+            " lies hides it."
+        ),
+    ] = "short"
     motion: _Motion = MotionDescription()
 
 

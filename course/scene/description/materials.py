@@ -29,6 +29,13 @@ class Dielectric(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_field
             ge=0,
         ),
     ] = 0.0
+    surrounded_by: Annotated[
+        str | None,
+        about(
+            "Name of the dielectric that lies all around it, such as the water that a glass ball lies in; null for"
+            " vacuum. Surfaces of the two must not touch or cross."
+        ),
+    ] = None
 
 
 class Conductor(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -40,6 +47,12 @@ class Conductor(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
     absorption_index: Annotated[
         Color, about("Imaginary part of the index of refraction, the extinction coefficient.")
     ]
+    fresnel: Annotated[
+        Literal["exact", "approximate"],
+        about(
+            "The Fresnel equations, or their usual approximation, which holds where n^2 + k^2 is much larger than 1."
+        ),
+    ] = "exact"
 
 
 _Times: TypeAlias = Annotated[float, msgspec.Meta(gt=0, le=1e4)]

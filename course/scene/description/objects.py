@@ -28,6 +28,14 @@ class ObjectDescription(
         tuple[Transform, ...], about("Steps applied in order, the first one first.")
     ] = ()
     motion: Annotated[MotionDescription, about("How the object moves.")] = MotionDescription()
+    from_behind: Annotated[
+        Literal["turned", "kept", "unseen"],
+        about(
+            "What camera rays see that come upon a triangle from behind: it, with its normals turned to the viewer; it,"
+            " with normals as they are, which needs integrator.shading_normals: interpolated; or what lies behind it."
+            " Other rays see it in any case."
+        ),
+    ] = "turned"
 
 
 class Quad(ObjectDescription, frozen=True, kw_only=True, tag="quad"):

@@ -12,6 +12,7 @@ from course.scene.description.environment import ConstantEnvironment, Environmen
 from course.scene.description.film import FilmDescription
 from course.scene.description.integrator import IntegratorDescription
 from course.scene.description.lights import Light
+from course.scene.description.limits import LimitsDescription
 from course.scene.description.materials import MaterialDescription
 from course.scene.description.objects import Object
 from course.scene.description.sampler import SamplerDescription
@@ -36,6 +37,9 @@ class SceneDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
     acceleration: Annotated[
         AccelerationDescription, about("What finds the triangles that rays hit.")
     ] = AccelerationDescription()
+    limits: Annotated[
+        LimitsDescription, about("How large the files may be that the scene names.")
+    ] = LimitsDescription()
     environment: Annotated[Environment, about("What a ray sees that hits nothing.")] = (
         ConstantEnvironment()
     )

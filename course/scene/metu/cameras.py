@@ -127,7 +127,7 @@ def _window(element: Element, notes: Notes) -> dict[str, Any]:
         angle = element.child("FovY", "such as 60")
         if not 0 < (degrees := angle.number(0, above=True)) < 180:
             raise angle.unexpected("a number of degrees between 0 and 180")
-        return {"vertical_fov": degrees, "near": distance}
+        return {"vertical_fov": degrees}
     where = element.child("NearPlane", "left right bottom top, such as -1 1 -1 1")
     if len(where.words()) == 5:
         notes.add(where, "has 5 numbers: the first 4 are taken")
@@ -136,7 +136,7 @@ def _window(element: Element, notes: Notes) -> dict[str, Any]:
     if not (left < right and bottom < top):
         raise where.unexpected("left < right and bottom < top, in this order, such as -1 1 -1 1")
     plane = {"left": left, "right": right, "bottom": bottom, "top": top, "distance": distance}
-    return {"image_plane": plane, "near": distance}
+    return {"image_plane": plane}
 
 
 def _lens(element: Element) -> dict[str, Any]:

@@ -30,6 +30,9 @@ CUTOFF: Final = 1e-6
 DEPTH: Final = 6
 """Bounces that are followed where a scene doesn't say how many."""
 
+OFFSET: Final = 1e-3
+"""The distance from a surface at which rays leave it, where a scene doesn't say."""
+
 DEEPEST: Final = 1024
 """Bounces that the engine follows."""
 
@@ -132,16 +135,16 @@ def _common(
 ) -> dict[str, Any]:
     """What all cameras see."""
     _pass_over_empty(scene)
-    # The engine leaves surfaces by an offset of its own, which suits scenes of any size.
-    for name in ("ShadowRayEpsilon", "IntersectionTestEpsilon"):
-        found = scene.maybe(name)
-        if found is not None:
-            found.number(0)
+    # Hits are found by Embree, which has no tolerance to set.
+    tolerance = scene.maybe("IntersectionTestEpsilon")
+    if tolerance is not None:
+        tolerance.number(0)
+    offset = scene.maybe("ShadowRayEpsilon")
     background = scene.maybe("BackgroundColor")
     materials = read_materials(scene, notes)
     objects = Objects(
         read_vertices(scene),
-        set(materials),
+        materials,
         steps,
         source.parent,
         MeshTable(target.parent, f"{target.stem}.meshes", notes),
@@ -157,6 +160,7 @@ def _common(
             "into_surface": "keep",
             "terminator": "facets",
             "shading_normals": "interpolated",
+            "surface_offset": OFFSET if offset is None else offset.number(0),
         },
         "environment": {"type": "constant", "radiance": radiance, "seen_by": "camera"},
         "materials": {material_name(number): keys for number, keys in materials.items()},

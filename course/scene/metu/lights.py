@@ -41,6 +41,7 @@ def _point(element: Element, matrix: Floats64) -> dict[str, Any]:
         "type": "point",
         "position": point(matrix, position).tolist(),
         "intensity": _times_pi(element.child("Intensity", "such as 1000 1000 1000")),
+        "shadow_rays": "whole",
     }
 
 

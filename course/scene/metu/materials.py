@@ -53,6 +53,7 @@ def _material(element: Element, notes: Notes) -> dict[str, Any]:
         material["conductor"] = {
             "refraction_index": element.child("RefractionIndex", "such as 0.37").number(0),
             "absorption_index": element.child("AbsorptionIndex", "such as 2.82").number(0),
+            "fresnel": "approximate",
         }
     if kind == "dielectric":
         index = element.child("RefractionIndex", "such as 1.5").number(0, above=True)
@@ -69,7 +70,8 @@ def _material(element: Element, notes: Notes) -> dict[str, Any]:
     roughness = element.maybe("Roughness")
     if roughness is not None and roughness.number(0):
         if kind:
-            material["gloss"] = {"lobe": "plane", "roughness": roughness.number(0)}
+            edge = roughness.number(0)
+            material["gloss"] = {"lobe": "plane", "roughness": edge, "basis": "smallest"}
             if kind == "dielectric":
                 material["dielectric"]["roughness"] = roughness.number(0)
         else:

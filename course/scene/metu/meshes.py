@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import numpy as np
 
 from course.core.types import Floats64, Indices
+from course.errors import SceneError
 from course.geometry.mesh import Mesh
 from course.geometry.smooth_normals import area_normals
+from course.inputs import LARGEST_DATA, Bound, opened
 from course.scene.document import show
 from course.scene.metu.element import Element
 
@@ -69,7 +72,8 @@ def check_indices(element: Element, numbers: Floats64, vertices: Floats64) -> No
 def mesh_file(faces: Element, name: str, folder: Path) -> Path:
     """The file that Faces names; SceneError where there is none."""
     path = folder / name.replace("\\", "/")
-    if not path.is_file():
+    # Path.exists would raise an error of its own for a name that is too long.
+    if not os.path.exists(path):  # noqa: PTH110
         raise faces.error(f"plyFile is {name}: no such file in {folder.resolve()}")
     if path.suffix.lower() != ".ply":
         raise faces.error(f"plyFile is {name}: expected a file that ends in .ply")
@@ -78,7 +82,7 @@ def mesh_file(faces: Element, name: str, folder: Path) -> Path:
 
 def has_normals(path: Path) -> bool:
     """Whether a PLY file has normals of its own."""
-    with path.open("rb") as stream:
+    with opened(path, "mesh file", Bound(LARGEST_DATA), SceneError) as stream:
         header = stream.read(LONGEST_HEADER).partition(b"end_header")[0]
     names = {line.split()[-1] for line in header.splitlines() if line.startswith(b"property ")}
     return {b"nx", b"ny", b"nz"} <= names

@@ -51,7 +51,7 @@ class Objects:
     Attributes
     ----------
     vertices : (V, 3) float64
-    materials : the ids that there are
+    materials : by id, as the converted scene has them
     steps : of `Transformations`, by letter and id
     source : folder of the METU scene, from which its mesh files are named
     meshes : files of the converted scene
@@ -60,7 +60,7 @@ class Objects:
     """
 
     vertices: Floats64
-    materials: set[str]
+    materials: dict[str, dict[str, Any]]
     steps: dict[str, dict[str, Any]]
     source: Path
     meshes: MeshTable
@@ -77,9 +77,19 @@ class Objects:
         segments = next((s for most, s in SEGMENTS if len(spheres) <= most), FEWEST_SEGMENTS)
         things += [self._sphere(element, segments) for element in spheres]
         things += self._triangles(parent.all("Triangle"))
+        for thing in things:
+            self._set_from_behind(thing)
         things += self._planes(parent.all("Plane"), things)
         self.meshes.write()
         return [{key: value for key, value in thing.items() if value != []} for thing in things]
+
+    def _set_from_behind(self, thing: dict[str, Any]) -> None:
+        """Camera rays pass through backs of flat triangles, and find other normals as they are; but for glass."""
+        glass = (
+            material_name(number) for number, keys in self.materials.items() if "dielectric" in keys
+        )
+        if thing["material"] not in glass:
+            thing["from_behind"] = "unseen" if thing.get("shading") == "flat" else "kept"
 
     def _mesh(self, element: Element) -> dict[str, Any]:
         number = element.id()

@@ -13,12 +13,12 @@ from typing import Any, Final
 from xml.parsers import expat
 
 from course.errors import SceneError
+from course.inputs import LARGEST_DATA, Bound, read_input, shown
 from course.scene.document import show
 from course.scene.metu.element import Element
 from course.scene.metu.suffixes import SUFFIXES, is_metu
 
 ROOT: Final = "Scene"
-LARGEST_FILE: Final = 1 << 30  # bytes
 DEEPEST: Final = 32
 UTF_16: Final = (b"\xff\xfe", b"\xfe\xff")
 """Marks at the beginning of a file by which XML's other encoding is known."""
@@ -33,30 +33,15 @@ def read_elements(path: Path) -> Element:
         For a file that is missing, unreadable, too large or not what its suffix says, for another root than Scene,
         and for XML with a document type, whose entities could grow beyond all bounds.
     """
-    file = str(path) if str(path).isprintable() else ascii(str(path))[1:-1]
+    file = shown(path)
     if not is_metu(path):
         raise SceneError(
             f"{file}: expected a METU scene, a file that ends in {' or '.join(SUFFIXES)}"
         )
-    data = _read(path, file)
+    data = read_input(path, "scene file", Bound(LARGEST_DATA), SceneError)
     root = _json(data, file) if path.suffix.lower() == ".json" else _xml(data, file)
     _number(root)
     return root
-
-
-def _read(path: Path, file: str) -> bytes:
-    try:
-        if path.exists() and not path.is_file():
-            raise SceneError(f"{file}: is not a regular file: expected a scene file")
-        with path.open("rb") as stream:
-            data = stream.read(LARGEST_FILE + 1)
-    except FileNotFoundError:
-        raise SceneError(f"{file}: no such file") from None
-    except (OSError, ValueError) as error:
-        raise SceneError(f"{file}: can't be read: {getattr(error, 'strerror', error)}") from None
-    if len(data) > LARGEST_FILE:
-        raise SceneError(f"{file}: more than {LARGEST_FILE >> 20} MB: too large for a scene file")
-    return data
 
 
 class _XmlReader:

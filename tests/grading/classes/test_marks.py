@@ -164,8 +164,8 @@ def test_what_could_not_be_graded_has_no_score(tmp_path: Path) -> None:
         ("students: {ada: 5}", ":1: students.ada is 5: expected a map"),
         ("rounding: {step: 0}", ":1: rounding.step is 0: expected a number > 0"),
         ("", "the file is empty: expected a policy"),
-        ("times: none.csv", "none.csv: can't be read"),
-        ("times: bad.csv", "bad.csv:2: submitted is yesterday: expected a date"),
+        ("times: none.csv", "none.csv: no such file"),
+        ("times: bad.csv", 'bad.csv:2: submitted is "yesterday": expected a date'),
     ],
 )
 def test_mistakes_are_told_by_file_line_and_key(tmp_path: Path, text: str, told: str) -> None:

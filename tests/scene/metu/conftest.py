@@ -13,6 +13,7 @@ import pytest
 from numpy.typing import NDArray
 
 from course import Scene, load_scene, render
+from course.geometry import packets
 from course.scene.metu.converting import convert
 
 Tree = dict[str, Any]
@@ -113,3 +114,11 @@ def metu(request: pytest.FixtureRequest, tmp_path: Path) -> Metu:
 @pytest.fixture
 def xml(tmp_path: Path) -> Metu:
     return Metu(tmp_path, "xml", [])
+
+
+@pytest.fixture(params=[False, True], ids=["numpy", "compiled"])
+def compiled(request: pytest.FixtureRequest) -> bool:
+    """Whether compiled loops are used: each of the two is looked at by itself."""
+    if request.param and not packets.available():
+        pytest.skip("Numba is not installed (pip install .[fast])")
+    return bool(request.param)

@@ -136,7 +136,7 @@ def test_a_gaze_point_and_a_field_of_view_make_a_look_at_camera(metu: Metu) -> N
         key: value for key, value in CAMERA.items() if key not in ("Gaze", "NearPlane")
     } | {"GazePoint": "0 0 -7", "FovY": "50"}
     camera = metu.load(scene).loaded.description.camera
-    assert (camera.vertical_fov, camera.image_plane, camera.near) == (50, None, 1)
+    assert (camera.vertical_fov, camera.image_plane, camera.near) == (50, None, 0)
     np.testing.assert_allclose(np.array(camera.look_at) / np.abs(camera.look_at).max(), [0, 0, -1])
     assert metu.warnings == []
 

@@ -265,7 +265,7 @@ def test_missing_files_and_folders_are_told(tmp_path: Path) -> None:
     with pytest.raises(SceneError, match=r"none\.xml: no such file"):
         convert(tmp_path / "none.xml", tmp_path / "scene.yaml")
     (tmp_path / "folder.xml").mkdir()
-    with pytest.raises(SceneError, match=r"folder\.xml: is not a regular file"):
+    with pytest.raises(SceneError, match=r"folder\.xml: is a folder: expected a scene file"):
         convert(tmp_path / "folder.xml", tmp_path / "scene.yaml")
 
 

@@ -123,6 +123,7 @@ def test_light_through_a_slab_fades_by_fresnel_and_beer(metu: Metu, index: float
             ]
         },
         MaxRecursionDepth="2",
+        ShadowRayEpsilon="1e-9",
     )
     reflected = ((index - 1) / (index + 1)) ** 2
     expected = 100 * (1 - reflected) ** 2 * np.exp(-2 * np.array([0.1, 0, 0.5]))

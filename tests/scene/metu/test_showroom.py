@@ -20,7 +20,9 @@ def test_the_showroom_has_two_pictures_and_nothing_is_left_out(tmp_path: Path) -
         scene = load_scene(one.path)
         receipt = render(scene, size=(32, 24), spp=4).receipt.to_dict()
         called = set(receipt["effects"]["called"])
-        assert {"soft_shadows.point_on_rectangle", "glossy.jitter_on_plane"} <= called
+        assert "soft_shadows.point_on_rectangle" in called
+        # Rough mirrors have a square of METU's own.
+        assert not {name for name in called if name.startswith("glossy")}
         assert {"motion_blur.displacement", "supersampling.jittered"} <= called
         assert ("thin_lens.lens_rays" in called) == (one.camera == "1")
         assert receipt["rays"]["refraction"] > 0

@@ -1,0 +1,134 @@
+"""`course compare A B`: two pictures, and whether they are the same but for noise."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from course.cli import options
+from course.cli.outputs import check_outputs
+from course.cli.tables import Section, print_sections
+from course.errors import CourseError
+
+if TYPE_CHECKING:
+    from course.imaging.comparison import Comparison
+
+DIFFERENT = 1
+TROUBLE = 2
+"""Exit codes as those of `diff` and `cmp`, which scripts know: 0 the same, 1 different, 2 trouble."""
+
+
+@click.command()
+@click.argument("a", metavar="A", type=click.Path(path_type=Path))
+@click.argument("b", metavar="B", type=click.Path(path_type=Path))
+@click.option(
+    "--significance",
+    type=click.FloatRange(0, 1, min_open=True, max_open=True),
+    default=1e-3,
+    show_default=True,
+    metavar="P",
+    help="Call them different where noise alone shows as much in less than this share of pairs.",
+)
+@click.option(
+    "--difference",
+    type=click.Path(path_type=Path),
+    help="Write A - B in colours, as .png: red where A is brighter, blue where B is.",
+)
+@click.option(
+    "--json", "json_path", callback=options.json_path, help="Write what was found as JSON."
+)
+def compare(
+    a: Path, b: Path, significance: float, difference: Path | None, json_path: Path | None
+) -> None:
+    """Tell whether two pictures are the same but for noise.
+
+    Takes two renders of a scene by different seeds, numbers of samples or programs: EXR, HDR, PNG
+    or JPEG, in any mixture. How noisy they are needn't be known. If one has 8 bits, both are
+    compared as 8 bits show them, and pixels that are cut off at white are left out.
+
+    Exit codes: 0 no difference shown, 1 different, 2 trouble.
+    """
+    try:
+        found = _compare(a, b, significance, difference, json_path)
+    except CourseError as error:
+        click.echo(f"error: {error}", err=True)
+        raise click.exceptions.Exit(TROUBLE) from error
+    if found.p_value < significance:
+        raise click.exceptions.Exit(DIFFERENT)
+
+
+def _compare(
+    a: Path, b: Path, significance: float, difference: Path | None, json_path: Path | None
+) -> Comparison:
+    from course.imaging.comparison import compare as compare_pictures
+    from course.imaging.reading import LINEAR, read_picture
+
+    for source in (a, b):
+        check_outputs([("--difference", difference)], [("--json", json_path)], source)
+    if difference is not None and difference.suffix.lower() != ".png":
+        raise CourseError(f"--difference {difference}: colours are written as .png")
+    first, second = read_picture(a), read_picture(b)
+    coded = a.suffix.lower() not in LINEAR, b.suffix.lower() not in LINEAR
+    try:
+        found = compare_pictures(first, second, coded)
+    except CourseError as error:
+        raise CourseError(f"{a}, {b}: {error}") from error
+    if difference is not None:
+        from course.imaging.difference import difference_picture
+        from course.imaging.files import write_png
+
+        write_png(difference, difference_picture(first, second))
+    different = found.p_value < significance
+    print_sections(f"{a} - {b}", _sections(found, different, significance))
+    if json_path is not None:
+        from course.imaging.atomic import write_text
+
+        told = {"a": str(a), "b": str(b), "significance": significance, "different": different}
+        write_text(
+            json_path, json.dumps({**told, **dataclasses.asdict(found)}, indent=2, allow_nan=False)
+        )
+    return found
+
+
+def _sections(found: Comparison, different: bool, significance: float) -> list[Section]:
+    left, top, width, height = found.block
+    place = f"{width} x {height} pixels from column {left}, row {top}"
+    sign = "<" if different else ">="
+    verdict = "different" if different else "no difference but noise"
+    channel = ("red", "green", "blue")[found.channel]
+    means = [
+        f"{name} {d:+.3g} ({d / m:+.3%})" if m else f"{name} {d:+.3g}"
+        for name, d, m in zip("RGB", found.mean_difference, found.mean, strict=True)
+    ]
+    seen = [
+        ("blocks", f"{found.blocks} of about {width} x {height} pixels, 3 channels each"),
+        ("left out", f"{found.clipped:.2%} of the pixels: cut off at white, or beside such"),
+        ("values", "as 8 bits show them, decoded" if found.coded else "as the files hold them"),
+    ]
+    return [
+        ("", [("verdict", f"{verdict} (p-value {sign} {significance:g})")]),
+        (
+            "p-value",
+            [
+                ("altogether", f"{found.p_value:.2g}"),
+                ("largest block", f"{found.p_block:.2g}"),
+                ("all blocks", f"{found.p_all:.2g}"),
+            ],
+        ),
+        (
+            "difference",
+            [
+                ("mean", ", ".join(means)),
+                ("RMSE", f"{found.rmse:.4g}"),
+                (
+                    "largest block",
+                    f"{channel} {found.block_difference:+.3g} in {place}",
+                ),
+            ],
+        ),
+        ("compared", seen),
+    ]

@@ -1,0 +1,214 @@
+"""Pictures that are likely to be black, told before they are rendered.
+
+A few rays are sent from the eye, straight through the picture and all around. Two mistakes show in what they meet: the
+eye stands inside something solid, or what is seen and the lamps are turned away from each other. No function of a
+student is called, and where the rays leave any doubt nothing is said.
+"""
+
+from __future__ import annotations
+
+import warnings
+from pathlib import Path
+
+import numpy as np
+
+from course.appearance.lights import (
+    DirectionalLight,
+    Light,
+    MeshLight,
+    PointLight,
+    RectangleLight,
+)
+from course.core.types import Floats32, Floats64, Mask
+from course.errors import CourseWarning
+from course.geometry.embree import Accelerator, QueryTime
+from course.geometry.hits import Hits, find_hits
+from course.imaging.camera import Camera
+from course.scene.compiling import compile_camera
+from course.scene.lightless import why_black
+from course.scene.scene import Scene
+from course.scene.world import World
+
+GRID = 12
+"""Rays in each direction of the picture."""
+
+FEW = 64
+"""Triangles of a lamp that are looked at."""
+
+FAR = np.float32(1e6)
+"""Where lights are that are infinitely far away, in the unit of the compiled scene."""
+
+_AROUND = np.array(
+    [(x, y, z) for x in (-1, 0, 1) for y in (-1, 0, 1) for z in (-1, 0, 1) if x or y or z],
+    np.float32,
+)
+AROUND = np.ascontiguousarray((_AROUND / np.linalg.norm(_AROUND, axis=1)[:, None]).T, np.float32)
+"""Directions all around, to the faces, edges and corners of a cube, (3, 26)."""
+
+
+def warn_of_darkness(scene: Scene, path: Path) -> None:
+    """Warn, once, of a picture that will be or is likely to be black; ``path`` is what the scene is called."""
+    reason = why_dark(scene)
+    if reason:
+        warnings.warn(f"{path}: {reason}", CourseWarning, stacklevel=2)
+
+
+def why_dark(scene: Scene) -> str:
+    """Say why a scene's picture is likely to be black; empty where it isn't, or nobody can tell from a few rays."""
+    world = scene.compiled.world
+    reason = why_black(scene)
+    # What moves, and the student's hierarchy, would call the student's functions.
+    if reason or not isinstance(world.surface.accelerator, Accelerator):
+        return reason
+    film = scene.settings
+    camera = compile_camera(scene.loaded, scene.compiled.frame, film.width, film.height)
+    around = _met(world, camera.origin[:, None], AROUND)
+    enclosed = around.size == AROUND.shape[1] and not around.entering.any()
+    if not enclosed and not world.environment.black:
+        return ""
+    seen = _seen(world, camera, film.width, film.height)
+    if seen.size == 0:
+        # Between the objects around it a camera may look out at the sky.
+        if world.environment.black and _sees_nothing(scene, camera, film.width, film.height):
+            return (
+                "the picture will be black: no object is in front of the camera, and the environment is black; "
+                "turn camera.look_at"
+            )
+        return ""
+    if _may_show_light(world, seen):
+        return ""
+    if enclosed and not (seen.entering.any() or _may_show_light(world, around)):
+        inside = _inside(scene, around)
+        if inside:
+            return (
+                "the picture is likely to be black: the camera stands inside "
+                f"{inside}, and no light does; move camera.eye"
+            )
+    return _turned_away(scene, seen) if world.environment.black and world.lights else ""
+
+
+def _met(world: World, origin: Floats32, direction: Floats32) -> Hits:
+    found = world.surface.accelerator.intersect(origin, direction, QueryTime(), None)
+    return find_hits(world.surface, found, direction)
+
+
+def _seen(world: World, camera: Camera, width: int, height: int) -> Hits:
+    """What the middles of GRID x GRID parts of the picture show."""
+    steps = (np.arange(GRID, dtype=np.float32) + np.float32(0.5)) / GRID
+    x, y = np.repeat(steps, GRID) * np.float32(width), np.tile(steps, GRID) * np.float32(height)
+    direction = camera.directions(x.astype(np.float32), y.astype(np.float32))
+    origin = camera.origin[:, None]
+    if camera.near:
+        origin = camera.from_near_plane(origin, direction)
+    return _met(world, origin, direction)
+
+
+def _sees_nothing(scene: Scene, camera: Camera, width: int, height: int) -> bool:
+    """Whether all objects lie outside the pyramid of the picture; rays alone may miss what is small."""
+    surfaces = any(getattr(light, "radiance", None) for light in scene.loaded.description.lights)
+    if surfaces or scene.compiled.world.lens is not None:
+        return False
+    x, y = np.array([[0, width, width, 0], [0, 0, height, height]], np.float32)
+    edges = camera.directions(x, y).T.astype(np.float64)
+    sides = np.cross(edges, np.roll(edges, -1, axis=0))
+    sides *= np.sign(sides @ edges.sum(axis=0))[:, None]
+    inwards = np.concatenate((sides, edges.sum(axis=0)[None]))
+    for box in scene.compiled.bounds:
+        corners = _corners(scene.compiled.frame.position(box))
+        if not (inwards @ (corners - camera.origin[:, None]) < 0).all(axis=1).any():
+            return False
+    return True
+
+
+def _may_show_light(world: World, hits: Hits) -> bool:
+    """Whether any of the hits gives off light of its own, or shows that of other places."""
+    m = world.materials
+    shows = (m.emission.max(0) > 0) | (m.mirror.max(0) > 0) | m.refracts
+    shows |= (m.ambient * world.ambient[:, None]).max(0) > 0
+    return bool(shows.take(hits.material).any())
+
+
+def _inside(scene: Scene, hits: Hits) -> str:
+    """The objects around the eye whose material is met, in whose box no light is; empty if one may be."""
+    loaded, frame = scene.loaded, scene.compiled.frame
+    names = list(loaded.description.materials)
+    met = {names[number] for number in np.unique(hits.material) if number < len(names)}
+    eye = np.array(loaded.description.camera.eye)
+    found = []
+    for number, thing in enumerate(loaded.description.objects):
+        low, high = scene.compiled.bounds[number]
+        if thing.material not in met or not ((low <= eye) & (eye <= high)).all():
+            continue
+        low, high = (frame.position(corner)[:, None] for corner in (low, high))
+        for light in scene.compiled.world.lights:
+            points = _points(light)
+            if ((low <= points) & (points <= high)).all(axis=0).any():
+                return ""
+        found.append(f"{thing.name or thing.__struct_config__.tag} (objects.{number})")
+    return " and ".join(found)
+
+
+def _points(light: Light) -> Floats32:
+    """Points (3, k) that span a light."""
+    if isinstance(light, PointLight):
+        return light.position[:, None]
+    if isinstance(light, RectangleLight):
+        corners = [
+            light.corner + u * light.edge_u + v * light.edge_v for u in (0, 1) for v in (0, 1)
+        ]
+        return np.stack(corners, axis=1)
+    if isinstance(light, MeshLight):
+        return np.ascontiguousarray(light.planes[:: -(-len(light.planes) // FEW), :3].T)
+    if isinstance(light, DirectionalLight):
+        return FAR * light.towards[:, None]
+    return light.center[:, None] + np.float32(light.radius) * AROUND
+
+
+def _ways(light: Light, points: Floats32) -> Floats32:
+    """(3, k, n) from n points to k of a light."""
+    ways: Floats32 = _points(light)[:, :, None] - points[:, None]
+    return ways
+
+
+def _shines_at(light: Light, points: Floats32) -> Mask:
+    """(n,) which points are in front of a light."""
+    if (
+        not isinstance(light, PointLight | RectangleLight)
+        or light.normal is None
+        or light.two_sided
+    ):
+        return np.ones(points.shape[1], np.bool_)
+    return np.asarray((np.tensordot(light.normal, _ways(light, points), 1) < 0).any(axis=0))
+
+
+def _faced(light: Light, hits: Hits) -> Mask:
+    """(n,) which hits look towards a light."""
+    return np.asarray(((_ways(light, hits.p) * hits.ns[:, None]).sum(axis=0) > 0).any(axis=0))
+
+
+def _turned_away(scene: Scene, seen: Hits) -> str:
+    """Why none of the lights lights any of the hits; empty if one may, if only by way of other surfaces."""
+    lights = scene.compiled.world.lights
+    if not any(_shines_at(light, seen.p).any() for light in lights):
+        bounds = np.concatenate(scene.compiled.bounds)
+        box = _corners(scene.compiled.frame.position(bounds)).astype(np.float32)
+        if scene.compiled.world.paths is None or not any(
+            _shines_at(light, box).any() for light in lights
+        ):
+            names = [light.name for light in lights]
+            return (
+                "the picture is likely to be black: nothing that is seen is in front of a light "
+                f"({', '.join(names[:3])}{', ...' if len(names) > 3 else ''}): exchange edge_u and edge_v, or set "
+                "two_sided"
+            )
+    elif scene.compiled.world.paths is None and not any(
+        (_shines_at(light, seen.p) & _faced(light, seen)).any() for light in lights
+    ):
+        return "the picture is likely to be black: all that is seen is turned away from the lights"
+    return ""
+
+
+def _corners(points: Floats64) -> Floats64:
+    """The corners (3, 8) of the box around points (k, 3)."""
+    ends = np.stack((points.min(axis=0), points.max(axis=0)), axis=1)
+    return np.stack(np.meshgrid(*ends)).reshape(3, -1)

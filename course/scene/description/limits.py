@@ -1,0 +1,27 @@
+"""`limits`: how large the files may be that a scene names."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import msgspec
+
+from course.inputs import LARGEST_DATA, MOST_PIXELS
+from course.scene.description.values import about
+
+
+class LimitsDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """The largest meshes and pictures that are read; larger ones are refused before they take memory."""
+
+    bytes: Annotated[int, about("Most bytes of a mesh or picture file.", ge=1, le=2**50)] = (
+        LARGEST_DATA
+    )
+    pixels: Annotated[
+        int,
+        about(
+            "Most pixels of a picture. Each takes 12 bytes as linear light, and up to 6 more while the file is read.",
+            "pixel",
+            ge=1,
+            le=2**50,
+        ),
+    ] = MOST_PIXELS

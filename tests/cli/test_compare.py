@@ -1,0 +1,104 @@
+"""`course compare`: exit codes, files and what is told."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from click.testing import Result
+from PIL import Image
+
+from course.imaging.files import save
+
+Run = Callable[..., Result]
+
+
+@pytest.fixture(autouse=True)
+def pictures(tmp_path: Path) -> None:
+    """The pictures a and b of one mean, bright 5% brighter, small of another size; as EXR and PNG."""
+    y, x = np.mgrid[:64, :80]
+    truth = np.stack([0.3 + 0.2 * np.sin(x / k) * np.cos(y / 13) for k in (7, 9, 11)])
+    for seed, (name, factor) in enumerate({"a": 1, "b": 1, "bright": 1.05}.items()):
+        noise = np.random.default_rng(seed).standard_normal(truth.shape)
+        picture = (factor * truth + 0.02 * noise).clip(0).astype(np.float32)
+        for suffix in (".exr", ".png"):
+            save(tmp_path / f"{name}{suffix}", picture)
+    save(tmp_path / "small.exr", picture[:, :48, :64])
+
+
+@pytest.mark.parametrize(
+    "names", [("a.exr", "b.exr"), ("a.png", "b.png"), ("a.exr", "b.png"), ("a.png", "b.exr")]
+)
+def test_the_same_but_for_noise(run: Run, names: tuple[str, str]) -> None:
+    result = run("compare", *names)
+    assert result.exit_code == 0
+    assert "no difference but noise (p-value >= 0.001)" in result.stdout
+    eight = "as 8 bits show them" in result.stdout
+    assert eight == any(name.endswith("png") for name in names)
+
+
+@pytest.mark.parametrize(
+    "names", [("a.exr", "bright.exr"), ("a.png", "bright.png"), ("a.exr", "bright.png")]
+)
+def test_a_brighter_picture_is_different(run: Run, names: tuple[str, str]) -> None:
+    result = run("compare", *names)
+    assert result.exit_code == 1
+    assert "different (p-value < 0.001)" in result.stdout
+
+
+def test_jpegs_can_be_compared(run: Run, tmp_path: Path) -> None:
+    for name in ("a", "b"):
+        with Image.open(tmp_path / f"{name}.png") as image:
+            image.save(tmp_path / f"{name}.jpg", quality=95)
+    assert run("compare", "a.jpg", "b.jpg").exit_code == 0
+
+
+def test_the_significance_decides(run: Run) -> None:
+    run("compare", "a.exr", "bright.exr", "--json", "found.json")
+    p = json.loads(Path("found.json").read_text("utf-8"))["p_value"]
+    assert 0 < p < 1e-3
+    assert run("compare", "a.exr", "bright.exr", "--significance", str(1.01 * p)).exit_code == 1
+    assert run("compare", "a.exr", "bright.exr", "--significance", str(0.99 * p)).exit_code == 0
+
+
+def test_everything_is_told_as_json(run: Run, tmp_path: Path) -> None:
+    run("compare", "a.exr", "bright.exr", "--json", "found.json")
+    told = json.loads((tmp_path / "found.json").read_text("utf-8"))
+    assert (told["a"], told["b"], told["different"]) == ("a.exr", "bright.exr", True)
+    assert told["p_value"] < told["significance"] == 1e-3
+    assert told["mean_difference"] == pytest.approx([-0.015] * 3, abs=0.003)
+    assert {"rmse", "block", "block_difference", "clipped", "p_all", "p_block"} <= told.keys()
+
+
+def test_the_difference_is_a_picture(run: Run, tmp_path: Path) -> None:
+    assert run("compare", "a.exr", "b.exr", "--difference", "d.png").exit_code == 0
+    with Image.open(tmp_path / "d.png") as image:
+        assert image.width == 180
+        assert image.height > 64
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (("a.exr", "no.exr"), "no.exr: no such file"),
+        (
+            ("a.exr", "small.exr"),
+            "a.exr, small.exr: pictures of 80 x 64 and 64 x 48 pixels can't be compared",
+        ),
+        (("a.exr", "b.exr", "--difference", "d.exr"), "--difference d.exr: colours"),
+        (("a.exr", "b.exr", "--difference", "b.exr"), "--difference"),
+        (("a.exr", "b.exr", "--json", "no/d.json"), "no"),
+    ],
+)
+def test_trouble_is_one_line_and_exit_code_2(
+    run: Run, arguments: tuple[str, ...], told: str
+) -> None:
+    result = run("compare", *arguments)
+    assert result.exit_code == 2
+    assert result.stdout == ""
+    assert result.stderr.startswith("error: ")
+    assert told in result.stderr
+    assert len(result.stderr.splitlines()) == 1

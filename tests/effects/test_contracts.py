@@ -1,0 +1,69 @@
+"""The contracts that the renderer holds functions to: those that are declared, and kept by the course's own."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from course.contracts import CONTRACTS, contract
+from course.effects import PROJECT, Effects
+from course.grading.checks.declarations import declaration
+from course.grading.checks.declare import Function
+from course.grading.checks.drawing import Draw
+from course.guard import Guard
+
+SOLUTIONS = Effects(PROJECT / "solutions")
+
+
+def declared(path: str) -> Function:
+    """What the checks know of a function."""
+    found = declaration(*path.split("."))
+    assert found is not None
+    return found
+
+
+def arguments(path: str, seed: int, n: int) -> list[Any]:
+    """Legal arguments as the renderer has them, new ones for each call."""
+    made = declared(path).make(Draw(np.random.default_rng(seed), n, np.float32)).values()
+    if not contract(path).several:
+        return list(made)
+    return [[part.astype(np.float32) for part in a] if isinstance(a, tuple) else a for a in made]
+
+
+@pytest.mark.parametrize("path", CONTRACTS)
+def test_are_what_the_checks_declare(path: str) -> None:
+    """Names and shapes stand twice, for the renderer knows nothing of the checks; they say the same."""
+    function, held = declared(path), contract(path)
+    assert [name for name, _ in held.arguments] == [one.name for one in function.arguments]
+    for (name, sizes), argument in zip(held.arguments, function.arguments, strict=True):
+        if sizes and sizes[0] != "*" and argument.sizes:
+            assert len(sizes) == len(argument.sizes), name
+    if not held.several:
+        assert len(held.results) == len(function.results)
+
+
+@pytest.mark.parametrize("path", CONTRACTS)
+def test_are_kept_by_the_solutions(path: str) -> None:
+    """Nothing that the course's own functions return is refused, converted or changed."""
+    module, name = path.split(".")
+    original = SOLUTIONS.function(module, name)
+    guarded = Guard(path, original, PROJECT / "solutions" / f"{module}.py")
+    for seed in range(5):
+        for n in (0, 1, 7, 300):
+            expected, value = (call(*arguments(path, seed, n)) for call in (original, guarded))
+            several = isinstance(expected, tuple | list)
+            for mine, theirs in zip(
+                *((value, expected) if several else ([value], [expected])), strict=True
+            ):
+                assert mine.dtype == theirs.dtype
+                np.testing.assert_array_equal(mine, theirs)
+
+
+def test_solutions_are_called_as_they_are(tmp_path: Path) -> None:
+    """The course's own functions pay nothing for being looked at; copies of them do."""
+    (tmp_path / "glossy.py").write_text((PROJECT / "solutions" / "glossy.py").read_text())
+    assert not isinstance(SOLUTIONS.function("glossy", "keep_above"), Guard)
+    assert isinstance(Effects(tmp_path).function("glossy", "keep_above"), Guard)

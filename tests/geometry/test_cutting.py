@@ -1,0 +1,243 @@
+"""Large triangles are cut beside small things, without a crack and without a change in what they carry."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from course.core.types import Floats32
+from course.geometry import cutting, shapes, transforms
+from course.geometry.cutting import NEAR, SmallThings, cut
+from course.geometry.embree import QueryTime
+from course.geometry.mesh import Mesh
+from course.geometry.painting import Paint
+from course.geometry.surface import OFFSET, Part, Surface, build_surface
+
+RATIO = 64.0
+SIZES = (1e-4, 1e-7, 1e-10)
+
+
+def thing(size: float, at: tuple[float, float, float] = (0, 0, 0)) -> SmallThings:
+    middle = np.array([at])
+    return SmallThings(middle - size / 2, middle + size / 2, np.array([size]))
+
+
+def moved(mesh: Mesh, *steps: NDArray[np.float64]) -> Mesh:
+    return transforms.apply(mesh, transforms.compose(list(steps)))
+
+
+def turned(mesh: Mesh) -> Mesh:
+    return moved(mesh, transforms.rotate((1.0, 2.0, 3.0), 33.0))
+
+
+def edges(parts: list[Part]) -> Counter[frozenset[Any]]:
+    """How many triangles have each edge, its ends as float32 has them."""
+    found: Counter[frozenset[Any]] = Counter()
+    for part in parts:
+        corners = (part.mesh.vertices.astype(np.float32) + np.float32(0))[part.mesh.triangles]
+        for triangle in corners:
+            places = [tuple(p.tolist()) for p in triangle]
+            assert len(set(places)) == 3
+            for k in range(3):
+                found[frozenset((places[k], places[k - 1]))] += 1
+    return found
+
+
+def walls(size: float, turn: bool) -> list[Part]:
+    """A closed room of six objects of a quad each, the floor's middle beside the origin."""
+    room = shapes.box((2.0, 2.0, 2.0))
+    parts = []
+    for wall in range(6):
+        triangles = room.triangles[2 * wall : 2 * wall + 2]
+        mesh = moved(
+            Mesh(room.vertices, triangles),
+            transforms.translate(np.array([0.31, 1 - size / 3, 0.17])),
+        )
+        parts.append(Part(turned(mesh) if turn else mesh, wall))
+    return parts
+
+
+@pytest.mark.parametrize("turn", [False, True])
+@pytest.mark.parametrize("size", SIZES)
+def test_every_edge_of_a_closed_room_still_belongs_to_two_triangles(
+    size: float, turn: bool
+) -> None:
+    whole = walls(size, turn)
+    parts = cut(whole, thing(size), RATIO)
+    assert sum(len(part.mesh.triangles) for part in parts) > 12 + 10 * np.log2(1 / size)
+    assert set(edges(parts).values()) == {2}
+    for before, after in zip(whole, parts, strict=True):
+        assert area(after.mesh) == pytest.approx(area(before.mesh), rel=1e-12)
+
+
+def test_a_fine_neighbour_is_cut_along_only_where_it_has_to_be() -> None:
+    # A strip of many triangles whose edge is in the floor's: some of them have to follow the cuts.
+    floor = Part(Mesh(np.array([[0, 0, 1.0], [1, 0, 0], [-1, 0, 0]]), np.array([[0, 1, 2]])), 0)
+    fan = np.linspace(-0.5, 0.5, 200)
+    vertices = np.array([[-1, 0, 0], [1, 0, 0], *([x, 0.2, -0.1] for x in fan)])
+    triangles = [[0, 1, 2], *([1, 3 + k, 2 + k] for k in range(199))]
+    wall = Part(Mesh(vertices, np.array(triangles)), 1)
+    parts = cut([floor, wall], thing(1e-5), RATIO)
+    before, after = edges([floor, wall]), edges(parts)
+    # Open edges are as long as they were, and so no cut has a triangle on one side alone.
+    assert open_length(after) == pytest.approx(open_length(before), rel=1e-6)
+    assert 200 < len(parts[1].mesh.triangles) < 800
+
+
+def open_length(counts: Counter[frozenset[Any]]) -> float:
+    ends = [np.array(list(edge)) for edge, count in counts.items() if count == 1]
+    return float(sum(np.linalg.norm(p[0] - p[1]) for p in ends))
+
+
+def area(mesh: Mesh) -> float:
+    p = mesh.vertices[mesh.triangles]
+    return float(np.linalg.norm(np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]), axis=1).sum() / 2)
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_offsets_shrink_with_the_distance_from_what_is_small(size: float) -> None:
+    parts = cut(walls(size, True), thing(size), RATIO)
+    for part in parts:
+        p = part.mesh.vertices[part.mesh.triangles]
+        low, high = p.min(axis=1), p.max(axis=1)
+        apart = np.maximum(np.maximum(low, -high).max(axis=1), size)
+        reach = np.abs(p).max(axis=(1, 2))
+        assert (reach <= np.maximum(RATIO, NEAR) * apart * (1 + 1e-9)).all()
+    surface = build_surface(parts)
+    assert surface.planes[:, 6].min() <= OFFSET * RATIO * size
+
+
+def test_what_corners_carry_is_interpolated_as_before() -> None:
+    rng = np.random.default_rng(1)
+    flat = Mesh(
+        np.array([[1, 0, 1.0], [1, 0, -1], [-1, 0, -1], [-1, 0, 1]]),
+        np.array([[0, 1, 2], [0, 2, 3]]),
+    )
+    normals = rng.normal(size=(4, 3)) + np.array([0, 3.0, 0])
+    normals /= np.linalg.norm(normals, axis=1)[:, None]
+    uv, painted = rng.random((4, 2)), rng.random((2, 3, 3))
+    mesh = turned(Mesh(flat.vertices, flat.triangles, normals, uv))
+    part = Part(mesh, 0, paint=Paint(painted, lambda *_: np.zeros((3, 1), np.float32)))
+    (after,) = cut([part], thing(1e-5), RATIO)
+    pieces = after.mesh
+    assert pieces.normals is not None
+    assert pieces.uv is not None
+    assert mesh.normals is not None
+    assert mesh.uv is not None
+    assert after.paint is not None
+    assert len(after.paint.corners) == len(pieces.triangles) > 50
+    # Each piece's middle, found again in the quad: by its two edges in the first triangle and in the second.
+    weights = rng.dirichlet((1, 1, 1), len(pieces.triangles))
+    at = np.einsum("tk,tkc->tc", weights, pieces.vertices[pieces.triangles])
+    for parent in range(2):
+        corners = mesh.vertices[mesh.triangles[parent]]
+        frame = np.stack((corners[1] - corners[0], corners[2] - corners[0]), axis=1)
+        u, v = np.linalg.lstsq(frame, (at - corners[0]).T, rcond=None)[0]
+        inside = (u >= 0) & (v >= 0) & (u + v <= 1)
+        assert inside.sum() > 20
+        w = np.stack((1 - u - v, u, v), axis=1)[inside]
+        own = pieces.triangles[inside], weights[inside]
+        for before, now in ((mesh.normals, pieces.normals), (mesh.uv, pieces.uv)):
+            expected = w @ before[mesh.triangles[parent]]
+            found = np.einsum("tk,tkc->tc", own[1], now[own[0]])
+            assert np.allclose(found, expected, rtol=0, atol=1e-13)
+        found = np.einsum("tk,tkc->tc", own[1], after.paint.corners[inside])
+        assert np.allclose(found, w @ painted[parent], rtol=0, atol=1e-13)
+
+
+def test_the_same_normal_at_all_corners_stays_the_same_to_the_bit() -> None:
+    normal = np.array([0.1, 0.7, 0.3])
+    normal /= np.linalg.norm(normal)
+    flat = shapes.quad(2.0, 2.0)
+    mesh = Mesh(flat.vertices, flat.triangles, np.tile(normal, (4, 1)), flat.uv)
+    (after,) = cut([Part(mesh, 0)], thing(1e-6), RATIO)
+    assert after.mesh.normals is not None
+    assert (after.mesh.normals == normal).all()
+
+
+def test_nothing_is_cut_where_nothing_is_small() -> None:
+    whole = walls(0.5, True)
+    assert all(a is b for a, b in zip(cut(whole, thing(0.5), RATIO), whole, strict=True))
+
+
+def test_what_is_small_but_far_from_the_origin_asks_for_few_cuts() -> None:
+    # No cut makes coordinates there smaller.
+    parts = cut(walls(1e-9, False), thing(1e-9, (0.9, 0.0, 0.9)), RATIO)
+    assert sum(len(part.mesh.triangles) for part in parts) < 200
+
+
+@pytest.mark.parametrize(("width", "least", "most"), [(1e-9, 100, 5000), (1e-45, 2, 2)])
+def test_needles_are_cut_across_and_not_along(width: float, least: int, most: int) -> None:
+    # The thinner one has no area in float32.
+    (after,) = cut([Part(shapes.quad(width, 2.0), 0)], thing(1e-9), RATIO)
+    assert least <= len(after.mesh.triangles) <= most
+
+
+def test_normals_that_cancel_in_the_middle_stay_finite() -> None:
+    flat = shapes.quad(2.0, 2.0)
+    normals = np.array([[0, 0.6, 0.8], [0, 0.6, -0.8], [0, -0.6, -0.8], [0, 0.6, 0.8]])
+    mesh = Mesh(flat.vertices, flat.triangles, normals, flat.uv)
+    (after,) = cut([Part(mesh, 0)], thing(1e-6), RATIO)
+    assert after.mesh.normals is not None
+    assert after.mesh.normals.any(axis=1).all()
+    corner_normals = build_surface([after]).corner_normals
+    assert corner_normals is not None
+    assert np.isfinite(corner_normals).all()
+
+
+def test_needles_over_each_other_take_no_more_pieces_than_are_of_use() -> None:
+    # A disk squeezed to a line, the origin somewhere on it.
+    disk = moved(
+        shapes.disk(1.0, 9),
+        transforms.rotate((0.0, 1.0, 0.0), 20.0),
+        transforms.scale(np.array([1, 1, 1e-32])),
+        transforms.translate(np.array([0.12345, 0, 0])),
+    )
+    (after,) = cut([Part(disk, 0)], thing(1e-12), RATIO)
+    assert cutting.MOST < len(after.mesh.triangles) < 4 * cutting.MOST
+
+
+def test_triangles_without_area_are_no_obstacle() -> None:
+    line = Mesh(np.array([[-1, 0, 0], [1, 0, 0], [0.5, 0, 0]]), np.array([[0, 1, 2]]))
+    smooth = Mesh(line.vertices, line.triangles, np.tile([0.0, 1, 0], (3, 1)))
+    (after, _) = cut([Part(smooth, 0), Part(shapes.quad(2.0, 2.0), 0)], thing(1e-6), RATIO)
+    assert after.mesh.normals is not None
+    assert np.isfinite(after.mesh.normals).all()
+    assert build_surface([after]).size == 0
+
+
+@pytest.mark.parametrize("turn", [False, True])
+@pytest.mark.parametrize("size", SIZES)
+def test_no_ray_slips_through_the_cuts(size: float, turn: bool) -> None:
+    # From above the floor, which is the closer the smaller the thing is, to points on all edges.
+    scale = np.diag([*(3 * [2.0 ** np.round(-np.log2(size) / 2)]), 1.0])
+    parts = [
+        replace(part, mesh=moved(part.mesh, scale))
+        for part in cut(walls(size, turn), thing(size), RATIO)
+    ]
+    surface = build_surface(parts)
+    p, e1, e2 = (rows.astype(np.float64) for rows in (surface.planes[:, :3], *sides(surface)))
+    share = np.random.default_rng(2).uniform(0.05, 0.95, (40, 1, 1))
+    ways = (p + share * e1, p + share * e2, p + e1 + share * (e2 - e1))
+    aims = np.concatenate([way.reshape(-1, 3) for way in ways]).T
+    up = np.array([[0.0], [1.0], [0.0]])
+    up = transforms.rotate((1.0, 2.0, 3.0), 33.0)[:3, :3] @ up if turn else up
+    origin = (up * size * scale[0, 0]).astype(np.float32)
+    direction = aims - origin
+    direction /= np.sqrt((direction * direction).sum(axis=0))
+    if turn:
+        # The corners of a plane that is askew are rounded out of it: seen so flatly it is in front of itself.
+        direction = direction[:, np.abs((up * direction).sum(axis=0)) > 1e-5]
+    assert direction.shape[1] > 10_000
+    hits = surface.accelerator.intersect(origin, direction.astype(np.float32), QueryTime(), None)
+    assert (hits.triangle >= 0).all()
+
+
+def sides(surface: Surface) -> tuple[Floats32, Floats32]:
+    """e1 and e2 of all triangles."""
+    return surface.edges[:, :3], surface.edges[:, 3:6]

@@ -1,0 +1,155 @@
+"""The audit of a told error: by a second picture of some pixels, whose points are independent of the first.
+
+An audit's own standard error is 6 to 10% of the variance for the noise here; where 20 of them are averaged, 6 standard
+errors are the room they have, which chance exceeds less than once in 1e7.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from course.core.samplers.block import Block
+from course.core.samplers.sobol import SobolSampler
+from course.imaging.adaptive_film import PARTS, AdaptiveFilm
+from course.imaging.pixel_groups import PixelGroup, TwinGroup
+from course.rendering.audit import DOUBT, FEWEST, PIXELS, SHARE, draw, judge, work_for
+from course.rendering.passes import Work
+
+Array = NDArray[Any]
+WIDTH, HEIGHT, SAMPLES = 120, 100, 64
+DEVIATION = np.geomspace(0.1, 1, WIDTH * HEIGHT)
+
+
+def add(film: AdaptiveFilm, group: PixelGroup, samples: int, rng: np.random.Generator) -> None:
+    """Independent normal samples of every pixel's own deviation."""
+    each = np.repeat(DEVIATION[group.pixels], PARTS) * math.sqrt(PARTS / samples)
+    mean = 0.5 + each * rng.standard_normal((3, len(each)))
+    mean = np.concatenate((mean, np.ones((1, len(each)))))
+    film.add(group, mean.astype(np.float32), samples / PARTS, samples, True)
+
+
+def noisy(seed: int) -> AdaptiveFilm:
+    film = AdaptiveFilm(WIDTH, HEIGHT)
+    group = PixelGroup(0, np.arange(WIDTH * HEIGHT), WIDTH)
+    add(film, group, SAMPLES, np.random.default_rng(seed))
+    film.end_round()
+    return film
+
+
+def audited(film: AdaptiveFilm, number: int, seed: int) -> float:
+    sample = draw(film, number)
+    assert sample is not None
+    rng = np.random.default_rng((seed, number, 1))
+    for work in work_for(sample, film, number, 1):
+        assert isinstance(work.tile, TwinGroup)
+        add(film, work.tile, work.samples, rng)
+    return judge(film, sample, number)
+
+
+@pytest.mark.parametrize("wrong", [0.25, 1.0, 4.0])
+def test_a_told_variance_is_corrected(wrong: float) -> None:
+    """Of a factor that is wrong nearly all is found; the rest is what a film is trusted."""
+    found = []
+    for seed in range(20):
+        film = noisy(seed)
+        film.variance *= np.float32(wrong)
+        true = float(((film.linear - 0.5) ** 2).mean())
+        found.append(math.log(audited(film, 0, seed) * float(film.variance.mean()) / true))
+    # Each has a standard error of about 8%; the film's opinion counts for DOUBT[0], of which 7% are left.
+    trusted = 0.11 * abs(math.log(wrong))
+    assert abs(float(np.mean(found))) < trusted + 6 * 0.09 / math.sqrt(20)
+
+
+def test_an_audit_sees_what_was_left_since_it_looked_done() -> None:
+    """Pixels that are told to have no variance at all are drawn too."""
+    film = noisy(1)
+    film.variance.reshape(-1)[::2] = 0
+    true = float(((film.linear - 0.5) ** 2).mean())
+    told = float(film.variance.mean())
+    assert told < 0.6 * true
+    corrections = [audited(noisy_like(film), 0, seed) for seed in range(20)]
+    assert 0.7 < np.mean(corrections) * told / true < 1.3
+
+
+def noisy_like(film: AdaptiveFilm) -> AdaptiveFilm:
+    other = noisy(1)
+    other.variance[:] = film.variance
+    return other
+
+
+def test_a_later_audit_is_weighed_against_the_earlier_ones() -> None:
+    first, later = noisy(3), noisy(3)
+    later.correction = 2.0
+    one = math.log(audited(first, 1, 3))
+    other = math.log(audited(later, 1, 3))
+    share = 1 - (other - one) / math.log(2)
+    assert 0.5 < share < DOUBT[1] ** 2 / (DOUBT[1] ** 2 + 2 / (3 * PIXELS))
+
+
+def test_pixels_are_drawn_by_their_variance_and_by_the_film_alone() -> None:
+    film = noisy(4)
+    sample, again = draw(film, 0), draw(film, 0)
+    assert sample is not None
+    assert again is not None
+    assert np.array_equal(sample.pixels, again.pixels)
+    assert sample.drawn.sum() == PIXELS
+    assert len(np.unique(sample.pixels)) == len(sample.pixels)
+    noise = DEVIATION**2 / (DEVIATION**2).mean()
+    expected = float((noise * (0.75 * noise + 0.25)).mean())
+    seen = float((noise[sample.pixels] * sample.drawn).sum() / PIXELS)
+    assert seen == pytest.approx(expected, rel=0.4)
+    other = draw(film, 1)
+    assert other is not None
+    assert not np.array_equal(sample.pixels, other.pixels)
+
+
+def test_an_audit_costs_no_more_than_its_share() -> None:
+    film = noisy(5)
+    film.samples[:50] = 8
+    sample = draw(film, 0)
+    assert sample is not None
+    spent = float((sample.samples * sample.drawn).sum())
+    assert spent < 1.25 * SHARE * film.samples.sum()
+
+
+def test_small_and_quiet_pictures_have_none() -> None:
+    film = noisy(6)
+    film.variance[:] = 0
+    assert draw(film, 0) is None
+    small = AdaptiveFilm(8, 8)
+    small.samples[:] = 8
+    small.variance[:] = 1
+    assert SHARE * small.samples.sum() < FEWEST * 8
+    assert draw(small, 0) is None
+
+
+def test_work_covers_the_sample_once_by_other_points() -> None:
+    film = noisy(7)
+    film.samples[::3] = 128
+    film.samples[1::3] = 4096
+    sample = draw(film, 2)
+    assert sample is not None
+    work: list[Work] = work_for(sample, film, 2, 10)
+    pixels = np.concatenate([item.tile.pixels for item in work])  # type: ignore[union-attr]
+    assert np.array_equal(np.sort(pixels), sample.pixels)
+    assert len({item.tile.number for item in work}) == len(work)
+    assert {item.samples for item in work} <= {SAMPLES, 128, 1024}
+
+
+def test_second_points_are_others_than_the_first() -> None:
+    pixels = np.arange(200)
+    first, twin = PixelGroup(0, pixels, 20), TwinGroup(1, pixels, 20, 200)
+    a, b = (
+        SobolSampler(3).draw(Block(group.pixel_numbers(20), 0, 16, group.number), 0, 4)
+        for group in (first, twin)
+    )
+    assert (a.reshape(4, 200, 16) != b.reshape(4, 200, 16)).any(axis=2).all()
+    # Means over stratified points would correlate if the scrambles did: 800 pairs, 6 standard errors.
+    x, y = (points.reshape(4, 200, 16).mean(axis=2).ravel() for points in (a, b))
+    assert abs(np.corrcoef(x, y)[0, 1]) < 6 / math.sqrt(800)
+    assert np.array_equal(first.corners(), twin.corners())
