@@ -2,8 +2,7 @@
 
 Rays are counted, and renders are timed beside them, in turn. Evenly spread are k x k cell centres in every pixel, and
 Sobol points; their errors against a converged picture say how many rays they would need for the error that division
-leaves. Once for the scene as it is, whose wires pass between corners unseen, and once without its wires. The figures
-are `out/bench/adaptive_sampling_NAME.svg`, their numbers `out/bench/data/adaptive_sampling.json`.
+leaves. Once for the scene as it is, whose wires pass between corners unseen, and once without its wires.
 """
 
 from __future__ import annotations
@@ -12,17 +11,15 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from benchmarks.curve_files import keep
-from benchmarks.drawing import OUT, Line, draw_lines, logarithmic, sheet, slopes, styled, write
-from benchmarks.figures import Figure
+from benchmarks.figures import Figure, summary
+from benchmarks.report import report
 from course import Picture, Scene, load_scene, render
 from course.benchmarking.plot_data import Plot, Series
-from course.benchmarking.tables import NONE, Table, digits, print_tables
+from course.benchmarking.tables import NONE, Table, digits
 from course.benchmarking.variants import load_variant
 from course.core.types import Floats64
 from course.effects import PROJECT
@@ -86,31 +83,29 @@ class Measured:
 
 
 def measure_adaptive_sampling() -> list[Figure]:
-    """Print and draw the errors over rays; the rays saved at the scene's own threshold and depth."""
-    figures = []
-    plots = []
+    """Report the errors over rays; the rays saved at the scene's own threshold and depth."""
     division = load_scene(SCENE).settings.subdivision
     assert division is not None
-    for name, title, thin in (
-        ("wires", "with its wires", True),
-        ("edges", "without its wires", False),
-    ):
-        found = measure(thin, Effort())
-        print_tables([table(found, title)])
-        plots.append(plot(name, title, found))
-        draw(found, title, OUT / f"adaptive_sampling_{name}.svg")
+    effort = Effort()
+    titles = {"wires": "with its wires", "edges": "without its wires"}
+    measured = {name: measure(name == "wires", effort) for name in titles}
+    width, height = effort.size
+    report(
+        "adaptive_sampling",
+        f"{width} x {height} pixels, each render timed {effort.rounds} times",
+        [table(found, titles[name]) for name, found in measured.items()],
+        [plot(name, titles[name], found) for name, found in measured.items()],
+    )
+    figures = []
+    for name, found in measured.items():
+        gains = {
+            one.depth: one.regular / one.point.rays
+            for one in found.divisions
+            if one.threshold == division.threshold
+        }
         for depth, goal in GOALS[name].items():
-            chosen = [
-                one
-                for one in found.divisions
-                if (one.threshold, one.depth) == (division.threshold, depth)
-            ]
-            gain = chosen[0].regular / chosen[0].point.rays
-            label = f"division {title}, depth {depth}: rays, even grid / divided"
-            figures.append(Figure(label, gain, gain, gain, goal, at_least=True))
-    width, height = Effort().size
-    about = f"{width} x {height} pixels, each render timed {Effort().rounds} times"
-    keep("adaptive_sampling", about, plots)
+            label = f"division {titles[name]}, depth {depth}: rays, even grid / divided"
+            figures.append(summary(label, [gains[depth]], goal, at_least=True))
     return figures
 
 
@@ -220,34 +215,6 @@ def plot(name: str, title: str, found: Measured) -> Plot:
     )
     axes = {"samples": "camera rays a pixel", "seconds": "seconds"}
     return Plot(name, f"division by contrast, the scene {title}", axes, "RMSE", series)
-
-
-def draw(found: Measured, title: str, path: Path) -> Path:
-    """Error over camera rays a pixel."""
-    with styled():
-        about = "error against the converged picture; each mark of a divided one is a depth"
-        figure = sheet(f"Division by contrast, the scene {title}", about)
-        axes = figure.add_axes((0.1, 0.15, 0.58, 0.62))
-        logarithmic(axes, "camera rays a pixel", "RMSE")
-        lines = _lines(found)
-        draw_lines(axes, lines)
-        slopes(
-            axes, lines[0].x, 1.4 * float(lines[0].y[0]), [(-0.5, "order -1/2"), (-1, "order -1")]
-        )
-        return write(figure, path)
-
-
-def _lines(found: Measured) -> list[Line]:
-    """Error over rays."""
-    return [
-        Line(
-            name,
-            np.array([point.rays for point in points]),
-            np.array([point.error for point in points]),
-            style,
-        )
-        for name, points, style in _named(found)
-    ]
 
 
 def _named(found: Measured) -> list[tuple[str, list[Point], int]]:

@@ -6,18 +6,18 @@ here, as it is with OpenMP: an executor, and a ``map`` over parts of the batch.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
 from time import perf_counter
 from typing import Any
 
 import numpy as np
-from rich.console import Console
-from rich.table import Table
 
-from benchmarks.curve_files import keep
 from benchmarks.figures import Figure, summary
+from benchmarks.report import report
 from course.benchmarking.plot_data import Plot, Series
+from course.benchmarking.tables import Table
 from course.core.types import Floats32
 from course.effects import PROJECT, Effects
 from course.geometry.embree import Accelerator, QueryTime
@@ -44,44 +44,74 @@ traverse = BOXES.function("bounding_volumes", "traverse")
 Corners = tuple[Floats32, Floats32, Floats32]
 
 
+@dataclass(frozen=True)
+class Walk:
+    """Mean tests a ray in one hierarchy."""
+
+    triangles: int
+    leaf_size: int
+    nodes: int
+    boxes: float
+    tested: float
+
+
 def measure_bounding_volumes() -> list[Figure]:
-    """Print the counts; tests a ray, time against Embree, one thread against two."""
+    """Report the counts; tests a ray, time against Embree, one thread against two."""
     o, d = _rays()
-    table = Table(
-        title=f"tests a ray, {RAYS:,} rays towards a knot that about two thirds of them hit"
+    walks = [
+        walk(size, leaf_size, o, d)
+        for size in MESHES
+        for leaf_size in (LEAF_SIZES if size == USUAL else (LEAF_SIZE,))
+    ]
+    usual = [each for each in walks if each.leaf_size == LEAF_SIZE]
+    about = f"{RAYS:,} rays, leaf size {LEAF_SIZE}"
+    report("bounding_volumes", about, [table(walks)], [plot(usual)])
+    counts = [
+        summary(
+            f"hierarchy: tests a ray, {each.triangles:,} triangles",
+            [each.boxes + each.tested],
+            MOST,
+        )
+        for each in usual
+    ]
+    return [*counts, *_times(o, d)]
+
+
+def walk(size: tuple[int, int], leaf_size: int, o: Floats32, d: Floats32) -> Walk:
+    """Count the tests of rays in the hierarchy of a knot of so many segments and sides."""
+    _, corners = _knot(size)
+    hierarchy = build(*_boxes(corners), leaf_size)
+    _, _, boxes, tests = traverse(hierarchy, *corners, o, d)
+    triangles, nodes = corners[0].shape[1], hierarchy[2].size
+    return Walk(triangles, leaf_size, nodes, float(boxes.mean()), float(tests.mean()))
+
+
+def table(walks: Iterable[Walk]) -> Table:
+    """A row for each hierarchy; brute force tests every triangle."""
+    columns = ("triangles", "leaf size", "nodes", "boxes", "triangles tested", "brute force")
+    rows = tuple(
+        (
+            f"{each.triangles:,}",
+            f"{each.leaf_size}",
+            f"{each.nodes:,}",
+            f"{each.boxes:.1f}",
+            f"{each.tested:.1f}",
+            f"{each.triangles:,}",
+        )
+        for each in walks
     )
-    for column in ("triangles", "leaf size", "nodes", "boxes", "triangles tested", "brute force"):
-        table.add_column(column, justify="right")
-    figures = []
-    usual: list[tuple[int, float, float]] = []
-    for size in MESHES:
-        _, corners = _knot(size)
-        for leaf_size in LEAF_SIZES if size == USUAL else (LEAF_SIZE,):
-            hierarchy = build(*_boxes(corners), leaf_size)
-            _, _, boxes, tests = traverse(hierarchy, *corners, o, d)
-            triangles = corners[0].shape[1]
-            counts = float(boxes.mean()), float(tests.mean())
-            table.add_row(
-                f"{triangles:,}",
-                f"{leaf_size}",
-                f"{hierarchy[2].size:,}",
-                f"{counts[0]:.1f}",
-                f"{counts[1]:.1f}",
-                f"{triangles:,}",
-            )
-            if leaf_size == LEAF_SIZE:
-                usual.append((triangles, *counts))
-                name = f"hierarchy: tests a ray, {triangles:,} triangles"
-                figures.append(summary(name, [sum(counts)], MOST))
-    Console(width=110).print(table)
-    keep("bounding_volumes", f"{RAYS:,} rays, leaf size {LEAF_SIZE}", [plot(usual)])
-    return [*figures, *_times(o, d)]
+    title = f"Tests a ray, {RAYS:,} rays towards a knot that about two thirds of them hit"
+    return Table(title, columns, rows)
 
 
-def plot(rows: list[tuple[int, float, float]]) -> Plot:
+def plot(walks: Sequence[Walk]) -> Plot:
     """Tests of boxes and of triangles over the number of triangles, as the documentation's data files keep them."""
-    triangles, boxes, tested = zip(*rows, strict=True)
-    lines = {"brute force": triangles, "boxes": boxes, "triangles": tested}
+    triangles = tuple(each.triangles for each in walks)
+    lines = {
+        "brute force": triangles,
+        "boxes": tuple(each.boxes for each in walks),
+        "triangles": tuple(each.tested for each in walks),
+    }
     series = tuple(
         Series(name, style, {"samples": triangles}, values)
         for style, (name, values) in zip((3, 1, 0), lines.items(), strict=True)
@@ -95,7 +125,7 @@ def _times(o: Floats32, d: Floats32) -> list[Figure]:
     embree, corners = _knot(USUAL)
     hierarchy = build(*_boxes(corners), LEAF_SIZE)
 
-    def walk(part: slice) -> Any:
+    def ask_hierarchy(part: slice) -> Any:
         return traverse(hierarchy, *corners, o[:, part], d[:, part])
 
     def ask_embree(part: slice) -> None:
@@ -105,7 +135,7 @@ def _times(o: Floats32, d: Floats32) -> list[Figure]:
 
     ratios, speedups, embree_speedups = [], [], []
     for _ in range(REPETITIONS):
-        one, two = _seconds(walk, 1), _seconds(walk, 2)
+        one, two = _seconds(ask_hierarchy, 1), _seconds(ask_hierarchy, 2)
         embree_one, embree_two = _seconds(ask_embree, 1), _seconds(ask_embree, 2)
         ratios.append(one / (embree_one / EMBREE_ROUNDS))
         speedups.append(one / two)

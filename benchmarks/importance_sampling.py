@@ -2,9 +2,8 @@
 
 The first is that of cos^3, for which any density will do, some better. The second is matt with a highlight: the lobe
 fits the highlight and all but misses the rest, so alone it has no finite variance; with cosine-weighted directions,
-weighted by the power heuristic, it beats both. Variances are predicted from the densities, and measured. The figures
-are `out/bench/importance_sampling_cube.svg` and `importance_sampling_highlight.svg`, their numbers
-`out/bench/data/importance_sampling.json`.
+weighted by the power heuristic, it beats both. Variances are predicted from the densities, and measured.
+`out/bench/importance_sampling_cube.svg` and `importance_sampling_highlight.svg` show densities beside errors.
 """
 
 from __future__ import annotations
@@ -17,13 +16,12 @@ from pathlib import Path
 
 import numpy as np
 
-from benchmarks.curve_files import keep
-from benchmarks.drawing import OUT, Line, draw_lines, logarithmic, sheet, slopes, styled, write
-from benchmarks.figures import Figure
+from benchmarks.figures import Figure, summary
+from benchmarks.report import OUT, report
 from benchmarks.timing import median_seconds
 from course.benchmarking.plot_data import Plot, Series
-from course.benchmarking.plots import COLORS
-from course.benchmarking.tables import NONE, Table, print_tables
+from course.benchmarking.plots import COLORS, STYLE, draw_lines, sheet, write
+from course.benchmarking.tables import NONE, Table
 from course.core.types import Floats64
 from course.effects import PROJECT, Effects
 
@@ -122,31 +120,31 @@ class Measured:
 
 
 def measure_importance_sampling() -> list[Figure]:
-    """Print and draw both integrals."""
+    """Report and draw both integrals."""
+    measured = [(each, measure(each, BATCHES, SAMPLES)) for each in (CUBE, HIGHLIGHT)]
+    about = f"{BATCHES} estimates with each number of samples, and {ROUNDS} timed"
+    report(
+        "importance_sampling",
+        about,
+        [table(*each) for each in measured],
+        [plot(*each) for each in measured],
+    )
     figures = []
-    plots = []
-    for integrand in (CUBE, HIGHLIGHT):
-        found = measure(integrand, BATCHES, SAMPLES)
-        plots.append(plot(integrand, found))
-        print_tables([table(integrand, found)])
-        draw(integrand, found, OUT / f"importance_sampling_{integrand.name}.svg")
+    for integrand, found in measured:
+        path = OUT / f"importance_sampling_{integrand.name}.svg"
+        print(f"written to {draw(integrand, found, path)}")
         figures += [
-            Figure(
+            summary(
                 f"{integrand.title} by {way.name}: variance off by [standard errors]",
-                abs(way.off),
-                abs(way.off),
-                abs(way.off),
+                [abs(way.off)],
                 LIMIT,
             )
             for way in found
             if math.isfinite(way.predicted)
         ]
-        best = min(way.measured for way in found)
-        gain = found[0].measured / best
+        gain = found[0].measured / min(way.measured for way in found)
         name = f"{integrand.title}: variance, uniform / best"
-        figures.append(Figure(name, gain, gain, gain, 10, at_least=True))
-    about = f"{BATCHES} estimates with each number of samples, and {ROUNDS} timed"
-    keep("importance_sampling", about, plots)
+        figures.append(summary(name, [gain], 10, at_least=True))
     return figures
 
 
@@ -309,28 +307,16 @@ def plot(integrand: Integrand, found: list[Measured]) -> Plot:
 
 
 def draw(integrand: Integrand, found: list[Measured], path: Path) -> Path:
-    """Left the integrand and the densities over the angle; right the error over samples."""
-    with styled():
+    """Draw on the left the integrand and the densities over the angle, on the right the errors over samples."""
+    from matplotlib import rc_context
+
+    with rc_context(STYLE):
         about = "left: integrand and densities; right: error of the estimate, dashed as predicted"
-        title = f"Importance sampling of {integrand.title}"
-        figure = sheet(title, about, (13, 5.625))
-        axes = figure.add_axes((0.06, 0.15, 0.29, 0.62))
-        _densities(axes, integrand)
+        figure = sheet(f"Importance sampling of {integrand.title}", about, (13, 5.625))
+        _densities(figure.add_axes((0.06, 0.15, 0.29, 0.62)), integrand)
         axes = figure.add_axes((0.43, 0.15, 0.345, 0.62))
-        logarithmic(axes, "samples", "root-mean-square error")
-        n = np.array(SHOWN, np.float64)
-        lines = [
-            Line(f"{way.name}  {_variance(way)}", n, way.curve, style)
-            for style, way in enumerate(found)
-        ]
-        expected = [
-            Line("", n, np.sqrt(way.predicted / n), style, marked=False)
-            for style, way in enumerate(found)
-            if math.isfinite(way.predicted)
-        ]
-        draw_lines(axes, expected, named=False)
-        draw_lines(axes, lines)
-        slopes(axes, n, 1.6 * float(found[0].curve[0]), [(-0.5, "order -1/2")])
+        names = {way.name: f"{way.name}  {_variance(way)}" for way in found}
+        draw_lines(axes, plot(integrand, found), "samples", names)
         axes.text(1.04, 1.03, "variance of one sample", transform=axes.transAxes, fontsize=12)
         return write(figure, path)
 

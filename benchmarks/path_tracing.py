@@ -2,8 +2,8 @@
 
 The picture has the samples a pixel in its rows and the depth in its columns: noise goes away downwards, and light is
 added to the right. Mitsuba's is its own `path`, with light and reflection that it shares with nothing of ours; its
-LLVM variant where there is an LLVM, else its scalar one. `out/bench/data/path_tracing.json` has the error over samples
-and over seconds, of each sampler and of Russian roulette from different depths on.
+LLVM variant where there is an LLVM, else its scalar one. Errors over samples and over seconds are those of each sampler
+and of Russian roulette from different depths on.
 """
 
 from __future__ import annotations
@@ -13,27 +13,26 @@ from importlib.util import find_spec
 from pathlib import Path
 
 import numpy as np
-from PIL import Image, ImageDraw, ImageFont
 
-from benchmarks.curve_files import keep
 from benchmarks.figures import Figure, summary
 from benchmarks.mitsuba_agreement import Agreement, Converged, compare, converge, save_difference
 from benchmarks.mitsuba_export import export
 from benchmarks.mitsuba_llvm import find_llvm, start_llvm
 from benchmarks.mitsuba_scalar import NativeScene, start_scalar
+from benchmarks.picture_sheet import draw_sheet
+from benchmarks.report import OUT, report
 from course import Scene, render
 from course.benchmarking.convergence_data import comparisons
 from course.benchmarking.estimators import SAMPLERS, Estimator, Module
 from course.benchmarking.measuring import Effort as CurveEffort
 from course.benchmarking.measuring import Measured, measure
 from course.benchmarking.sources import scene_hash
+from course.benchmarking.tables import summary_table
 from course.benchmarking.variants import load_variant
 from course.effects import PROJECT
 from course.geometry.packets import available
-from course.imaging.srgb import linear_to_srgb8
 
 SCENE = PROJECT / "scenes" / "path_tracing.yaml"
-OUT = Path("out/bench")
 ROUNDS = 5
 THREADS = 2
 
@@ -43,11 +42,8 @@ ROULETTE = {"never": None, "from bounce 5": 5, "from bounce 2": 2, "from the fir
 
 SAMPLES = (1, 16, 64)
 DEPTHS = (1, 3, 100)
-CELL = 200
+SIDE = 200
 """Pixels along a picture's side in the figure."""
-
-MARGIN = 34
-"""For the labels."""
 
 
 @dataclass(frozen=True)
@@ -60,12 +56,12 @@ class Effort:
 
 
 def measure_path_tracing() -> list[Figure]:
-    """Write the picture; the whole render over the time inside Embree, and how far Mitsuba's picture is."""
+    """Draw the picture; the whole render over the time inside Embree, and how far Mitsuba's picture is."""
     print(f"written to {draw_figure(OUT / 'path_tracing.png')}")
     measured = curves(CURVES)
     width, height = measured.size
     about = f"{width} x {height} pixels, {CURVES.seeds} seeds"
-    keep("path_tracing", about, comparisons(measured))
+    report("path_tracing", about, [summary_table(measured)], comparisons(measured))
     ways = (False, True) if available() else (False,)
     figures = [figure for compiled in ways for figure in _costs(compiled)]
     if find_spec("mitsuba") is None:
@@ -73,15 +69,11 @@ def measure_path_tracing() -> list[Figure]:
         return figures
     found = agreement(load_scene_for_mitsuba(), Effort(), OUT / "peers")
     name = "path tracing, beside Mitsuba"
-    # A right pair has 432 blocks and channels; with 31 degrees of freedom one exceeds 6 once in 1,800 pairs, or less.
     return [
         *figures,
-        Figure(f"{name}: largest |t| of a block", found.largest, found.largest, found.largest, 6.0),
-        Figure(
-            f"{name}: means differ by (percent)",
-            *[100 * abs(found.mean)] * 3,
-            0.5,
-        ),
+        # Of a right pair's 432 blocks and channels, one exceeds 6 (31 degrees of freedom) in at most 1 of 1,800 pairs.
+        summary(f"{name}: largest |t| of a block", [found.largest], 6.0),
+        summary(f"{name}: means differ by (percent)", [100 * abs(found.mean)], 0.5),
     ]
 
 
@@ -175,27 +167,20 @@ def _key(scene: Scene, effort: Effort) -> str:
 
 
 def draw_figure(path: Path) -> Path:
-    """The Cornell box with 1, 16 and 64 rays a pixel and depths of 1, 3 and 100, as one labelled PNG."""
-    size = len(DEPTHS) * CELL + MARGIN, len(SAMPLES) * CELL + MARGIN
-    sheet = Image.new("RGB", size, "white")
-    draw = ImageDraw.Draw(sheet)
-    font = ImageFont.load_default(16)
-    for column, depth in enumerate(DEPTHS):
-        scene = load_variant(SCENE, {("integrator", "max_depth"): depth})
-        label = f"{depth} bounce" if depth == 1 else f"{depth} bounces"
-        middle = MARGIN + column * CELL + CELL // 2
-        draw.text((middle, MARGIN // 2), label, "black", font, anchor="mm")
-        for row, samples in enumerate(SAMPLES):
-            picture = render(scene, size=(CELL, CELL), spp=samples)
-            place = MARGIN + column * CELL, MARGIN + row * CELL
-            codes = linear_to_srgb8(np.moveaxis(picture.linear, -1, 0))
-            sheet.paste(Image.fromarray(codes), place)
-    for row, samples in enumerate(SAMPLES):
-        label = f"{samples} ray a pixel" if samples == 1 else f"{samples} rays a pixel"
-        strip = Image.new("RGB", (CELL, MARGIN), "white")
-        text = ImageDraw.Draw(strip)
-        text.text((CELL // 2, MARGIN // 2), label, "black", font, anchor="mm")
-        sheet.paste(strip.rotate(90, expand=True), (0, MARGIN + row * CELL))
-    path.parent.mkdir(parents=True, exist_ok=True)
-    sheet.save(path)
-    return path
+    """Draw the Cornell box with 1, 16 and 64 samples a pixel in rows, and depths of 1, 3 and 100 in columns."""
+    scenes = {depth: load_variant(SCENE, {("integrator", "max_depth"): depth}) for depth in DEPTHS}
+    rows = [
+        [
+            (
+                f"{_counted(samples, 'sample')}, {_counted(depth, 'bounce')}",
+                np.moveaxis(render(scene, size=(SIDE, SIDE), spp=samples).linear, -1, 0),
+            )
+            for depth, scene in scenes.items()
+        ]
+        for samples in SAMPLES
+    ]
+    return draw_sheet(rows, path)
+
+
+def _counted(number: int, noun: str) -> str:
+    return f"{number} {noun}{'s' * (number != 1)}"

@@ -4,8 +4,7 @@ Three integrals whose values are known: the area of a disk, a smooth function of
 a path takes them: two each for the pixel, the lens and the light. Every point set is drawn anew for each seed, so that
 an error can be told from luck: Hammersley's and Halton's points, and the patterns, are shifted by a random number
 modulo 1 in each dimension; Sobol's are the renderer's own, scrambled. In six dimensions jittered points are stratified
-pair by pair, the pairs in random order. Times are of one estimate: points and mean. The figures are
-`out/bench/quasi_monte_carlo_NAME.svg`, their numbers `out/bench/data/quasi_monte_carlo.json`.
+pair by pair, the pairs in random order. Times are of one estimate: points and mean.
 """
 
 from __future__ import annotations
@@ -14,17 +13,15 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from pathlib import Path
+from itertools import count
 
 import numpy as np
 
-from benchmarks.curve_files import keep
-from benchmarks.drawing import OUT, Line, draw_lines, logarithmic, sheet, slopes, styled, write
+from benchmarks.error_curves import Curve, error_curves, error_plot
 from benchmarks.figures import Figure
-from benchmarks.timing import median_seconds
-from course.benchmarking.orders import Order, fit_order
-from course.benchmarking.plot_data import Plot, Series
-from course.benchmarking.tables import Table, digits, print_tables
+from benchmarks.report import report
+from course.benchmarking.plot_data import Plot
+from course.benchmarking.tables import Table, digits
 from course.core.samplers import Block
 from course.core.samplers.sobol import SobolSampler
 from course.core.types import Floats32, Floats64
@@ -91,44 +88,26 @@ INTEGRALS = (
 )
 
 
-@dataclass(frozen=True)
-class Curve:
-    """Squared errors (counts, seeds) of one point set, and median seconds (counts,) of one estimate."""
-
-    name: str
-    mse: Floats64
-    order: Order
-    seconds: tuple[float, ...]
-
-    @property
-    def rmse(self) -> Floats64:
-        """(counts,) root-mean-square errors over the seeds."""
-        return np.sqrt(self.mse.mean(axis=1))
-
-
 def measure_quasi_monte_carlo() -> list[Figure]:
-    """Print and draw the errors; the fitted orders with their intervals."""
-    figures = []
-    tables = []
-    plots = []
-    for integral in INTEGRALS:
-        curves = measure(integral, COUNTS, SEEDS)
-        tables.append(table(integral, curves))
-        plots.append(plot(integral, curves))
-        draw(integral, curves, OUT / f"quasi_monte_carlo_{integral.name}.svg")
-        figures += [
-            Figure(
-                f"{integral.title}: order of {curve.name}",
-                curve.order.value,
-                curve.order.low,
-                curve.order.high,
-                GOALS[integral.name].get(curve.name, -0.45),
-            )
-            for curve in curves
-        ]
-    print_tables(tables)
-    keep("quasi_monte_carlo", f"{SEEDS} seeds", plots)
-    return figures
+    """Report the errors; the fitted orders with their intervals."""
+    measured = [(integral, measure(integral, COUNTS, SEEDS)) for integral in INTEGRALS]
+    report(
+        "quasi_monte_carlo",
+        f"{SEEDS} seeds",
+        [table(*each) for each in measured],
+        [plot(*each) for each in measured],
+    )
+    return [
+        Figure(
+            f"{integral.title}: order of {curve.name}",
+            curve.order.value,
+            curve.order.low,
+            curve.order.high,
+            GOALS[integral.name].get(curve.name, -0.45),
+        )
+        for integral, curves in measured
+        for curve in curves
+    ]
 
 
 GOALS = {
@@ -201,20 +180,9 @@ SETS: dict[str, Points] = {
 
 
 def measure(integral: Integral, counts: tuple[int, ...], seeds: int) -> list[Curve]:
-    """The errors of every point set, the order that they fall with, and what points and mean take."""
+    """Errors of every point set."""
     ways = {name: partial(_mean, integral, points) for name, points in SETS.items()}
-    seconds = median_seconds(ways, counts, seeds)
-    curves = []
-    for name, mean in ways.items():
-        mse = np.empty((len(counts), seeds))
-        for row, n in enumerate(counts):
-            for seed in range(seeds):
-                # Other points for each number of them, lest the errors hang together.
-                mse[row, seed] = (mean(n, 1000 * row + seed) - integral.value) ** 2
-        order = fit_order(np.array(counts, np.float64), mse)
-        assert order is not None
-        curves.append(Curve(name, mse, order, seconds[name]))
-    return curves
+    return error_curves(ways, integral.value, counts, seeds)
 
 
 def _mean(integral: Integral, points: Points, n: int, seed: int) -> float:
@@ -239,37 +207,4 @@ def table(integral: Integral, curves: list[Curve]) -> Table:
 
 def plot(integral: Integral, curves: list[Curve]) -> Plot:
     """The errors as the documentation's data files keep them."""
-    series = tuple(
-        Series(
-            curve.name,
-            style,
-            {"samples": COUNTS[: len(curve.mse)], "seconds": curve.seconds},
-            tuple(curve.rmse.tolist()),
-            order=curve.order.value,
-        )
-        for style, curve in enumerate(curves)
-    )
-    axes = {"samples": "points", "seconds": "seconds"}
-    return Plot(integral.name, f"points for {integral.title}", axes, "RMSE", series)
-
-
-# ---------------------------------------------------------------- the figure
-
-
-def draw(integral: Integral, curves: list[Curve], path: Path) -> Path:
-    """All point sets on one plot, each with its order."""
-    with styled():
-        seeds = curves[0].mse.shape[1]
-        about = f"error of the mean over {seeds} seeds; the numbers at the right are fitted orders"
-        figure = sheet(f"Points for {integral.title}", about)
-        axes = figure.add_axes((0.1, 0.15, 0.58, 0.62))
-        logarithmic(axes, "points", "RMSE")
-        n = np.array(COUNTS[: len(curves[0].mse)], np.float64)
-        lines = [
-            Line(f"{curve.name}  {curve.order.value:.2f}", n, curve.rmse, style)
-            for style, curve in enumerate(curves)
-        ]
-        draw_lines(axes, lines)
-        start = 1.3 * max(float(curve.rmse[0]) for curve in curves)
-        slopes(axes, n, start, [(-0.5, "order -1/2"), (-1.0, "order -1")])
-        return write(figure, path)
+    return error_plot(integral.name, f"points for {integral.title}", curves, count())

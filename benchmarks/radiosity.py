@@ -1,31 +1,28 @@
 """Radiosity of a Cornell box: time and error over the shots, iterations and shots in pictures, and path tracing.
 
 The error is the light that is still missing, as a share of all light, against a solution that went on for ten times
-nearer to its limit. Beside it stands the bound that the solution itself gives. `out/bench/radiosity.json` and
-`out/bench/data/radiosity.json` hold the curve, and `out/bench/radiosity.png` shows the box after 0, 1, 32 and 320
-iterations of gathering, and under them after 1, 32 and 320 shots. Then the last solution is compared with a picture
-of traced paths, channel by channel: by its mean, and by the means of squares of pixels.
+nearer to its limit. Beside it stands the bound that the solution itself gives. `out/bench/radiosity.png` shows the box
+after 0, 1, 32 and 320 iterations of gathering, and under them after 1, 32 and 320 shots. Then the last solution is
+compared with a picture of traced paths, channel by channel: by its mean, and by the means of squares of pixels.
 """
 
 from __future__ import annotations
 
-import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from pathlib import Path
 from time import perf_counter
 from typing import Any
 
 import numpy as np
-from PIL import Image, ImageDraw, ImageFont
 
-from benchmarks.curve_files import keep
-from benchmarks.figures import Figure
+from benchmarks.figures import Figure, summary
+from benchmarks.picture_sheet import Cell, draw_sheet
+from benchmarks.report import OUT, report
 from course import Scene, load_scene, render
 from course.benchmarking.plot_data import Plot, Series
+from course.benchmarking.tables import Table
 from course.core.types import Floats32, Floats64
 from course.effects import PROJECT
-from course.imaging.srgb import linear_to_srgb8
 from course.radiosity.functions import Functions
 from course.radiosity.hemicubes import Views, make_hemicube
 from course.radiosity.patches import Patches, make_patches
@@ -40,7 +37,6 @@ from course.radiosity.solving import (
 )
 from course.radiosity.viewing import look, own_view
 
-OUT = Path("out/bench")
 SCENE = PROJECT / "scenes" / "radiosity.yaml"
 SHOWN = (1, 32, 320)
 CHECKED = (*SHOWN, 1000, 3200, 10_000, 32_000)
@@ -64,12 +60,8 @@ SQUARE = 8
 LAMP = 2.0
 """Radiance over which a pixel shows the lamp, whose edge is as sharp as the pixels are."""
 
-Cell = tuple[str, Floats32]
-"""A picture's name, and the picture."""
-
 SIDE = 320
-GAP = 8
-CAPTION = 34
+"""Pixels along a picture of the sheet."""
 
 
 @dataclass(frozen=True)
@@ -103,8 +95,6 @@ def measure_radiosity() -> list[Figure]:
     functions = Functions(scene.effects)
     few = make_patches(scene, GATHERED)
     iterations = iterate(few, functions)
-    for steps, solved in iterations.items():
-        print(f"{steps:>7} iterations, {few.size:,} patches  missing {solved.left:.2g}")
     started = perf_counter()
     patches = make_patches(scene, PATCHES)
     shooting = Shooting(patches, functions)
@@ -134,20 +124,16 @@ def measure_radiosity() -> list[Figure]:
     rows = [
         {
             "shots": p.shots,
-            "seconds": round(p.seconds, 3),
+            "seconds": p.seconds,
             "missing": missing(patches, p.radiosity, final),
             "missing_with_ambient": missing(patches, guess, final),
             "bound": p.bound,
         }
         for p, guess in zip(points, guessed, strict=True)
     ]
-    for row in rows:
-        print(
-            f"{row['shots']:>7} shots {row['seconds']:8.2f} s  missing {row['missing']:7.2%}"
-            f"  with the ambient term {row['missing_with_ambient']:7.2%}  bound {row['bound']:8.2%}"
-        )
-    (OUT / "radiosity.json").write_text(json.dumps(rows, indent=2))
-    keep("radiosity", f"{patches.size:,} patches", [plot(rows)])
+    about = f"{patches.size:,} patches"
+    tables = [iteration_table(iterations, few), shot_table(rows, patches)]
+    report("radiosity", about, tables, [plot(rows)])
     shots = [
         (Solved(p.radiosity, None, p.shots, p.bound, 0), guess)
         for p, guess in zip(points, guessed, strict=True)
@@ -156,30 +142,41 @@ def measure_radiosity() -> list[Figure]:
     pictures = [iteration_cells(scene, few, iterations), *shot_cells(scene, patches, shots)]
     print(f"written to {draw_sheet(pictures, OUT / 'radiosity.png')}")
     off = beside_paths(as_solution(scene, patches, shooting.solved), trace(scene, PATHS))
-    last = points[-1]
+    last, end = points[-1], rows[-1]
+    percent = [100 * end["missing"], 100 * end["bound"]]
     return [
-        Figure(
-            f"radiosity: seconds to {TOLERANCE:.0%}, {patches.size} patches",
-            last.seconds,
-            last.seconds,
-            last.seconds,
-            GOAL,
+        summary(
+            f"radiosity: seconds to {TOLERANCE:.0%}, {patches.size} patches", [last.seconds], GOAL
         ),
-        Figure(
-            "radiosity: light missing then, % of all",
-            100 * missing(patches, last.radiosity, final),
-            100 * missing(patches, last.radiosity, final),
-            100 * last.bound,
-            100 * TOLERANCE,
-        ),
+        Figure("radiosity: light missing then, % of all", percent[0], *percent, 100 * TOLERANCE),
         *(
-            Figure(f"radiosity, beside path tracing: {name}, %", percent, percent, percent, goal)
-            for name, percent, goal in (
-                ("means differ by", 100 * off.mean, 1.0),
-                ("squares differ by, RMS", 100 * off.rms, 2.0),
+            summary(f"radiosity, beside path tracing: {name}, %", [100 * share], goal)
+            for name, share, goal in (
+                ("means differ by", off.mean, 1.0),
+                ("squares differ by, RMS", off.rms, 2.0),
             )
         ),
     ]
+
+
+def iteration_table(iterations: Mapping[int, Solved], patches: Patches) -> Table:
+    """The light that is missing after iterations of gathering."""
+    rows = tuple((f"{steps}", f"{solved.left:.2g}") for steps, solved in iterations.items())
+    return Table(f"Gathering, {patches.size:,} patches", ("iterations", "missing"), rows)
+
+
+def shot_table(rows: Iterable[Mapping[str, float]], patches: Patches) -> Table:
+    """Time and missing light over the shots."""
+    columns = ("shots", "seconds", "missing", "with the ambient term", "bound")
+    cells = tuple(
+        (
+            f"{row['shots']}",
+            f"{row['seconds']:.2f}",
+            *(f"{row[key]:.2%}" for key in ("missing", "missing_with_ambient", "bound")),
+        )
+        for row in rows
+    )
+    return Table(f"Shooting, {patches.size:,} patches", columns, cells)
 
 
 # ---------------------------------------------------------------- iterations
@@ -284,24 +281,6 @@ def shot_cells(
         rows[0].append((name, _look(scene, patches, solved)))
         rows[1].append((f"{name}, ambient term", _look(scene, patches, with_guess)))
     return rows
-
-
-def draw_sheet(rows: Sequence[Sequence[Cell | None]], path: Path) -> Path:
-    """Draw pictures of one size in rows, each under its name; None leaves a place empty."""
-    (side,) = {picture.shape[-1] for row in rows for _, picture in filter(None, row)}
-    width = max(map(len, rows)) * (side + GAP) + GAP
-    page = Image.new("RGB", (width, len(rows) * (side + CAPTION) + GAP), "white")
-    draw, font = ImageDraw.Draw(page), ImageFont.load_default(size=16)
-    for y, row in enumerate(rows):
-        for x, cell in enumerate(row):
-            if cell is not None:
-                name, picture = cell
-                left, top = GAP + x * (side + GAP), y * (side + CAPTION)
-                draw.text((left, top + 8), name, "black", font)
-                page.paste(Image.fromarray(linear_to_srgb8(picture)), (left, top + CAPTION))
-    path.parent.mkdir(parents=True, exist_ok=True)
-    page.save(path)
-    return path
 
 
 def _look(scene: Scene, patches: Patches, solved: Solved) -> Floats32:

@@ -17,15 +17,13 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.curve_files import keep
-from benchmarks.drawing import OUT, sheet, styled, write
-from benchmarks.figures import Figure
+from benchmarks.error_curves import error_curves, error_plot
+from benchmarks.figures import Figure, summary
 from benchmarks.quasi_monte_carlo import COUNTS, SEEDS, SETS
-from benchmarks.timing import median_seconds
-from course.benchmarking.orders import fit_order
-from course.benchmarking.plot_data import Plot, Series
-from course.benchmarking.plots import COLORS, SOFT
-from course.benchmarking.tables import Table, print_tables
+from benchmarks.report import OUT, report
+from course.benchmarking.plot_data import Plot
+from course.benchmarking.plots import COLORS, SOFT, STYLE, sheet, write
+from course.benchmarking.tables import Table
 from course.core.types import Floats32
 from course.effects import PROJECT, Effects
 
@@ -86,18 +84,13 @@ class _Recording(np.random.Generator):
 
 
 def measure_sampling() -> list[Figure]:
-    """Print the acceptance rates and write the point sets."""
+    """Report acceptance rates and errors, and draw the point sets."""
     rates = acceptances(POINTS)
-    print_tables([table(rates)])
-    draw(OUT / "sampling.svg", SHOWN)
-    keep("sampling", f"{SEEDS} seeds", [errors(COUNTS, SEEDS)])
+    report("sampling", f"{SEEDS} seeds", [table(rates)], [errors(COUNTS, SEEDS)])
+    print(f"written to {draw(OUT / 'sampling.svg', SHOWN)}")
     return [
-        Figure(
-            f"sampling: {rate.name}, acceptance off by [standard errors]",
-            abs(rate.off),
-            abs(rate.off),
-            abs(rate.off),
-            LIMIT,
+        summary(
+            f"sampling: {rate.name}, acceptance off by [standard errors]", [abs(rate.off)], LIMIT
         )
         for rate in rates
     ]
@@ -161,22 +154,8 @@ def errors(counts: tuple[int, ...], seeds: int) -> Plot:
     Seconds are those of one estimate, points and mean.
     """
     ways = {name: partial(_mean, points) for name, points in DISKS.items()}
-    seconds = median_seconds(ways, counts, seeds)
-    series = []
-    for style, (name, mean) in zip((4, 0, 1, 2), ways.items(), strict=True):
-        mse = np.empty((len(counts), seeds))
-        for row, n in enumerate(counts):
-            for seed in range(seeds):
-                # Other points for each number of them, lest the errors hang together.
-                mse[row, seed] = (mean(n, 1000 * row + seed) - 1 / 4) ** 2
-        order = fit_order(np.array(counts, np.float64), mse)
-        assert order is not None
-        rmse = tuple(np.sqrt(mse.mean(axis=1)).tolist())
-        places = {"samples": counts, "seconds": seconds[name]}
-        series.append(Series(name, style, places, rmse, order=order.value))
-    title = "the mean of x² over the disk"
-    axes = {"samples": "points", "seconds": "seconds"}
-    return Plot("disk", title, axes, "RMSE", tuple(series))
+    curves = error_curves(ways, 1 / 4, counts, seeds)
+    return error_plot("disk", "the mean of x² over the disk", curves, (4, 0, 1, 2))
 
 
 def _mean(points: Callable[[int, int], Floats32], n: int, seed: int) -> float:
@@ -262,8 +241,10 @@ def inner_share(shape: str, points: Floats32) -> float:
 
 
 def draw(path: Path, shown: int) -> Path:
-    """Nine panels of that many points each."""
-    with styled():
+    """Draw nine panels of that many points each."""
+    from matplotlib import rc_context
+
+    with rc_context(STYLE):
         about = f"{shown} points in each panel; below it the share of 100,000 points, and what is expected"
         figure = sheet("Uniform points, and points that are not", about, (13, 12))
         for row, panels in enumerate(PANELS):

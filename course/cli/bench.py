@@ -195,8 +195,8 @@ def _measure(
 
 
 def _plot(results: Sequence[Measured], folder: Path, note: str) -> None:
-    from course.benchmarking.plots import write_plots
+    from course.benchmarking.plots import write_comparisons
 
     for measured in results:
-        for path in write_plots(measured, folder, note):
+        for path in write_comparisons(measured, folder, note):
             click.echo(f"written: {path}", err=True)

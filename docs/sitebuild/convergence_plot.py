@@ -14,7 +14,7 @@ from math import log, sqrt
 
 from course.benchmarking.plot_data import Plot, Series
 from course.benchmarking.tables import digits
-from sitebuild.convergence_ticks import plain, powers_of_four, ticks
+from course.benchmarking.ticks import plain, powers_of_four, ticks
 
 WIDTH, HEIGHT = 340, 252
 TOP, BOTTOM, RIGHT = 26, 40, 14

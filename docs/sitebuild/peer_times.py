@@ -11,10 +11,10 @@ from html import escape
 from typing import Any
 
 from course.benchmarking.tables import digits
+from course.benchmarking.ticks import plain, ticks
 from course.effects import PROJECT
 from course.errors import CourseError
 from sitebuild.convergence_plot import LETTER, MARKS, WIDTH, Scale
-from sitebuild.convergence_ticks import plain, ticks
 from sitebuild.place import Place
 
 DATA = PROJECT / "docs" / "data" / "peers.json"

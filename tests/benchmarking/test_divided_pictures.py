@@ -9,6 +9,7 @@ import pytest
 
 from benchmarks import adaptive_sampling
 from benchmarks.adaptive_sampling import Effort, Point, rays_for
+from course.benchmarking.plots import write_plots
 
 
 def test_rays_for_an_error_on_a_power_law() -> None:
@@ -32,5 +33,6 @@ def test_a_small_run_finds_that_division_saves_rays(tmp_path: Path) -> None:
     assert fine.regular > 1.2 * fine.point.rays
     rows = adaptive_sampling.table(found, "small").rows
     assert len(rows) == 2
-    drawn = adaptive_sampling.draw(found, "small", tmp_path / "small.svg").read_text("utf-8")
-    assert "divided over 0.1" in drawn
+    plot = adaptive_sampling.plot("small", "small", found)
+    for drawn in write_plots("divided", [plot], "1 round", tmp_path):
+        assert "divided over 0.1" in drawn.read_text("utf-8")

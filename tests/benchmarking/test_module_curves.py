@@ -133,12 +133,16 @@ def test_a_divided_picture_is_a_mark_for_each_depth() -> None:
 
 
 def test_brute_force_tests_every_triangle() -> None:
-    plot = bounding_volumes.plot([(2048, 42.5, 14.0), (32768, 57.0, 12.0)])
+    walk = bounding_volumes.Walk
+    walks = [walk(2048, 4, 1023, 42.5, 14.0), walk(32768, 4, 16383, 57.0, 12.0)]
+    plot = bounding_volumes.plot(walks)
     assert {series.name: series.y for series in plot.series} == {
         "brute force": (2048, 32768),
         "boxes": (42.5, 57.0),
         "triangles": (14.0, 12.0),
     }
+    first, _ = bounding_volumes.table(walks).rows
+    assert first == ("2,048", "4", "1,023", "42.5", "14.0", "2,048")
 
 
 def test_radiosity_is_drawn_over_shots_and_seconds() -> None:

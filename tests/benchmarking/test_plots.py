@@ -11,18 +11,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from course.benchmarking.convergence_data import comparisons
 from course.benchmarking.estimators import BENCHED, Module
+from course.benchmarking.line_names import spread
 from course.benchmarking.measuring import Measured
-from course.benchmarking.plots import (
-    STYLE,
-    check_matplotlib,
-    error_over_samples,
-    error_over_seconds,
-    spread,
-    write_plots,
-)
+from course.benchmarking.plots import STYLE, check_matplotlib, draw, write_comparisons
 from course.errors import CourseError
 from tests.benchmarking.curves import curve, measured
+
+ABOUT = "RMSE against the converged picture; 1234 x 1234 pixels, mean of 3 seeds"
 
 FOUR = measured(
     curve("regular", -0.5, scale=0.09, bias=0.01),
@@ -64,7 +61,7 @@ def words(path: Path) -> list[str]:
 
 def test_figures_say_what_they_show(tmp_path: Path) -> None:
     pytest.importorskip("matplotlib")
-    written = write_plots(FOUR, tmp_path, "a fast machine")
+    written = write_comparisons(FOUR, tmp_path, "a fast machine")
     names = ["soft_shadows_samplers_samples.svg", "soft_shadows_samplers_seconds.svg"]
     assert [path.name for path in written] == names
     samples, seconds = map(words, written)
@@ -81,11 +78,11 @@ def test_figures_say_what_they_show(tmp_path: Path) -> None:
 def test_a_grid_is_told_by_its_floor(tmp_path: Path) -> None:
     pytest.importorskip("matplotlib")
     grid = curve("grid sobol", -0.5, samples=(1, 4, 16), points=4, bias=0.0123)
-    samples = words(write_plots(measured(curve("sobol", -1.0), grid), tmp_path, "")[0])
+    samples = words(write_comparisons(measured(curve("sobol", -1.0), grid), tmp_path, "")[0])
     assert "shadow rays for each pixel" in samples
     assert "bias 0.0123" in samples
     (tmp_path / "alone").mkdir()
-    alone = words(write_plots(measured(grid), tmp_path / "alone", "")[0])
+    alone = words(write_comparisons(measured(grid), tmp_path / "alone", "")[0])
     assert not any("-0.50" in text for text in alone)
     # 16 samples of 4 points each.
     assert "64" in alone
@@ -104,10 +101,12 @@ def test_every_label_is_within_its_figure(module: Module) -> None:
         for number, estimator in enumerate(module.estimators)
     )
     everything = Measured(module, (1234, 1234), curves)
-    for group in module.groups:
-        for draw in (error_over_samples, error_over_seconds):
+    for plot in comparisons(everything):
+        for axis in plot.axes:
             with rc_context(STYLE):
-                figure = draw(everything, group, "A Processor With A Very Long Name And 64 Cores")
+                titled = replace(plot, title=f"{module.title}: {plot.title}")
+                note = "A Processor With A Very Long Name And 64 Cores"
+                figure = draw(titled, axis, ABOUT, note)
                 renderer = FigureCanvasAgg(figure).get_renderer()
                 for text in [*figure.texts, *figure.axes[0].texts]:
                     box = text.get_window_extent(renderer)
@@ -122,18 +121,20 @@ def test_the_same_numbers_make_the_same_file(tmp_path: Path) -> None:
     bytes_of = []
     for name in ("a", "b"):
         (tmp_path / name).mkdir()
-        bytes_of.append([path.read_bytes() for path in write_plots(FOUR, tmp_path / name, "x")])
+        bytes_of.append(
+            [path.read_bytes() for path in write_comparisons(FOUR, tmp_path / name, "x")]
+        )
     assert bytes_of[0] == bytes_of[1]
 
 
 def test_one_estimator_alone_can_be_drawn(tmp_path: Path) -> None:
     pytest.importorskip("matplotlib")
     alone = measured(curve("sobol", -1.0, samples=(1,)))
-    assert len(write_plots(alone, tmp_path, "")) == 2
+    assert len(write_comparisons(alone, tmp_path, "")) == 2
 
 
 def test_what_was_not_measured_has_no_figure(tmp_path: Path) -> None:
     pytest.importorskip("matplotlib")
     item = measured(curve("sobol", -1.0))
     nothing = replace(item, module=replace(item.module, groups={"lights": "none of them"}))
-    assert write_plots(nothing, tmp_path, "") == []
+    assert write_comparisons(nothing, tmp_path, "") == []

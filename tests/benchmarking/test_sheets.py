@@ -10,6 +10,7 @@ import pytest
 from PIL import Image
 
 from benchmarks import path_tracing, radiosity
+from benchmarks.picture_sheet import CAPTION, GAP, Cell, draw_sheet
 from course import load_scene, render
 from course.benchmarking.variants import load_variant
 from course.core.types import Floats32
@@ -42,26 +43,32 @@ def patches(room: Scene) -> Patches:
 
 def test_rays_and_bounces_of_the_sheet(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Every cell is the scene's picture with its row's rays and its column's bounces."""
-    monkeypatch.setattr(path_tracing, "CELL", SIDE)
+    monkeypatch.setattr(path_tracing, "SIDE", SIDE)
     with Image.open(path_tracing.draw_figure(tmp_path / "new" / "sheet.png")) as image:
         sheet = np.asarray(image)
-    margin = path_tracing.MARGIN
-    assert sheet.shape == (margin + 3 * SIDE, margin + 3 * SIDE, 3)
     for column, bounces in enumerate((1, 3, 100)):
         scene = load_variant(path_tracing.SCENE, {("integrator", "max_depth"): bounces})
         for row, rays in enumerate((1, 16, 64)):
             picture = render(scene, size=(SIDE, SIDE), spp=rays).linear
-            top, left = margin + row * SIDE, margin + column * SIDE
-            found = sheet[top : top + SIDE, left : left + SIDE]
             expected = linear_to_srgb8(np.moveaxis(picture, -1, 0))
-            assert (found == expected).all(), (rays, bounces)
-    # Each row and each column has its label in the margin.
-    assert [(sheet[:margin, margin + k * SIDE :][:, :SIDE] < 128).any() for k in range(3)] == [
-        True
-    ] * 3
-    assert [(sheet[margin + k * SIDE :, :margin][:SIDE] < 128).any() for k in range(3)] == [
-        True
-    ] * 3
+            assert (seen(sheet, row, column) == expected).all(), (rays, bounces)
+            assert named(sheet, row, column)
+
+
+def place(row: int, column: int) -> tuple[int, int]:
+    """Top and left of a picture on a sheet."""
+    return row * (SIDE + CAPTION) + CAPTION, GAP + column * (SIDE + GAP)
+
+
+def seen(sheet: np.ndarray, row: int, column: int) -> np.ndarray:
+    top, left = place(row, column)
+    return sheet[top : top + SIDE, left : left + SIDE]
+
+
+def named(sheet: np.ndarray, row: int, column: int) -> bool:
+    """Whether there is dark ink above a picture."""
+    top, left = place(row, column)
+    return bool((sheet[top - CAPTION : top, left : left + SIDE] < 128).any())
 
 
 # ---------------------------------------------------------------- radiosity
@@ -124,23 +131,18 @@ def test_shots_of_the_sheet(room: Scene, patches: Patches, monkeypatch: pytest.M
 def test_pictures_stand_in_their_places(tmp_path: Path) -> None:
     rng = np.random.default_rng(0)
     pictures: list[Floats32] = [rng.random((3, SIDE, SIDE), np.float32) for _ in range(3)]
-    rows: list[list[radiosity.Cell | None]] = [
+    rows: list[list[Cell | None]] = [
         [("a", pictures[0]), ("b", pictures[1])],
         [None, ("c", pictures[2])],
     ]
-    with Image.open(radiosity.draw_sheet(rows, tmp_path / "new" / "sheet.png")) as image:
+    with Image.open(draw_sheet(rows, tmp_path / "new" / "sheet.png")) as image:
         sheet = np.asarray(image)
-    gap, caption = radiosity.GAP, radiosity.CAPTION
-    places = [
-        (y * (SIDE + caption) + caption, gap + x * (SIDE + gap))
-        for y, x in ((0, 0), (0, 1), (1, 1), (1, 0))
-    ]
-    *found, empty = (sheet[top : top + SIDE, left : left + SIDE] for top, left in places)
-    for picture, seen in zip(pictures, found, strict=True):
-        assert (seen == linear_to_srgb8(picture)).all()
-    assert (empty == 255).all()
-    for top, left in places[:3]:
-        assert (sheet[top - caption : top, left : left + SIDE] < 128).any()
+    places = ((0, 0), (0, 1), (1, 1))
+    for picture, at in zip(pictures, places, strict=True):
+        assert (seen(sheet, *at) == linear_to_srgb8(picture)).all()
+        assert named(sheet, *at)
+    assert (seen(sheet, 1, 0) == 255).all()
+    assert not named(sheet, 1, 0)
 
 
 # ---------------------------------------------------------------- radiosity beside path tracing

@@ -10,8 +10,10 @@ from xml.etree import ElementTree as ET
 import numpy as np
 import pytest
 
-from benchmarks import drawing, importance_sampling, quasi_monte_carlo, sampling
+from benchmarks import importance_sampling, quasi_monte_carlo, sampling
 from benchmarks.__main__ import MEASURES
+from course.benchmarking.plot_data import Plot, Series
+from course.benchmarking.plots import STYLE, draw, write, write_plots
 
 pytest.importorskip("matplotlib")
 
@@ -103,7 +105,7 @@ def test_measured_variances_are_those_predicted(
         assert way.curve[0] > 10 * way.curve[-1]
     path = importance_sampling.draw(integrand, found, tmp_path / "figure.svg")
     told = words(path)
-    assert {f"uniform  {found[0].predicted:.2f}", "root-mean-square error", "samples"} <= told
+    assert {f"uniform  {found[0].predicted:.2f}", "RMSE", "samples"} <= told
     assert len(importance_sampling.table(integrand, found).rows) == 4
 
 
@@ -152,7 +154,9 @@ def test_orders_are_fitted_and_drawn(tmp_path: Path) -> None:
     assert order["random"].low < -0.5 < order["random"].high
     assert order["jittered"].value < -0.85
     assert order["Sobol"].value < -1.2
-    told = words(quasi_monte_carlo.draw(integral, curves, tmp_path / "smooth.svg"))
+    plot = quasi_monte_carlo.plot(integral, curves)
+    over_points, _ = write_plots("points", [plot], "16 seeds", tmp_path)
+    told = words(over_points)
     assert {f"{name}  {one.value:.2f}" for name, one in order.items()} <= told
     assert {"order -1/2", "order -1", "points", "RMSE"} <= told
 
@@ -161,16 +165,15 @@ def test_orders_are_fitted_and_drawn(tmp_path: Path) -> None:
 
 
 def test_names_stand_within_the_figure_and_apart(tmp_path: Path) -> None:
+    from matplotlib import rc_context
     from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-    x = np.array([1.0, 100.0])
-    lines = [drawing.Line(f"line {number}", x, 1 / x, number) for number in range(4)]
-    with drawing.styled():
-        figure = drawing.sheet("title", "about")
-        axes = figure.add_axes((0.1, 0.15, 0.58, 0.62))
-        drawing.logarithmic(axes, "x", "y")
-        drawing.draw_lines(axes, lines)
-        drawing.slopes(axes, x, 1.0, [(-0.5, "order -1/2")])
+    lines = tuple(
+        Series(f"line {number}", number, {"x": (1, 100)}, (1.0, 0.01)) for number in range(4)
+    )
+    with rc_context(STYLE):
+        figure = draw(Plot("four", "title", {"x": "x"}, "y", lines), "x", "about")
+        (axes,) = figure.axes
         renderer = FigureCanvasAgg(figure).get_renderer()
         boxes = [text.get_window_extent(renderer) for text in axes.texts if "line" in text._text]
         assert len(boxes) == 4
@@ -179,5 +182,5 @@ def test_names_stand_within_the_figure_and_apart(tmp_path: Path) -> None:
             assert box.x1 <= figure.bbox.x1
         heights = sorted(box.y0 for box in boxes)
         assert all(b - a > 0.9 * boxes[0].height for a, b in pairwise(heights))
-        one = drawing.write(figure, tmp_path / "one.svg").read_bytes()
-        assert drawing.write(figure, tmp_path / "two.svg").read_bytes() == one
+        one = write(figure, tmp_path / "one.svg").read_bytes()
+        assert write(figure, tmp_path / "two.svg").read_bytes() == one

@@ -1,0 +1,80 @@
+"""Errors of estimates of a known mean: over the number of points, with the fitted order and the time of an estimate."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from benchmarks.timing import median_seconds
+from course.benchmarking.orders import Order, fit_order
+from course.benchmarking.plot_data import Plot, Series
+from course.core.types import Floats64
+
+Estimate = Callable[[int, int], float]
+"""Takes a number of points and a seed."""
+
+
+@dataclass(frozen=True)
+class Curve:
+    """Errors of one way to estimate.
+
+    Attributes
+    ----------
+    counts : numbers of points
+    mse : (counts, seeds) squared errors
+    seconds : (counts,) medians of one estimate
+    """
+
+    name: str
+    counts: tuple[int, ...]
+    mse: Floats64
+    order: Order
+    seconds: tuple[float, ...]
+
+    @property
+    def rmse(self) -> Floats64:
+        """(counts,) root-mean-square errors over the seeds."""
+        return np.sqrt(self.mse.mean(axis=1))
+
+
+def error_curves(
+    ways: Mapping[str, Estimate], value: float, counts: tuple[int, ...], seeds: int
+) -> list[Curve]:
+    """Estimate a mean in several ways with each number of points and each seed.
+
+    Parameters
+    ----------
+    value : of the mean
+    """
+    seconds = median_seconds(ways, counts, seeds)
+    curves = []
+    for name, estimate in ways.items():
+        # Each number of points has seeds of its own, so that the errors of a curve are independent.
+        estimates = np.array(
+            [
+                [estimate(n, 1000 * row + seed) for seed in range(seeds)]
+                for row, n in enumerate(counts)
+            ]
+        )
+        mse = (estimates - value) ** 2
+        order = fit_order(np.array(counts, np.float64), mse)
+        assert order is not None
+        curves.append(Curve(name, counts, mse, order, seconds[name]))
+    return curves
+
+
+def error_plot(name: str, title: str, curves: Iterable[Curve], styles: Iterable[int]) -> Plot:
+    """Errors over points and over seconds; a style is a series' colour and mark."""
+    series = tuple(
+        Series(
+            curve.name,
+            style,
+            {"samples": curve.counts, "seconds": curve.seconds},
+            tuple(curve.rmse.tolist()),
+            order=curve.order.value,
+        )
+        for style, curve in zip(styles, curves, strict=False)
+    )
+    return Plot(name, title, {"samples": "points", "seconds": "seconds"}, "RMSE", series)

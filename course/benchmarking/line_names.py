@@ -1,0 +1,74 @@
+"""Names of lines at the right of a plot, beside the ends of their lines and one line of text apart."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+GAP = 0.078
+"""Height of a line of text as a share of the axes' height."""
+
+
+def name_lines(
+    axes: Axes, ends: Sequence[tuple[float, float]], names: Sequence[str], colors: Sequence[str]
+) -> None:
+    """Write each name to the right of the axes, with a thin line to the end (x, y) of its line."""
+    # Limits that are set no longer move; the names are placed by them.
+    axes.set(xlim=axes.get_xlim(), ylim=axes.get_ylim())
+    share = axes.transData + axes.transAxes.inverted()
+    placed = [share.transform(end) for end in ends]
+    heights = spread([float(y) for _, y in placed], GAP)
+    for name, color, end, height in zip(names, colors, placed, heights, strict=True):
+        arrow = {"arrowstyle": "-", "color": color, "linewidth": 1, "alpha": 0.6, "shrinkA": 0}
+        axes.annotate(
+            "",
+            (float(end[0]), float(end[1])),
+            xytext=(1.025, height),
+            xycoords="axes fraction",
+            textcoords="axes fraction",
+            arrowprops=arrow,
+            annotation_clip=False,
+        )
+        axes.text(
+            1.032,
+            height,
+            name,
+            transform=axes.transAxes,
+            color=color,
+            fontsize=14,
+            fontweight="bold",
+            va="center",
+        )
+
+
+def spread(heights: Sequence[float], gap: float) -> list[float]:
+    """Heights in the same order and at least a gap apart, each moved as little as possible.
+
+    Neighbours that are too near are placed side by side about their mean, and are moved together from then on.
+    """
+    order = sorted(range(len(heights)), key=lambda number: heights[number])
+    clusters: list[list[int]] = []
+    for number in order:
+        clusters.append([number])
+        while len(clusters) > 1 and _touch(clusters[-2], clusters[-1], heights, gap):
+            last = clusters.pop()
+            clusters[-1] += last
+    placed = [0.0] * len(heights)
+    for cluster in clusters:
+        for number, height in zip(cluster, _column(cluster, heights, gap), strict=True):
+            placed[number] = height
+    return placed
+
+
+def _touch(lower: list[int], upper: list[int], heights: Sequence[float], gap: float) -> bool:
+    top, bottom = _column(lower, heights, gap)[-1], _column(upper, heights, gap)[0]
+    return bottom - top < gap
+
+
+def _column(cluster: list[int], heights: Sequence[float], gap: float) -> list[float]:
+    middle = sum(heights[number] for number in cluster) / len(cluster)
+    first = middle - gap * (len(cluster) - 1) / 2
+    return [first + gap * place for place in range(len(cluster))]
