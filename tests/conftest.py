@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import signal
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,7 @@ from numpy.typing import NDArray
 from course import Scene, load_scene
 from course.geometry import packets
 from course.rendering import rendering
+from tests.once import Once, made_once, shared_folder
 
 MakeScene = Callable[..., Scene]
 PixelRays = Callable[[Scene], tuple[NDArray[np.float64], NDArray[np.float64]]]
@@ -22,6 +24,12 @@ PixelRays = Callable[[Scene], tuple[NDArray[np.float64], NDArray[np.float64]]]
 # A shell's background jobs begin with Ctrl-C ignored, and so would every process that a test interrupts.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+@pytest.fixture(scope="session")
+def once(tmp_path_factory: pytest.TempPathFactory) -> Once:
+    """Have something made by one process of this run for all of them."""
+    return partial(made_once, shared_folder(tmp_path_factory))
 
 
 @pytest.fixture

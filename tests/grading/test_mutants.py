@@ -5,18 +5,23 @@ In this process and without the pictures that make noise; `make mutants` does th
 
 from __future__ import annotations
 
-from functools import cache
+import re
+from collections import Counter
+from collections.abc import Callable
 
 import numpy as np
 import pytest
 
 from course.effects import COURSE
 from course.grading.calibration import trusted
+from course.grading.catalog import module_checks
 from course.grading.checks.check import Check
-from course.grading.checks.preparing import References, prepared
+from course.grading.checks.preparing import References
 from course.grading.known import Known, known
 from course.grading.mutants import Verdict, judge, matrix
 from course.grading.references import reference
+
+ReferencesOf = Callable[[str], References]
 
 ALL = [submission for module in COURSE for submission in known(module)]
 
@@ -25,15 +30,21 @@ def quick(check: Check) -> bool:
     return check.kind not in ("bias", "speed")
 
 
-@cache
-def arrays(module: str) -> References:
-    return prepared(reference(module), 0)
+def concerned(submission: Known) -> Callable[[Check], bool]:
+    """The checks that a submission may change: those of its wrong function alone if no other function calls it."""
+    defined = Counter(re.findall(r"^def (\w+)\(", submission.source, re.MULTILINE))
+    replaced = {name for name, times in defined.items() if times > 1}
+    called = re.search(rf"(?<!def )\b{submission.function}\(", submission.source)
+    if submission.right or called or replaced > {submission.function}:
+        return quick
+    return lambda check: check.function == submission.function and quick(check)
 
 
 @pytest.mark.filterwarnings("ignore::RuntimeWarning")
 @pytest.mark.parametrize("submission", ALL, ids=[f"{k.module}-{k.name}" for k in ALL])
-def test_the_grader_says_what_it_should(submission: Known) -> None:
-    verdict = judge(submission, trusted(submission), arrays(submission.module), 0, quick)
+def test_the_grader_says_what_it_should(submission: Known, references_of: ReferencesOf) -> None:
+    arrays = references_of(submission.module)
+    verdict = judge(submission, trusted(submission), arrays, 0, concerned(submission))
     assert not verdict.fault, "\n".join(matrix([verdict]))
 
 
@@ -66,13 +77,27 @@ def test_columns_of_the_matrix_stand_apart_and_below_each_other() -> None:
     assert {len(told) - len(told.lstrip()) for told in lines[1::2]} == {n + 1 for n in names}
 
 
-def test_a_grader_that_lets_everything_pass_is_found_out() -> None:
+def test_whoever_replaces_what_others_call_is_asked_about_them_too() -> None:
+    """A wrong `displacement` concerns `to_object_space`, which calls it; a wrong disk concerns nobody else."""
+    for module, name, others in (
+        ("motion_blur", "displacement", True),
+        ("motion_blur", "to_object_space", False),
+        ("thin_lens", "point_on_disk", False),
+    ):
+        one = next(one for one in ALL if (one.module, one.function) == (module, name))
+        asked = {c.function for c in module_checks(module).checks if concerned(one)(c)}
+        assert (asked > {name}) == others, name
+        assert name in asked
+
+
+def test_a_grader_that_lets_everything_pass_is_found_out(references_of: ReferencesOf) -> None:
     wrong = next(submission for submission in ALL if not submission.right)
-    verdict = judge(wrong, reference(wrong.module), arrays(wrong.module), 0, quick)
+    arrays = references_of(wrong.module)
+    verdict = judge(wrong, reference(wrong.module), arrays, 0, quick)
     assert "meant for it" in verdict.fault
 
 
-def test_a_grader_that_fails_the_right_is_found_out() -> None:
+def test_a_grader_that_fails_the_right_is_found_out(references_of: ReferencesOf) -> None:
     right = next(submission for submission in ALL if submission.right)
 
     class Wrong:
@@ -82,5 +107,5 @@ def test_a_grader_that_fails_the_right_is_found_out() -> None:
         def call_and_look(self, _: str, *given: object) -> tuple[object, list[object], bool]:
             return np.zeros(3), list(given), False
 
-    verdict = judge(right, Wrong(), arrays(right.module), 0, quick)
+    verdict = judge(right, Wrong(), references_of(right.module), 0, quick)
     assert verdict.fault.startswith(("right, but fails", "the grader's own error"))

@@ -22,13 +22,6 @@ from course.grading.release.archive import (
 ROOT = Path(__file__).parents[3]
 
 
-@pytest.fixture(scope="module")
-def archive(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    path = tmp_path_factory.mktemp("archive") / "student.zip"
-    write_archive(ROOT, path)
-    return path
-
-
 def _bodies() -> set[str]:
     """Lines between the markers, found without the code under test."""
     lines: set[str] = set()
@@ -84,12 +77,15 @@ def test_scenes_of_metu_are_handed_out_in_either_form(
     assert (contents["scenes/box.xml"], contents["scenes/box.json"]) == (b"xml", b"json")
 
 
+@pytest.mark.usefixtures("references_at_hand")
 def test_the_same_course_gives_the_same_archive(archive: Path, tmp_path: Path) -> None:
+    """Its references too: these were made apart from those in the archive."""
     again = tmp_path / "again.zip"
     write_archive(ROOT, again)
     assert again.read_bytes() == archive.read_bytes()
 
 
+@pytest.mark.usefixtures("references_at_hand")
 def test_a_folder_is_written_like_the_zip_file(archive: Path, tmp_path: Path) -> None:
     count = write_archive(ROOT, tmp_path / "folder")
     with zipfile.ZipFile(archive) as file:
@@ -99,6 +95,7 @@ def test_a_folder_is_written_like_the_zip_file(archive: Path, tmp_path: Path) ->
             assert path.read_bytes() == file.read(name)
 
 
+@pytest.mark.usefixtures("references_at_hand")
 def test_a_folder_with_something_in_it_is_refused(tmp_path: Path) -> None:
     (tmp_path / "mine.txt").write_text("mine")
     with pytest.raises(OutputError, match="not an empty folder"):
@@ -106,6 +103,7 @@ def test_a_folder_with_something_in_it_is_refused(tmp_path: Path) -> None:
     assert [path.name for path in tmp_path.iterdir()] == ["mine.txt"]
 
 
+@pytest.mark.usefixtures("references_at_hand")
 def test_a_solution_that_stands_elsewhere_stops_the_release(tmp_path: Path) -> None:
     for folder in ("solutions", "course", "scenes"):
         shutil.copytree(ROOT / folder, tmp_path / folder)

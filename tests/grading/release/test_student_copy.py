@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+import zipfile
 from pathlib import Path
 
 import pytest
@@ -13,15 +14,15 @@ from course.effects import COURSE, PROJECT
 from course.grading.catalog import module_checks
 from course.grading.checks.result import Status, result_of
 from course.grading.pictures.whole import NAME
-from course.grading.release.archive import write_archive
 from course.grading.report import docs_page, reproduce
 
 
 @pytest.fixture(scope="module")
-def copy(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("student") / "penumbra"
-    write_archive(PROJECT, folder)
-    return folder
+def copy(archive: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("student")
+    with zipfile.ZipFile(archive) as file:
+        file.extractall(folder)
+    return folder / "penumbra"
 
 
 def check(copy: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
