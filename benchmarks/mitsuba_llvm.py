@@ -12,67 +12,12 @@ Symbols as in ``course.transport``: ng, ns geometric and shading normals on the 
 from __future__ import annotations
 
 import math
-import os
-import re
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from benchmarks.mitsuba_export import LOBES, Exported, NotExportableError
-
-VARIANT = "llvm_ad_rgb"
-OLDEST_LLVM = 17
-SAMPLERS = ("independent", "stratified", "multijitter", "orthogonal", "ldsampler")
-LIBRARY_FOLDERS = (
-    "/usr/lib",
-    "/usr/lib64",
-    "/usr/local/lib",
-    "/opt/homebrew/opt",
-    "/usr/local/opt",
-)
-
-
-def find_llvm() -> Path | None:
-    """The newest LLVM library that the variant can use; None where there is none.
-
-    With an LLVM older than 17 the process aborts, so the version is told from the file's name.
-    """
-    named = os.environ.get("DRJIT_LIBLLVM_PATH")
-    if named:
-        return Path(named)
-    found = []
-    for folder in LIBRARY_FOLDERS:
-        for pattern in ("libLLVM*", "*/libLLVM*", "llvm*/lib/libLLVM*", "*/llvm*/lib/libLLVM*"):
-            for path in Path(folder).glob(pattern):
-                version = re.search(r"libLLVM(?:-|\.so\.|\.)(\d+)", path.name)
-                if version and path.exists() and int(version[1]) >= OLDEST_LLVM:
-                    found.append((int(version[1]), str(path)))
-    return Path(max(found)[1]) if found else None
-
-
-def start_llvm(threads: int) -> None:
-    """Switch Mitsuba to its LLVM variant.
-
-    Raises
-    ------
-    NotExportableError
-        There is no LLVM on this machine that Mitsuba can use.
-    """
-    library = find_llvm()
-    if library is None:
-        raise NotExportableError(
-            f"no LLVM {OLDEST_LLVM} or newer was found; install one (Debian: libllvm19) or name the library in"
-            " DRJIT_LIBLLVM_PATH"
-        )
-    os.environ["DRJIT_LIBLLVM_PATH"] = str(library)
-    import drjit
-    import mitsuba
-
-    mitsuba.set_variant(VARIANT)
-    # Samplers that round the number of samples up say so each time; ``samples`` tells it, too.
-    mitsuba.set_log_level(mitsuba.LogLevel.Error)
-    drjit.set_thread_count(threads)
+from benchmarks.mitsuba_sensors import Sensors
 
 
 def make_mesh(
@@ -100,37 +45,6 @@ def make_mesh(
     return mesh
 
 
-def sensor_map(exported: Exported, sampler: str) -> dict[str, Any]:
-    """The camera with its film and sampler, as Mitsuba wants to be told."""
-    import mitsuba as mi
-
-    camera = exported.camera
-    lens = camera["aperture_radius"] > 0
-    sensor = {
-        "type": "thinlens" if lens else "perspective",
-        "fov": camera["vertical_fov"],
-        "fov_axis": "y",
-        "to_world": mi.ScalarTransform4f().look_at(
-            list(camera["eye"]), list(camera["look_at"]), list(camera["up"])
-        ),
-        "shutter_open": 0.0,
-        "shutter_close": exported.shutter if len(exported.parts) > 1 else 0.0,
-        "film": {
-            "type": "hdrfilm",
-            "width": exported.width,
-            "height": exported.height,
-            "pixel_format": "rgb",
-            "component_format": "float32",
-            "rfilter": {"type": "box"},
-        },
-        "sampler": {"type": sampler, "sample_count": 16},
-    }
-    if lens:
-        sensor["aperture_radius"] = camera["aperture_radius"]
-        sensor["focus_distance"] = camera["focus_distance"]
-    return sensor
-
-
 class LlvmScene:
     """A scene in Mitsuba's LLVM variant, which ``start_llvm`` must have switched on.
 
@@ -153,7 +67,6 @@ class LlvmScene:
                 )
         import mitsuba as mi
 
-        self._exported = exported
         scenes = []
         for number, part in enumerate(exported.parts):
             content: dict[str, Any] = {"type": "scene"}
@@ -163,27 +76,18 @@ class LlvmScene:
             scenes.append(mi.load_dict(content))
         self._scene = scenes[0]
         self._integrator = _integrator_class()(exported, scenes)
-        self._sensors: dict[str, Any] = {}
+        self._sensors = Sensors(exported, exported.shutter if len(scenes) > 1 else 0.0)
 
     def render(self, sampler: str, samples: int, seed: int) -> np.ndarray:
         """A picture (H, W, 3) float32; some samplers take more samples than were asked for."""
         picture = self._integrator.render(
-            self._scene, self._sensor(sampler), seed=seed, spp=samples
+            self._scene, self._sensors[sampler], seed=seed, spp=samples
         )
         return np.array(picture)
 
     def samples(self, sampler: str, samples: int) -> int:
         """How many samples the sampler really takes."""
-        drawn = self._sensor(sampler).sampler().clone()
-        drawn.set_sample_count(samples)
-        return int(drawn.sample_count())
-
-    def _sensor(self, sampler: str) -> Any:
-        import mitsuba as mi
-
-        if sampler not in self._sensors:
-            self._sensors[sampler] = mi.load_dict(sensor_map(self._exported, sampler))
-        return self._sensors[sampler]
+        return self._sensors.samples(sampler, samples)
 
 
 def _integrator_class() -> type:

@@ -9,8 +9,9 @@ import sys
 from pathlib import Path
 
 from benchmarks.mitsuba_export import read
-from benchmarks.mitsuba_llvm import LlvmScene, start_llvm
-from benchmarks.mitsuba_scalar import NativeScene, start_scalar
+from benchmarks.mitsuba_llvm import LlvmScene
+from benchmarks.mitsuba_scalar import NativeScene
+from benchmarks.mitsuba_variants import start_llvm, start_scalar
 
 
 def main(folder: str, form: str, sampler: str, samples: str, threads: str, out: str) -> None:

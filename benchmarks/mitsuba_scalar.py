@@ -17,13 +17,12 @@ from typing import Any
 import numpy as np
 
 from benchmarks.mitsuba_export import LOBES, Exported, NotExportableError, Part
-from benchmarks.mitsuba_llvm import make_mesh, sensor_map
+from benchmarks.mitsuba_llvm import make_mesh
+from benchmarks.mitsuba_sensors import Sensors
 from course.scene import description as d
 from course.scene.description.values import rgb
 from course.scene.loading import load_description
 from course.scene.overriding import Overrides
-
-VARIANT = "scalar_rgb"
 
 SAMPLES_A_STILL = 4
 """Of a picture of moving things, which is the mean of stills."""
@@ -33,17 +32,6 @@ ALIKE = {
     "cube_map": "clay can't be kept from lighting itself and the others",
 }
 """Effects whose pictures are alike in both programs, not the same, and what Mitsuba can't do."""
-
-
-def start_scalar(threads: int) -> None:
-    """Switch Mitsuba to its scalar variant."""
-    import drjit
-    import mitsuba
-
-    mitsuba.set_variant(VARIANT)
-    # Samplers that round the number of samples up say so each time; ``samples`` tells it, too.
-    mitsuba.set_log_level(mitsuba.LogLevel.Error)
-    drjit.set_thread_count(threads)
 
 
 def native_overrides(path: Path) -> tuple[Overrides, list[str]]:
@@ -101,7 +89,8 @@ class NativeScene:
 
         self._exported = exported
         self._scene = mi.load_dict(_scene_map(exported))
-        self._sensors: dict[str, Any] = {}
+        # What moves is rendered as stills.
+        self._sensors = Sensors(exported, shutter=0.0)
         self._moving = len(exported.parts) > 1
         self._values = mi.traverse(self._scene)
 
@@ -114,17 +103,13 @@ class NativeScene:
     def samples(self, sampler: str, samples: int) -> int:
         """How many samples the sampler really takes."""
         if self._moving:
-            return samples // SAMPLES_A_STILL * self._drawn(sampler, SAMPLES_A_STILL)
-        return self._drawn(sampler, samples)
-
-    def _drawn(self, sampler: str, samples: int) -> int:
-        drawn = self._sensor(sampler).sampler().clone()
-        drawn.set_sample_count(samples)
-        return int(drawn.sample_count())
+            drawn = self._sensors.samples(sampler, SAMPLES_A_STILL)
+            return samples // SAMPLES_A_STILL * drawn
+        return self._sensors.samples(sampler, samples)
 
     def _still(self, sampler: str, samples: int, seed: int) -> np.ndarray:
         integrator = self._scene.integrator()
-        picture = integrator.render(self._scene, self._sensor(sampler), seed=seed, spp=samples)
+        picture = integrator.render(self._scene, self._sensors[sampler], seed=seed, spp=samples)
         return np.array(picture)
 
     def _stills(self, sampler: str, samples: int, seed: int) -> np.ndarray:
@@ -145,15 +130,6 @@ class NativeScene:
             gone = [v * time for v in part.velocity]
             self._values[f"instance_{number}.to_world"] = mi.Transform4f().translate(gone)
         self._values.update()
-
-    def _sensor(self, sampler: str) -> Any:
-        import mitsuba as mi
-
-        if sampler not in self._sensors:
-            sensor = sensor_map(self._exported, sampler)
-            sensor["shutter_close"] = 0.0
-            self._sensors[sampler] = mi.load_dict(sensor)
-        return self._sensors[sampler]
 
 
 def _scene_map(e: Exported) -> dict[str, Any]:

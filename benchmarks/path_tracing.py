@@ -17,8 +17,8 @@ import numpy as np
 from benchmarks.figures import Figure, summary
 from benchmarks.mitsuba_agreement import Agreement, Converged, compare, converge, save_difference
 from benchmarks.mitsuba_export import export
-from benchmarks.mitsuba_llvm import find_llvm, start_llvm
-from benchmarks.mitsuba_scalar import NativeScene, start_scalar
+from benchmarks.mitsuba_scalar import NativeScene
+from benchmarks.mitsuba_variants import start_fastest
 from benchmarks.picture_sheet import draw_sheet
 from benchmarks.report import OUT, report
 from course import Scene, render
@@ -144,10 +144,7 @@ def our_reference(scene: Scene, effort: Effort, folder: Path) -> Converged:
 
 def their_reference(scene: Scene, effort: Effort, folder: Path) -> Converged:
     """Mitsuba's converged picture."""
-    if find_llvm() is None:
-        start_scalar(THREADS)
-    else:
-        start_llvm(THREADS)
+    start_fastest(THREADS)
     loaded = NativeScene(export(scene, *effort.size))
 
     def picture(seed: int) -> np.ndarray:

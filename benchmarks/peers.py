@@ -31,8 +31,10 @@ import yaml
 
 from benchmarks.mitsuba_agreement import Converged, compare, converge, save_difference
 from benchmarks.mitsuba_export import export, write
-from benchmarks.mitsuba_llvm import SAMPLERS, LlvmScene, find_llvm, start_llvm
-from benchmarks.mitsuba_scalar import ALIKE, NativeScene, native_overrides, start_scalar
+from benchmarks.mitsuba_llvm import LlvmScene
+from benchmarks.mitsuba_scalar import ALIKE, NativeScene, native_overrides
+from benchmarks.mitsuba_sensors import SAMPLERS
+from benchmarks.mitsuba_variants import find_llvm, start_fastest, start_llvm, start_scalar
 from benchmarks.peer_cases import (
     EFFECTS,
     FORMS,
@@ -99,19 +101,17 @@ class Case:
 
     def peer(self) -> LlvmScene | NativeScene:
         """The scene in Mitsuba, in the variant that is measured."""
-        return self._loaded(native_in_llvm=False)
+        return self._loaded(start_llvm if self.form == "llvm" else start_scalar)
 
     def peer_for_reference(self) -> LlvmScene | NativeScene:
-        """The same where the LLVM variant computes it if there is one: the same plugins, many times as fast."""
-        return self._loaded(native_in_llvm=find_llvm() is not None)
+        """The same in the LLVM variant where there is one: the same plugins, many times as fast."""
+        return self._loaded(start_fastest)
 
-    def _loaded(self, *, native_in_llvm: bool) -> LlvmScene | NativeScene:
+    def _loaded(self, start: Callable[[int], None]) -> LlvmScene | NativeScene:
         exported = export(self.scene, *SIZE)
-        if self.form == "llvm":
-            start_llvm(self.threads)
-            return NativeScene(exported) if exported.paths else LlvmScene(exported)
-        (start_llvm if native_in_llvm else start_scalar)(self.threads)
-        return NativeScene(exported)
+        start(self.threads)
+        own = self.form == "llvm" and not exported.paths
+        return LlvmScene(exported) if own else NativeScene(exported)
 
     def our_reference(self) -> Converged:
         """Our converged picture."""
@@ -134,7 +134,7 @@ class Case:
             return loaded[0].render("multijitter", samples, seed)
 
         sources = b"".join(
-            path.read_bytes() for path in sorted(Path(__file__).parent.glob("m*.py"))
+            path.read_bytes() for path in sorted(Path(__file__).parent.glob("mitsuba_*.py"))
         )
         key = scene_hash(
             self.scene.loaded,

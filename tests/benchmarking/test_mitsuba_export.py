@@ -25,8 +25,9 @@ from benchmarks.mitsuba_export import (
     read,
     write,
 )
-from benchmarks.mitsuba_llvm import LlvmScene, find_llvm, start_llvm
-from benchmarks.mitsuba_scalar import NativeScene, native_overrides, start_scalar
+from benchmarks.mitsuba_llvm import LlvmScene
+from benchmarks.mitsuba_scalar import NativeScene, native_overrides
+from benchmarks.mitsuba_variants import find_llvm, start_llvm, start_scalar
 from course import Scene, render
 from course.effects import PROJECT
 from course.geometry import shapes
