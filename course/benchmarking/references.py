@@ -14,7 +14,8 @@ from course.core.types import Floats32
 from course.effects import Effects
 from course.errors import CourseError, OutputError
 from course.imaging.atomic import replacing
-from course.rendering.rendering import Progress, render
+from course.rendering.render import Progress
+from course.rendering.rendering import render
 from course.scene.compiling import compile_scene
 from course.scene.loading import Loaded, load_description
 from course.scene.overriding import Overrides

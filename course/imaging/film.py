@@ -7,17 +7,38 @@ part-pass and is the same, bit for bit, as one that was rendered in one go.
 
 from __future__ import annotations
 
+from typing import Any, Protocol
+
 import numpy as np
 
-from course.core.types import Floats32
+from course.core.types import Floats32, Numbers
 from course.imaging.tiles import Tile
 
 _NEARLY_NOTHING = 1e-300
 """Weight of a mean whose own weights vanish: enough to be divided by, too little to count beside any other."""
 
 
+class AnyFilm(Protocol):
+    """A picture in the making: takes in rendered pieces; which ones, and how, is for the kinds of films.
+
+    Attributes
+    ----------
+    linear : (3, H, W) linear radiance, row 0 the top row
+    samples : (H, W) samples behind each pixel
+    """
+
+    linear: Floats32
+    samples: Numbers
+
+    def add(
+        self, tile: Any, mean: Floats32, weight: Floats32 | float, samples: int, whole: bool
+    ) -> None:
+        """Take in one piece; see ``Film.add``."""
+        ...
+
+
 class Film:
-    """A picture in the making.
+    """The film of uniform sampling.
 
     Parameters
     ----------

@@ -5,8 +5,6 @@ from __future__ import annotations
 from course.core.samplers import FUNCTIONS, make_sampler
 from course.effects import Bound, Need
 from course.imaging.reconstruction import Reconstruction
-from course.rendering.corners import CornerSampler
-from course.rendering.subdivision import Functions
 from course.scene.compiling import compile_camera
 from course.scene.scene import Scene
 from course.scene.world import Settings
@@ -37,6 +35,8 @@ def bind(scene: Scene, settings: Settings, bound: Bound | None = None) -> Tracer
     reconstruction = Reconstruction(resolve, weights, max(film.sigma, NARROWEST))
     sampler = make_sampler(settings.sampler, settings.seed, *functions)
     if settings.subdivision is not None:
+        from course.rendering.corners import CornerSampler
+
         sampler = CornerSampler(settings.seed)
     kind = Tracer
     if compiled.world.paths is not None:
@@ -58,5 +58,7 @@ def needs_of(scene: Scene, settings: Settings) -> tuple[Need, ...]:
     bound = Bound(scene.effects, scene.compiled.needs)
     bind(scene, settings, bound)
     if settings.subdivision is not None:
+        from course.rendering.subdivision import Functions
+
         Functions(bound, settings.subdivision)
     return bound.needs

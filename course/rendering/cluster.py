@@ -14,18 +14,19 @@ import threading
 from collections.abc import Iterable
 from importlib import import_module
 from itertools import islice
-from math import inf
 from queue import SimpleQueue
 from time import monotonic
 from typing import Any
 
 from course.core.types import Floats32
 from course.errors import CourseError
+from course.imaging.film import AnyFilm
 from course.rendering.connection import Connection, arrived
+from course.rendering.in_order import InOrder
 from course.rendering.kept_scenes import KeptScenes, Order, edition
 from course.rendering.parcel import Parcel, pack
 from course.rendering.passes import Work
-from course.rendering.pool import InOrder, Run, Runner, Sink, Tick
+from course.rendering.pool import Executor, Run, Tick
 from course.scene.scene import Scene
 from course.scene.world import Settings
 from course.transport.counters import Counters
@@ -50,8 +51,8 @@ Result = tuple[Floats32, Floats32 | float]
 _kept = KeptScenes()
 
 
-class Cluster(Runner):
-    """Runs work as ``Pool`` does, on the workers of a cluster; close it in the end.
+class Cluster(Executor):
+    """The workers of a cluster; close it in the end.
 
     Parameters
     ----------
@@ -64,11 +65,8 @@ class Cluster(Runner):
         ``distributed`` isn't installed, no scheduler answers, it has no workers, or a file of the scene has gone.
     """
 
-    def __init__(
-        self, address: str, scene: Scene, settings: Settings, film: Sink, packets: bool
-    ) -> None:
+    def __init__(self, address: str, scene: Scene, settings: Settings, packets: bool) -> None:
         super().__init__()
-        self._film = film
         self._order = Order(settings, packets, edition())
         try:
             parcel = pack(scene)
@@ -91,8 +89,8 @@ class Cluster(Runner):
         """The most that all workers had together."""
         return self._connection.most_threads
 
-    def prepare(self, _began: float) -> float:
-        """Wait until the workers have the scene; a time limit counts from then [``time.monotonic()``].
+    def prepare(self) -> float:
+        """Wait until the workers have the scene; see ``Executor.prepare``.
 
         Raises
         ------
@@ -106,18 +104,8 @@ class Cluster(Runner):
             raise self._connection.gone() from error
         return monotonic()
 
-    def run(
-        self,
-        work: Iterable[Work],
-        deadline: float | None,
-        tick: Tick | None,
-    ) -> bool:
-        """Do the work; whether all of it was done.
-
-        Parameters
-        ----------
-        deadline : ``time.monotonic()`` after which nothing is handed out, and soon after which nothing is awaited
-        tick : called now and then from this thread
+    def run(self, work: Iterable[Work], film: AnyFilm, tick: Tick | None = None) -> bool:
+        """See ``Executor.run``; soon after the deadline nothing is awaited any longer.
 
         Raises
         ------
@@ -126,7 +114,7 @@ class Cluster(Runner):
         Exception
             What a worker raised.
         """
-        run = _ClusterRun(work, self._film, deadline)
+        run = _ClusterRun(work, film, self.deadline)
         # A thread of its own, so that Ctrl-C can't come in the middle of adding to the film.
         thread = threading.Thread(target=self._serve, args=(run,), name="cluster", daemon=True)
         self._attend(run, [thread], tick, GRACE)
@@ -208,7 +196,7 @@ def _same(parcel: Parcel) -> Parcel:
 class _ClusterRun(Run):
     """Work that is handed out until it is exhausted or the time is up."""
 
-    def __init__(self, work: Iterable[Work], film: Sink, deadline: float | None) -> None:
+    def __init__(self, work: Iterable[Work], film: AnyFilm, deadline: float) -> None:
         super().__init__(film)
         self.rest = _Rest(work)
         self._deadline = deadline
@@ -221,7 +209,7 @@ class _ClusterRun(Run):
     @property
     def late(self) -> float:
         """Seconds since the deadline; negative before it, and where there is none."""
-        return -inf if self._deadline is None else monotonic() - self._deadline
+        return monotonic() - self._deadline
 
 
 class _Rest:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from course.core.samplers import Block
 from course.core.samplers.sobol import SobolSampler
-from course.core.types import Floats32, Indices, Words
+from course.core.types import Floats32, Numbers, Words
 from course.imaging.tiles import RAYS
 from course.rendering.passes import Work
 
@@ -65,22 +65,28 @@ class CornerGroup:
         return column.astype(np.float32) * scale, row.astype(np.float32) * scale
 
 
-class Corners:
-    """The radiance at each corner that has had its rays; a film for the rounds that bring it.
+class CornerFilm:
+    """A film that takes in the radiance at corners; ``linear`` and ``samples`` are written in the end.
 
     Parameters
     ----------
     width, height : of the picture [pixels]
     depth : how many times a pixel may be divided
-    samples : rays through each corner
+    rays : through each corner
 
     Attributes
     ----------
+    linear : (3, H, W) float32 linear radiance
+    samples : (H, W) int32 rays, each in the one pixel that has its corner on its upper or left side, or inside
     lattice : how many corners there are in all
+    shared : corners asked for that had had their rays
     """
 
-    def __init__(self, width: int, height: int, depth: int, samples: int) -> None:
-        self._width, self._height, self._depth, self._samples = width, height, depth, samples
+    def __init__(self, width: int, height: int, depth: int, rays: int) -> None:
+        self.width, self.height, self._depth, self._rays = width, height, depth, rays
+        self.linear: Floats32 = np.zeros((3, height, width), np.float32)
+        self.samples: Numbers = np.zeros((height, width), np.int32)
+        self.shared = self._shared = 0
         self._columns = (width << depth) + 1
         self.lattice = self._columns * ((height << depth) + 1)
         self._groups = 0
@@ -102,15 +108,16 @@ class Corners:
     def begin_round(self, numbers: Numbers64) -> list[Work]:
         """The work for those of some corners that have had no rays yet, each once."""
         self._coming = np.setdiff1d(numbers, self._known)
+        self._shared = numbers.size - len(self._coming)
         self._arrived = np.zeros((3, len(self._coming)), np.float32)
         work: list[Work] = []
         start = 0
         scale = 1.0 / (1 << self._depth)
-        count = -(-len(self._coming) * self._samples // RAYS)
+        count = -(-len(self._coming) * self._rays // RAYS)
         # Equal groups rather than full ones and a rest.
         for part in np.array_split(self._coming, count) if count else []:
             group = CornerGroup(self._groups, start, part, self._columns, scale)
-            work.append(Work(group, 0, 0, self._samples, True))
+            work.append(Work(group, 0, 0, self._rays, True))
             start += len(part)
             self._groups += 1
         return work
@@ -123,6 +130,7 @@ class Corners:
 
     def end_round(self) -> None:
         """Keep what has come, so that it is found."""
+        self.shared += self._shared
         places = np.searchsorted(self._known, self._coming)
         self._known = np.insert(self._known, places, self._coming)
         self._radiance = np.insert(self._radiance, places, self._arrived, axis=1)
@@ -132,10 +140,10 @@ class Corners:
         places = np.searchsorted(self._known, numbers.ravel())
         return self._radiance.take(places, axis=1).reshape(3, *numbers.shape)
 
-    def rays_by_pixel(self) -> Indices:
-        """(H, W) rays, each in the one pixel that has its corner on its upper or left side, or inside."""
+    def count_rays(self) -> None:
+        """Write ``samples``."""
         row, column = np.divmod(self._known, self._columns)
-        y = np.minimum(row >> self._depth, self._height - 1)
-        x = np.minimum(column >> self._depth, self._width - 1)
-        counts = np.bincount(y * self._width + x, minlength=self._width * self._height)
-        return self._samples * counts.reshape(self._height, self._width)
+        y = np.minimum(row >> self._depth, self.height - 1)
+        x = np.minimum(column >> self._depth, self.width - 1)
+        counts = np.bincount(y * self.width + x, minlength=self.samples.size)
+        self.samples[:] = self._rays * counts.reshape(self.samples.shape)

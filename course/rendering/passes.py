@@ -8,16 +8,32 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Protocol
 
 from course.core.samplers import Sampler
 from course.imaging.tiles import RAYS, Area, Tile, halves, tile_picture
-from course.scene.world import Settings
 
 PASS = 16
 """Samples of each pixel in a whole pass of an extensible sampler."""
 
 SHARES = 2
 """What is rendered at once is at most one part in so many of what each thread would get of what is left to do."""
+
+
+class Sampling(Protocol):
+    """Of the settings of a render, those that say what is to be sampled."""
+
+    @property
+    def width(self) -> int:
+        """Pixels in a row."""
+
+    @property
+    def height(self) -> int:
+        """Rows."""
+
+    @property
+    def samples(self) -> int:
+        """Of each pixel."""
 
 
 @dataclass(frozen=True)
@@ -46,13 +62,13 @@ def fair_share(left: int, threads: int) -> int:
     return left // (SHARES * max(threads, 1))
 
 
-def pass_size(settings: Settings, sampler: Sampler) -> int:
+def pass_size(settings: Sampling, sampler: Sampler) -> int:
     """Samples of each pixel in one pass."""
     return min(settings.samples, PASS) if sampler.extensible else settings.samples
 
 
 def passes(
-    settings: Settings, sampler: Sampler, done: int = 0, batches: int = 1, threads: int = 1
+    settings: Sampling, sampler: Sampler, done: int = 0, batches: int = 1, threads: int = 1
 ) -> Iterator[Work]:
     """The work of a render, pass by pass.
 
@@ -83,7 +99,7 @@ def passes(
                 yield Work(part, order, first, samples, whole, pixels=tile.size)
 
 
-def preview(settings: Settings, samples: int) -> list[Work]:
+def preview(settings: Sampling, samples: int) -> list[Work]:
     """A quick pass that later ones replace, so that a picture is whole before it is good."""
     return [
         Work(tile, 0, 0, samples, False)

@@ -8,8 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from course.core.types import Floats32
-from course.imaging.adaptive_film import AdaptiveFilm
-from course.imaging.film import Film
+from course.imaging.film import AnyFilm
 from course.rendering.receipt import Receipt
 from course.scene.world import Settings
 
@@ -29,7 +28,7 @@ class Picture:
     interrupted : Ctrl-C ended it
     """
 
-    film: Film | AdaptiveFilm
+    film: AnyFilm
     settings: Settings
     receipt: Receipt
     complete: bool

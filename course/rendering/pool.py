@@ -1,17 +1,19 @@
-"""Threads over tiles. Embree and NumPy's loops run without the interpreter lock, so threads are enough.
+"""Executors do the work of a render: threads here; a cluster's workers are another (``course.rendering.cluster``).
 
-``Runner``, ``Run`` and ``InOrder`` are what such a pool has in common with a cluster's workers.
+Embree and NumPy's loops run without the interpreter lock, so threads are enough.
 """
 
 from __future__ import annotations
 
 import os
 import threading
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Sequence
+from math import inf
 from time import monotonic
-from typing import Any, Protocol
 
-from course.core.types import Floats32
+from course.imaging.film import AnyFilm
+from course.rendering.in_order import InOrder
 from course.rendering.passes import Work
 from course.transport.counters import Counters
 from course.transport.tracing import CancelledError, Tracer
@@ -19,18 +21,14 @@ from course.transport.tracing import CancelledError, Tracer
 TICK = 0.05
 """Seconds between two looks of the main thread at progress and Ctrl-C."""
 
+HURRIED = 4
+"""Batches of rays in a tile where a time limit has to be kept; what has begun is finished first."""
+
+LEAST_FOR_RAYS = 0.1
+"""The share of a time limit that is left for rays, however long reading and building took."""
+
 Tick = Callable[[int, int], None]
 """Called with the number of tiles done so far, and how many of them in the first pass."""
-
-
-class Sink(Protocol):
-    """A film, of any kind."""
-
-    def add(
-        self, tile: Any, mean: Floats32, weight: Floats32 | float, samples: int, whole: bool
-    ) -> None:
-        """Take in a piece of work."""
-        ...
 
 
 def default_threads() -> int:
@@ -38,61 +36,6 @@ def default_threads() -> int:
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0)) or 1
     return os.cpu_count() or 1
-
-
-_Rendered = tuple[Work, Floats32, Floats32 | float]
-
-
-class InOrder:
-    """Hands work on to a film, the passes of a tile in their order even if a later one comes first.
-
-    A pass of a tile is in the film when all its parts are, which may come in any order.
-
-    Any number of threads may add at once; different tiles enter the film side by side.
-
-    Attributes
-    ----------
-    done, done_first : tiles, or parts of them, that the film has taken in, and how many of them in the first pass
-    """
-
-    def __init__(self, film: Sink) -> None:
-        self._film = film
-        self._lock = threading.Lock()
-        self._next: dict[int, int] = {}
-        self._missing: dict[int, int] = {}
-        self._early: dict[tuple[int, int], list[_Rendered]] = {}
-        self._adding: set[int] = set()
-        self.done = 0
-        self.done_first = 0
-
-    def add(self, work: Work, pixels: Floats32, weight: Floats32 | float) -> None:
-        """Take in a piece of work, and whatever has waited for it."""
-        tile = work.tile.number
-        with self._lock:
-            self._early.setdefault((tile, work.order), []).append((work, pixels, weight))
-            # Somebody who is adding to this tile now will see this piece when done with the one before.
-            if tile in self._adding:
-                return
-            self._adding.add(tile)
-        while True:
-            with self._lock:
-                order = self._next.get(tile, 0)
-                ready = self._early.get((tile, order))
-                if not ready:
-                    self._adding.discard(tile)
-                    return
-                item, pixels, weight = ready.pop()
-            self._film.add(item.tile, pixels, weight, item.first + item.samples, item.whole)
-            size = item.tile.size
-            with self._lock:
-                self.done += 1
-                self.done_first += item.order == 0
-                missing = self._missing.pop(tile, item.pixels or size) - size
-                if missing:
-                    self._missing[tile] = missing
-                else:
-                    del self._early[tile, order]
-                    self._next[tile] = order + 1
 
 
 class Run:
@@ -106,25 +49,74 @@ class Run:
     error : that ended it
     """
 
-    def __init__(self, film: Sink) -> None:
+    def __init__(self, film: AnyFilm) -> None:
         self.film = InOrder(film)
         self.finished = threading.Event()
         self.stop = False
         self.error: BaseException | None = None
 
 
-class Runner:
-    """Has work done by threads, while the one that calls looks after progress and Ctrl-C.
+class Executor(ABC):
+    """Has work done by threads, while the one that calls looks after progress, time and Ctrl-C.
 
     Attributes
     ----------
     counters : of all work that was done, after each run
     interrupted : Ctrl-C was pressed
+    deadline : ``time.monotonic()`` after which no tile is begun
     """
 
     def __init__(self) -> None:
         self.counters = Counters()
         self.interrupted = False
+        self.deadline = inf
+        self._time_limit = inf
+
+    @property
+    @abstractmethod
+    def threads(self) -> int:
+        """How many threads render."""
+
+    @abstractmethod
+    def run(self, work: Iterable[Work], film: AnyFilm, tick: Tick | None = None) -> bool:
+        """Do the work in order, and have it taken in by the film; whether all of it was done.
+
+        Parameters
+        ----------
+        tick : called now and then from this thread
+        """
+
+    def close(self) -> None:  # noqa: B027 - most hold nothing
+        """Let go of what runs have used."""
+
+    def prepare(self) -> float:
+        """Get ready; a time limit doesn't begin to count before this moment [``time.monotonic()``]."""
+        return -inf
+
+    def limit_time(self, seconds: float, since: float) -> None:
+        """Begin no tile after so many seconds from a moment on [``time.monotonic()``]."""
+        self._time_limit = seconds
+        self.deadline = max(since, self.prepare()) + seconds
+        self.deadline = max(self.deadline, monotonic() + LEAST_FOR_RAYS * seconds)
+
+    @property
+    def limited(self) -> bool:
+        """Whether there is a deadline."""
+        return self.deadline < inf
+
+    @property
+    def left(self) -> float:
+        """Seconds until the deadline; infinite where there is none."""
+        return self.deadline - monotonic()
+
+    @property
+    def elapsed(self) -> float:
+        """The share of the time limit that has passed; 0 where there is none."""
+        return min(1.0 - self.left / self._time_limit, 1.0) if self.limited else 0.0
+
+    def batches(self, most: int) -> int:
+        """Batches of rays that a tile should have, where it may have so many."""
+        return min(most, HURRIED) if self.limited else most
 
     def _attend(
         self,
@@ -155,38 +147,22 @@ class Runner:
             tick(run.film.done, run.film.done_first)
 
 
-class Pool(Runner):
-    """Runs work on threads until it is done, the time is up, or somebody presses Ctrl-C.
+class Pool(Executor):
+    """So many threads of this process, which take tiles one by one."""
 
-    Attributes
-    ----------
-    threads : that render
-    """
-
-    def __init__(self, tracer: Tracer, film: Sink, threads: int) -> None:
+    def __init__(self, tracer: Tracer, threads: int) -> None:
         super().__init__()
         self._tracer = tracer
-        self._film = film
-        self.threads = threads
+        self._threads = threads
 
-    def prepare(self, began: float) -> float:
-        """When a time limit begins to count [``time.monotonic()``]: when the render was asked for."""
-        return began
+    @property
+    def threads(self) -> int:
+        """How many threads render."""
+        return self._threads
 
-    def run(
-        self,
-        work: Iterable[Work],
-        deadline: float | None,
-        tick: Tick | None,
-    ) -> bool:
-        """Do the work in order; whether all of it was done.
-
-        Parameters
-        ----------
-        deadline : ``time.monotonic()`` after which no tile is begun
-        tick : called now and then from this thread
-        """
-        run = _PoolRun(self._tracer, self._film, work, deadline)
+    def run(self, work: Iterable[Work], film: AnyFilm, tick: Tick | None = None) -> bool:
+        """See ``Executor.run``."""
+        run = _PoolRun(self._tracer, film, work, self.deadline)
         threads = [
             threading.Thread(target=run.worker, name=f"tiles-{number}", daemon=True)
             for number in range(self.threads)
@@ -197,15 +173,12 @@ class Pool(Runner):
         self.counters.add(run.counters)
         return run.exhausted and not self.interrupted
 
-    def close(self) -> None:
-        """Nothing: each run ends its threads."""
-
 
 class _PoolRun(Run):
     """Work that threads take one by one, and what it has cost."""
 
     def __init__(
-        self, tracer: Tracer, film: Sink, work: Iterable[Work], deadline: float | None
+        self, tracer: Tracer, film: AnyFilm, work: Iterable[Work], deadline: float
     ) -> None:
         super().__init__(film)
         self._tracer = tracer
@@ -241,7 +214,7 @@ class _PoolRun(Run):
                 self.finished.set()
 
     def _take(self) -> Work | None:
-        if self.stop or (self._deadline is not None and monotonic() > self._deadline):
+        if self.stop or monotonic() > self._deadline:
             return None
         with self._lock:
             work = next(self._work, None)

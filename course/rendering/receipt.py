@@ -39,10 +39,10 @@ class Receipt:
     wall_seconds: float
     threads: int
     samples: float
-    error: dict[str, float] | None
     pixels: int
     seed: int
     version: str
+    error: dict[str, float] | None = None
     subdivision: dict[str, float] | None = None
     tests: dict[str, int] | None = None
 

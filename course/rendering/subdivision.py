@@ -16,11 +16,16 @@ import numpy as np
 
 from course.core.types import Floats32, Floats64, Indices, Mask
 from course.effects import Bound
-from course.errors import EffectError
-from course.imaging.film import Film
-from course.rendering.adaptive import Run
-from course.rendering.corners import Corners
+from course.errors import CourseError, EffectError
+from course.rendering.corners import CornerFilm
+from course.rendering.job import Job, Mode
+from course.rendering.pool import Executor
+from course.rendering.render import Run
 from course.scene.world import Subdivision
+from course.transport.tracing import Tracer
+
+BYTES_A_PIXEL = 400
+"""Cells, their corners and what is known of them; measured, 350 or less."""
 
 SUBDIVIDE = "adaptive_sampling.subdivide"
 _SIDES = ("x0", "y0", "x1", "y1")
@@ -42,31 +47,6 @@ class Cells:
     def chosen(self, which: Mask) -> Cells:
         """Those of a mask (n,)."""
         return Cells(self.sides[:, which], self.pixel[which])
-
-
-@dataclass(frozen=True)
-class Saving:
-    """What became of the rays.
-
-    Attributes
-    ----------
-    shot : corners that got rays
-    shared : corners of cells that had them already, from a neighbour or from the cell that was divided
-    lattice : corners of the smallest cells, had all pixels been divided
-    """
-
-    shot: int
-    shared: int
-    lattice: int
-
-    def to_dict(self) -> dict[str, float]:
-        """For the receipt; ``saved`` is the part of the lattice that got no rays."""
-        return {
-            "corners": self.shot,
-            "shared": self.shared,
-            "lattice": self.lattice,
-            "saved": 1.0 - self.shot / self.lattice,
-        }
 
 
 class Functions:
@@ -111,38 +91,98 @@ class Functions:
         return Cells(sides.reshape(4, -1), np.tile(cells.pixel, 4))
 
 
-def render_subdivided(
-    corners: Corners, film: Film, functions: Functions, depth: int, run: Run
-) -> tuple[bool, Saving]:
-    """Divide pixels by contrast and write their colours into the film; whether all was done, and what it took."""
-    total = np.zeros((3, film.width * film.height))
-    cells, undecided = _pixels(film.width, film.height), None
-    asked = 0
-    complete = True
-    for level in range(depth + 1):
-        x0, y0, x1, y1 = cells.sides
-        numbers = corners.numbers(np.stack((x0, x1, x0, x1)), np.stack((y0, y0, y1, y1)))
-        work = corners.begin_round(numbers)
-        complete = run(work, level / (depth + 1), (level + 1) / (depth + 1))
-        if not complete:
-            break
-        asked += numbers.size
-        corners.end_round()
-        radiance = corners.radiance(numbers)
-        divided = np.zeros(numbers.shape[1], np.bool_)
-        if level < depth:
-            divided = functions.divides(radiance)
-        _add(total, cells.chosen(~divided), radiance[:, :, ~divided])
-        undecided = cells.chosen(divided), radiance[:, :, divided]
-        if not divided.any():
-            break
-        cells = functions.children(undecided[0])
-    if not complete and undecided is not None:
-        # The level that wasn't finished counts as not begun.
-        _add(total, *undecided)
-    film.linear[:] = total.reshape(film.linear.shape)
-    film.samples[:] = corners.rays_by_pixel()
-    return complete, Saving(corners.size, asked - corners.size, corners.lattice)
+class SubdivisionSchedule:
+    """A round for each level: pixels are divided by contrast, and their colours written into the film.
+
+    The picture is covered once the corners of all pixels have had their rays.
+
+    Parameters
+    ----------
+    depth : how many times a pixel may be divided
+    """
+
+    def __init__(self, film: CornerFilm, functions: Functions, depth: int) -> None:
+        self._film = film
+        self._functions = functions
+        self._depth = depth
+
+    def render(self, run: Run, executor: Executor) -> bool:
+        """See ``Schedule``."""
+        complete = self._divide(run)
+        # A ray through a corner draws no place in a pixel.
+        executor.counters.numbers.pop("pixel", None)
+        return complete
+
+    def receipt(self) -> dict[str, Any]:
+        """What became of the rays; ``saved`` is the part of the lattice that got none."""
+        film = self._film
+        return {
+            "subdivision": {
+                "corners": film.size,
+                "shared": film.shared,
+                "lattice": film.lattice,
+                "saved": 1.0 - film.size / film.lattice,
+            }
+        }
+
+    def _divide(self, run: Run) -> bool:
+        film, levels = self._film, self._depth + 1
+        total = np.zeros((3, film.width * film.height))
+        cells, undecided = _pixels(film.width, film.height), None
+        complete = True
+        for level in range(levels):
+            x0, y0, x1, y1 = cells.sides
+            numbers = film.numbers(np.stack((x0, x1, x0, x1)), np.stack((y0, y0, y1, y1)))
+            complete = run(film.begin_round(numbers), level / levels, (level + 1) / levels)
+            if not complete:
+                break
+            film.end_round()
+            radiance = film.radiance(numbers)
+            divided = np.zeros(numbers.shape[1], np.bool_)
+            if level < self._depth:
+                divided = self._functions.divides(radiance)
+            _add(total, cells.chosen(~divided), radiance[:, :, ~divided])
+            undecided = cells.chosen(divided), radiance[:, :, divided]
+            if not divided.any():
+                break
+            cells = self._functions.children(undecided[0])
+        if not complete and undecided is not None:
+            # The level that wasn't finished counts as not begun.
+            _add(total, *undecided)
+        film.linear[:] = total.reshape(film.linear.shape)
+        film.count_rays()
+        return complete
+
+
+def check(job: Job) -> None:
+    """See ``Mode``: what places samples in pixels, or leaves them off, doesn't go with rays through corners."""
+    settings, loaded = job.settings, job.scene.loaded
+    where = f"{loaded.document.where(('film', 'subdivision'))}: film.subdivision"
+    if settings.error is not None:
+        raise CourseError(
+            f"{where} sends rays where corners differ, an error where estimates are large; give one of the two"
+        )
+    if job.time_limit is not None:
+        raise CourseError(
+            f"{where} ends when no cell needs dividing and not by a time limit; a lower depth takes less time"
+        )
+    if settings.sampler != "sobol":
+        raise CourseError(
+            f"{where} places its rays by itself; the {settings.sampler} sampler has nothing to place, use sobol"
+        )
+    if loaded.description.film.filter != "box":
+        raise CourseError(f"{where} weighs cells by their area; film.filter must be box")
+
+
+def make(job: Job, _tracer: Tracer, bound: Bound) -> tuple[CornerFilm, SubdivisionSchedule]:
+    """See ``Mode``."""
+    settings, rule = job.settings, job.settings.subdivision
+    assert rule is not None
+    film = CornerFilm(settings.width, settings.height, rule.depth, settings.samples)
+    return film, SubdivisionSchedule(film, Functions(bound, rule), rule.depth)
+
+
+SUBDIVISION = Mode(check, make, BYTES_A_PIXEL, "a picture by subdivision")
 
 
 def _pixels(width: int, height: int) -> Cells:

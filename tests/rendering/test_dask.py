@@ -29,10 +29,10 @@ from course.rendering import cluster as cluster_module
 from course.rendering import connection as connection_module
 from course.rendering import kept_scenes
 from course.rendering.cluster import PIECE, _Rest
+from course.rendering.in_order import InOrder
 from course.rendering.kept_scenes import KeptScenes, Order, edition
 from course.rendering.parcel import pack, unpack
 from course.rendering.passes import Work
-from course.rendering.pool import InOrder
 from tests.dask_cluster import Cluster
 
 EveryStage = Callable[..., Scene]

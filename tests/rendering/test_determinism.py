@@ -15,7 +15,7 @@ from course.core.samplers import FUNCTIONS
 from course.errors import CourseError
 from course.imaging.film import Film
 from course.imaging.tiles import Tile
-from course.rendering import rendering
+from course.rendering import uniform
 from course.rendering.binding import bind
 from course.rendering.passes import Work, passes
 from course.rendering.pool import Pool
@@ -72,7 +72,7 @@ class Reordered:
             return iter(work)
 
         self.changed = False
-        monkeypatch.setattr(rendering, "passes", reordered)
+        monkeypatch.setattr(uniform, "passes", reordered)
 
 
 def shuffled(work: list[Work]) -> None:
@@ -140,8 +140,8 @@ def test_passes_enter_the_film_in_order_even_if_the_first_is_finished_last() -> 
     tile = Tile(0, 0, 0, 2, 2)
     work = [Work(tile, order, 16 * order, 16, True) for order in range(3)]
     film = Film(2, 2)
-    pool = Pool(Obstinate(), film, 2)  # type: ignore[arg-type]
-    assert pool.run(work, None, None)
+    pool = Pool(Obstinate(), 2)  # type: ignore[arg-type]
+    assert pool.run(work, film)
     assert np.array_equal(film.linear, np.full((3, 2, 2), np.float32((1 + 17 + 33) / 3)))
     assert (film.samples == 48).all()
 

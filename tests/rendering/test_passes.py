@@ -12,8 +12,8 @@ from course.core.samplers.sobol import SobolSampler
 from course.effects import PROJECT
 from course.imaging.film import Film
 from course.imaging.tiles import RAYS
+from course.rendering.in_order import InOrder
 from course.rendering.passes import PASS, SHARES, Work, passes
-from course.rendering.pool import InOrder
 from course.scene.world import Settings
 
 WIDTH, HEIGHT, SAMPLES = 1000, 800, 64

@@ -13,10 +13,10 @@ import yaml
 
 from course import CourseError, EffectError, Picture, Scene, load_scene, render
 from course.effects import PROJECT, Bound, Effects
-from course.imaging.film import Film
-from course.rendering.corners import Corners
+from course.rendering.corners import CornerFilm
 from course.rendering.passes import Work
-from course.rendering.subdivision import Functions, render_subdivided
+from course.rendering.pool import Pool
+from course.rendering.subdivision import Functions, SubdivisionSchedule
 from course.rendering.summary import summarize
 from course.scene.world import Subdivision
 
@@ -184,7 +184,7 @@ def test_threshold_0_is_the_trapezoidal_rule_on_the_whole_lattice(make_scene: Ma
 
 def test_each_corner_is_asked_for_once() -> None:
     # Two pixels side by side, then their like half a pixel further on.
-    corners = Corners(3, 1, 1, 1)
+    corners = CornerFilm(3, 1, 1, 1)
     x = np.array([0, 1, 0, 1, 1, 2, 1, 2], np.float32)
     y = np.array([0, 0, 1, 1, 0, 0, 1, 1], np.float32)
     numbers = corners.numbers(x, y)
@@ -310,7 +310,7 @@ def test_a_function_that_is_not_written_is_told_with_the_line_that_asks(
 
 def test_a_level_that_is_interrupted_leaves_the_one_before() -> None:
     # The first round brings a step between columns, the second is broken off.
-    corners, picture = Corners(2, 1, 3, 1), Film(2, 1)
+    corners = CornerFilm(2, 1, 3, 1)
     functions = Functions(Bound(Effects(PROJECT / "solutions")), Subdivision(0.1, 3))
     rounds = []
 
@@ -323,11 +323,11 @@ def test_a_level_that_is_interrupted_leaves_the_one_before() -> None:
             corners.add(item.tile, np.tile((x > 1).astype(np.float32), (3, 1)), 1.0, 1, True)
         return True
 
-    complete, saving = render_subdivided(corners, picture, functions, 3, run)
-    assert not complete
+    schedule = SubdivisionSchedule(corners, functions, 3)
+    assert not schedule.render(run, Pool(None, 1))  # type: ignore[arg-type]
     assert len(rounds) == 2
-    assert picture.linear[0].tolist() == [[0.0, 0.5]]
-    assert saving.shot == 6
+    assert corners.linear[0].tolist() == [[0.0, 0.5]]
+    assert schedule.receipt()["subdivision"]["corners"] == 6
 
 
 SCENES = PROJECT / "scenes"

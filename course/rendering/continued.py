@@ -1,0 +1,55 @@
+"""The modes of uniform sampling, which may go on from a picture with fewer samples."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from course.core.samplers import Sampler
+from course.effects import Bound
+from course.errors import CourseError
+from course.imaging.film import Film
+from course.rendering.job import Job, Mode
+from course.rendering.passes import kept_samples
+from course.rendering.render import Schedule
+from course.rendering.time_limit import TimedSchedule
+from course.rendering.uniform import UniformSchedule
+from course.transport.tracing import Tracer
+
+
+def check(_job: Job) -> None:
+    """All settings go with uniform sampling."""
+
+
+def make_uniform(job: Job, tracer: Tracer, _bound: Bound) -> tuple[Film, Schedule]:
+    """All samples of every pixel."""
+    film, done = _film(job, tracer.sampler)
+    return film, UniformSchedule(tracer, done)
+
+
+def make_timed(job: Job, tracer: Tracer, _bound: Bound) -> tuple[Film, Schedule]:
+    """As many samples of every pixel as fit into the time."""
+    film, done = _film(job, tracer.sampler)
+    return film, TimedSchedule(tracer, done)
+
+
+UNIFORM = Mode(check, make_uniform)
+TIMED = Mode(check, make_timed)
+
+
+def _film(job: Job, sampler: Sampler) -> tuple[Film, int]:
+    """An empty film, or what can be kept of the picture to continue, and the samples that it holds."""
+    start, settings = job.start, job.settings
+    if start is None:
+        return Film(settings.width, settings.height), 0
+    same = replace(start.settings, samples=settings.samples) == settings
+    if not same or not start.complete or start.settings.samples > settings.samples:
+        raise CourseError(
+            "only a complete picture of the same settings and fewer samples can be continued"
+        )
+    if not sampler.extensible:
+        raise CourseError(
+            f"the {settings.sampler} sampler places all its samples at once; start afresh"
+        )
+    done = kept_samples(start.settings.samples)
+    assert isinstance(start.film, Film)
+    return start.film.continued(done), done

@@ -1,0 +1,29 @@
+"""The schedule under a time limit: a preview, so that every pixel has something, then as many passes as fit."""
+
+from __future__ import annotations
+
+from course.rendering.passes import pass_size, preview
+from course.rendering.pool import Executor
+from course.rendering.render import Run
+from course.rendering.uniform import UniformSchedule
+
+
+class TimedSchedule(UniformSchedule):
+    """Uniform passes until the executor's deadline."""
+
+    def render(self, run: Run, executor: Executor) -> bool:
+        """See ``Schedule``."""
+        settings = self._tracer.settings
+        size = pass_size(settings, self._tracer.sampler)
+        for quick in (1, 4):
+            # Where a whole pass surely fits, a preview only costs.
+            if size <= quick or self._done:
+                break
+            before = executor.left
+            run(preview(settings, quick), 0.0, 0.0)
+            if executor.interrupted:
+                return False
+            seconds = before - executor.left
+            if seconds * size / quick < 0.5 * executor.left:
+                break
+        return run(self._passes(executor))
