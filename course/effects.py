@@ -37,7 +37,7 @@ MODULES: dict[str, tuple[str, ...]] = {
     "motion_blur": ("shutter_times", "displacement", "to_object_space"),
     "cube_map": ("face_and_uv", "lookup", "lookup_seamless"),
 }
-"""Each module that the renderer calls and its functions, in the course's order."""
+"""The six core modules and their functions, in the course's order."""
 
 FURTHER: dict[str, tuple[str, ...]] = {
     "sampling": (
@@ -64,7 +64,7 @@ FURTHER: dict[str, tuple[str, ...]] = {
     "path_tracing": ("diffuse_bounce", "throughput", "russian_roulette"),
     "radiosity": ("hemicube_form_factors", "gather", "shoot", "needs_split"),
 }
-"""Modules that are written and checked like those; few scenes call them, or none."""
+"""The other modules. The renderer calls the functions of both that are listed in ``course.contracts``."""
 
 COURSE = MODULES | FURTHER
 """All modules of the course."""

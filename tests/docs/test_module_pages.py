@@ -31,6 +31,7 @@ def test_a_page_gives_no_solution_away(module: str) -> None:
 DOCUMENTS = [
     *sorted((PROJECT / "docs").rglob("*.md")),
     PROJECT / "README.md",
+    PROJECT / "CONTRIBUTING.md",
     PROJECT / "scenes" / "README.md",
 ]
 
@@ -40,7 +41,7 @@ def test_every_file_that_is_named_is_there(path: Path) -> None:
     text = path.read_text(encoding="utf-8")
     folders = "assignments|benchmarks|course|docs|scenes|solutions|tests"
     for name in re.findall(rf"`((?:{folders})/[\w/.]*)`", text):
-        # The module that a reader is shown how to add isn't there.
+        # Nor are a name to be replaced, the module that a reader adds, or a file that a command writes.
         made = "NAME" in name or "vignetting" in name or name == "scenes/scene.schema.json"
         if not made:
             assert (PROJECT / name).exists(), name

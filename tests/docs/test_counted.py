@@ -1,0 +1,72 @@
+"""What pages count or list of the course is what the code has: modules, functions, floors, known submissions."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from course.contracts import CONTRACTS
+from course.effects import COURSE, FURTHER, MODULES, PROJECT
+from course.grading.known import known
+from tests.test_layers import FLOORS
+
+DOCS = PROJECT / "docs"
+
+WORDS = {"three": 3, "six": 6, "seven": 7, "fifteen": 15, "twenty": 20}
+"""Numbers that pages write as words."""
+
+
+def text_of(path: Path) -> str:
+    return path.read_text(encoding="utf-8")
+
+
+def number(word: str) -> int:
+    return int(word) if word.isdigit() else WORDS[word.lower()]
+
+
+def test_the_readme_lists_every_module() -> None:
+    text = text_of(PROJECT / "README.md")
+    (counted,) = re.findall(r"^## (\w+) modules$", text, re.MULTILINE)
+    listed = re.findall(r"^\| \[(\w+)\]\(docs/modules/\1\.md\)", text, re.MULTILINE)
+    assert number(counted) == len(COURSE)
+    assert sorted(listed) == sorted(COURSE)
+
+
+@pytest.mark.parametrize(
+    ("caption", "modules"), [("The six core modules", MODULES), ("Further modules", FURTHER)]
+)
+def test_the_site_lists_the_modules_in_their_order(
+    caption: str, modules: dict[str, tuple[str, ...]]
+) -> None:
+    pages = text_of(DOCS / "index.md").partition(f":caption: {caption}\n")[2].partition("```")[0]
+    assert re.findall(r"^modules/(\w+)$", pages, re.MULTILINE) == list(modules)
+    for word in re.findall(r"(\w+) core modules", caption):
+        assert number(word) == len(modules)
+
+
+def test_the_floors_are_those_that_imports_are_held_to() -> None:
+    rows = re.findall(r"^\| (\d) \| (.*?) \|", text_of(DOCS / "architecture.md"), re.MULTILINE)
+    told = {name: int(floor) for floor, names in rows for name in re.findall(r"`(\w+)`", names)}
+    assert told == {name: floor for name, floor in FLOORS.items() if not name.startswith("__")}
+
+
+def test_every_function_of_the_course_is_counted() -> None:
+    functions = [f"{module}.{name}" for module in COURSE for name in COURSE[module]]
+    counts = re.findall(r"of the (\d+) functions", text_of(DOCS / "grading.md"))
+    assert {int(count) for count in counts} == {len(functions)}
+    assert set(CONTRACTS) < set(functions)
+
+
+@pytest.mark.parametrize(
+    "page", ["CONTRIBUTING.md", "docs/grading.md", "docs/guides/new_module.md"]
+)
+def test_modules_have_as_many_known_submissions_as_pages_say(page: str) -> None:
+    text = " ".join(text_of(PROJECT / page).split())
+    rights = re.findall(r"(?:at least )?(\w+) right ones", text)
+    wrongs = re.findall(r"(\w+) (?:wrong ones|submissions with typical mistakes)", text)
+    for words, right in ((rights, True), (wrongs, False)):
+        (least,) = {number(word) for word in words if word.lower() in WORDS}
+        for module in COURSE:
+            assert sum(each.right == right for each in known(module)) >= least, module
