@@ -28,9 +28,14 @@ def references_file(once: Once) -> Callable[[str], Path]:
 
 
 @pytest.fixture(scope="session")
-def references_of(references_file: Callable[[str], Path]) -> Callable[[str], References]:
-    """The references of one module."""
-    return cache(lambda module: read_references(references_file(module), SEED))
+def usual_references(references_file: Callable[[str], Path]) -> References:
+    """The references of all modules."""
+
+    @cache
+    def of(module: str) -> References:
+        return read_references(references_file(module), SEED)
+
+    return lambda module, check: of(module)(module, check) if check.prepare else {}
 
 
 @pytest.fixture

@@ -6,18 +6,15 @@ check for most of them, which `test_mutants` holds.
 
 from __future__ import annotations
 
-from functools import cache
-
 import pytest
 
 from course.grading.calibration import trusted
 from course.grading.catalog import module_checks
 from course.grading.checks.check import ModuleChecks
-from course.grading.checks.preparing import References, prepared
+from course.grading.checks.preparing import References
 from course.grading.checks.result import Status
 from course.grading.checks.running import run_checks
 from course.grading.known import Known, known
-from course.grading.references import reference
 
 MODULES = ("sampling", "adaptive_sampling")
 SHOWN = {
@@ -33,12 +30,7 @@ SHOWN = {
 }
 
 
-@cache
-def arrays(module: str) -> References:
-    return prepared(reference(module), 0)
-
-
-def statuses(submission: Known, kind: str) -> dict[str, Status]:
+def statuses(submission: Known, kind: str, references: References) -> dict[str, Status]:
     """By function, of the checks of a kind; for a wrong submission of its wrong function alone."""
     module = submission.module
     checks = [
@@ -47,7 +39,7 @@ def statuses(submission: Known, kind: str) -> dict[str, Status]:
         if check.kind == kind and submission.function in ("", check.function)
     ]
     alone = ModuleChecks(module, tuple(checks))
-    results = run_checks(alone, trusted(submission), arrays(module), 0)
+    results = run_checks(alone, trusted(submission), references, 0)
     return {result.function: result.status for result in results}
 
 
@@ -55,16 +47,18 @@ RIGHT = [submission for module in MODULES for submission in known(module) if sub
 
 
 @pytest.mark.parametrize("submission", RIGHT, ids=[f"{k.module}-{k.name}" for k in RIGHT])
-def test_right_ones_pass(submission: Known) -> None:
-    found = statuses(submission, "picture") | statuses(submission, "bias")
+def test_right_ones_pass(submission: Known, usual_references: References) -> None:
+    found = {}
+    for kind in ("picture", "bias"):
+        found |= statuses(submission, kind, usual_references)
     assert found
     assert set(found.values()) == {Status.PASSED}, found
 
 
 @pytest.mark.filterwarnings("ignore::RuntimeWarning")
 @pytest.mark.parametrize(("module", "kind"), SHOWN)
-def test_wrong_ones_are_shown(module: str, kind: str) -> None:
+def test_wrong_ones_are_shown(module: str, kind: str, usual_references: References) -> None:
     wrong = {submission.name: submission for submission in known(module) if not submission.right}
     for name in sorted(SHOWN[module, kind]):
-        found = statuses(wrong[name], kind)
+        found = statuses(wrong[name], kind, usual_references)
         assert found == {wrong[name].function: Status.FAILED}, name

@@ -21,8 +21,6 @@ from course.grading.known import Known, known
 from course.grading.mutants import Verdict, judge, matrix
 from course.grading.references import reference
 
-ReferencesOf = Callable[[str], References]
-
 ALL = [submission for module in COURSE for submission in known(module)]
 
 
@@ -42,9 +40,9 @@ def concerned(submission: Known) -> Callable[[Check], bool]:
 
 @pytest.mark.filterwarnings("ignore::RuntimeWarning")
 @pytest.mark.parametrize("submission", ALL, ids=[f"{k.module}-{k.name}" for k in ALL])
-def test_the_grader_says_what_it_should(submission: Known, references_of: ReferencesOf) -> None:
-    arrays = references_of(submission.module)
-    verdict = judge(submission, trusted(submission), arrays, 0, concerned(submission))
+def test_the_grader_says_what_it_should(submission: Known, usual_references: References) -> None:
+    only = concerned(submission)
+    verdict = judge(submission, trusted(submission), usual_references, 0, only)
     assert not verdict.fault, "\n".join(matrix([verdict]))
 
 
@@ -90,14 +88,13 @@ def test_whoever_replaces_what_others_call_is_asked_about_them_too() -> None:
         assert name in asked
 
 
-def test_a_grader_that_lets_everything_pass_is_found_out(references_of: ReferencesOf) -> None:
+def test_a_grader_that_lets_everything_pass_is_found_out(usual_references: References) -> None:
     wrong = next(submission for submission in ALL if not submission.right)
-    arrays = references_of(wrong.module)
-    verdict = judge(wrong, reference(wrong.module), arrays, 0, quick)
+    verdict = judge(wrong, reference(wrong.module), usual_references, 0, quick)
     assert "meant for it" in verdict.fault
 
 
-def test_a_grader_that_fails_the_right_is_found_out(references_of: ReferencesOf) -> None:
+def test_a_grader_that_fails_the_right_is_found_out(usual_references: References) -> None:
     right = next(submission for submission in ALL if submission.right)
 
     class Wrong:
@@ -107,5 +104,5 @@ def test_a_grader_that_fails_the_right_is_found_out(references_of: ReferencesOf)
         def call_and_look(self, _: str, *given: object) -> tuple[object, list[object], bool]:
             return np.zeros(3), list(given), False
 
-    verdict = judge(right, Wrong(), references_of(right.module), 0, quick)
+    verdict = judge(right, Wrong(), usual_references, 0, quick)
     assert verdict.fault.startswith(("right, but fails", "the grader's own error"))

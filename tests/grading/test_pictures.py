@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -9,7 +10,7 @@ import pytest
 
 from course.effects import COURSE, PROJECT, Effects
 from course.grading.checks.check import Check, Failure, ModuleChecks, Trial
-from course.grading.checks.preparing import generator, prepared
+from course.grading.checks.preparing import References, generator, prepared
 from course.grading.checks.result import Result, Status
 from course.grading.checks.running import run_checks
 from course.grading.checks.trusted import TrustedModule
@@ -36,14 +37,22 @@ def solution(module: str, **others: Any) -> TrustedModule:
     return TrustedModule({name: effects.function(module, name) for name in COURSE[module]} | others)
 
 
-def judged(module: str, check: Check, caller: TrustedModule) -> Result:
-    alone = ModuleChecks(module, (check,))
-    (result,) = run_checks(alone, caller, prepared(reference(module), 0), 0)
-    return result
+Judged = Callable[[str, Check, TrustedModule], Result]
+
+
+@pytest.fixture
+def judged(usual_references: References) -> Judged:
+    """The result of one check alone."""
+
+    def judge(module: str, check: Check, caller: TrustedModule) -> Result:
+        (result,) = run_checks(ModuleChecks(module, (check,)), caller, usual_references, 0)
+        return result
+
+    return judge
 
 
 @pytest.mark.parametrize(("module", "check"), LOOKS, ids=IDS)
-def test_the_reference_looks_like_itself(module: str, check: Check) -> None:
+def test_the_reference_looks_like_itself(module: str, check: Check, judged: Judged) -> None:
     result = judged(module, check, solution(module))
     assert result.status is Status.PASSED, result
     arrays = result.figures[0].arrays
@@ -63,7 +72,7 @@ JUNK: dict[str, Any] = {
 
 @pytest.mark.parametrize("junk", JUNK)
 @pytest.mark.parametrize(("module", "check"), LOOKS, ids=IDS)
-def test_junk_is_the_students_failure(module: str, check: Check, junk: str) -> None:
+def test_junk_is_the_students_failure(module: str, check: Check, junk: str, judged: Judged) -> None:
     result = judged(module, check, solution(module, **{check.function: lambda *_: JUNK[junk]}))
     assert result.status is Status.FAILED, result
     assert "instead of" in result.found
@@ -71,7 +80,9 @@ def test_junk_is_the_students_failure(module: str, check: Check, junk: str) -> N
 
 @pytest.mark.parametrize("number", [np.nan, np.inf, -np.inf, 3e38, 0.0])
 @pytest.mark.parametrize(("module", "check"), LOOKS, ids=IDS)
-def test_numbers_that_make_no_sense_fail_too(module: str, check: Check, number: float) -> None:
+def test_numbers_that_make_no_sense_fail_too(
+    module: str, check: Check, number: float, judged: Judged
+) -> None:
     right = solution(module)
 
     def wrong(*arguments: Any) -> Any:
@@ -115,7 +126,7 @@ def test_a_scene_that_was_rendered_before_gives_the_same_picture() -> None:
     assert again.tobytes() == rendered(afresh, spp=16, seed=5).tobytes()
 
 
-def test_a_mistake_before_or_after_a_function_costs_nothing_there() -> None:
+def test_a_mistake_before_or_after_a_function_costs_nothing_there(judged: Judged) -> None:
     for module, check in LOOKS:
         others = {name: None for name in COURSE[module] if name != check.function}
         broken = dict.fromkeys(others, _raises)
@@ -128,13 +139,12 @@ def _raises(*_: Any) -> Any:
     raise RuntimeError("broken")
 
 
-def test_the_whole_picture_needs_every_function_of_it() -> None:
+def test_the_whole_picture_needs_every_function_of_it(usual_references: References) -> None:
     (check,) = WHOLE.checks
-    references = prepared(reference("whole"), 0)
     for module, name in (("thin_lens", "point_on_disk"), ("cube_map", "lookup_seamless")):
         callers = {other: solution(other) for other in COURSE}
         callers[module] = solution(module, **{name: _raises})
-        (result,) = run_checks(WHOLE, Together(callers), references, 0)
+        (result,) = run_checks(WHOLE, Together(callers), usual_references, 0)
         assert result.status is Status.FAILED
         assert "broken" in result.found
     assert check.points > 0
@@ -170,12 +180,12 @@ def test_a_bias_of_one_percent_is_found_under_noise_of_ten() -> None:
     [("blurred_transparency", "jitter_refraction"), ("path_tracing", "diffuse_bounce")],
 )
 def test_what_comes_before_is_replayed_for_every_picture_of_a_bias(
-    module: str, function: str
+    module: str, function: str, judged: Judged, usual_references: References
 ) -> None:
     """Right whatever the functions before it do, and four different pictures."""
     (check,) = (c for c in PICTURES[module] if c.function == function and c.kind == "bias")
     others = {name: _raises for name in COURSE[module] if name != function}
     assert judged(module, check, solution(module, **others)).status is Status.PASSED
-    tape = prepared(reference(module), 0)(module, check)
+    tape = usual_references(module, check)
     before = {"blurred_transparency": "tape/refract/{}/0", "path_tracing": "tape/throughput/{}"}
     assert {before[module].format(number) for number in range(4)} <= set(tape)

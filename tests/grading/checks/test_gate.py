@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import cache
 from typing import Any
 
 import numpy as np
@@ -12,7 +11,7 @@ from course.effects import COURSE
 from course.grading.catalog import module_checks
 from course.grading.checks.check import Caller, Check, ModuleChecks
 from course.grading.checks.gate import Gate
-from course.grading.checks.preparing import References, prepared
+from course.grading.checks.preparing import References
 from course.grading.checks.result import Status
 from course.grading.checks.running import run_checks
 from course.grading.checks.trusted import TrustedModule
@@ -41,14 +40,9 @@ class Changed:
         return self.call(function, *arguments), [*arguments], False
 
 
-@cache
-def arrays(module: str) -> References:
-    return prepared(reference(module), 0)
-
-
-def ended(module: str, check: Check, caller: Caller) -> Any:
+def ended(module: str, check: Check, caller: Caller, references: References) -> Any:
     one = ModuleChecks(module, (check,))
-    return next(run_checks(one, caller, arrays(module), 0, standard=lambda: reference(module)))
+    return next(run_checks(one, caller, references, 0, standard=lambda: reference(module)))
 
 
 CHANGES = {
@@ -62,9 +56,12 @@ CHANGES = {
 @pytest.mark.parametrize(
     ("module", "check"), RENDERED, ids=[f"{m}.{c.function}/{c.name}" for m, c in RENDERED]
 )
-def test_no_picture_bias_or_order_is_earned_by_what_is_no_array(module: str, check: Check) -> None:
+def test_no_picture_bias_or_order_is_earned_by_what_is_no_array(
+    module: str, check: Check, usual_references: References
+) -> None:
     for change in CHANGES.values():
-        result = ended(module, check, Changed(module, check.function, change))
+        changed = Changed(module, check.function, change)
+        result = ended(module, check, changed, usual_references)
         assert (result.status, result.points, result.broken) == (Status.FAILED, 0, False)
         assert result.found.startswith(f"{check.function} returned ")
 

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from course.effects import COURSE
+from course.grading.checks.preparing import References
 from course.grading.grading import grade
 from course.grading.references import references
 from course.grading.release.archive import FOLDERS
@@ -32,13 +33,13 @@ def test_the_page_names_each_function_and_its_answer() -> None:
 
 
 @pytest.mark.parametrize("name", ANSWERS)
-def test_it_is_worth_what_the_page_says(name: str) -> None:
+def test_it_is_worth_what_the_page_says(name: str, usual_references: References) -> None:
     answer = ANSWERS[name]
     assert answer.file.partition("/")[0] in FOLDERS
     module, _, function = name.partition(".")
     report = grade(
         {module: copied(answer).encode()},
-        references(),
+        usual_references,
         modules=[module],
         only=lambda check: check.function == function,
     )
