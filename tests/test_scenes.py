@@ -9,14 +9,18 @@ from __future__ import annotations
 import re
 import subprocess
 import sys
+from functools import cache
 from pathlib import Path
 
 import pytest
 import yaml
 
 from course import load_scene, render
+from course.cli.tables import summary_sections
 from course.effects import MODULES
 from course.imaging.reading import read_picture
+from course.rendering.picture import Picture
+from course.rendering.summary import summarize
 
 SCENES = Path(__file__).parent.parent / "scenes"
 ALL = sorted(SCENES.rglob("*.yaml"))
@@ -33,11 +37,18 @@ MAY_DIFFER = {
 }
 
 
-def called(path: Path) -> set[str]:
-    """The student functions that a small picture of a scene calls; its own number of samples."""
+@cache
+def rendered(path: Path) -> tuple[Picture, str]:
+    """A small picture of a scene, and what `course info` says of the scene: to load it takes most of the time."""
     samples = yaml.safe_load(path.read_text(encoding="utf-8")).get("sampler", {}).get("samples", 16)
-    picture = render(load_scene(path), size=(16, 12), spp=1 if samples == 1 else 4)
-    return set(picture.receipt.to_dict()["effects"]["called"])
+    scene = load_scene(path)
+    picture = render(scene, size=(16, 12), spp=1 if samples == 1 else 4)
+    return picture, str(summary_sections(summarize(scene)))
+
+
+def called(path: Path) -> set[str]:
+    """The student functions that a small picture of a scene calls."""
+    return set(rendered(path)[0].receipt.to_dict()["effects"]["called"])
 
 
 def modules(functions: set[str]) -> set[str]:
@@ -61,10 +72,12 @@ def document(path: Path) -> dict[str, object]:
 
 
 @pytest.mark.parametrize("path", ALL, ids=lambda path: str(path.relative_to(SCENES)))
-def test_every_scene_renders_to_something_that_is_not_black(path):
-    picture = render(load_scene(path), size=(16, 12), spp=1 if "before" in path.parts else 4)
+def test_every_scene_renders_to_something_that_is_not_black_and_can_be_described(path):
+    picture, said = rendered(path)
     assert picture.linear.max() > 0.05
     assert picture.linear.std() > 0.01
+    assert "triangles" in said
+    assert "supersampling" in said
 
 
 def test_every_effect_has_a_pair_of_scenes():

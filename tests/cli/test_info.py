@@ -7,7 +7,6 @@ from collections.abc import Callable
 from pathlib import Path
 
 import jsonschema
-import pytest
 from click.testing import Result
 
 from tests.cli.stand_in import Engine
@@ -35,9 +34,9 @@ def test_schema_is_printed_or_written_alike(run: Run, tmp_path: Path) -> None:
     assert (tmp_path / "scene.json").read_text(encoding="utf-8") == printed.stdout
 
 
-@pytest.mark.parametrize("scene", sorted((ROOT / "scenes").glob("*.yaml")), ids=lambda p: p.stem)
-def test_every_scene_of_the_course_can_be_described(run: Run, scene: Path) -> None:
-    result = run("info", scene)
+def test_a_scene_of_the_course_is_described(run: Run) -> None:
+    """tests/test_scenes.py has what is said of each of them."""
+    result = run("info", ROOT / "scenes" / "soft_shadows.yaml")
     assert result.exit_code == 0, result.output
     assert "triangles" in result.stdout
     assert "supersampling" in result.stdout

@@ -12,6 +12,7 @@ from typing import Any
 import pytest
 
 from course.effects import PROJECT
+from tests.once import Once
 
 # For what builds the site, which Sphinx finds in the same way.
 sys.path.append(str(PROJECT / "docs"))
@@ -20,19 +21,19 @@ CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 
 
 @pytest.fixture(scope="session")
-def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def site(once: Once) -> Path:
     """The folder of the built site, with grey pictures; a warning is an error."""
     for needed in ("sphinx", "myst_parser", "furo", "latex2mathml"):
         pytest.importorskip(needed, reason='the site needs: pip install -e ".[docs]"')
-    folder = tmp_path_factory.mktemp("site")
-    out = folder / "html"
+    return once("site", _build)
+
+
+def _build(out: Path) -> None:
     command = [sys.executable, "-m", "sphinx", "-W", "--keep-going", "-q", "-b", "html"]
-    options = ["-D", "pictures=blank", "-d", str(folder / "doctrees"), str(PROJECT / "docs")]
-    built = subprocess.run(
-        [*command, *options, str(out)], check=False, capture_output=True, text=True
-    )
+    trees = out.with_name("doctrees")
+    options = ["-D", "pictures=blank", "-d", str(trees), str(PROJECT / "docs"), str(out)]
+    built = subprocess.run([*command, *options], check=False, capture_output=True, text=True)
     assert built.returncode == 0, built.stderr
-    return out
 
 
 @pytest.fixture(scope="session")

@@ -29,6 +29,7 @@ import yaml
 from click.testing import CliRunner
 
 from course.cli.main import COMMANDS, commands
+from course.effects import COURSE
 from tests.docs.blocks import Block, blocks
 
 NOT_RUN = {
@@ -213,8 +214,10 @@ class Page:
             _invoke(words)
             return "described"
         if name in ("check", "calibrate"):
-            # What stands for a module; in paths it is the name of a file that is there.
-            words = ["adaptive_sampling" if word == "NAME" else word for word in words]
+            # What stands for a module; in paths it is the name of a file that is there. And to calibrate another module
+            # takes ten times as long.
+            other = {"NAME", *COURSE} if name == "calibrate" else {"NAME"}
+            words = ["adaptive_sampling" if word in other else word for word in words]
         if "--address" in words:
             if not self._start_cluster():
                 return "not run (dask is not installed)"
@@ -424,10 +427,13 @@ def _small(words: Sequence[str] = ()) -> Iterator[None]:
 
 @contextmanager
 def _few_references(command: str) -> Iterator[None]:
-    """Those of all modules take a quarter of a minute."""
+    """Those of some modules alone: of all they take a quarter of a minute, and what pages hand in needs no others."""
     places = {
-        "release": "course.grading.release.archive",
+        "bundle": "course.grading.classes.bundle",
+        "grade": "course.grading.classes.grading",
         "references": "course.grading.references",
+        "regrade": "course.grading.classes.grading",
+        "release": "course.grading.release.archive",
     }
     if command not in places:
         yield
