@@ -67,7 +67,10 @@ _NOUNS: Final = {inspect.FloatType: "number", inspect.IntType: "whole number"}
 
 def describe(kind: inspect.Type, unit: str | None = None) -> str:
     """Say what a type of `msgspec.inspect` accepts, with range and unit."""
-    text = _describe(kind)
+    if isinstance(kind, inspect.Metadata):
+        unit = (kind.extra_json_schema or {}).get("x-unit", unit)
+        kind = kind.type
+    text = _a_map(kind) if isinstance(kind, inspect.StructType) else _describe(kind)
     return f"{text} [{unit}]" if unit else text
 
 
@@ -122,6 +125,16 @@ def _describe(kind: inspect.Type) -> str:
             return either(list(dict.fromkeys(map(_describe, kind.types))))
         case _:
             return "a map"
+
+
+def _a_map(kind: inspect.StructType) -> str:
+    keys = [field.encode_name for field in kind.fields]
+    if kind.tag_field:
+        keys = [kind.tag_field, *keys]
+    example = EXAMPLES.get(kind.cls.__name__)
+    if example:
+        return f"a map with the keys {' and '.join(keys)}, such as {example}"
+    return f"a map with keys such as {', '.join(keys[:3])}"
 
 
 def _describe_list(kind: Sequence) -> str:

@@ -441,3 +441,25 @@ def test_loading_imports_nothing_heavier_than_it_needs() -> None:
     imported = set(run.stdout.split()) - sys.stdlib_module_names
     own = {name for name in imported if "cython" not in name}  # PyYAML's C parser brings these.
     assert own <= {"course", "yaml", "_yaml", "msgspec", "numpy", "typing_extensions"}
+
+
+@pytest.mark.parametrize("key", ["gloss", "dielectric", "conductor", "texture", "color"])
+def test_what_may_be_null_is_not_blamed_for_what_comes_after_it(
+    refusal: Callable[[str], str], key: str
+) -> None:
+    message = refusal(
+        "camera: {eye: [0, 0, 1], look_at: [0, 0, 0], lens: null}\n"
+        f"materials: {{a: {{{key}: null}}, b: {{mirror: 2}}}}\n"
+    )
+    assert (
+        message
+        == "scene.yaml:2: materials.b.mirror is 2: expected a number from 0 to 1 or 3 numbers from 0 to 1"
+    )
+
+
+@pytest.mark.parametrize("key", ["a - at `$.camera", "a - at `$.materials[...].b"])
+def test_a_key_that_is_like_a_place_misleads_nobody(
+    refusal: Callable[[str], str], key: str
+) -> None:
+    message = refusal(f"camera: {{eye: [0, 0, 1], look_at: [0, 0, 0]}}\n'{key}': 1\n")
+    assert message.startswith(f'scene.yaml:2: ["{key}"]: unknown key; ')

@@ -9,13 +9,11 @@ from dataclasses import dataclass, field
 from datetime import datetime
 from pathlib import Path
 
-import msgspec
-
 from course.errors import CourseError
 from course.grading.classes.naming import same_name
 from course.grading.classes.policy import Policy, Student
 from course.inputs import LARGEST_SCENE, Bound, read_input, shown
-from course.scene.checking import find_mistake
+from course.scene.checking import convert
 from course.scene.document import Document, KeyPath, show, suggest
 from course.scene.yaml_tree import read_document
 
@@ -79,10 +77,7 @@ def read_policy(path: Path, modules: Sequence[str]) -> Rules:
         For the first mistake, with file, line and key.
     """
     document = read_document(path, "policy")
-    try:
-        policy = msgspec.convert(document.data, Policy)
-    except msgspec.ValidationError as error:
-        raise find_mistake(document, Policy) or CourseError(f"{document.file}: {error}") from None
+    policy = convert(document, Policy)
     _check_modules(policy, document, modules)
     _check_sense(policy, document)
     students = policy.students
