@@ -88,4 +88,4 @@ def make(job: Job, tracer: Tracer, _bound: Bound) -> tuple[AdaptiveFilm, Adaptiv
     return film, AdaptiveSchedule(film, tracer, job.settings.error)
 
 
-ADAPTIVE = Mode(check, make, final="a picture with an error to aim at")
+ADAPTIVE = Mode(make, check, final="a picture with an error to aim at")

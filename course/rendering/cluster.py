@@ -10,8 +10,7 @@ A worker that is lost costs nothing but time: the scheduler hands its work to an
 
 from __future__ import annotations
 
-import threading
-from collections.abc import Iterable
+from collections.abc import Iterator
 from importlib import import_module
 from itertools import islice
 from queue import SimpleQueue
@@ -20,13 +19,12 @@ from typing import Any
 
 from course.core.types import Floats32
 from course.errors import CourseError
-from course.imaging.film import AnyFilm
 from course.rendering.connection import Connection, arrived
 from course.rendering.in_order import InOrder
 from course.rendering.kept_scenes import KeptScenes, Order, edition
 from course.rendering.parcel import Parcel, pack
 from course.rendering.passes import Work
-from course.rendering.pool import Executor, Run, Tick
+from course.rendering.pool import Executor, Run
 from course.scene.scene import Scene
 from course.scene.world import Settings
 from course.transport.counters import Counters
@@ -66,7 +64,8 @@ class Cluster(Executor):
     """
 
     def __init__(self, address: str, scene: Scene, settings: Settings, packets: bool) -> None:
-        super().__init__()
+        # A thread of its own, so that Ctrl-C can't come in the middle of adding to the film.
+        super().__init__(servers=1, grace=GRACE)
         self._order = Order(settings, packets, edition())
         try:
             parcel = pack(scene)
@@ -95,7 +94,7 @@ class Cluster(Executor):
         Raises
         ------
         CourseError, Exception
-            As by ``run``.
+            As by ``Connection.gather``.
         """
         try:
             workers = self._connection.client.nthreads()
@@ -104,58 +103,42 @@ class Cluster(Executor):
             raise self._connection.gone() from error
         return monotonic()
 
-    def run(self, work: Iterable[Work], film: AnyFilm, tick: Tick | None = None) -> bool:
-        """See ``Executor.run``; soon after the deadline nothing is awaited any longer.
-
-        Raises
-        ------
-        CourseError
-            The scheduler or all workers have gone, or workers were lost again and again over the same work.
-        Exception
-            What a worker raised.
-        """
-        run = _ClusterRun(work, film, self.deadline)
-        # A thread of its own, so that Ctrl-C can't come in the middle of adding to the film.
-        thread = threading.Thread(target=self._serve, args=(run,), name="cluster", daemon=True)
-        self._attend(run, [thread], tick, GRACE)
-        if run.error is not None and not self.interrupted:
-            raise run.error
-        return run.whole and not self.interrupted
-
     def close(self) -> None:
         """Leave the cluster, and nothing on it."""
         self._connection.close()
 
-    def _serve(self, run: _ClusterRun) -> None:
-        """Hand out the work of a run and take in what comes back."""
+    def _serve(self, run: Run) -> None:
         pending: dict[str, tuple[Any, list[Work]]] = {}
         ended: SimpleQueue[Any] = SimpleQueue()
+        more = True
         try:
             while not run.stop:
-                late = run.late
-                while late <= 0 and len(pending) < AHEAD * max(self._connection.threads, 1):
-                    if not (piece := run.rest.take(self._seconds_a_ray)):
-                        break
-                    future = self._submit(piece)
-                    pending[future.key] = future, piece
-                    future.add_done_callback(ended.put)
-                if not pending or late > GRACE:
-                    run.whole = run.rest.exhausted and not pending
+                most = AHEAD * max(self._connection.threads, 1)
+                while more and self.left >= 0 and len(pending) < most:
+                    piece = next_piece(run.work, self._seconds_a_ray)
+                    if more := bool(piece):
+                        future = self._submit(piece)
+                        pending[future.key] = future, piece
+                        future.add_done_callback(ended.put)
+                if not pending or self.left < -GRACE:
+                    run.whole = not more and not pending
                     break
                 ready = [pending.pop(future.key) for future in arrived(ended)]
-                found = self._connection.gather([future for future, _ in ready], run.ends)
+                found = self._connection.gather(
+                    [future for future, _ in ready], lambda: run.stop or self.left < -GRACE
+                )
                 if len(found) < len(ready):
                     break
                 for (_, piece), (results, counters) in zip(ready, found, strict=True):
                     if not run.stop:
                         self._take_in(run.film, piece, results, counters)
                 self._connection.look()
-        except BaseException as error:  # noqa: BLE001 - handed to the thread that waits
-            lost = self._connection.client.status != "running"
-            run.error = self._connection.gone() if lost else error
+        except BaseException as error:
+            if self._connection.client.status != "running":
+                raise self._connection.gone() from error
+            raise
         finally:
             self._connection.cancel([future for future, _ in pending.values()])
-            run.finished.set()
 
     def _submit(self, piece: list[Work], worker: str | None = None) -> Any:
         where = {} if worker is None else {"workers": [worker], "allow_other_workers": True}
@@ -193,40 +176,13 @@ def _same(parcel: Parcel) -> Parcel:
     return parcel
 
 
-class _ClusterRun(Run):
-    """Work that is handed out until it is exhausted or the time is up."""
-
-    def __init__(self, work: Iterable[Work], film: AnyFilm, deadline: float) -> None:
-        super().__init__(film)
-        self.rest = _Rest(work)
-        self._deadline = deadline
-        self.whole = False
-
-    def ends(self) -> bool:
-        """Whether nothing is to be awaited any longer."""
-        return self.stop or self.late > GRACE
-
-    @property
-    def late(self) -> float:
-        """Seconds since the deadline; negative before it, and where there is none."""
-        return monotonic() - self._deadline
-
-
-class _Rest:
-    """Work that has not been handed out, taken in pieces."""
-
-    def __init__(self, work: Iterable[Work]) -> None:
-        self._work = iter(work)
-        self.exhausted = False
-
-    def take(self, seconds_a_ray: float) -> list[Work]:
-        """The next piece of about PIECE seconds; a single tile as long as nothing is known."""
-        piece: list[Work] = []
-        seconds = 0.0
-        for item in islice(self._work, MOST_TILES if seconds_a_ray else 1):
-            piece.append(item)
-            seconds += seconds_a_ray * item.tile.size * item.samples
-            if seconds >= PIECE:
-                break
-        self.exhausted = not piece
-        return piece
+def next_piece(work: Iterator[Work], seconds_a_ray: float) -> list[Work]:
+    """Work of about PIECE seconds; a single tile as long as nothing is known, nothing when there is none left."""
+    piece: list[Work] = []
+    seconds = 0.0
+    for item in islice(work, MOST_TILES if seconds_a_ray else 1):
+        piece.append(item)
+        seconds += seconds_a_ray * item.tile.size * item.samples
+        if seconds >= PIECE:
+            break
+    return piece

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 from course.core.samplers import Sampler
 from course.effects import Bound
@@ -10,30 +11,21 @@ from course.errors import CourseError
 from course.imaging.film import Film
 from course.rendering.job import Job, Mode
 from course.rendering.passes import kept_samples
-from course.rendering.render import Schedule
 from course.rendering.time_limit import TimedSchedule
 from course.rendering.uniform import UniformSchedule
 from course.transport.tracing import Tracer
 
 
-def check(_job: Job) -> None:
-    """All settings go with uniform sampling."""
-
-
-def make_uniform(job: Job, tracer: Tracer, _bound: Bound) -> tuple[Film, Schedule]:
-    """All samples of every pixel."""
+def make(
+    schedule: type[UniformSchedule], job: Job, tracer: Tracer, _bound: Bound
+) -> tuple[Film, UniformSchedule]:
+    """See ``Mode``."""
     film, done = _film(job, tracer.sampler)
-    return film, UniformSchedule(tracer, done)
+    return film, schedule(tracer, done)
 
 
-def make_timed(job: Job, tracer: Tracer, _bound: Bound) -> tuple[Film, Schedule]:
-    """As many samples of every pixel as fit into the time."""
-    film, done = _film(job, tracer.sampler)
-    return film, TimedSchedule(tracer, done)
-
-
-UNIFORM = Mode(check, make_uniform)
-TIMED = Mode(check, make_timed)
+UNIFORM = Mode(partial(make, UniformSchedule))
+TIMED = Mode(partial(make, TimedSchedule))
 
 
 def _film(job: Job, sampler: Sampler) -> tuple[Film, int]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Any
 
 from course.effects import Bound
 from course.errors import CourseError, OutputError
@@ -14,6 +15,9 @@ from course.scene.consistency import nearest_squares
 from course.scene.scene import Scene
 from course.scene.world import Settings
 from course.transport.tracing import Tracer
+
+EXTENSIBLE = ("sobol", "random", "halton", "xorshift")
+"""Samplers that can go on for as long as there is time, with so many samples at most."""
 
 MOST_SAMPLES = 65536
 
@@ -44,28 +48,20 @@ class Mode:
 
     Attributes
     ----------
-    check : raises CourseError for a job that can't be done in this mode
     make : the film and the schedule of a job; the functions of the course that they call are noted down in ``Bound``
+    check : raises CourseError for a job that can't be done in this mode
     bytes_a_pixel : of memory
     final : what a picture is called that can't be continued; None where it can
     """
 
-    check: Callable[[Job], None]
     make: Callable[[Job, Tracer, Bound], tuple[AnyFilm, Schedule]]
+    check: Callable[[Job], None] = lambda _job: None
     bytes_a_pixel: int = BYTES_A_PIXEL
     final: str | None = None
 
 
-def chosen_settings(
-    scene: Scene,
-    spp: int | None,
-    size: tuple[int, int] | None,
-    sampler: str | None,
-    seed: int | None,
-    error: float | None,
-    ends_early: bool,
-) -> Settings:
-    """The scene's settings with what was given in their place; see ``course.rendering.rendering.render``.
+def chosen_settings(settings: Settings, ends_early: bool, **given: Any) -> Settings:
+    """Settings with what was given, and isn't None, in their place.
 
     Parameters
     ----------
@@ -76,32 +72,23 @@ def chosen_settings(
     CourseError
         There is no such picture, or its sampler has no such number of samples.
     """
-    settings = scene.settings
-    sampler = sampler or settings.sampler
-    if spp is None and ends_early and sampler in ("sobol", "random", "halton", "xorshift"):
-        spp = MOST_SAMPLES
-    width, height = size or (settings.width, settings.height)
-    settings = replace(
-        settings,
-        samples=settings.samples if spp is None else spp,
-        width=width,
-        height=height,
-        sampler=sampler,
-        seed=settings.seed if seed is None else seed,
-        error=error or settings.error,
+    chosen = replace(
+        settings, **{name: value for name, value in given.items() if value is not None}
     )
-    if width < 1 or height < 1:
-        raise OutputError(f"a picture of {width} x {height} pixels has no pixels")
-    if settings.samples < 1:
-        raise CourseError(f"{settings.samples} samples a pixel: expected at least 1")
-    if sampler in ("regular", "jittered"):
-        squares = nearest_squares(settings.samples)
-        if settings.samples not in squares:
+    if ends_early and given["samples"] is None and chosen.sampler in EXTENSIBLE:
+        chosen = replace(chosen, samples=MOST_SAMPLES)
+    if chosen.width < 1 or chosen.height < 1:
+        raise OutputError(f"a picture of {chosen.width} x {chosen.height} pixels has no pixels")
+    if chosen.samples < 1:
+        raise CourseError(f"{chosen.samples} samples a pixel: expected at least 1")
+    if chosen.sampler in ("regular", "jittered"):
+        squares = nearest_squares(chosen.samples)
+        if chosen.samples not in squares:
             raise CourseError(
-                f"the {sampler} sampler needs a square number of samples, not {settings.samples}; "
+                f"the {chosen.sampler} sampler needs a square number of samples, not {chosen.samples}; "
                 f"the nearest are {' and '.join(map(str, squares))}"
             )
-    return settings
+    return chosen
 
 
 def check_memory(settings: Settings, bytes_a_pixel: int) -> None:

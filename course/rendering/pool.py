@@ -8,7 +8,7 @@ from __future__ import annotations
 import os
 import threading
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 from math import inf
 from time import monotonic
 
@@ -39,25 +39,37 @@ def default_threads() -> int:
 
 
 class Run:
-    """The state of one run, which the threads that do the work share with the one that waits.
+    """One run, as the threads that do the work share it with the one that waits.
 
     Attributes
     ----------
+    work : what nobody has taken yet
     film : takes in what is done
-    finished : set when nothing more comes
+    lock : for all that threads change here
+    working : threads that haven't ended
+    finished : set when there is none
     stop : nothing more is wanted
+    whole : all work was done
     error : that ended it
     """
 
-    def __init__(self, film: AnyFilm) -> None:
+    def __init__(self, work: Iterable[Work], film: AnyFilm, threads: int) -> None:
+        self.work = iter(work)
         self.film = InOrder(film)
+        self.lock = threading.Lock()
+        self.working = threads
         self.finished = threading.Event()
-        self.stop = False
+        self.stop = self.whole = False
         self.error: BaseException | None = None
 
 
 class Executor(ABC):
     """Has work done by threads, while the one that calls looks after progress, time and Ctrl-C.
+
+    Parameters
+    ----------
+    servers : threads of this process that do work, or see to its being done elsewhere
+    grace : seconds in which each must have ended when nothing more is wanted; None waits until it has
 
     Attributes
     ----------
@@ -66,7 +78,8 @@ class Executor(ABC):
     deadline : ``time.monotonic()`` after which no tile is begun
     """
 
-    def __init__(self) -> None:
+    def __init__(self, servers: int, grace: float | None = None) -> None:
+        self._servers, self._grace = servers, grace
         self.counters = Counters()
         self.interrupted = False
         self.deadline = inf
@@ -78,13 +91,58 @@ class Executor(ABC):
         """How many threads render."""
 
     @abstractmethod
+    def _serve(self, run: Run) -> None:
+        """In a thread of its own: do work, and have it taken in by the film, until there is none or it is too late."""
+
     def run(self, work: Iterable[Work], film: AnyFilm, tick: Tick | None = None) -> bool:
-        """Do the work in order, and have it taken in by the film; whether all of it was done.
+        """Have work done in order and taken in by the film; whether all of it was.
 
         Parameters
         ----------
         tick : called now and then from this thread
+
+        Raises
+        ------
+        Exception
+            What a thread, or a worker of a cluster, raised.
         """
+        run = Run(work, film, self._servers)
+        threads = [
+            threading.Thread(target=self._worker, args=(run,), name=f"tiles-{number}", daemon=True)
+            for number in range(self._servers)
+        ]
+        try:
+            for thread in threads:
+                thread.start()
+            while not run.finished.wait(TICK):
+                if tick is not None:
+                    tick(run.film.done, run.film.done_first)
+        except KeyboardInterrupt:
+            self.interrupted = True
+        finally:
+            run.stop = True
+            for thread in threads:
+                thread.join(self._grace)
+        if self.interrupted:
+            return False
+        if run.error is not None:
+            raise run.error
+        if tick is not None:
+            tick(run.film.done, run.film.done_first)
+        return run.whole
+
+    def _worker(self, run: Run) -> None:
+        try:
+            self._serve(run)
+        except CancelledError:
+            pass
+        except BaseException as error:  # noqa: BLE001 - handed to the thread that waits
+            run.error = run.error or error
+            run.stop = True
+        with run.lock:
+            run.working -= 1
+            if run.working == 0:
+                run.finished.set()
 
     def close(self) -> None:  # noqa: B027 - most hold nothing
         """Let go of what runs have used."""
@@ -118,106 +176,37 @@ class Executor(ABC):
         """Batches of rays that a tile should have, where it may have so many."""
         return min(most, HURRIED) if self.limited else most
 
-    def _attend(
-        self,
-        run: Run,
-        threads: Sequence[threading.Thread],
-        tick: Tick | None,
-        grace: float | None = None,
-    ) -> None:
-        """Start the threads of a run and wait for its end.
-
-        Parameters
-        ----------
-        grace : seconds in which each thread must have ended then; None waits until it has
-        """
-        for thread in threads:
-            thread.start()
-        try:
-            while not run.finished.wait(TICK) and any(thread.is_alive() for thread in threads):
-                if tick is not None:
-                    tick(run.film.done, run.film.done_first)
-        except KeyboardInterrupt:
-            self.interrupted = True
-        finally:
-            run.stop = True
-            for thread in threads:
-                thread.join(grace)
-        if tick is not None and run.error is None and not self.interrupted:
-            tick(run.film.done, run.film.done_first)
-
 
 class Pool(Executor):
     """So many threads of this process, which take tiles one by one."""
 
     def __init__(self, tracer: Tracer, threads: int) -> None:
-        super().__init__()
+        super().__init__(servers=threads)
         self._tracer = tracer
-        self._threads = threads
 
     @property
     def threads(self) -> int:
         """How many threads render."""
-        return self._threads
+        return self._servers
 
-    def run(self, work: Iterable[Work], film: AnyFilm, tick: Tick | None = None) -> bool:
-        """See ``Executor.run``."""
-        run = _PoolRun(self._tracer, film, work, self.deadline)
-        threads = [
-            threading.Thread(target=run.worker, name=f"tiles-{number}", daemon=True)
-            for number in range(self.threads)
-        ]
-        self._attend(run, threads, tick)
-        if run.error is not None:
-            raise run.error
-        self.counters.add(run.counters)
-        return run.exhausted and not self.interrupted
-
-
-class _PoolRun(Run):
-    """Work that threads take one by one, and what it has cost."""
-
-    def __init__(
-        self, tracer: Tracer, film: AnyFilm, work: Iterable[Work], deadline: float
-    ) -> None:
-        super().__init__(film)
-        self._tracer = tracer
-        self._work = iter(work)
-        self._deadline = deadline
-        self._lock = threading.Lock()
-        self._working = 0
-        self.counters = Counters()
-        self.exhausted = False
-
-    def worker(self) -> None:
-        """Take work until there is none."""
+    def _serve(self, run: Run) -> None:
         counters = Counters()
-        with self._lock:
-            self._working += 1
         try:
-            while (work := self._take()) is not None:
+            while (work := self._take(run)) is not None:
                 pixels, weight = self._tracer.render_tile(
-                    work.tile, work.first, work.samples, counters, lambda: self.stop, work.parts
+                    work.tile, work.first, work.samples, counters, lambda: run.stop, work.parts
                 )
                 counters.start()
-                self.film.add(work, pixels, weight)
+                run.film.add(work, pixels, weight)
                 counters.lap("film")
-        except CancelledError:
-            pass
-        except BaseException as error:  # noqa: BLE001 - handed to the thread that waits
-            self.error = self.error or error
-            self.stop = True
-        with self._lock:
-            self.counters.add(counters)
-            self._working -= 1
-            if self._working == 0:
-                self.finished.set()
+        finally:
+            with run.lock:
+                self.counters.add(counters)
 
-    def _take(self) -> Work | None:
-        if self.stop or monotonic() > self._deadline:
+    def _take(self, run: Run) -> Work | None:
+        if run.stop or monotonic() > self.deadline:
             return None
-        with self._lock:
-            work = next(self._work, None)
-            if work is None:
-                self.exhausted = True
+        with run.lock:
+            work = next(run.work, None)
+            run.whole = run.whole or work is None
             return work

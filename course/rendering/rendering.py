@@ -86,8 +86,17 @@ def render(
     """
     since = monotonic() if since is None else since
     keep_freed_memory()
-    ends_early = time_limit is not None or error is not None
-    settings = chosen_settings(scene, spp, size, sampler, seed, error, ends_early)
+    width, height = size or (None, None)
+    settings = chosen_settings(
+        scene.settings,
+        time_limit is not None or error is not None,
+        samples=spp,
+        width=width,
+        height=height,
+        sampler=sampler,
+        seed=seed,
+        error=error,
+    )
     job = Job(scene, settings, time_limit, start)
     mode = _mode(settings, time_limit)
     mode.check(job)

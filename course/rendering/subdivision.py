@@ -182,7 +182,7 @@ def make(job: Job, _tracer: Tracer, bound: Bound) -> tuple[CornerFilm, Subdivisi
     return film, SubdivisionSchedule(film, Functions(bound, rule), rule.depth)
 
 
-SUBDIVISION = Mode(check, make, BYTES_A_PIXEL, "a picture by subdivision")
+SUBDIVISION = Mode(make, check, BYTES_A_PIXEL, "a picture by subdivision")
 
 
 def _pixels(width: int, height: int) -> Cells:

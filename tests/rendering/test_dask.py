@@ -28,7 +28,7 @@ from course.imaging.tiles import Tile
 from course.rendering import cluster as cluster_module
 from course.rendering import connection as connection_module
 from course.rendering import kept_scenes
-from course.rendering.cluster import PIECE, _Rest
+from course.rendering.cluster import PIECE, next_piece
 from course.rendering.in_order import InOrder
 from course.rendering.kept_scenes import KeptScenes, Order, edition
 from course.rendering.parcel import pack, unpack
@@ -453,9 +453,8 @@ def test_a_worker_with_another_edition_of_the_course_refuses(every_stage: EveryS
 )
 def test_pieces_are_worth_handing_out(seconds_a_tile: float, tiles: int) -> None:
     work = [Work(Tile(number, 0, 0, 8, 4), 0, 0, 2, True) for number in range(40)]
-    rest = _Rest(work)
-    pieces = list(iter(lambda: rest.take(seconds_a_tile / 64), []))
-    assert rest.exhausted
+    rest = iter(work)
+    pieces = list(iter(lambda: next_piece(rest, seconds_a_tile / 64), []))
     assert [item for piece in pieces for item in piece] == work
     assert {len(piece) for piece in pieces[:-1]} == {tiles}
 
