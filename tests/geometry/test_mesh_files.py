@@ -143,9 +143,11 @@ def assert_same_mesh(read: Mesh, mesh: Mesh, tolerance: float) -> None:
 # -- round trips -----------------------------------------------------------------------------------
 
 
-def test_ply_written_by_us_comes_back_to_float32(tmp_path: Path) -> None:
+def test_ply_written_by_us_comes_back_exactly(tmp_path: Path) -> None:
     save_ply(TORUS, tmp_path / "torus.ply")
-    assert_same_mesh(read_mesh(tmp_path / "torus.ply"), TORUS, 3e-7)
+    read = read_mesh(tmp_path / "torus.ply")
+    assert_same_mesh(read, TORUS, 2e-16)
+    np.testing.assert_array_equal(read.vertices, TORUS.vertices)
 
 
 def test_ply_without_normals_or_uv_comes_back_without_uv(tmp_path: Path) -> None:

@@ -9,12 +9,12 @@ from pathlib import Path
 import numpy as np
 
 from course.core.types import Floats64
-from course.errors import GeometryError
+from course.errors import GeometryError, OutputError
 from course.geometry.mesh import Mesh
-from course.geometry.mesh_files import read_mesh
+from course.geometry.mesh_files import ply_bytes, read_mesh
+from course.imaging.atomic import replacing
 from course.scene.metu.element import Element
 from course.scene.metu.notes import Notes
-from course.scene.metu.ply_files import write_ply
 
 
 @dataclass
@@ -74,7 +74,15 @@ class MeshTable:
                     " give another name to it, or to the converted scene"
                 )
         for name, mesh in self._own.items():
-            write_ply(mesh, self.target / name)
+            path = self.target / name
+            try:
+                path.parent.mkdir(parents=True, exist_ok=True)
+            except OSError as error:
+                raise OutputError(
+                    f"{path.parent}: can't be made: {error.strerror or error}"
+                ) from error
+            with replacing(path) as temporary:
+                temporary.write_bytes(ply_bytes(mesh))
 
     def _check_area(self, mesh: Mesh, source: Element) -> None:
         p0, p1, p2 = (mesh.vertices[mesh.triangles[:, k]] for k in range(3))
