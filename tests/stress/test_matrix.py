@@ -6,6 +6,7 @@ import dataclasses
 import json
 import math
 from collections import Counter
+from functools import cache
 from itertools import groupby
 from pathlib import Path
 from typing import Any
@@ -52,9 +53,19 @@ from course.geometry import surface
 from course.geometry.packets import available as packets_available
 from course.geometry.shapes import displaced_sphere
 
-CELLS = all_cells()
-SHORT = short_form(CELLS)
 REJECTION = "ball by rejection"
+
+
+@cache
+def cells() -> tuple[Cell, ...]:
+    """All of them; they take seconds to design, which whoever only collects tests need not wait for."""
+    return all_cells()
+
+
+@cache
+def short() -> list[Cell]:
+    """The short form."""
+    return short_form(cells())
 
 
 def cell(stage: str, **levels: str) -> Cell:
@@ -70,15 +81,15 @@ def cell(stage: str, **levels: str) -> Cell:
 
 
 def test_there_are_two_thousand_cells_all_legal_and_no_two_alike() -> None:
-    assert len(CELLS) >= 2000
-    assert len({each.name for each in CELLS}) == len(CELLS)
-    assert len({(each.stage, str(each.levels)) for each in CELLS}) == len(CELLS)
-    assert all(legal(each) for each in CELLS)
+    assert len(cells()) >= 2000
+    assert len({each.name for each in cells()}) == len(cells())
+    assert len({(each.stage, str(each.levels)) for each in cells()}) == len(cells())
+    assert all(legal(each) for each in cells())
 
 
 @pytest.mark.parametrize("stage", STAGES)
 def test_every_two_levels_meet_that_a_file_can_hold_together(stage: str) -> None:
-    met = {pair for each in CELLS if each.stage == stage for pair in each.pairs()}
+    met = {pair for each in cells() if each.stage == stage for pair in each.pairs()}
     assert set(possible_pairs(tame(stage), STAGES[stage])) <= met
     # What can't meet is little.
     number = sum(1 for _ in possible_pairs(tame(stage), STAGES[stage]))
@@ -88,7 +99,7 @@ def test_every_two_levels_meet_that_a_file_can_hold_together(stage: str) -> None
 
 @pytest.mark.parametrize("stage", STAGES)
 def test_no_level_is_rare(stage: str) -> None:
-    there = [each for each in CELLS if each.stage == stage]
+    there = [each for each in cells() if each.stage == stage]
     for axis in STAGES[stage]:
         counts = Counter(each.levels[axis].name for each in there)
         assert set(counts) == {each.name for each in AXES[axis]}
@@ -96,12 +107,12 @@ def test_no_level_is_rare(stage: str) -> None:
 
 
 def test_a_family_of_cells_has_one_twin_which_is_well_conditioned() -> None:
-    families = {each.family for each in CELLS if each.stage == "room"}
-    for _, members in groupby((c for c in CELLS if c.stage == "room"), key=lambda c: c.family):
+    families = {each.family for each in cells() if each.stage == "room"}
+    for _, members in groupby((c for c in cells() if c.stage == "room"), key=lambda c: c.family):
         twins = {str({a: e.value for a, e in each.twin().levels.items()}) for each in members}
         assert len(twins) == 1
-    assert 5 * len(families) < sum(each.stage == "room" for each in CELLS)
-    for each in CELLS:
+    assert 5 * len(families) < sum(each.stage == "room" for each in cells())
+    for each in cells():
         twin = each.twin()
         assert (twin["scale"], twin["offset"]) == (1, 0)
         if each.stage != "optics":
@@ -110,9 +121,9 @@ def test_a_family_of_cells_has_one_twin_which_is_well_conditioned() -> None:
 
 
 def test_the_short_form_has_every_level() -> None:
-    levels = {(c.stage, axis, e.name) for c in CELLS for axis, e in c.levels.items()}
-    assert {(c.stage, axis, e.name) for c in SHORT for axis, e in c.levels.items()} == levels
-    assert len(SHORT) < 60
+    levels = {(c.stage, axis, e.name) for c in cells() for axis, e in c.levels.items()}
+    assert {(c.stage, axis, e.name) for c in short() for axis, e in c.levels.items()} == levels
+    assert len(short()) < 60
 
 
 def test_the_engine_offsets_rays_as_the_bound_says() -> None:
@@ -153,7 +164,7 @@ def test_the_longest_slivers_are_as_long_as_they_say() -> None:
 
 @pytest.mark.parametrize("stage", STAGES)
 def test_the_short_form_passes(stage: str) -> None:
-    for verdict in judge_all([each for each in SHORT if each.stage == stage], jobs=1):
+    for verdict in judge_all([each for each in short() if each.stage == stage], jobs=1):
         assert verdict.passed, verdict
         assert verdict.finite
         assert verdict.share <= 1
@@ -269,7 +280,7 @@ def test_a_cell_may_be_judged_with_compiled_loops_or_without(
 
 def test_points_by_rejection_are_one_point_in_the_room() -> None:
     """Of a larger light they are all others as soon as one ray meets something else, and no twin has the same."""
-    there = [each for each in CELLS if each.levels.get("light") == level("light", REJECTION)]
+    there = [each for each in cells() if each.levels.get("light") == level("light", REJECTION)]
     assert {each["light size"] for each in there if each.stage == "room"} == {0.0, 1e-7, 1e-5}
     assert {each["light size"] for each in there if each.stage == "box"} > {0.1, 1.0, 30.0}
 
@@ -491,7 +502,7 @@ def test_one_cell_can_be_judged_alone_from_the_command_line(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    name = next(each.name for each in SHORT if each.stage == "box")
+    name = next(each.name for each in short() if each.stage == "box")
     done = CliRunner().invoke(main, ["--cell", name])
     assert done.exit_code == 0, done.output
     assert f"{name} passed" in done.output

@@ -18,6 +18,8 @@ from course.grading.classes.outcome import Outcome
 from course.grading.report import UNPROTECTED
 from course.grading.worker.sandbox import NotProtected, Sandbox, plain
 
+pytestmark = pytest.mark.usefixtures("references_at_hand")
+
 COULD_READ = f"{UNPROTECTED}: student code could read solutions, results and other submissions"
 
 
