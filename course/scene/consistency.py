@@ -13,7 +13,13 @@ from numpy.typing import NDArray
 
 from course.scene.description.camera import CameraDescription, ImagePlaneDescription
 from course.scene.description.lights import DirectionalLight, Light, RectangleLight, SphereLight
-from course.scene.description.objects import DisplacedSphere, Object, Torus, TorusKnot
+from course.scene.description.objects import (
+    MOST_KNOT_SEGMENTS,
+    DisplacedSphere,
+    Object,
+    Torus,
+    TorusKnot,
+)
 from course.scene.description.sampler import SamplerDescription
 from course.scene.description.scene import SceneDescription
 from course.scene.description.transforms import Affine, Rotate, Scale, Transform
@@ -206,7 +212,8 @@ def _check_knot(knot: TorusKnot, path: KeyPath, document: Document) -> None:
     fewest = 8 * (knot.p + knot.q)
     if knot.segments < fewest:
         raise document.unexpected(
-            (*path, "segments"), f"a whole number from {fewest}, which is 8 (p + q), to 16384"
+            (*path, "segments"),
+            f"a whole number from {fewest}, which is 8 (p + q), to {MOST_KNOT_SEGMENTS}",
         )
 
 

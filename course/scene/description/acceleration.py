@@ -4,14 +4,10 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-import msgspec
-
-from course.scene.description.values import about
+from course.scene.description.values import Map, about
 
 
-class AccelerationDescription(
-    msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
-):
+class AccelerationDescription(Map, frozen=True, kw_only=True):
     """Who answers the rays: the picture is the same, the time is not."""
 
     type: Annotated[

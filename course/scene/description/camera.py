@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-import msgspec
-
 from course.scene.description.motion import MotionDescription
-from course.scene.description.values import Vector, about
+from course.scene.description.values import Map, Vector, about
 
 
-class LensDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+class LensDescription(Map, frozen=True, kw_only=True):
     """A thin lens; exactly one of focus_distance and focus_point."""
 
     aperture_radius: Annotated[
@@ -36,14 +34,14 @@ class LensDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_
     )
 
 
-class ShutterDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+class ShutterDescription(Map, frozen=True, kw_only=True):
     """When the shutter opens and closes; it only matters where something moves."""
 
     open: Annotated[float, about("When it opens.", "second")] = 0.0
     close: Annotated[float, about("When it closes, not before it opens.", "second")] = 1.0
 
 
-class ImagePlaneDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+class ImagePlaneDescription(Map, frozen=True, kw_only=True):
     """The picture as a rectangle in front of the eye; it may lie off the view's axis, and stretch its pixels."""
 
     distance: Annotated[
@@ -57,7 +55,7 @@ class ImagePlaneDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_un
     top: Annotated[float, about("Its upper edge, more than bottom.", "world unit")]
 
 
-class CameraDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+class CameraDescription(Map, frozen=True, kw_only=True):
     """A perspective camera."""
 
     eye: Annotated[Vector, about("Centre of projection.", "world unit")]

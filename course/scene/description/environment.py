@@ -6,7 +6,7 @@ from typing import Annotated, Literal, TypeAlias
 
 import msgspec
 
-from course.scene.description.values import Color, about
+from course.scene.description.values import Color, Map, about
 
 _Lights: TypeAlias = Annotated[
     bool, about("Whether it also lights diffuse surfaces, by one shadow ray for each sample.")
@@ -29,9 +29,7 @@ _Lookup: TypeAlias = Annotated[
 ]
 
 
-class EnvironmentDescription(
-    msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True, tag_field="type"
-):
+class EnvironmentDescription(Map, frozen=True, kw_only=True, tag_field="type"):
     """What all environments have in common: `type` tells them apart."""
 
 

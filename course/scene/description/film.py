@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, TypeAlias
+from typing import Annotated, Final, Literal, TypeAlias
 
 import msgspec
 
-from course.scene.description.values import about
+from course.scene.description.values import Map, about
+
+LARGEST_SIDE: Final = 65536
+"""Pixels along one side of a picture."""
 
 _Positive: TypeAlias = Annotated[float, msgspec.Meta(gt=0)]
 
 
-class SubdivisionDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+class SubdivisionDescription(Map, frozen=True, kw_only=True):
     """Adaptive supersampling by contrast: rays through the corners of pixels, more where corners differ."""
 
     threshold: Annotated[
@@ -32,11 +35,11 @@ class SubdivisionDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_u
     ] = 3
 
 
-class FilmDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+class FilmDescription(Map, frozen=True, kw_only=True):
     """Size of the picture and its reconstruction filter."""
 
-    width: Annotated[int, about("Width of the picture.", "pixel", ge=1, le=65536)] = 640
-    height: Annotated[int, about("Height of the picture.", "pixel", ge=1, le=65536)] = 480
+    width: Annotated[int, about("Width of the picture.", "pixel", ge=1, le=LARGEST_SIDE)] = 640
+    height: Annotated[int, about("Height of the picture.", "pixel", ge=1, le=LARGEST_SIDE)] = 480
     filter: Annotated[
         Literal["box", "gaussian"], about("How the samples of a pixel are weighted.")
     ] = "box"

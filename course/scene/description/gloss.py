@@ -4,14 +4,10 @@ from __future__ import annotations
 
 from typing import Annotated, Literal, TypeAlias
 
-import msgspec
-
-from course.scene.description.values import about
+from course.scene.description.values import Map, about
 
 
-class GlossDescription(
-    msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True, tag_field="lobe"
-):
+class GlossDescription(Map, frozen=True, kw_only=True, tag_field="lobe"):
     """What all lobes have in common: `lobe` tells them apart."""
 
 

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Final, Literal
 
 import msgspec
 
-from course.scene.description.values import about
+from course.scene.description.values import Map, about
 
-_Bounces = Annotated[int, msgspec.Meta(ge=0, le=1024)]
+DEEPEST: Final = 1024
+"""Bounces that can be followed."""
+
+_Bounces = Annotated[int, msgspec.Meta(ge=0, le=DEEPEST)]
 
 
-class IntegratorDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+class IntegratorDescription(Map, frozen=True, kw_only=True):
     """Which light reaches the eye, and where the recursion ends."""
 
     type: Annotated[
@@ -21,7 +24,7 @@ class IntegratorDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_un
             " wall to wall too."
         ),
     ] = "distribution"
-    max_depth: Annotated[int, about("Bounces after the camera ray.", ge=0, le=1024)] = 5
+    max_depth: Annotated[int, about("Bounces after the camera ray.", ge=0, le=DEEPEST)] = 5
     cutoff: Annotated[
         float,
         about(

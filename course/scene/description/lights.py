@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated, Literal, TypeAlias
 
-import msgspec
-
 from course.scene.description.motion import MotionDescription
-from course.scene.description.values import Color, Vector, about
+from course.scene.description.values import Color, Map, Vector, about
 
 _Intensity: TypeAlias = Annotated[
     Color | None,
@@ -20,9 +18,7 @@ _Radiance: TypeAlias = Annotated[
 _Motion: TypeAlias = Annotated[MotionDescription, about("How the light moves.")]
 
 
-class LightDescription(
-    msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True, tag_field="type"
-):
+class LightDescription(Map, frozen=True, kw_only=True, tag_field="type"):
     """What all lights have in common: `type` tells them apart."""
 
 

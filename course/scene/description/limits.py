@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import msgspec
-
 from course.inputs import LARGEST_DATA, MOST_PIXELS
-from course.scene.description.values import about
+from course.scene.description.values import Map, about
 
 
-class LimitsDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+class LimitsDescription(Map, frozen=True, kw_only=True):
     """The largest meshes and pictures that are read; larger ones are refused before they take memory."""
 
     bytes: Annotated[int, about("Most bytes of a mesh or picture file.", ge=1, le=2**50)] = (

@@ -7,10 +7,10 @@ from typing import Annotated, Literal, TypeAlias
 import msgspec
 
 from course.scene.description.gloss import Gloss
-from course.scene.description.values import Color, Reflectance, about
+from course.scene.description.values import Color, Map, Reflectance, about
 
 
-class Dielectric(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+class Dielectric(Map, frozen=True, kw_only=True):
     """The clear inside of a material that refracts, such as glass."""
 
     refraction_index: Annotated[float, about("Index of refraction against vacuum.", gt=0)] = 1.5
@@ -38,7 +38,7 @@ class Dielectric(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_field
     ] = None
 
 
-class Conductor(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+class Conductor(Map, frozen=True, kw_only=True):
     """A metal: by the Fresnel equations it mirrors more the more grazing the light, white at last."""
 
     refraction_index: Annotated[
@@ -58,7 +58,7 @@ class Conductor(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
 _Times: TypeAlias = Annotated[float, msgspec.Meta(gt=0, le=1e4)]
 
 
-class TextureDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+class TextureDescription(Map, frozen=True, kw_only=True):
     """A picture on a surface: bilinear between its pixels, and repeated beyond its edges."""
 
     image: Annotated[
@@ -77,7 +77,7 @@ class TextureDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unkno
     ] = (1.0, 1.0)
 
 
-class MaterialDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+class MaterialDescription(Map, frozen=True, kw_only=True):
     """Blinn-Phong reflection, with a mirror, a metal or a dielectric on top."""
 
     color: Annotated[

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import msgspec
-
-from course.scene.description.values import Vector, about
+from course.scene.description.values import Map, Vector, about
 
 
-class MotionDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+class MotionDescription(Map, frozen=True, kw_only=True):
     """Straight and even motion; where things stand is where they are at time 0."""
 
     velocity: Annotated[Vector, about("How far it goes in a second.", "world unit/s")] = (

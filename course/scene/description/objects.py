@@ -2,21 +2,22 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, TypeAlias
+from typing import Annotated, Final, Literal, TypeAlias
 
 import msgspec
 
 from course.scene.description.motion import MotionDescription
 from course.scene.description.transforms import Transform
-from course.scene.description.values import about
+from course.scene.description.values import Map, about
+
+MOST_KNOT_SEGMENTS: Final = 16384
+"""Flat pieces along the tube of a knot."""
 
 _Length: TypeAlias = Annotated[float, msgspec.Meta(gt=0)]
 _Segments: TypeAlias = Annotated[int, about("Flat pieces around the axis.", ge=3, le=4096)]
 
 
-class ObjectDescription(
-    msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True, tag_field="shape"
-):
+class ObjectDescription(Map, frozen=True, kw_only=True, tag_field="shape"):
     """The keys that all shapes share."""
 
     material: Annotated[str, about("Name of one of the materials.", min_length=1)]
@@ -105,7 +106,7 @@ class TorusKnot(ObjectDescription, frozen=True, kw_only=True, tag="torus_knot"):
         about("Radius of the tube, so thin that it meets itself nowhere.", "world unit", gt=0),
     ] = 0.2
     segments: Annotated[
-        int, about("Flat pieces along the tube, at least 8 (p + q).", ge=16, le=16384)
+        int, about("Flat pieces along the tube, at least 8 (p + q).", ge=16, le=MOST_KNOT_SEGMENTS)
     ] = 512
     sides: Annotated[int, about("Flat pieces around the tube.", ge=3, le=1024)] = 32
 

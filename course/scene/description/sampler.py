@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Final, Literal
 
-import msgspec
+from course.scene.description.values import Map, about
 
-from course.scene.description.values import about
+MOST_SAMPLES: Final = 65536
+"""Samples of a pixel."""
 
 
-class SamplerDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+class SamplerDescription(Map, frozen=True, kw_only=True):
     """The pattern of samples; `regular` and `jittered` need a square number of them."""
 
     type: Annotated[
@@ -18,4 +19,4 @@ class SamplerDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unkno
         ],
         about("Pattern of the samples."),
     ] = "sobol"
-    samples: Annotated[int, about("Samples a pixel.", "1/pixel", ge=1, le=65536)] = 16
+    samples: Annotated[int, about("Samples a pixel.", "1/pixel", ge=1, le=MOST_SAMPLES)] = 16

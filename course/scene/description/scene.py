@@ -16,10 +16,10 @@ from course.scene.description.limits import LimitsDescription
 from course.scene.description.materials import MaterialDescription
 from course.scene.description.objects import Object
 from course.scene.description.sampler import SamplerDescription
-from course.scene.description.values import about
+from course.scene.description.values import Map, about
 
 
-class SceneDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+class SceneDescription(Map, frozen=True, kw_only=True):
     """A scene for the Penumbra ray tracer."""
 
     title: Annotated[str, about("What the picture shows.")] = ""
@@ -45,6 +45,6 @@ class SceneDescription(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
     )
     materials: Annotated[
         dict[str, MaterialDescription], about("What objects are made of, by name.")
-    ] = {}
+    ] = msgspec.field(default_factory=dict)
     lights: Annotated[tuple[Light, ...], about("The lights.")] = ()
     objects: Annotated[tuple[Object, ...], about("The objects.")] = ()

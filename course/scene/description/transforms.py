@@ -8,22 +8,18 @@ from __future__ import annotations
 
 from typing import Annotated, Final, TypeAlias
 
-import msgspec
-
-from course.scene.description.values import Vector, about
+from course.scene.description.values import Map, Vector, about
 
 STEP: Final = "<step>"
 
 Row: TypeAlias = tuple[float, float, float, float]
 
 
-class TransformStep(
-    msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True, tag_field=STEP
-):
+class TransformStep(Map, frozen=True, kw_only=True, tag_field=STEP):
     """What all steps have in common."""
 
 
-class Rotation(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+class Rotation(Map, frozen=True, kw_only=True):
     """A turn about an axis through the origin; counter-clockwise seen from the axis' tip."""
 
     axis: Annotated[Vector, about("Direction of the axis; any length but 0.")]

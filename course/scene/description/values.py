@@ -8,6 +8,11 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
+
+class Map(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A map of a scene file: a misspelt key is never passed over."""
+
+
 Vector: TypeAlias = tuple[float, float, float]
 
 _Fraction: TypeAlias = Annotated[float, msgspec.Meta(ge=0, le=1)]

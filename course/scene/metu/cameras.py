@@ -11,6 +11,8 @@ import numpy as np
 
 from course.core.types import Floats64
 from course.scene.consistency import sine
+from course.scene.description.film import LARGEST_SIDE
+from course.scene.description.sampler import MOST_SAMPLES
 from course.scene.document import show
 from course.scene.metu.element import Element
 from course.scene.metu.notes import Notes
@@ -67,8 +69,8 @@ def _camera(element: Element, steps: dict[str, dict[str, Any]], notes: Notes) ->
     name = element.id()
     size = element.child("ImageResolution", "such as 800 600")
     width, height = size.numbers(2, "800 600")
-    if not all(side == int(side) and 1 <= side <= 65536 for side in (width, height)):
-        raise size.unexpected("2 whole numbers from 1 to 65536, such as 800 600")
+    if not all(side == int(side) and 1 <= side <= LARGEST_SIDE for side in (width, height)):
+        raise size.unexpected(f"2 whole numbers from 1 to {LARGEST_SIDE}, such as 800 600")
     position = np.array(element.child("Position", "such as 0 0 5").vector())
     gaze = _gaze(element, position)
     up_element = element.child("Up", "such as 0 1 0")
@@ -160,10 +162,12 @@ def _sampler(element: Element, notes: Notes) -> dict[str, Any]:
     if found is None or count == 1:
         # A grid of one is the middle of the pixel, without any jitter.
         return {"type": "regular", "samples": 1}
-    root = min(math.isqrt(count), 256)
+    most = math.isqrt(MOST_SAMPLES)
+    root = min(math.isqrt(count), most)
     if root * root != count:
         notes.add(
-            found, f"is {count}: no square of a whole number up to 256, so {root * root} are taken"
+            found,
+            f"is {count}: no square of a whole number up to {most}, so {root * root} are taken",
         )
     return {"type": "jittered", "samples": root * root}
 

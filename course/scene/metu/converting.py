@@ -12,6 +12,7 @@ import yaml
 
 from course.errors import SceneError
 from course.imaging.atomic import write_text
+from course.scene.description.integrator import DEEPEST
 from course.scene.loading import load_description
 from course.scene.metu.cameras import MetuCamera, read_cameras
 from course.scene.metu.element import Element
@@ -32,9 +33,6 @@ DEPTH: Final = 6
 
 OFFSET: Final = 1e-3
 """The distance from a surface at which rays leave it, where a scene doesn't say."""
-
-DEEPEST: Final = 1024
-"""Bounces that the engine follows."""
 
 
 @dataclass(frozen=True)
