@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import isfinite
+from math import inf, isfinite
 from typing import Any
 
 from course.effects import Bound
@@ -13,11 +13,11 @@ from course.rendering.allocation import FIRST
 from course.rendering.job import Job, Mode
 from course.rendering.passes import preview
 from course.rendering.pool import Executor
-from course.rendering.render import Run
+from course.rendering.render import Run, Schedule
 from course.transport.tracing import Tracer
 
 
-class AdaptiveSchedule:
+class AdaptiveSchedule(Schedule):
     """Rounds in which samples go where the film's estimated error is.
 
     Parameters
@@ -33,7 +33,7 @@ class AdaptiveSchedule:
     def render(self, run: Run, executor: Executor) -> bool:
         """See ``Schedule``; under a deadline a preview comes first, so that every pixel has something."""
         settings = self._tracer.settings
-        if executor.limited:
+        if executor.left < inf:
             run(preview(settings, 1), 0.0, 0.0)
             if executor.interrupted:
                 return False

@@ -24,7 +24,7 @@ from course.rendering.in_order import InOrder
 from course.rendering.kept_scenes import KeptScenes, Order, edition
 from course.rendering.parcel import Parcel, pack
 from course.rendering.passes import Work
-from course.rendering.pool import Executor, Run
+from course.rendering.pool import Execution, Executor
 from course.scene.scene import Scene
 from course.scene.world import Settings
 from course.transport.counters import Counters
@@ -107,7 +107,7 @@ class Cluster(Executor):
         """Leave the cluster, and nothing on it."""
         self._connection.close()
 
-    def _serve(self, run: Run) -> None:
+    def _serve(self, run: Execution) -> None:
         pending: dict[str, tuple[Any, list[Work]]] = {}
         ended: SimpleQueue[Any] = SimpleQueue()
         more = True

@@ -38,8 +38,8 @@ def default_threads() -> int:
     return os.cpu_count() or 1
 
 
-class Run:
-    """One run, as the threads that do the work share it with the one that waits.
+class Execution:
+    """One call of ``Executor.run``, as the threads that do the work share it with the one that waits.
 
     Attributes
     ----------
@@ -91,7 +91,7 @@ class Executor(ABC):
         """How many threads render."""
 
     @abstractmethod
-    def _serve(self, run: Run) -> None:
+    def _serve(self, run: Execution) -> None:
         """In a thread of its own: do work, and have it taken in by the film, until there is none or it is too late."""
 
     def run(self, work: Iterable[Work], film: AnyFilm, tick: Tick | None = None) -> bool:
@@ -106,7 +106,7 @@ class Executor(ABC):
         Exception
             What a thread, or a worker of a cluster, raised.
         """
-        run = Run(work, film, self._servers)
+        run = Execution(work, film, self._servers)
         threads = [
             threading.Thread(target=self._worker, args=(run,), name=f"tiles-{number}", daemon=True)
             for number in range(self._servers)
@@ -131,7 +131,7 @@ class Executor(ABC):
             tick(run.film.done, run.film.done_first)
         return run.whole
 
-    def _worker(self, run: Run) -> None:
+    def _worker(self, run: Execution) -> None:
         try:
             self._serve(run)
         except CancelledError:
@@ -158,11 +158,6 @@ class Executor(ABC):
         self.deadline = max(self.deadline, monotonic() + LEAST_FOR_RAYS * seconds)
 
     @property
-    def limited(self) -> bool:
-        """Whether there is a deadline."""
-        return self.deadline < inf
-
-    @property
     def left(self) -> float:
         """Seconds until the deadline; infinite where there is none."""
         return self.deadline - monotonic()
@@ -170,11 +165,11 @@ class Executor(ABC):
     @property
     def elapsed(self) -> float:
         """The share of the time limit that has passed; 0 where there is none."""
-        return min(1.0 - self.left / self._time_limit, 1.0) if self.limited else 0.0
+        return min(1.0 - self.left / self._time_limit, 1.0) if self.left < inf else 0.0
 
     def batches(self, most: int) -> int:
         """Batches of rays that a tile should have, where it may have so many."""
-        return min(most, HURRIED) if self.limited else most
+        return min(most, HURRIED) if self.left < inf else most
 
 
 class Pool(Executor):
@@ -189,7 +184,7 @@ class Pool(Executor):
         """How many threads render."""
         return self._servers
 
-    def _serve(self, run: Run) -> None:
+    def _serve(self, run: Execution) -> None:
         counters = Counters()
         try:
             while (work := self._take(run)) is not None:
@@ -203,8 +198,8 @@ class Pool(Executor):
             with run.lock:
                 self.counters.add(counters)
 
-    def _take(self, run: Run) -> Work | None:
-        if run.stop or monotonic() > self.deadline:
+    def _take(self, run: Execution) -> Work | None:
+        if run.stop or self.left < 0:
             return None
         with run.lock:
             work = next(run.work, None)

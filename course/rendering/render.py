@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Sequence
 from math import inf
 from typing import Any, Protocol
@@ -22,16 +23,16 @@ class Run(Protocol):
         ...
 
 
-class Schedule(Protocol):
+class Schedule(ABC):
     """Decides what is rendered next: uniform passes, or rounds by what the film has taken in."""
 
+    @abstractmethod
     def render(self, run: Run, executor: Executor) -> bool:
         """Have all rounds run; whether the picture is complete."""
-        ...
 
     def receipt(self) -> dict[str, Any]:
         """Entries of the receipt that only such a schedule has."""
-        ...
+        return {}
 
 
 def render(

@@ -189,9 +189,9 @@ def _receipt(
     wall: float,
 ) -> Receipt:
     """What each part says of itself."""
-    world, plan, counters = tracer.world, tracer.plan, executor.counters
+    plan, counters = tracer.plan, executor.counters
     integrator = job.scene.loaded.description.integrator
-    skipped = {**skipped_modules(bound.needs, integrator), **world.skipped_lights}
+    skipped = {**skipped_modules(bound.needs, integrator), **tracer.world.skipped_lights}
     if not plan.mirrors:
         skipped["reflection"] = "no material mirrors, or the depth is 0"
     if not plan.refracts:

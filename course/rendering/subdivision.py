@@ -20,7 +20,7 @@ from course.errors import CourseError, EffectError
 from course.rendering.corners import CornerFilm
 from course.rendering.job import Job, Mode
 from course.rendering.pool import Executor
-from course.rendering.render import Run
+from course.rendering.render import Run, Schedule
 from course.scene.world import Subdivision
 from course.transport.tracing import Tracer
 
@@ -91,7 +91,7 @@ class Functions:
         return Cells(sides.reshape(4, -1), np.tile(cells.pixel, 4))
 
 
-class SubdivisionSchedule:
+class SubdivisionSchedule(Schedule):
     """A round for each level: pixels are divided by contrast, and their colours written into the film.
 
     The picture is covered once the corners of all pixels have had their rays.

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
 
 from course.rendering.passes import Work, passes
 from course.rendering.pool import Executor
-from course.rendering.render import Run
+from course.rendering.render import Run, Schedule
 from course.transport.tracing import Tracer
 
 
-class UniformSchedule:
+class UniformSchedule(Schedule):
     """All passes in one round.
 
     Parameters
@@ -26,10 +25,6 @@ class UniformSchedule:
     def render(self, run: Run, executor: Executor) -> bool:
         """See ``Schedule``."""
         return run(list(self._passes(executor)))
-
-    def receipt(self) -> dict[str, Any]:
-        """Nothing that other renders don't have."""
-        return {}
 
     def _passes(self, executor: Executor) -> Iterator[Work]:
         tracer = self._tracer

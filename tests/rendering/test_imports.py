@@ -16,6 +16,13 @@ THIS_CHECKOUT = {**os.environ, "PYTHONPATH": str(ROOT)}
 NEVER = {"skimage", "scipy", "trimesh", "psutil", "rich", "networkx", "hypothesis"}
 """Too heavy, and of no use for a scene of named shapes."""
 
+OTHER_MODES = {
+    *("course.rendering.adaptive", "course.rendering.allocation", "course.rendering.audit"),
+    *("course.rendering.adaptive_schedule", "course.imaging.adaptive_film"),
+    *("course.rendering.subdivision", "course.rendering.corners", "course.rendering.cluster"),
+}
+"""Ways to render that this scene doesn't ask for."""
+
 BOX: dict[str, Any] = {
     "camera": {"eye": [1, 2, 4], "look_at": [0, 0, 0]},
     "film": {"width": 64, "height": 64},
@@ -51,6 +58,8 @@ def test_one_box_imports_no_heavy_library_and_no_module_of_effects_it_does_not_c
     assert (tmp_path / "box.png").exists()
     assert {"numpy", "embreex", "course"} <= roots(modules), "the list is the right one"
     assert not roots(modules) & NEVER
+    assert "course.rendering.uniform" in modules
+    assert not modules & OTHER_MODES
     # No random number is drawn, no mesh read, no EXR written.
     assert not modules & {"numpy.random", "course.geometry.mesh_files", "OpenImageIO", "jsonschema"}
 
