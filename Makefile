@@ -24,11 +24,12 @@ endif
 RUN := $(BIN)/python
 STAMP := $(VENV)/.installed
 
-.PHONY: help setup check test demo bench stress mutants docs docs-serve clean
+.PHONY: help setup check test quick demo bench stress mutants docs docs-serve clean
 
 help:  ## list what make can do
 	@echo "make demo    render four scenes and a page that shows them, in $(DEMO_FOLDER)"
 	@echo "make test    run every test"
+	@echo "make quick   run the main laws of every folder of tests, in less than a minute"
 	@echo "make check   formatting, lint, types, layers"
 	@echo "make bench   measure, print and write JSON"
 	@echo "make stress  thousands of ill-conditioned scenes beside their well-conditioned twins"
@@ -60,9 +61,12 @@ check: $(STAMP)
 	"$(RUN)" -m course release --check
 	"$(RUN)" -m pytest -q tests/test_layers.py
 
-# Each process begins with half of the tests, so that one builds the site for all tests of it; who is done takes over.
+# Each process begins with half of the tests; who is done takes over.
 test: $(STAMP)
 	"$(RUN)" -m pytest -q -n auto --dist worksteal
+
+quick: $(STAMP)
+	"$(RUN)" -m pytest -q -n auto --dist worksteal @tests/quick.txt
 
 demo: $(STAMP)
 	@"$(RUN)" -m course demo --out $(DEMO_FOLDER) $(DEMO_SCENES)
