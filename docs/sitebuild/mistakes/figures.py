@@ -29,6 +29,7 @@ from sitebuild.mistakes.submissions import functions, solution, submission
 
 KEPT = PROJECT / "out" / "docs" / "mistakes"
 HERE = Path(__file__).parent
+GRADING = PROJECT / "course" / "grading"
 
 PATIENCE = 120.0
 """Seconds after which a function is taken never to end."""
@@ -76,6 +77,10 @@ def _sources(module: str) -> str:
     """All that draws the figures of a module."""
     names = ("figures", "look", "plots", "rendered", "submissions", "swatches")
     files = [*(HERE / f"{name}.py" for name in names), HERE / "looks" / f"{module}.py"]
+    files += [
+        GRADING / f"{name}.py"
+        for name in ("pictures/rendered", "pictures/scenes", "reports/pictures")
+    ]
     libraries = [version(name) for name in ("matplotlib", "numpy", "pillow")]
     return "\n".join([*libraries, *(path.read_text(encoding="utf-8") for path in files)])
 

@@ -1,63 +1,59 @@
-"""Small renders of purpose-made scenes."""
+"""Small renders with one function wrong: of scenes that the grader's picture checks render, and of scenes made here."""
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Callable, Mapping
 from functools import partial
-from pathlib import Path
 from types import ModuleType
 from typing import Any
 
 import numpy as np
-import yaml
 from PIL import Image
 
-from course.effects import Effects
-from course.imaging.srgb import linear_to_srgb8
-from course.rendering.rendering import render
-from course.scene.scene import load_scene
+from course.grading.checks.check import Figure
+from course.grading.pictures.rendered import MakeScene, loaded, rendered
+from course.grading.reports.pictures import draw_pictures
 from sitebuild.mistakes.look import SIZE, Draw
 from sitebuild.mistakes.submissions import functions
 
 Scene = dict[str, Any]
 
-
-class _Overlaid(Effects):
-    """The right functions, but for one."""
-
-    def __init__(self, path: str, made: ModuleType) -> None:
-        super().__init__("solutions")
-        self._path, self._made = path, made
-
-    def function(self, module: str, name: str) -> Callable[..., Any]:
-        if f"{module}.{name}" == self._path:
-            return getattr(self._made, name)  # type: ignore[no-any-return]
-        return getattr(functions(module), name)  # type: ignore[no-any-return]
+SEED = 7
+"""Of the parts of a check's scene that differ from one grading to the next."""
 
 
 def scene(path: str, description: Mapping[str, Any]) -> Draw:
-    """Make a `Draw` that renders a scene with MODULE.FUNCTION laid over the right functions."""
-    film = {"width": SIZE[0], "height": SIZE[1]} | description.get("film", {})
-    return partial(_rendered, path, {"integrator": {"max_depth": 2}} | description | {"film": film})
+    """Make a `Draw` that renders a scene with MODULE.FUNCTION in place of the right one."""
+    return checked(path, lambda _: {"integrator": {"max_depth": 2}} | description)
 
 
-def _rendered(path: str, description: Scene, made: ModuleType, right: ModuleType) -> Image.Image:  # noqa: ARG001
-    with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder) / "scene.yaml"
-        file.write_text(yaml.safe_dump(description), encoding="utf-8")
-        loaded = load_scene(file, _Overlaid(path, made))
-        linear = render(loaded, threads=1, compiled=False).linear
-    return shown(linear)
+def checked(path: str, make: MakeScene) -> Draw:
+    """Make a `Draw` that renders the scene of a picture check, in the size of the site's figures.
+
+    Parameters
+    ----------
+    path : MODULE.FUNCTION
+    make : the scene, as in `course.grading.pictures.scenes`
+    """
+    return partial(_rendered, path, make)
 
 
-def shown(linear: np.ndarray[Any, Any]) -> Image.Image:
-    """A linear picture (H, W, 3) as screens want it; what is no number is magenta."""
-    rows = np.moveaxis(np.asarray(linear, np.float32), -1, 0)
-    lost = ~np.isfinite(rows).all(axis=0)
-    picture = np.ascontiguousarray(linear_to_srgb8(np.where(lost, 0, rows)))
-    picture[lost] = (255, 0, 255)
-    return Image.fromarray(picture)
+def _rendered(path: str, make: MakeScene, made: ModuleType, right: ModuleType) -> Image.Image:  # noqa: ARG001
+    def find(module: str, name: str) -> Callable[..., Any]:
+        whose = made if f"{module}.{name}" == path else functions(module)
+        return getattr(whose, name)  # type: ignore[no-any-return]
+
+    rng = np.random.default_rng(SEED)
+    description = make(rng)
+    film = description.get("film", {}) | {"width": SIZE[0], "height": SIZE[1]}
+    return shown(rendered(loaded(description | {"film": film}, find, rng)))
+
+
+def shown(picture: np.ndarray[Any, Any]) -> Image.Image:
+    """A linear picture (3, H, W) as the grader's reports show it; what is no number is magenta."""
+    (panel,) = draw_pictures(Figure("pictures", "", {"yours": np.asarray(picture)})).panels
+    assert panel.pixels is not None
+    return Image.fromarray(panel.pixels)
 
 
 def glow(*color: float) -> dict[str, Any]:

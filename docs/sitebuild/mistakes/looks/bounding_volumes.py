@@ -195,7 +195,7 @@ def _traversed(
 
 def _blown_up(picture: Array) -> Image.Image:
     """Pixels (DOWN * ACROSS, 3), linear, as squares."""
-    image = shown(picture.reshape(DOWN, ACROSS, 3))
+    image = shown(picture.T.reshape(3, DOWN, ACROSS))
     return image.resize(SIZE, Image.Resampling.NEAREST)
 
 

@@ -80,7 +80,7 @@ def _picture(function: str, faces: Array, directions: Array) -> Draw:
     def draw(made: ModuleType, _: ModuleType) -> Image.Image:
         width, height = SIZE
         colors = getattr(made, function)(faces, directions)
-        return shown(np.moveaxis(np.asarray(colors).reshape(3, height, width), 0, -1))
+        return shown(np.asarray(colors).reshape(3, height, width))
 
     return draw
 

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from types import ModuleType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from course.grading.pictures import scenes
 from sitebuild.mistakes.look import Look
 from sitebuild.mistakes.plots import (
     INK,
@@ -23,7 +24,7 @@ from sitebuild.mistakes.plots import (
     square,
     view,
 )
-from sitebuild.mistakes.rendered import box, floor, glow, scene
+from sitebuild.mistakes.rendered import checked
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -167,28 +168,8 @@ def _kept(axes: Axes, made: ModuleType, _: ModuleType) -> None:
     view(axes, (-1.1, 1.1), (-0.85, 1.1))
 
 
-def _mirrored(function: str, gloss: dict[str, Any]) -> Any:
-    """Bright posts, mirrored by a floor; the camera looks along -x."""
-    colors = {"amber": (0.9, 0.4, 0.04), "white": (0.8, 0.8, 0.75), "blue": (0.1, 0.25, 0.8)}
-    description = {
-        "camera": {"eye": [6, 2.2, 0], "look_at": [0, 0.35, 0], "vertical_fov": 28},
-        "sampler": {"samples": 25},
-        "integrator": {"max_depth": 1},
-        "environment": {"type": "constant", "radiance": [0.05, 0.06, 0.08]},
-        "materials": {
-            "floor": {"color": 0, "ambient": 0, "mirror": 0.9, "gloss": gloss},
-            **{name: glow(*color) for name, color in colors.items()},
-        },
-        "lights": [{"type": "ambient", "radiance": 1}],
-        "objects": [
-            floor("floor"),
-            *(
-                box(tuple(colors)[i % 3], [0.2, 1.5, 0.4], [-0.8, 0.75, 1.6 - 0.8 * i])
-                for i in range(5)
-            ),
-        ],
-    }
-    return scene(f"glossy.{function}", description)
+def _mirrored(rng: np.random.Generator) -> scenes.Scene:
+    return scenes.reflections(rng, {"lobe": "phong", "exponent": 80}, 36)
 
 
 LOOKS = {
@@ -212,13 +193,7 @@ LOOKS = {
         Look(
             "Where the directions pierce the square, and the square",
             plot(_plane),
-            ("one_sided", "twice_as_wide", "one_number"),
-        ),
-        Look(
-            "Bright posts, mirrored by a floor",
-            _mirrored("jitter_on_plane", {"lobe": "plane", "roughness": 0.35}),
-            ("world_axes",),
-            renders=True,
+            ("one_sided", "twice_as_wide", "one_number", "world_axes"),
         ),
         Look(
             "Directions as arrows, and all that are of length 1",
@@ -250,7 +225,7 @@ LOOKS = {
         ),
         Look(
             "Bright posts, mirrored by a floor, for exponent 80",
-            _mirrored("sample_phong_lobe", {"lobe": "phong", "exponent": 80}),
+            checked("glossy.sample_phong_lobe", _mirrored),
             renders=True,
         ),
     ),

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from sitebuild.mistakes.look import Look
+from course.grading.pictures import scenes
+from sitebuild.mistakes.look import Draw, Look
 from sitebuild.mistakes.plots import INK, SECOND, Array, curves, dots, label, plot, square, view
-from sitebuild.mistakes.rendered import box, glow, scene
+from sitebuild.mistakes.rendered import checked
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -87,28 +88,9 @@ def _edge(axes: Axes, made: ModuleType, right: ModuleType) -> None:
     label(axes, "how far a bright edge has come in")
 
 
-BARS = {
-    "camera": {"eye": [0, 0, 10], "look_at": [0, 0, 0], "vertical_fov": 16},
-    "materials": {
-        "back": glow(0.05, 0.09, 0.16),
-        "amber": glow(0.75, 0.33, 0.05),
-        "blue": glow(0.10, 0.30, 0.55),
-        "white": glow(0.6, 0.6, 0.55),
-    },
-    "lights": [{"type": "ambient", "radiance": 1}],
-    "objects": [
-        box("back", [20, 20, 0.1], [0, 0, -1]),
-        *(
-            box(color, [0.35, 9, 0.1], [-1.6 + 0.8 * i, 0, 0.1 * i], ("z", 12.0 - 9 * i))
-            for i, color in enumerate(("amber", "white", "blue", "amber", "white"))
-        ),
-    ],
-}
-
-
-def _bars(sigma: float) -> dict[str, object]:
+def _bars(sigma: float) -> Draw:
     film = {"filter": "gaussian", "sigma": sigma}
-    return BARS | {"film": film, "sampler": {"type": "regular", "samples": 4}}
+    return checked("supersampling.resolve", lambda rng: scenes.edges(rng, "regular", 4, **film))
 
 
 LOOKS = {
@@ -136,7 +118,7 @@ LOOKS = {
     "resolve": (
         Look(
             "Bright bars, with a Gaussian filter",
-            scene("supersampling.resolve", _bars(0.3)),
+            _bars(0.3),
             renders=True,
         ),
         Look(
@@ -146,13 +128,13 @@ LOOKS = {
         ),
         Look(
             "The bars with a filter so narrow that the weights are nearly 0",
-            scene("supersampling.resolve", _bars(0.06)),
+            _bars(0.06),
             ("resolve_epsilon",),
             renders=True,
         ),
         Look(
             "The bars with a filter so narrow that all weights are 0; what is no number is magenta here",
-            scene("supersampling.resolve", _bars(0.01)),
+            _bars(0.01),
             ("resolve_zero_weights_nan", "resolve_zero_weights_black"),
             renders=True,
         ),

@@ -56,9 +56,9 @@ def _window(x: tuple[float, float], y: tuple[float, float]) -> tuple[Array, Arra
 def _shown(colors: Array, inside: Array | None = None) -> Image.Image:
     """Colours (3, N) of all pixels; those outside are pale."""
     width, height = SIZE
-    picture = np.moveaxis(np.array(colors).reshape(3, height, width), 0, -1)
+    picture = np.array(colors).reshape(3, height, width)
     if inside is not None:
-        picture = np.where(inside.reshape(height, width, 1), picture, 0.35 * picture + 0.65)
+        picture = np.where(inside.reshape(height, width), picture, 0.35 * picture + 0.65)
     return shown(picture)
 
 
