@@ -23,29 +23,13 @@ from course.geometry.mesh_polygons import Lists, fans, runs, too_few
 from course.geometry.mesh_words import numbers, real
 from course.geometry.welding import same
 
-_CODES = {
-    "i1": "char int8",
-    "u1": "uchar uint8",
-    "i2": "short int16",
-    "u2": "ushort uint16",
-    "i4": "int int32",
-    "u4": "uint uint32",
-    "f4": "float float32",
-    "f8": "double float64",
-    # Some programs add these.
-    "i8": "int64",
-    "u8": "uint64",
-    "f2": "float16",
-}
-TYPES = {word: code for code, words in _CODES.items() for word in words.split()}
-"""Types of PLY as NumPy calls them, without their byte order."""
+_NAMES = ("int8", "uint8", "int16", "uint16", "int32", "uint32", "float32", "float64")
+_OLD = ("char", "uchar", "short", "ushort", "int", "uint", "float", "double")
+_ADDED = ("int64", "uint64", "float16")
+TYPES = dict(zip((*_OLD, *_NAMES, *_ADDED), (*_NAMES, *_NAMES, *_ADDED), strict=True))
+"""Types of PLY, some programs' own among them, as NumPy calls them."""
 
-ORDERS: dict[str, Literal["=", "<", ">"]] = {
-    "ascii": "=",
-    "binary_little_endian": "<",
-    "binary_big_endian": ">",
-}
-"""Formats of PLY, and how NumPy writes their order of bytes; text has none."""
+ORDERS = ("ascii", "binary_little_endian", "binary_big_endian")
 
 CORNERS = ("vertex_indices", "vertex_index")
 """Names of a face's list of vertices."""
@@ -69,17 +53,15 @@ _CUT_SHORT = "it is cut short, or a count in its header is wrong"
 
 @dataclass(frozen=True)
 class Property:
-    """A number of each row, or with ``count``, the type of its length, a list of ``least`` or more numbers."""
+    """A number of each row, or with ``count``, the type of its length, a list of ``least`` or more numbers.
+
+    Only a face's corners have a least number of them; other lists may be empty.
+    """
 
     name: str
     kind: np.dtype[Any]
     count: np.dtype[Any] | None = None
     least: int = 0
-
-    @property
-    def corners(self) -> bool:
-        """Whether it lists a face's corners; other lists may be empty."""
-        return self.least > 0
 
 
 @dataclass(frozen=True)
@@ -96,7 +78,7 @@ class Element:
 
     def too_short(self, row: int, each: Property, length: int) -> str:
         """What is wrong with a list."""
-        if each.corners:
+        if each.least:
             return too_few(f"face {row}", length)
         return f"the list {each.name} of {self.name} {row} has {length} numbers: expected 0 or more"
 
@@ -167,12 +149,10 @@ def _split_by_corner(part: Part, uv: Array) -> Part:
     kept = vertex[first]
     if kept.min() < 0 or kept.max() >= len(part.vertices):
         return part  # the caller reports the index
-    return Part(
-        vertices=part.vertices[kept],
-        triangles=corner.reshape(-1, 3),
-        normals=None if part.normals is None else np.asarray(part.normals)[kept],
-        uv=uv[first],
-        transform=part.transform,
+    normals = None if part.normals is None else np.asarray(part.normals)[kept]
+    triangles = corner.reshape(-1, 3)
+    return replace(
+        part, vertices=part.vertices[kept], triangles=triangles, normals=normals, uv=uv[first]
     )
 
 
@@ -261,13 +241,20 @@ def _property(words: list[str], element: Element, order: str) -> Property:
             raise ValueError(
                 f"{word[:40]!r} is no type of PLY: expected such as float, double, uchar, int"
             )
-    *count, kind = (np.dtype(TYPES[word]).newbyteorder(ORDERS.get(order, "=")) for word in types)
-    if any(each.kind == "f" for each in count):
+    sign: Literal["<", ">"] = ">" if order == ORDERS[2] else "<"
+    *count, kind = (np.dtype(TYPES[word]).newbyteorder(sign) for word in types)
+    if count and count[0].kind == "f":
         raise ValueError(f"how long a list is can't be a {types[0]}: expected such as uchar")
     if any(name == other.name for other in element.properties):
         raise ValueError(f"expected {name} once")
-    corners = count and element.name == "face" and name in CORNERS
-    return Property(name, kind, count[0] if count else None, 3 if corners else 0)
+    if not count:
+        return Property(name, kind)
+    corners = element.name == "face" and name in CORNERS
+    if corners and kind.kind == "f":
+        raise ValueError(
+            f"the corners of its faces are of type {types[1]}: expected whole numbers, such as int"
+        )
+    return Property(name, kind, count[0], 3 if corners else 0)
 
 
 def _check(element: Element) -> None:
@@ -283,19 +270,12 @@ def _check(element: Element) -> None:
                 f"its vertices have no {', '.join(missing)}: expected properties x, y and z, found {', '.join(found)}"
             )
     if element.name == "face":
-        if len(properties) == 1 and properties[0].count is not None:
-            properties[0] = replace(properties[0], name=CORNERS[0], least=3)
-        corners = [each for each in properties if each.name in CORNERS]
-        if len(corners) != 1 or not corners[0].corners:
+        only = properties[0]
+        if len(properties) == 1 and only.count is not None and only.kind.kind != "f":
+            properties[0] = replace(only, name=CORNERS[0], least=3)
+        if [each.least for each in properties if each.name in CORNERS] != [3]:
             raise ValueError(
                 "its faces have no list of corners: expected property list uchar int vertex_indices"
-            )
-        if (kind := corners[0].kind).kind == "f":
-            word = next(
-                word for word, code in TYPES.items() if np.dtype(code) == kind.newbyteorder("=")
-            )
-            raise ValueError(
-                f"the corners of its faces are of type {word}: expected whole numbers, such as int"
             )
 
 
@@ -361,7 +341,7 @@ def _text_columns(element: Element, lines: list[str]) -> Columns | None:
         if wrong.any():
             return None
         items = runs(values, at + 1, lengths)
-        if each.corners and (items % 1 != 0).any():
+        if each.least and (items % 1 != 0).any():
             return None
         found[each.name] = Lists(lengths, items.astype(kind))
         at = at + 1 + lengths
@@ -383,9 +363,9 @@ def _trouble(element: Element, row: int, words: list[str]) -> str | None:
             at += 1
         for word in words[at : at + length]:
             try:
-                _whole(word) if each.corners else real(word)
+                _whole(word) if each.least else real(word)
             except ValueError:
-                if each.corners:
+                if each.least:
                     return f"corner {word[:40]!r} of face {row}: expected a whole number"
                 return f"{word[:40]!r} is no number"
         at += length
