@@ -23,7 +23,7 @@ from benchmarks.degenerate import measure_degenerate
 from benchmarks.dragons import measure_dragons
 from benchmarks.effects import measure_effects
 from benchmarks.engine import measure_engine
-from benchmarks.figures import Figure, print_figures
+from benchmarks.figures import Figure, table
 from benchmarks.grading import measure_grading
 from benchmarks.importance_sampling import measure_importance_sampling
 from benchmarks.path_tracing import measure_path_tracing
@@ -34,6 +34,7 @@ from benchmarks.ratios import write_ratios
 from benchmarks.reached_error import measure_quickly, measure_reached_error
 from benchmarks.sampling import measure_sampling
 from course.benchmarking.machine import machine
+from course.benchmarking.tables import print_tables
 from course.cli.bench import DOCUMENTS, bench
 from course.effects import PROJECT
 
@@ -58,7 +59,10 @@ MEASURES = {
 }
 
 
-@click.command()
+@click.command(
+    help="Measure everything, or what NAME says; print and write it.\n\n"
+    f"NAME: {', '.join(MEASURES)}, or errors (`course bench`)."
+)
 @click.argument("names", metavar="[NAME]...", nargs=-1, type=click.Choice([*MEASURES, "errors"]))
 @click.option(
     "--quick", is_flag=True, help="Measure errors over time, and reached_error, in about a minute."
@@ -69,12 +73,7 @@ MEASURES = {
     help="Write the table into docs/performance.md and the numbers of plots into docs/data, too.",
 )
 def main(names: tuple[str, ...], quick: bool, write_docs: bool) -> None:
-    """Measure everything, or what NAME says; print and write it.
-
-    NAME: engine, effects, degenerate, process, convergence, dragons, adaptive, reached_error, bounding_volumes,
-    grading, path_tracing, radiosity, sampling, adaptive_sampling, importance_sampling, quasi_monte_carlo, or errors
-    (`course bench`).
-    """
+    """Do what the command line asks for."""
     OUT.mkdir(parents=True, exist_ok=True)
     _keep_bytecode()
     measures = {**MEASURES, **({"reached_error": measure_quickly} if quick else {})}
@@ -102,7 +101,7 @@ def _keep_bytecode() -> None:
 
 def _report(found: dict[str, list[Figure]], write_docs: bool) -> None:
     figures = [figure for part in found.values() for figure in part]
-    print_figures(figures)
+    print_tables([table(figures)])
     made_with = machine()
     path = OUT / "engine.json"
     path.write_text(json.dumps({**made_with, "figures": [f.to_dict() for f in figures]}, indent=2))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -43,26 +44,10 @@ class Figure:
         return {**asdict(self), "reached": self.reached}
 
 
-def print_figures(figures: list[Figure]) -> None:
-    """A table on the terminal."""
-    from rich.console import Console
-    from rich.table import Table as RichTable
-    from rich.text import Text
-
-    table = RichTable(title="engine benchmark, ratios within this run")
-    for column in COLUMNS:
-        table.add_column(column, justify="left" if column == "figure" else "right")
-    for f in figures:
-        told = "[green]reached[/]" if f.reached else "[red]missed[/]"
-        # As it is: rich takes units such as [s] for markup.
-        table.add_row(*(Text(cell) for cell in _cells(f)), told)
-    Console(width=110).print(table)
-
-
-def markdown(figures: list[Figure]) -> str:
-    """The same table as Markdown."""
+def table(figures: Iterable[Figure]) -> Table:
+    """A row for each figure, and whether it reaches its goal."""
     rows = tuple((*_cells(f), "reached" if f.reached else "missed") for f in figures)
-    return Table("", COLUMNS, rows).markdown()
+    return Table("engine benchmark, ratios within this run", COLUMNS, rows)
 
 
 def _cells(f: Figure) -> tuple[str, str, str, str]:

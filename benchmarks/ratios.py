@@ -10,7 +10,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from benchmarks.figures import Figure, markdown
+from benchmarks.figures import Figure, table
 from course.benchmarking.documents import replace_marked
 from course.benchmarking.plot_data import rounded
 from course.imaging.atomic import write_text
@@ -54,7 +54,7 @@ def block(parts: Mapping[str, Any]) -> str:
         f"Made by `python -m benchmarks {' '.join(names)} --write-docs` on {machine}."
         for machine, names in machines.items()
     ]
-    return "\n\n".join([*made, markdown(figures)])
+    return "\n\n".join([*made, table(figures).markdown()])
 
 
 def _plain(figure: Figure) -> dict[str, Any]:
