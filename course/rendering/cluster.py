@@ -89,13 +89,7 @@ class Cluster(Executor):
         return self._connection.most_threads
 
     def prepare(self) -> float:
-        """Wait until the workers have the scene; see ``Executor.prepare``.
-
-        Raises
-        ------
-        CourseError, Exception
-            As by ``Connection.gather``.
-        """
+        """Wait until the workers have the scene; raises what ``Connection.gather`` does."""
         try:
             workers = self._connection.client.nthreads()
             self._connection.gather([self._submit([], worker) for worker in workers])

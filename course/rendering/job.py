@@ -1,4 +1,4 @@
-"""One render as it was asked for, and the modes that it may be done in."""
+"""A render as it was asked for, and the modes that it may be done in."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ BYTES_A_PIXEL = 64
 
 @dataclass(frozen=True)
 class Job:
-    """What is to be rendered.
+    """A render as it was asked for.
 
     Attributes
     ----------
@@ -61,16 +61,11 @@ class Mode:
 
 
 def chosen_settings(settings: Settings, ends_early: bool, **given: Any) -> Settings:
-    """Settings with what was given, and isn't None, in their place.
+    """The settings, with what was given and isn't None in their place; CourseError for what can't be.
 
     Parameters
     ----------
     ends_early : something else than the number of samples is to end the render
-
-    Raises
-    ------
-    CourseError
-        There is no such picture, or its sampler has no such number of samples.
     """
     chosen = replace(
         settings, **{name: value for name, value in given.items() if value is not None}
@@ -92,12 +87,7 @@ def chosen_settings(settings: Settings, ends_early: bool, **given: Any) -> Setti
 
 
 def check_memory(settings: Settings, bytes_a_pixel: int) -> None:
-    """Refuse a picture that is larger than the memory that is free.
-
-    Raises
-    ------
-    OutputError
-    """
+    """Raise OutputError for a picture that is larger than the memory that is free."""
     needed = settings.width * settings.height * bytes_a_pixel
     if needed < 256e6:
         return

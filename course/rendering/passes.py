@@ -21,7 +21,7 @@ SHARES = 2
 
 
 class Sampling(Protocol):
-    """Of the settings of a render, those that say what is to be sampled."""
+    """Size of a picture [pixels], and how many samples each pixel gets."""
 
     @property
     def width(self) -> int:
@@ -29,11 +29,11 @@ class Sampling(Protocol):
 
     @property
     def height(self) -> int:
-        """Rows."""
+        """Pixels in a column."""
 
     @property
     def samples(self) -> int:
-        """Of each pixel."""
+        """Samples of a pixel."""
 
 
 @dataclass(frozen=True)

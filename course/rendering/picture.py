@@ -52,13 +52,7 @@ class Picture:
         save(Path(path), self.film.linear, self.settings.display)
 
     def save_heat_map(self, path: str | Path) -> None:
-        """Write where the samples went: black the fewest, white the most, logarithmic between.
-
-        Raises
-        ------
-        OutputError
-            When the file can't be written; then there is no such file.
-        """
+        """Write where the samples went: black the fewest, white the most, logarithmic between; see ``save``."""
         from course.imaging.files import save
         from course.imaging.heat_map import heat_map
 

@@ -94,7 +94,9 @@ class Executor(ABC):
     def _serve(self, run: Execution) -> None:
         """In a thread of its own: do work, and have it taken in by the film, until there is none or it is too late."""
 
-    def run(self, work: Iterable[Work], film: AnyFilm, tick: Tick | None = None) -> bool:
+    def run(
+        self, work: Iterable[Work], film: AnyFilm, tick: Tick = lambda _done, _first: None
+    ) -> bool:
         """Have work done in order and taken in by the film; whether all of it was.
 
         Parameters
@@ -115,8 +117,7 @@ class Executor(ABC):
             for thread in threads:
                 thread.start()
             while not run.finished.wait(TICK):
-                if tick is not None:
-                    tick(run.film.done, run.film.done_first)
+                tick(run.film.done, run.film.done_first)
         except KeyboardInterrupt:
             self.interrupted = True
         finally:
@@ -127,8 +128,7 @@ class Executor(ABC):
             return False
         if run.error is not None:
             raise run.error
-        if tick is not None:
-            tick(run.film.done, run.film.done_first)
+        tick(run.film.done, run.film.done_first)
         return run.whole
 
     def _worker(self, run: Execution) -> None:

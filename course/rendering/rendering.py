@@ -100,6 +100,8 @@ def render(
     job = Job(scene, settings, time_limit, start)
     mode = _mode(settings, time_limit)
     mode.check(job)
+    if start is not None:
+        _check_start(settings, start.settings)
     check_memory(settings, mode.bytes_a_pixel)
     packets = _use_compiled(settings, compiled)
     if address is None:
@@ -112,8 +114,6 @@ def render(
     began = monotonic()
     with _lines_named(scene, bound):
         tracer = bind(scene, settings, bound)
-        if start is not None:
-            _check_modes(settings, start.settings)
         film, schedule = mode.make(job, tracer, bound)
         executor: Executor
         if address is None:
@@ -131,7 +131,7 @@ def render(
 
 
 def _mode(settings: Settings, time_limit: float | None) -> Mode:
-    """How samples are spread; the module of a mode is imported for renders that need it."""
+    """The mode that settings ask for; its module is imported then."""
     if settings.subdivision is not None:
         from course.rendering.subdivision import SUBDIVISION
 
@@ -143,8 +143,8 @@ def _mode(settings: Settings, time_limit: float | None) -> Mode:
     return UNIFORM if time_limit is None else TIMED
 
 
-def _check_modes(*settings: Settings) -> None:
-    """Pictures of some modes can't be continued, whichever of the two renders is in such a mode."""
+def _check_start(*settings: Settings) -> None:
+    """Raise CourseError if one of two renders, the earlier or the one to continue it, is in a mode that can't go on."""
     for each in settings:
         if (picture := _mode(each, None).final) is not None:
             raise CourseError(f"{picture} can't be continued; start afresh")
@@ -188,7 +188,7 @@ def _receipt(
     executor: Executor,
     wall: float,
 ) -> Receipt:
-    """What each part says of itself."""
+    """Collect the entries that world, film, schedule and executor have for the receipt."""
     plan, counters = tracer.plan, executor.counters
     integrator = job.scene.loaded.description.integrator
     skipped = {**skipped_modules(bound.needs, integrator), **tracer.world.skipped_lights}

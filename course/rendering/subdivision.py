@@ -114,7 +114,7 @@ class SubdivisionSchedule(Schedule):
         return complete
 
     def receipt(self) -> dict[str, Any]:
-        """What became of the rays; ``saved`` is the part of the lattice that got none."""
+        """Where rays went; ``saved`` is the part of the lattice that got none."""
         film = self._film
         return {
             "subdivision": {
