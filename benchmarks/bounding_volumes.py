@@ -17,7 +17,7 @@ import numpy as np
 from benchmarks.figures import Figure, summary
 from benchmarks.report import report
 from course.benchmarking.plot_data import Plot, Series
-from course.benchmarking.tables import Table
+from course.benchmarking.tables import Columns, Table, table_of
 from course.core.types import Floats32
 from course.effects import PROJECT, Effects
 from course.geometry.embree import Accelerator, QueryTime
@@ -88,20 +88,16 @@ def walk(size: tuple[int, int], leaf_size: int, o: Floats32, d: Floats32) -> Wal
 
 def table(walks: Iterable[Walk]) -> Table:
     """A row for each hierarchy; brute force tests every triangle."""
-    columns = ("triangles", "leaf size", "nodes", "boxes", "triangles tested", "brute force")
-    rows = tuple(
-        (
-            f"{each.triangles:,}",
-            f"{each.leaf_size}",
-            f"{each.nodes:,}",
-            f"{each.boxes:.1f}",
-            f"{each.tested:.1f}",
-            f"{each.triangles:,}",
-        )
-        for each in walks
+    columns: Columns[Walk] = (
+        ("triangles", lambda each: f"{each.triangles:,}"),
+        ("leaf size", lambda each: f"{each.leaf_size}"),
+        ("nodes", lambda each: f"{each.nodes:,}"),
+        ("boxes", lambda each: f"{each.boxes:.1f}"),
+        ("triangles tested", lambda each: f"{each.tested:.1f}"),
+        ("brute force", lambda each: f"{each.triangles:,}"),
     )
     title = f"Tests a ray, {RAYS:,} rays towards a knot that about two thirds of them hit"
-    return Table(title, columns, rows)
+    return table_of(title, walks, columns)
 
 
 def plot(walks: Sequence[Walk]) -> Plot:

@@ -21,7 +21,7 @@ from benchmarks.error_curves import Curve, error_curves, error_plot
 from benchmarks.figures import Figure
 from benchmarks.report import report
 from course.benchmarking.plot_data import Plot
-from course.benchmarking.tables import Table, digits
+from course.benchmarking.tables import Columns, Table, digits, order_with_interval, table_of
 from course.core.samplers import Block
 from course.core.samplers.sobol import SobolSampler
 from course.core.types import Floats32, Floats64
@@ -191,18 +191,17 @@ def _mean(integral: Integral, points: Points, n: int, seed: int) -> float:
 
 def table(integral: Integral, curves: list[Curve]) -> Table:
     """Errors and orders."""
-    shown = (COUNTS.index(64), COUNTS.index(COMMON), len(COUNTS) - 1)
-    columns = ("points", *(f"RMSE, {COUNTS[row]:,}" for row in shown), "order (95% interval)")
-    rows = tuple(
-        (
-            curve.name,
-            *(digits(float(curve.rmse[row])) for row in shown),
-            f"{curve.order.value:.2f} ({curve.order.low:.2f} .. {curve.order.high:.2f})",
-        )
-        for curve in curves
+
+    def rmse_at(count: int) -> Callable[[Curve], str]:
+        return lambda curve: digits(float(curve.rmse[COUNTS.index(count)]))
+
+    columns: Columns[Curve] = (
+        ("points", lambda curve: curve.name),
+        *((f"RMSE, {count:,}", rmse_at(count)) for count in (64, COMMON, COUNTS[-1])),
+        ("order (95% interval)", lambda curve: order_with_interval(curve.order)),
     )
     title = f"The mean of {integral.title}, {integral.value:.5f}; {SEEDS} seeds"
-    return Table(title, columns, rows)
+    return table_of(title, curves, columns)
 
 
 def plot(integral: Integral, curves: list[Curve]) -> Plot:

@@ -20,7 +20,7 @@ from benchmarks.picture_sheet import Cell, draw_sheet
 from benchmarks.report import OUT, report
 from course import Scene, load_scene, render
 from course.benchmarking.plot_data import Plot, Series
-from course.benchmarking.tables import Table
+from course.benchmarking.tables import Columns, Table, table_of
 from course.core.types import Floats32, Floats64
 from course.effects import PROJECT
 from course.radiosity.functions import Functions
@@ -159,24 +159,29 @@ def measure_radiosity() -> list[Figure]:
     ]
 
 
+Row = Mapping[str, float]
+"""Where shooting stood: shots, seconds, and the shares of light that are missing."""
+
+
 def iteration_table(iterations: Mapping[int, Solved], patches: Patches) -> Table:
     """The light that is missing after iterations of gathering."""
-    rows = tuple((f"{steps}", f"{solved.left:.2g}") for steps, solved in iterations.items())
-    return Table(f"Gathering, {patches.size:,} patches", ("iterations", "missing"), rows)
-
-
-def shot_table(rows: Iterable[Mapping[str, float]], patches: Patches) -> Table:
-    """Time and missing light over the shots."""
-    columns = ("shots", "seconds", "missing", "with the ambient term", "bound")
-    cells = tuple(
-        (
-            f"{row['shots']}",
-            f"{row['seconds']:.2f}",
-            *(f"{row[key]:.2%}" for key in ("missing", "missing_with_ambient", "bound")),
-        )
-        for row in rows
+    columns: Columns[tuple[int, Solved]] = (
+        ("iterations", lambda found: f"{found[0]}"),
+        ("missing", lambda found: f"{found[1].left:.2g}"),
     )
-    return Table(f"Shooting, {patches.size:,} patches", columns, cells)
+    return table_of(f"Gathering, {patches.size:,} patches", iterations.items(), columns)
+
+
+def shot_table(rows: Iterable[Row], patches: Patches) -> Table:
+    """Time and missing light over the shots."""
+    columns: Columns[Row] = (
+        ("shots", lambda row: f"{row['shots']}"),
+        ("seconds", lambda row: f"{row['seconds']:.2f}"),
+        ("missing", lambda row: f"{row['missing']:.2%}"),
+        ("with the ambient term", lambda row: f"{row['missing_with_ambient']:.2%}"),
+        ("bound", lambda row: f"{row['bound']:.2%}"),
+    )
+    return table_of(f"Shooting, {patches.size:,} patches", rows, columns)
 
 
 # ---------------------------------------------------------------- iterations

@@ -23,7 +23,7 @@ from benchmarks.quasi_monte_carlo import COUNTS, SEEDS, SETS
 from benchmarks.report import OUT, report
 from course.benchmarking.plot_data import Plot
 from course.benchmarking.plots import COLORS, SOFT, STYLE, sheet, write
-from course.benchmarking.tables import Table
+from course.benchmarking.tables import Columns, Table, table_of
 from course.core.types import Floats32
 from course.effects import PROJECT, Effects
 
@@ -113,21 +113,17 @@ def acceptances(points: int) -> list[Acceptance]:
 
 def table(rates: list[Acceptance]) -> Table:
     """The rates, their standard errors, and what they should be."""
-    columns = ("shape", "candidates", "accepted", "rate", "standard error", "expected", "off by")
     names = {"disk": "π/4", "ball": "π/6"}
-    rows = tuple(
-        (
-            rate.name,
-            f"{rate.candidates:,}",
-            f"{rate.inside:,}",
-            f"{rate.rate:.5f}",
-            f"{rate.error:.5f}",
-            f"{names[rate.name]} = {rate.expected:.5f}",
-            f"{rate.off:+.2f} standard errors",
-        )
-        for rate in rates
+    columns: Columns[Acceptance] = (
+        ("shape", lambda rate: rate.name),
+        ("candidates", lambda rate: f"{rate.candidates:,}"),
+        ("accepted", lambda rate: f"{rate.inside:,}"),
+        ("rate", lambda rate: f"{rate.rate:.5f}"),
+        ("standard error", lambda rate: f"{rate.error:.5f}"),
+        ("expected", lambda rate: f"{names[rate.name]} = {rate.expected:.5f}"),
+        ("off by", lambda rate: f"{rate.off:+.2f} standard errors"),
     )
-    return Table("Rejection: candidates that lie inside", columns, rows)
+    return table_of("Rejection: candidates that lie inside", rates, columns)
 
 
 # ---------------------------------------------------------------- errors

@@ -51,6 +51,9 @@ STYLE: dict[str, Any] = {
 WIDE = (10.0, 5.625)
 """Width and height of a figure [inches], 16 : 9."""
 
+LETTERS = 50
+"""Letters that have room below the axes."""
+
 ABOVE = 1.25
 """Slopes start above the largest first error by this factor."""
 
@@ -255,13 +258,16 @@ def _draw_slopes(axes: Axes, plot: Plot, axis: str) -> None:
 
 
 def _number_axes(axes: Axes, places: Iterable[float]) -> None:
+    """Put round numbers along both axes, as many as have room."""
     from matplotlib.ticker import FixedFormatter, FixedLocator, NullLocator
 
-    limits = axes.get_xlim(), axes.get_ylim()
-    for line, (low, high), fours in zip(
-        (axes.xaxis, axes.yaxis), limits, (powers_of_four(places), False), strict=True
-    ):
-        chosen = ticks(low, high, 7, fours=fours)
+    fours = powers_of_four(places)
+    x = ticks(*axes.get_xlim(), 7, fours=fours)
+    width = 2 + max((len(_short(tick)) for tick in x), default=1)
+    if len(x) * width > LETTERS:
+        x = ticks(*axes.get_xlim(), LETTERS // width, fours=fours)
+    y = ticks(*axes.get_ylim(), 7)
+    for line, chosen in ((axes.xaxis, x), (axes.yaxis, y)):
         line.set_major_locator(FixedLocator(chosen))
         line.set_major_formatter(FixedFormatter([_short(tick) for tick in chosen]))
         line.set_minor_locator(NullLocator())

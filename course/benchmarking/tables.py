@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from typing import TypeVar
 
 import click
 import numpy as np
 
-from course.benchmarking.curves import Curve
+from course.benchmarking.curves import Converged, Curve
 from course.benchmarking.measuring import Measured
 from course.benchmarking.orders import Order
 
@@ -52,6 +53,17 @@ class Table:
         return "\n".join([self.title, *(f"  {line}".rstrip() for line in lines)])
 
 
+Item = TypeVar("Item")
+Columns = Sequence[tuple[str, Callable[[Item], str]]]
+"""Each column's heading, and what makes its cell of an item."""
+
+
+def table_of(title: str, items: Iterable[Item], columns: Columns[Item]) -> Table:
+    """Make a table with a row for each item."""
+    rows = tuple(tuple(cell(item) for _, cell in columns) for item in items)
+    return Table(title, tuple(heading for heading, _ in columns), rows)
+
+
 def print_tables(tables: Iterable[Table]) -> None:
     """Print on stdout: rich's tables on a terminal, aligned text elsewhere."""
     if sys.stdout.isatty():
@@ -86,90 +98,76 @@ def summary_table(measured: Measured) -> Table:
     """One row for each estimator: errors, order, time, efficiency."""
     shown = [n for n in _samples(measured) if n in (4, COMMON, _samples(measured)[-1])]
     target = target_error(measured)
-    columns = (
-        "estimator",
-        *(f"RMSE at {n}" for n in shown),
-        f"rel. MSE at {COMMON}",
-        f"1 - SSIM at {COMMON}",
-        "order",
-        f"s at {COMMON}",
-        f"efficiency at {COMMON}",
-        f"s to {digits(target)}",
-    )
-    rows = tuple(
-        (
-            curve.estimator.name,
-            *(at(curve, curve.rmse, n) for n in shown),
-            at(curve, curve.relative_mse.mean(axis=1), COMMON),
-            at(curve, curve.dissimilarity.mean(axis=1), COMMON),
-            _order(curve.order),
-            at(curve, curve.time, COMMON),
-            at(curve, curve.efficiency, COMMON),
-            time_text(curve, target),
-        )
-        for curve in measured.curves
+    columns: Columns[Curve] = (
+        ("estimator", _name),
+        *((f"RMSE at {n}", _rmse_at(n)) for n in shown),
+        *COMPARED,
+        ("order", lambda curve: _order(curve.order)),
+        (f"s at {COMMON}", lambda curve: at(curve, curve.time, COMMON)),
+        EFFICIENCY,
+        (f"s to {digits(target)}", lambda curve: time_text(curve, target)),
     )
     width, height = measured.size
-    return Table(f"{measured.module.title}, {width} x {height} pixels", columns, rows)
+    title = f"{measured.module.title}, {width} x {height} pixels"
+    return table_of(title, measured.curves, columns)
 
 
 def error_table(measured: Measured) -> Table:
     """RMSE over the number of samples, the order, and what of the last error is bias."""
-    samples = _samples(measured)
-    columns = (
-        "estimator",
-        "against",
-        *map(str, samples),
-        "order, 95% interval",
-        "bias",
-        f"rel. MSE at {COMMON}",
-        f"1 - SSIM at {COMMON}",
+    columns: Columns[Curve] = (
+        ("estimator", _name),
+        ("against", lambda curve: curve.estimator.integral),
+        *((str(n), _rmse_at(n)) for n in _samples(measured)),
+        ("order, 95% interval", lambda curve: order_with_interval(curve.order)),
+        ("bias", _bias),
+        *COMPARED,
     )
-    rows = tuple(
-        (
-            curve.estimator.name,
-            curve.estimator.integral,
-            *(at(curve, curve.rmse, n) for n in samples),
-            _order_with_interval(curve.order),
-            _bias(curve),
-            at(curve, curve.relative_mse.mean(axis=1), COMMON),
-            at(curve, curve.dissimilarity.mean(axis=1), COMMON),
-        )
-        for curve in measured.curves
-    )
-    return Table(f"{measured.module.title}: RMSE", columns, rows)
+    return table_of(f"{measured.module.title}: RMSE", measured.curves, columns)
 
 
 def reference_table(measured: Measured) -> Table:
     """What the errors are measured against, and how good that is."""
-    rows = tuple(
-        (name, f"{item.samples:,}", digits(item.error), item.key[:12])
-        for name, item in measured.references.items()
+    columns: Columns[tuple[str, Converged]] = (
+        ("reference", lambda named: named[0]),
+        ("samples", lambda named: f"{named[1].samples:,}"),
+        ("its own RMSE", lambda named: digits(named[1].error)),
+        ("hash", lambda named: named[1].key[:12]),
     )
-    columns = ("reference", "samples", "its own RMSE", "hash")
-    return Table(f"{measured.module.title}: references", columns, rows)
+    title = f"{measured.module.title}: references"
+    return table_of(title, measured.references.items(), columns)
 
 
 def time_table(measured: Measured) -> Table:
     """Median seconds over the number of samples, efficiency, and seconds to one and the same error."""
-    samples = _samples(measured)
     target = target_error(measured)
-    columns = (
-        "estimator",
-        *(f"{n} [s]" for n in samples),
-        f"efficiency at {COMMON}",
-        f"s to RMSE {digits(target)}",
+    columns: Columns[Curve] = (
+        ("estimator", _name),
+        *((f"{n} [s]", _time_at(n)) for n in _samples(measured)),
+        EFFICIENCY,
+        (f"s to RMSE {digits(target)}", lambda curve: time_text(curve, target)),
     )
-    rows = tuple(
-        (
-            curve.estimator.name,
-            *(at(curve, curve.time, n) for n in samples),
-            at(curve, curve.efficiency, COMMON),
-            time_text(curve, target),
-        )
-        for curve in measured.curves
-    )
-    return Table(f"{measured.module.title}: seconds", columns, rows)
+    return table_of(f"{measured.module.title}: seconds", measured.curves, columns)
+
+
+def _name(curve: Curve) -> str:
+    return curve.estimator.name
+
+
+def _rmse_at(n: int) -> Callable[[Curve], str]:
+    return lambda curve: at(curve, curve.rmse, n)
+
+
+def _time_at(n: int) -> Callable[[Curve], str]:
+    return lambda curve: at(curve, curve.time, n)
+
+
+COMPARED: Columns[Curve] = (
+    (f"rel. MSE at {COMMON}", lambda curve: at(curve, curve.relative_mse.mean(axis=1), COMMON)),
+    (f"1 - SSIM at {COMMON}", lambda curve: at(curve, curve.dissimilarity.mean(axis=1), COMMON)),
+)
+"""Errors other than RMSE, at the number of samples at which estimators are compared."""
+
+EFFICIENCY = (f"efficiency at {COMMON}", lambda curve: at(curve, curve.efficiency, COMMON))
 
 
 def target_error(measured: Measured) -> float:
@@ -225,7 +223,8 @@ def _order(order: Order | None) -> str:
     return NONE if order is None else f"{order.value:.2f}"
 
 
-def _order_with_interval(order: Order | None) -> str:
+def order_with_interval(order: Order | None) -> str:
+    """An order and its 95% interval, -0.50 (-0.55 .. -0.45); a dash for none."""
     if order is None:
         return NONE
     interval = f"{order.low:.2f} .. {order.high:.2f}"
