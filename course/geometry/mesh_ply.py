@@ -121,19 +121,18 @@ def parse_ply(data: bytes) -> list[Part]:
         uv=next((uv for names in UV if (uv := _stacked(vertex, names)) is not None), None),
         transform=np.eye(4),
     )
-    if not wedges.lengths.any():
+    if wedges is None or not wedges.lengths.any():
         return [part]
     uv = np.zeros((corners.lengths.sum(), 2), wedges.values.dtype)
     uv[np.repeat(wedges.lengths > 0, corners.lengths)] = wedges.values.reshape(-1, 2)
     return [_split_by_corner(part, uv[where.ravel()])]
 
 
-def _lists(face: Columns) -> tuple[Lists, Lists]:
-    """The faces' corners and their uv, which may be empty."""
+def _lists(face: Columns) -> tuple[Lists, Lists | None]:
+    """The faces' corners, and their uv where they have lists of these."""
     corners, wedges = next(face[name] for name in CORNERS if name in face), face.get(WEDGES)
     assert isinstance(corners, Lists), "the header has been checked"
-    none = Lists(np.zeros_like(corners.lengths), np.zeros(0))
-    return corners, wedges if isinstance(wedges, Lists) else none
+    return corners, wedges if isinstance(wedges, Lists) else None
 
 
 def _stacked(columns: Columns, names: tuple[str, ...]) -> Array | None:
@@ -284,9 +283,10 @@ def _check(element: Element) -> None:
 
 def _check_uv(element: Element, columns: Columns, lines: Sequence[int] = ()) -> None:
     """Refuse faces that have uv for some of their corners; ``lines`` are those of the faces, in text."""
-    if element.name != "face":
+    of, uv = _lists(columns) if element.name == "face" else (None, None)
+    if of is None or uv is None:
         return
-    corners, wedges = (each.lengths for each in _lists(columns))
+    corners, wedges = of.lengths, uv.lengths
     wrong = (wedges != 0) & (wedges != 2 * corners)
     if wrong.any():
         k = int(np.argmax(wrong))
@@ -427,7 +427,7 @@ def _even_rows(element: Element, data: bytes, at: int) -> tuple[Columns, int] | 
             lengths = rows[f"length of {each.name}"]
             if (lengths != lengths[0]).any():
                 return None
-            found[each.name] = Lists(lengths.astype(np.int64), column.ravel())
+            found[each.name] = Lists(np.full(len(rows), lengths[0], np.int64), column.ravel())
     return found, end
 
 
