@@ -51,10 +51,14 @@ class AdaptiveFilm:
         self._differences: dict[int, tuple[float, float]] = {}
         self._begun = False
         self.correction = 1.0
-        """By what an audit multiplies the variance of the whole picture."""
+        """By what audits multiply the variance of the whole picture."""
+        self.doubt = 0.0
+        """Variance of the logarithm of ``correction`` after the last audit."""
+        self.judged = 0.0
+        """Mean variance that the last audit corrected [radiance^2]; 0 before the first."""
         self.audited = 0
         """Samples that audits have taken, which are not in the picture."""
-        self._twins: dict[int, tuple[Indices, Floats64]] = {}
+        self._twins: dict[int, tuple[Indices, Floats64, Floats32]] = {}
 
     def add(
         self, group: Area, mean: Floats32, weight: Floats32 | float, samples: int, whole: bool
@@ -72,31 +76,21 @@ class AdaptiveFilm:
         whole : false for a preview without parts, (3, n), which later stretches replace
         """
         if isinstance(group, TwinGroup):
-            self._add_twins(group, mean, weight)
+            self._add_twins(group, mean, weight, samples)
             return
         which, n = group.pixel_numbers(self.width).astype(np.intp), group.size
         if not whole:
             self.linear.reshape(3, -1)[:, which] = mean
             return
-        parts = np.empty((4, n, PARTS), np.float32)
-        parts[:3] = mean[:3].reshape(3, n, PARTS)
-        parts[3] = np.reshape(weight, (n, PARTS)) if np.ndim(weight) else weight
-        np.maximum(parts[3], _NEARLY_NOTHING, out=parts[3])
-        parts[:3] *= parts[3]
-        halves = parts[:, :, 0::2] + parts[:, :, 1::2]
-        stretch = halves[:, :, 0] + halves[:, :, 1]
-        of_quarters = _apart(parts[:, :, 0], parts[:, :, 1])
-        of_quarters += _apart(parts[:, :, 2], parts[:, :, 3])
-        of_quarters *= np.float32(0.5)
-        of_halves = _apart(halves[:, :, 0], halves[:, :, 1])
-        self._differences[group.number] = (float(of_halves.sum()), float(of_quarters.sum()))
+        compared = _Compared(mean, weight, n)
+        stretch = compared.stretch
+        sums = float(compared.of_halves.sum()), float(compared.of_quarters.sum())
+        self._differences[group.number] = sums
 
         earlier = self._sums.take(which, axis=0)
         before = int(self.samples.reshape(-1)[which[0]])
         estimates = _Estimates(samples, self.order)
-        quarter = (samples - before) // PARTS
-        estimates.add(of_quarters, quarter, quarter, 1)
-        estimates.add(of_halves, 2 * quarter, 2 * quarter, 1)
+        estimates.add_parts(compared, (samples - before) // PARTS)
         if before:
             since = _apart(earlier.T.astype(np.float32), stretch)
             estimates.add(since, before, samples - before, 2)
@@ -110,24 +104,28 @@ class AdaptiveFilm:
         self.variance.reshape(-1)[which] = estimates.mean()
         self.samples.reshape(-1)[which] = samples
 
-    def _add_twins(self, group: TwinGroup, mean: Floats32, weight: Floats32 | float) -> None:
-        weights = np.broadcast_to(np.asarray(weight, np.float64).reshape(-1), mean.shape[1:])
-        weights = np.maximum(weights, _NEARLY_NOTHING).reshape(group.size, PARTS)
-        colours = (mean[:3].reshape(3, group.size, PARTS) * weights).sum(axis=2)
-        self._twins[group.number] = group.pixels, colours / weights.sum(axis=1)
+    def _add_twins(
+        self, group: TwinGroup, mean: Floats32, weight: Floats32 | float, samples: int
+    ) -> None:
+        compared = _Compared(mean, weight, group.size)
+        estimates = _Estimates(samples, self.order)
+        estimates.add_parts(compared, samples // PARTS)
+        stretch = compared.stretch.astype(np.float64)
+        self._twins[group.number] = group.pixels, stretch[:3] / stretch[3], estimates.mean()
 
-    def twins_apart(self, pixels: Indices) -> Floats64:
-        """Squared differences (n,) of pixels (n,) from their second pictures, which are forgotten then.
+    def twins_apart(self, pixels: Indices) -> tuple[Floats64, Floats64]:
+        """Squared differences (n,) of pixels (n,) from their second pictures, and the estimated variances of these.
 
-        All of them were added since the last call, in `course.imaging.pixel_groups.TwinGroup`.
+        All of them were added since the last call, in `course.imaging.pixel_groups.TwinGroup`, and are forgotten then.
         """
-        twins = np.zeros((3, self.width * self.height))
-        for which, colours in self._twins.values():
-            twins[:, which] = colours
+        twins = np.zeros((4, self.width * self.height))
+        for which, colours, variance in self._twins.values():
+            twins[:3, which] = colours
+            twins[3, which] = variance
         self._twins.clear()
-        difference = self.linear.reshape(3, -1)[:, pixels] - twins[:, pixels]
+        difference = self.linear.reshape(3, -1)[:, pixels] - twins[:3, pixels]
         squared: Floats64 = (difference * difference).mean(axis=0)
-        return np.minimum(squared, float(_FARTHEST_APART))
+        return np.minimum(squared, float(_FARTHEST_APART)), twins[3, pixels]
 
     @property
     def error(self) -> float:
@@ -163,6 +161,29 @@ class AdaptiveFilm:
         self.order = order
 
 
+class _Compared:
+    """A stretch of n pixels whose parts are held against each other.
+
+    Attributes
+    ----------
+    stretch : (4, n) float32 r w, g w, b w and w
+    of_halves, of_quarters : (n,) float32 squared differences
+    """
+
+    def __init__(self, mean: Floats32, weight: Floats32 | float, n: int) -> None:
+        parts = np.empty((4, n, PARTS), np.float32)
+        parts[:3] = mean[:3].reshape(3, n, PARTS)
+        parts[3] = np.reshape(weight, (n, PARTS)) if np.ndim(weight) else weight
+        np.maximum(parts[3], _NEARLY_NOTHING, out=parts[3])
+        parts[:3] *= parts[3]
+        halves = parts[:, :, 0::2] + parts[:, :, 1::2]
+        self.stretch: Floats32 = halves[:, :, 0] + halves[:, :, 1]
+        self.of_quarters = _apart(parts[:, :, 0], parts[:, :, 1])
+        self.of_quarters += _apart(parts[:, :, 2], parts[:, :, 3])
+        self.of_quarters *= np.float32(0.5)
+        self.of_halves = _apart(halves[:, :, 0], halves[:, :, 1])
+
+
 class _Estimates:
     """The weighted mean of several estimates of the variance of the mean of some samples."""
 
@@ -175,6 +196,11 @@ class _Estimates:
     def add(self, difference: Floats32, n: int, m: int, weight: int) -> None:
         """From the squared difference of two means, of n and of m samples."""
         self._take(difference, variance_share(n, m, self._samples, self._order), weight)
+
+    def add_parts(self, compared: _Compared, quarter: int) -> None:
+        """From the parts of a stretch with so many samples in each."""
+        self.add(compared.of_quarters, quarter, quarter, 1)
+        self.add(compared.of_halves, 2 * quarter, 2 * quarter, 1)
 
     def keep(self, variance: Floats32, n: int, weight: int) -> None:
         """From the variance that a mean of n of the samples had."""

@@ -34,21 +34,21 @@ ADAPTABLE = ("sobol", "random", "xorshift")
 SAFETY = 0.97
 """Part of the target that a round aims at, so that the last one doesn't miss it by a hair and another must follow."""
 
-AUDITED = (math.inf, 4.0, 1.5, 1.2, 1.0, 1.0)
-"""An audit follows where the told error is at most so many times the target: some early, so that no more is spent than
-must be, the last before the end. They don't make rounds smaller, for each look at a pixel's samples that decides on its
-end makes rare light a little darker."""
+AUDITED = ((math.inf, 1 / 16), (2.5, 1 / 16), (1.3, 1 / 12), (1.1, 1 / 8))
+"""An audit follows where the told error is at most so many times the target, and takes at most such a share of the
+samples so far. The last is the most certain, and none comes after it: to go on until an audit says that it is enough
+would be to wait for a lucky one. It comes before the end, since what was spent too much can't be taken back."""
 
 CLOSE = 1.5
-"""So many times the target the told error is audited within a round, too: by then a power law may be off by as much."""
+"""So many times the target a round is interrupted, too: by then a power law may be off by as much."""
 
-FINEST = 32
+FINEST = 64
 """Parts at most into which a round is divided where its end may be beyond the target. The parts are random, so that
 where it stops doesn't depend on what single pixels have found, and rare light gets no darker than by whole rounds."""
 
-FEWEST = 64
-"""Pixels of such a part at least: of fewer, it is chance whether they have found what there is, and each look at them
-is one more chance to stop too early."""
+FEWEST = 8
+"""Pixels of such a part at least: each look at them is one more chance to stop too early. Where light is rare a few
+dozen pixels have most of the error, and with 64 of them in a part the target was missed by a fifth."""
 
 SMALLEST, LARGEST = RAYS, 2 * RAYS
 """Camera rays in a group of pixels, as far as pixels have so many samples to go: more than in a tile, for the hard
@@ -89,7 +89,8 @@ def render_adaptively(
     while True:
         pixels, taken, begun = rng.permutation(np.flatnonzero(wanted > have)), 0, _told(film)
         while taken < len(pixels):
-            part = pixels[taken : taken + _enough(film, pixels, taken, wanted, begun, error)]
+            goal = _look(audits) * error
+            part = pixels[taken : taken + _enough(film, pixels, taken, wanted, begun, goal)]
             reach = have.copy()
             reach[part] = wanted[part]
             work = groups.stretches(have, reach, order)
@@ -101,12 +102,10 @@ def render_adaptively(
             taken += len(part)
             if taken == len(pixels):
                 film.end_round()
-            elif film.error > CLOSE * error:
-                continue
-            if audits < len(AUDITED) and film.error <= AUDITED[audits] * error:
-                if not _audit(film, audits, groups, run, done):
+            while (passed := _passed(film.error / error)) > audits:
+                audits = passed
+                if not _audit(film, audits - 1, budget, groups, run, done):
                     return False
-                audits += 1
             if film.error <= error:
                 return True
         aim = (SAFETY * error) ** 2 / film.correction
@@ -124,6 +123,16 @@ def render_adaptively(
         # Within the budget, which is of samples.
         most *= min(1, budget / float(most.sum()))
         total = _sum(np.maximum(most, wanted), cost)
+
+
+def _passed(ratio: float) -> int:
+    """How many of AUDITED a ratio of the told error to the target has reached."""
+    return sum(ratio <= level for level, _ in AUDITED)
+
+
+def _look(audits: int) -> float:
+    """How many times the target the told error shall be when a round is interrupted next, after so many audits."""
+    return min(AUDITED[audits][0], CLOSE) if audits < len(AUDITED) else 1.0
 
 
 def _told(film: AdaptiveFilm) -> float:
@@ -144,6 +153,7 @@ def _enough(
     taken : how many of ``pixels`` have been rendered in this round
     wanted : (P,) int32 samples of all pixels after it
     begun : what ``_told`` said before it
+    error : at which to look
     """
     left = pixels[taken:]
     have = film.samples.reshape(-1)[left]
@@ -160,17 +170,22 @@ def _enough(
     return max(math.ceil(excess / gain), len(pixels) // FINEST, FEWEST)
 
 
-def _audit(film: AdaptiveFilm, number: int, groups: Groups, run: Run, done: float) -> bool:
-    """Correct the film's error by an audit, where it is worth one; whether that was finished."""
-    sample = draw(film, number)
+def _audit(
+    film: AdaptiveFilm, number: int, budget: int, groups: Groups, run: Run, done: float
+) -> bool:
+    """Correct the film's error by an audit, where it is worth one and paid for; whether that was finished."""
+    sample = draw(film, number, AUDITED[number][1])
     if sample is None:
+        return True
+    cost = int(sample.samples.sum())
+    if cost > budget - film.audited - int(film.samples.sum()):
         return True
     work = work_for(sample, film, number, groups.next_number)
     groups.next_number += len(work)
     if not run(work, done, done):
         return False
-    film.correction = judge(film, sample, number)
-    film.audited += int(sample.samples.sum())
+    judge(film, sample)
+    film.audited += cost
     return True
 
 

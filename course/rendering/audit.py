@@ -7,8 +7,13 @@ where the number is a power of 4.
 
 So some pixels are rendered a second time, each with as many samples. Their points are as independent of the first as
 another seed's. If A and B are the two means, E (A - B)^2 is the squared error of A and that of B together, whatever the
-points and whatever has decided on the pixel. Pixels are chosen in proportion to the variance that they are told to
-have, for then each tells as much, and some evenly, for the rest.
+points and whatever has decided on the pixel.
+
+The two needn't be alike. A pixel that found bright light by chance was sampled on until that was diluted, one that
+found none was left with little error; B finds such light anew. Where light is rare B may have many times the error of
+A. So the sum is divided as two estimates by one formula are: what the film tells of A, and what the quarters and halves
+of B, on which nothing was decided, tell of B. By what both are wrong, as the power above, cancels; so does the light
+that B alone has found, which is in the sum and in the estimate of B.
 """
 
 from __future__ import annotations
@@ -25,20 +30,29 @@ from course.imaging.tiles import RAYS
 from course.rendering.allocation import LADDER, LONGEST
 from course.rendering.passes import Work
 
-PIXELS = 256
-"""Drawn for an audit at most; the told error is then certain to about 6%, and much less so where light is rare."""
+PIXELS = 1024
+"""Drawn for an audit at most; the told error is then certain to about 2%, and less so where light is rare."""
 
 FEWEST = 32
-"""Drawn for an audit at least; where they would cost more than SHARE there is none."""
+"""Drawn for an audit at least; where they would cost more than its share there is none."""
 
-SHARE = 1 / 16
-"""Of all samples so far, what an audit may take."""
-
-EVENLY = 0.25
+EVENLY = 0.15
 """Of the pixels, drawn without regard to what they are told to have."""
 
-DOUBT = 0.3, 0.2
-"""Standard deviation of the logarithm of the variance that a film tells, over scenes: by itself, and after an audit."""
+POOLED = 5
+"""Side of the square of pixels over which variances are averaged, half and half with a pixel's own, to be drawn by."""
+
+QUIET = 0.2
+"""Of the mean variance, below which pixels are drawn as if they had it: their estimates say little of their errors."""
+
+ALIKE = 0.8
+"""Logarithm of a ratio of two estimated variances from which on it is rather a difference than noise."""
+
+DOUBT = 0.4
+"""Standard deviation of the logarithm of the variance that a film tells by itself, over scenes."""
+
+DRIFT = 0.2
+"""Standard deviation that is added to it while the told variance falls by a factor e after an audit."""
 
 
 @dataclass(frozen=True)
@@ -59,17 +73,26 @@ class Sample:
     samples: Numbers
 
 
-def draw(film: AdaptiveFilm, number: int) -> Sample | None:
-    """Choose pixels for the audit of that number; None where the picture has too few samples yet to pay for one."""
-    variance, have = film.variance.reshape(-1).astype(np.float64), film.samples.reshape(-1)
-    total = float(variance.sum())
-    if total == 0:
+def draw(film: AdaptiveFilm, number: int, share: float) -> Sample | None:
+    """Choose pixels for the audit of that number; None where the picture has too few samples yet to pay for one.
+
+    What is drawn by chances p and costs c tells a sum of values x best where p is as sqrt(E x^2 / c).
+
+    Parameters
+    ----------
+    share : of all samples so far, what the audit may take
+    """
+    have = film.samples.reshape(-1)
+    variance = _pooled(film)
+    mean = float(variance.mean())
+    if mean == 0:
         return None
-    chance = (1 - EVENLY) / total * variance + EVENLY / len(have)
     # A stretch is at most as long as a table of points; more samples would tell little more of A.
     samples = np.minimum(have, LONGEST)
+    best = np.sqrt((variance**2 + (QUIET * mean) ** 2) / samples)
+    chance = (1 - EVENLY) / best.sum() * best + EVENLY / len(have)
     each = float((chance * samples).sum())
-    count = int(min(PIXELS, SHARE * float(have.sum(dtype=np.int64)) / each))
+    count = int(min(PIXELS, share * float(have.sum(dtype=np.int64)) / each))
     if count < FEWEST:
         return None
     # Of the film alone, like everything between the rounds: the same numbers whatever the scene's seed.
@@ -77,6 +100,18 @@ def draw(film: AdaptiveFilm, number: int) -> Sample | None:
     where = np.searchsorted(np.cumsum(chance), rng.random(count)).clip(0, len(have) - 1)
     pixels, drawn = np.unique(where, return_counts=True)
     return Sample(pixels.astype(np.intp), drawn.astype(np.float64), chance[pixels], samples[pixels])
+
+
+def _pooled(film: AdaptiveFilm) -> Floats64:
+    """Variances (P,), half of each from the pixels around it as if they had as many samples."""
+    n = film.samples.astype(np.float64)
+    own = film.variance * n
+    sums = np.pad(own, POOLED // 2, mode="edge")
+    for axis in range(2):
+        windows = np.lib.stride_tricks.sliding_window_view(sums, POOLED, axis)
+        sums = windows.mean(axis=-1)
+    pooled: Floats64 = (0.5 * (own + sums) / n).reshape(-1)
+    return pooled
 
 
 def work_for(sample: Sample, film: AdaptiveFilm, number: int, first: int) -> list[Work]:
@@ -98,23 +133,50 @@ def work_for(sample: Sample, film: AdaptiveFilm, number: int, first: int) -> lis
     return work
 
 
-def judge(film: AdaptiveFilm, sample: Sample, number: int) -> float:
-    """By what the told variance of the picture is to be multiplied, from the second pictures that the film has now.
+def judge(film: AdaptiveFilm, sample: Sample) -> None:
+    """Correct what the film tells, by the second pictures that it has now.
 
     The audit and what was told before it are two opinions, whose logarithms are averaged by their certainty.
     """
-    told = film.variance.reshape(-1).astype(np.float64)
-    apart = film.twins_apart(sample.pixels)
+    told = float(film.variance.mean(dtype=np.float64))
+    apart, of_second = film.twins_apart(sample.pixels)
     # B may have fewer samples than A, and a larger variance then.
     a = film.samples.reshape(-1)[sample.pixels] / sample.samples
-    squared = apart / (1 + a ** (2 * film.order))
-    terms = np.repeat(squared / sample.chance, sample.drawn.astype(np.int64)) / told.sum()
-    mean, count = float(terms.mean()), len(terms)
-    if mean <= 0:
-        return film.correction
-    doubt = float(terms.var()) / (count * mean * mean)
-    before = DOUBT[min(number, 1)] ** 2
-    share = before / (before + doubt)
-    # The logarithm of an uncertain mean is too small by half its variance. Twice that is added, for a film that stops
-    # where it is told little has heard the luckier ones.
-    return math.exp(share * (math.log(mean) + doubt) + (1 - share) * math.log(film.correction))
+    larger = a ** (2 * film.order)
+    count = float(sample.drawn.sum())
+    weight = 1 / (sample.chance * film.samples.size)
+    both = 2 / (1 + larger) * apart * weight
+    second = of_second / larger * weight
+    sum_of_both = float((both * sample.drawn).sum()) / count
+    of_b = float((second * sample.drawn).sum()) / count
+    if sum_of_both <= 0:
+        return
+    part, steepness = _part_of_first(told, of_b)
+    mean = part * sum_of_both / told
+    # Of the logarithm of the mean: what each pixel adds to it, of both sums, to first order.
+    adds = both / sum_of_both - 1 - steepness * (second / max(of_b, _TINY) - 1)
+    doubt = float((adds * adds * sample.drawn).sum()) / count**2
+    before = film.doubt + DRIFT**2 * abs(math.log(told / film.judged)) if film.judged else DOUBT**2
+    share = before / (before + doubt) if doubt else 1.0
+    # The logarithm of an uncertain mean is too small by half its variance.
+    log = share * (math.log(mean) + doubt / 2) + (1 - share) * math.log(film.correction)
+    film.correction, film.doubt, film.judged = math.exp(log), share * doubt, told
+
+
+_TINY = 1e-300
+
+
+def _part_of_first(first: float, second: float) -> tuple[float, float]:
+    """The part of the squared errors of A and B that is A's, by the variances that both are told to have.
+
+    One half where they are alike. Only B may have more: nothing has made its errors smaller than they are.
+
+    Returns
+    -------
+    tuple of float
+        The part, and by how much its logarithm falls where that of ``second`` grows.
+    """
+    lead = math.log(second / first) if second > first else 0.0
+    believed = lead**4 / (lead**4 + ALIKE**4)
+    part = 1 / (1 + math.exp(believed * lead))
+    return part, (1 - part) * believed * (5 - 4 * believed)

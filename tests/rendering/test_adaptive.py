@@ -253,6 +253,21 @@ def test_the_last_round_ends_where_the_target_is_reached() -> None:
     assert 0.8 < np.mean(reached) < 1.05
 
 
+def test_where_few_pixels_have_most_of_the_error_the_target_is_not_far_exceeded() -> None:
+    """60 pixels of 4800 have nearly all of it; parts of a round with 64 pixels leave 0.92 in the mean.
+
+    The mean of 20 runs is 0.97, uncertain by 0.006: 0.03 is 5 standard errors, which chance exceeds once in 3e6.
+    """
+    reached = []
+    for seed in range(20):
+        deviation = np.full((60, 80), 0.01)
+        deviation.ravel()[:60] = 10
+        noise = Noise(deviation, seed)
+        assert noise.render(0.08)
+        reached.append(noise.film.error / 0.08)
+    assert 0.94 < np.mean(reached) <= 1
+
+
 @pytest.mark.parametrize("size", [(1, 1), (2, 1), (5, 4), (30, 20)])
 def test_where_all_pixels_are_alike_no_target_is_just_missed(size: tuple[int, int]) -> None:
     """Between two rungs of the ladder lie 30% in the variance, and what is best is often nearer to the lower one."""
@@ -655,10 +670,10 @@ def test_rare_light_on_black_ground_is_darkened_by_less_than_a_fifth_of_the_erro
     """The price of deciding by the same samples that are shown.
 
     One sample in 50 finds the lamp. A pixel that has found it too often looks noisy and gets more samples, which put it
-    right; one that has found it too rarely looks done. With an error aimed at of 0.7 times the brightness, the picture
-    is darker by 9.5% +- 0.6% (random) and 2.5% +- 0.3% (Sobol points). With half that error it is 2.2% and 0.5%.
+    right; one that has found it too rarely looks done. By Sobol points, aimed at an error of 0.7 times the brightness,
+    the picture reaches 0.6 and is darker by 12%; aimed at 0.35, it reaches 0.31 and is darker by 3%. Here it is 0.55.
     """
-    share, error = 0.02, 0.014
+    share, error = 0.02, {"sobol": 0.011, "random": 0.014}[sampler]
     scene = lamp(make_scene, share)
     mean, deviation = block_means(scene, 50, 16, error=error, spp=1024, sampler=sampler)
     assert share * darker < error / 4
