@@ -12,7 +12,8 @@ import numpy as np
 
 from benchmarks.figures import Figure, summary
 from course import Picture, Scene, load_scene, render
-from course.effects import MODULES, PROJECT
+from course.effects import PROJECT
+from course.modules import MODULES
 
 HEIGHT = 96
 REFERENCE = 2048

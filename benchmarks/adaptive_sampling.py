@@ -21,9 +21,9 @@ from course import Picture, Scene, load_scene, render
 from course.benchmarking.plot_data import Plot, Series
 from course.benchmarking.tables import NONE, Table, digits
 from course.benchmarking.variants import load_variant
+from course.compiled.packets import available
 from course.core.types import Floats64
 from course.effects import PROJECT
-from course.geometry.packets import available
 
 SCENE = PROJECT / "scenes" / "adaptive_sampling.yaml"
 THREADS = 2

@@ -8,7 +8,7 @@ from benchmarks.engine import SCENES
 from benchmarks.figures import Figure, summary
 from course import Scene, render
 from course.benchmarking.variants import load_variant
-from course.scene.overriding import Overrides
+from course.formats.yaml.overriding import Overrides
 
 REPETITIONS = 15
 STILL = {"velocity": [0, 0, 0]}

@@ -11,7 +11,7 @@ from statistics import median
 from time import perf_counter
 
 from benchmarks.figures import Figure, summary
-from course.effects import COURSE, MODULES, PROJECT
+from course.effects import PROJECT
 from course.grading.catalog import module_checks
 from course.grading.checks.check import Caller, Check, ModuleChecks
 from course.grading.checks.preparing import References
@@ -22,6 +22,7 @@ from course.grading.known import known
 from course.grading.pictures.whole import NAME
 from course.grading.references import make_references, read_references, reference
 from course.grading.worker.client import Worker
+from course.modules import COURSE, MODULES
 
 ROUNDS = 5
 CLASS = 24

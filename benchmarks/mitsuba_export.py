@@ -16,17 +16,17 @@ from typing import Any
 import msgspec
 import numpy as np
 
-from course.appearance.cube_environment import CubeEnvironment
-from course.geometry.mesh import Mesh
-from course.geometry.welding import same
-from course.scene import description as d
-from course.scene.description.values import rgb
-from course.scene.instancing import object_mesh
-from course.scene.lobe_compiling import lobe_function
-from course.scene.material_table import base_color
-from course.scene.object_lights import Columns, material_columns
+from course.building.gloss import lobe_function
+from course.building.materials import base_color
+from course.building.objects import object_mesh
+from course.building.shutter import shutter_of
+from course.core.environment import CubeEnvironment
+from course.core.triangles import Mesh
+from course.formats.meshes.welding import same
+from course.formats.yaml import description as d
+from course.formats.yaml.description.values import rgb
+from course.formats.yaml.object_lights import Columns, material_columns
 from course.scene.scene import Scene
-from course.scene.shutter import shutter_of
 
 LOBES = ("", "jitter_on_plane", "jitter_in_ball", "sample_phong_lobe")
 """Kinds of gloss by number; 0 is a perfect mirror."""

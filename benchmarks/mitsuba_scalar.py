@@ -19,10 +19,10 @@ import numpy as np
 from benchmarks.mitsuba_export import LOBES, Exported, NotExportableError, Part
 from benchmarks.mitsuba_llvm import make_mesh
 from benchmarks.mitsuba_sensors import Sensors
-from course.scene import description as d
-from course.scene.description.values import rgb
-from course.scene.loading import load_description
-from course.scene.overriding import Overrides
+from course.formats.yaml import description as d
+from course.formats.yaml.description.values import rgb
+from course.formats.yaml.loading import load_description
+from course.formats.yaml.overriding import Overrides
 
 SAMPLES_A_STILL = 4
 """Of a picture of moving things, which is the mean of stills."""

@@ -21,8 +21,9 @@ from pathlib import Path
 
 import click
 
+from course.atomic import write_text
 from course.benchmarking.tables import NONE, Table
-from course.effects import COURSE, PROJECT
+from course.effects import PROJECT
 from course.grading.catalog import module_checks
 from course.grading.checks.preparing import prepared
 from course.grading.checks.result import Status
@@ -36,7 +37,7 @@ from course.grading.varied import gaps
 from course.grading.varied import varied as varied_by_checks
 from course.grading.worker.client import Worker
 from course.grading.worker.limits import Limits
-from course.imaging.atomic import write_text
+from course.modules import COURSE
 
 CHANCE = ("distribution", "order")
 """Kinds of checks in which chance decides; bias is estimated from its own distribution, for it renders."""

@@ -29,8 +29,8 @@ from course.benchmarking.measuring import Measured, measure
 from course.benchmarking.sources import scene_hash
 from course.benchmarking.tables import summary_table
 from course.benchmarking.variants import load_variant
+from course.compiled.packets import available
 from course.effects import PROJECT
-from course.geometry.packets import available
 
 SCENE = PROJECT / "scenes" / "path_tracing.yaml"
 ROUNDS = 5

@@ -15,8 +15,8 @@ from typing import Any
 import msgspec
 
 from benchmarks.mitsuba_agreement import Agreement
+from course.atomic import write_text
 from course.benchmarking.plot_data import rounded
-from course.imaging.atomic import write_text
 
 EFFECTS = (
     "supersampling",

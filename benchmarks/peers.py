@@ -52,9 +52,9 @@ from course.benchmarking.sources import scene_hash
 from course.benchmarking.tables import print_tables
 from course.benchmarking.variants import load_variant
 from course.effects import PROJECT
-from course.scene.description.values import rgb
-from course.scene.loading import load_description
-from course.scene.overriding import Overrides
+from course.formats.yaml.description.values import rgb
+from course.formats.yaml.loading import load_description
+from course.formats.yaml.overriding import Overrides
 
 SAMPLES = 64
 """A pixel, of Mitsuba's best sampler; its error is the one to reach."""
@@ -255,7 +255,7 @@ def our_settings(case: Case, target: float) -> list[Setting]:
     known = inspect.signature(render).parameters
     engines: dict[str, dict[str, Any]] = {"": {"compiled": False} if "compiled" in known else {}}
     if "compiled" in known:
-        from course.geometry.packets import available
+        from course.compiled.packets import available
 
         if available():  # the fastest first: it finds the family's errors
             engines = {", compiled": {"compiled": True}, **engines}

@@ -22,13 +22,13 @@ from typing import Any
 import click
 import numpy as np
 
+from course.atomic import write_text
 from course.benchmarking.machine import machine
-from course.core.samplers import FUNCTIONS
+from course.compiled.packets import available
 from course.effects import PROJECT
 from course.errors import CourseError
-from course.geometry.packets import available
-from course.imaging.atomic import write_text
-from course.rendering.rendering import render
+from course.extras.samplers import FUNCTIONS
+from course.render_scene import render
 from course.scene.scene import Scene, load_scene
 
 SAMPLES = 4

@@ -11,9 +11,9 @@ from pathlib import Path
 from typing import Any
 
 from benchmarks.figures import Figure, table
+from course.atomic import write_text
 from course.benchmarking.documents import replace_marked
 from course.benchmarking.plot_data import rounded
-from course.imaging.atomic import write_text
 
 MARK = "make bench"
 DATA = Path("data", "ratios.json")

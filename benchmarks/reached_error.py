@@ -19,7 +19,7 @@ from course import Picture, render
 from course.benchmarking.references import Reference, load_variant, reference
 from course.benchmarking.tables import Table, print_tables
 from course.effects import PROJECT
-from course.scene.overriding import Overrides
+from course.formats.yaml.overriding import Overrides
 
 UNIFORM = 64
 """Samples whose error is asked for."""

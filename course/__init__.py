@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     from course.errors import GeometryError as GeometryError
     from course.errors import OutputError as OutputError
     from course.errors import SceneError as SceneError
-    from course.rendering.picture import Picture as Picture
-    from course.rendering.rendering import render as render
+    from course.jobs.picture import Picture as Picture
+    from course.render_scene import render as render
     from course.scene.scene import Scene as Scene
     from course.scene.scene import load_scene as load_scene
 
@@ -32,11 +32,11 @@ _HOMES = {
     "EffectError": "course.errors",
     "GeometryError": "course.errors",
     "OutputError": "course.errors",
-    "Picture": "course.rendering.picture",
+    "Picture": "course.jobs.picture",
     "Scene": "course.scene.scene",
     "SceneError": "course.errors",
     "load_scene": "course.scene.scene",
-    "render": "course.rendering.rendering",
+    "render": "course.render_scene",
 }
 
 __all__ = ["__version__", *_HOMES]  # noqa: PLE0604

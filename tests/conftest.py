@@ -14,8 +14,8 @@ import pytest
 from numpy.typing import NDArray
 
 from course import Scene, load_scene
-from course.geometry import packets
-from course.rendering import rendering
+from course import render_scene as rendering
+from course.compiled import packets
 from tests.once import Once, made_once, shared_folder
 
 MakeScene = Callable[..., Scene]

@@ -19,13 +19,13 @@ import pytest
 from course import inputs, load_scene
 from course.effects import Effects
 from course.errors import CourseError
-from course.geometry.mesh_files import read_mesh
+from course.formats.meshes.files import read_mesh
+from course.formats.metu.reading import read_elements
+from course.formats.pictures.reading import read_picture
 from course.grading.classes.roster import read_roster
 from course.grading.references import read_references
-from course.imaging.reading import read_picture
 from course.inputs import Bound, opened, read_arrays, read_input
 from course.radiosity.solution import load_solution
-from course.scene.metu.reading import read_elements
 
 pytestmark = pytest.mark.skipif(
     sys.platform == "win32", reason="has no pipes, devices and links like these"
@@ -255,9 +255,9 @@ def test_a_folder_of_functions_with_a_name_that_is_too_long_is_refused(tmp_path:
 
 
 OWN_FILES = {
-    "rendering/kept_scenes.py": "the course's sources",
-    "rendering/parcel.py": "files of a scene that has been compiled here",
-    "scene/metu/converting.py": "the scene that it has written",
+    "cluster/kept_scenes.py": "the course's sources",
+    "cluster/parcel.py": "files of a scene that has been compiled here",
+    "formats/metu/converting.py": "the scene that it has written",
 }
 """What reads files by itself all the same, and which."""
 
@@ -268,13 +268,8 @@ def test_no_other_reader_opens_files_by_itself() -> None:
     found = {
         path.relative_to(course).as_posix()
         for folder in (
-            "core",
-            "geometry",
-            "appearance",
-            "imaging",
-            "scene",
-            "radiosity",
-            "rendering",
+            *("core", "extras", "compiled", "adaptive", "building", "cluster", "comparing"),
+            *("formats", "shapes", "scene", "jobs", "radiosity", "rendering"),
         )
         for path in (course / folder).rglob("*.py")
         if by_itself.search(path.read_text(encoding="utf-8"))

@@ -17,9 +17,9 @@ import yaml
 
 from course import load_scene, render
 from course.cli.tables import summary_sections
-from course.effects import MODULES
-from course.imaging.reading import read_picture
-from course.rendering.picture import Picture
+from course.formats.pictures.reading import read_picture
+from course.jobs.picture import Picture
+from course.modules import MODULES
 from course.rendering.summary import summarize
 
 SCENES = Path(__file__).parent.parent / "scenes"

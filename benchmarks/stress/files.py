@@ -46,7 +46,7 @@ class SceneFiles:
         for name, text in self.texts.items():
             (folder / name).write_text(text, encoding="utf-8")
         for name, picture in self.pictures.items():
-            from course.imaging.files import save
+            from course.formats.pictures.files import save
 
             save(folder / name, np.moveaxis(picture, 2, 0))
         path = folder / SCENE

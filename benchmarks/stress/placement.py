@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from course.geometry.transforms import rotate
+from course.formats.meshes.transforms import rotate
 
 AXIS = (1.0, 2.0, 3.0)
 AWAY = np.array([1.0, -0.7, 0.31])

@@ -12,7 +12,7 @@ from math import sqrt
 from pathlib import Path
 
 from course.effects import PROJECT
-from course.scene.overriding import Overrides
+from course.formats.yaml.overriding import Overrides
 
 SAMPLERS = ("regular", "random", "jittered", "sobol")
 

@@ -8,8 +8,8 @@ from importlib.metadata import version
 from pathlib import Path
 
 from course import __version__
-from course.geometry.packets import available
-from course.rendering.pool import default_threads
+from course.compiled.packets import available
+from course.core.threads import default_threads
 
 
 def machine() -> dict[str, str]:

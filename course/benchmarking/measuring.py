@@ -15,11 +15,11 @@ from course.benchmarking.errors import dissimilarity, relative_mse, rmse
 from course.benchmarking.estimators import Estimator, Module
 from course.benchmarking.references import FOLDER, Reference, reference
 from course.benchmarking.variants import load_variant
+from course.compiled.packets import available
 from course.core.types import Floats64
 from course.effects import Effects
-from course.geometry.packets import available
-from course.rendering.rendering import render
-from course.scene.overriding import Overrides
+from course.formats.yaml.overriding import Overrides
+from course.render_scene import render
 from course.scene.scene import Scene
 
 Tick = Callable[[float], None]

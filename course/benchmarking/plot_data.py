@@ -14,8 +14,8 @@ from math import isfinite
 from pathlib import Path
 from typing import Any
 
+from course.atomic import write_text
 from course.errors import CourseError, OutputError
-from course.imaging.atomic import write_text
 
 DIGITS = 6
 """Digits that count of a number in a file: enough for the three that are shown to be rounded once."""

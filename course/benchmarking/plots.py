@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from course.atomic import replacing
 from course.benchmarking.convergence_data import comparisons
 from course.benchmarking.line_names import name_lines
 from course.benchmarking.measuring import Measured
@@ -20,7 +21,6 @@ from course.benchmarking.plot_data import Plot, Series
 from course.benchmarking.tables import digits
 from course.benchmarking.ticks import plain, powers_of_four, ticks
 from course.errors import CourseError
-from course.imaging.atomic import replacing
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -9,16 +9,16 @@ from zipfile import BadZipFile
 
 import numpy as np
 
+from course.atomic import replacing
 from course.benchmarking.sources import scene_hash
+from course.building.world import compile_scene
+from course.core.render import Progress
 from course.core.types import Floats32
 from course.effects import Effects
 from course.errors import CourseError, OutputError
-from course.imaging.atomic import replacing
-from course.rendering.render import Progress
-from course.rendering.rendering import render
-from course.scene.compiling import compile_scene
-from course.scene.loading import Loaded, load_description
-from course.scene.overriding import Overrides
+from course.formats.yaml.loading import Loaded, load_description
+from course.formats.yaml.overriding import Overrides
+from course.render_scene import render
 from course.scene.scene import Scene
 
 FOLDER = Path("out", "references")
@@ -50,7 +50,7 @@ def load_variant(
     overrides: Overrides | None = None,
     effects: str | Path | Effects | None = None,
 ) -> Scene:
-    """`course.load_scene`, with other values at some key paths (`course.scene.overriding`)."""
+    """`course.load_scene`, with other values at some key paths (`course.formats.yaml.overriding`)."""
     bound = effects if isinstance(effects, Effects) else Effects(effects)
     loaded = load_description(Path(path), overrides)
     return Scene(loaded, compile_scene(loaded, bound), bound)

@@ -10,10 +10,13 @@ from pathlib import Path
 
 from course.effects import PROJECT, Effects
 from course.errors import SceneError
-from course.scene import description as d
-from course.scene.loading import Loaded
+from course.formats.yaml import description as d
+from course.formats.yaml.loading import Loaded
 
-RENDERING = ("core", "geometry", "appearance", "imaging", "scene", "rendering", "transport")
+RENDERING = (
+    *("core", "extras", "compiled", "adaptive", "building", "formats", "shapes"),
+    *("scene", "jobs", "rendering"),
+)
 """The packages of the course that have a say in a picture."""
 
 LIBRARIES = ("embreex", "numpy", "pillow", "trimesh")

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from course.building.world import compile_scene
 from course.effects import Effects
-from course.scene.compiling import compile_scene
-from course.scene.loading import load_description
-from course.scene.overriding import Overrides
+from course.formats.yaml.loading import load_description
+from course.formats.yaml.overriding import Overrides
 from course.scene.scene import Scene
 
 

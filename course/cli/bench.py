@@ -10,12 +10,13 @@ from typing import TYPE_CHECKING
 
 import click
 
+from course.atomic import write_text
 from course.cli import options
 from course.cli.outputs import check_outputs, is_same_file, make_folder
 from course.cli.progress import progress_bar
-from course.effects import COURSE, MODULES, PROJECT
+from course.effects import PROJECT
 from course.errors import CourseError, OutputError
-from course.imaging.atomic import write_text
+from course.modules import COURSE, MODULES
 
 if TYPE_CHECKING:
     from course.benchmarking.estimators import Estimator, Module

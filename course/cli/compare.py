@@ -15,7 +15,7 @@ from course.cli.tables import Section, print_sections
 from course.errors import CourseError
 
 if TYPE_CHECKING:
-    from course.imaging.comparison import Comparison
+    from course.comparing.comparison import Comparison
 
 DIFFERENT = 1
 TROUBLE = 2
@@ -64,8 +64,8 @@ def compare(
 def _compare(
     a: Path, b: Path, significance: float, difference: Path | None, json_path: Path | None
 ) -> Comparison:
-    from course.imaging.comparison import compare as compare_pictures
-    from course.imaging.reading import LINEAR, read_picture
+    from course.comparing.comparison import compare as compare_pictures
+    from course.formats.pictures.reading import LINEAR, read_picture
 
     for source in (a, b):
         check_outputs([("--difference", difference)], [("--json", json_path)], source)
@@ -78,14 +78,14 @@ def _compare(
     except CourseError as error:
         raise CourseError(f"{a}, {b}: {error}") from error
     if difference is not None:
-        from course.imaging.difference import difference_picture
-        from course.imaging.files import write_png
+        from course.comparing.difference import difference_picture
+        from course.formats.pictures.files import write_png
 
         write_png(difference, difference_picture(first, second))
     different = found.p_value < significance
     print_sections(f"{a} - {b}", _sections(found, different, significance))
     if json_path is not None:
-        from course.imaging.atomic import write_text
+        from course.atomic import write_text
 
         told = {"a": str(a), "b": str(b), "significance": significance, "different": different}
         write_text(

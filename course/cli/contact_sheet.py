@@ -25,7 +25,7 @@ class Card:
     png : bytes
         The PNG itself, shown by the page.
     receipt : mapping
-        As `course.rendering.receipt.Receipt.to_dict` gives it.
+        As `course.jobs.receipt.Receipt.to_dict` gives it.
     size : (int, int)
         Width and height [pixels].
     """

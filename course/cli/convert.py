@@ -26,7 +26,7 @@ def convert(scene: Path, out: Path | None) -> None:
     scene are written to the folder FILE.meshes, mesh files stay where they are. What isn't known
     is named in a warning.
     """
-    from course.scene.metu.converting import convert as convert_scene
+    from course.formats.metu.converting import convert as convert_scene
 
     out = Path(f"{scene.stem}.yaml") if out is None else out
     if out.suffix.lower() not in (".yaml", ".yml"):

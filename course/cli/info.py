@@ -8,7 +8,7 @@ import click
 
 from course.cli.metu import check_camera, converted, told_of, without_place
 from course.cli.tables import Section, print_sections, summary_sections
-from course.scene.metu.suffixes import is_metu
+from course.formats.metu.suffixes import is_metu
 
 
 @click.command()

@@ -12,10 +12,10 @@ import click
 
 from course.cli.temporary import temporary_folder
 from course.errors import CourseError, SceneError
-from course.scene.metu.suffixes import is_metu
+from course.formats.metu.suffixes import is_metu
 
 if TYPE_CHECKING:
-    from course.scene.metu.converting import Converted
+    from course.formats.metu.converting import Converted
 
 
 def check_not_metu(scene: Path, command: str) -> None:
@@ -46,7 +46,7 @@ def converted(scene: Path, camera: str | None) -> Iterator[list[Converted]]:
     SceneError
         A mistake in the scene.
     """
-    from course.scene.metu.converting import convert
+    from course.formats.metu.converting import convert
 
     with temporary_folder() as folder:
         found, warnings = convert(scene, folder / "scene.yaml")
@@ -67,7 +67,7 @@ def told_of(scene: Path, file: Path) -> Iterator[None]:
     except SceneError as error:
         if file == scene:
             raise
-        from course.scene.metu.converting import retold
+        from course.formats.metu.converting import retold
 
         raise retold(error, scene, file) from error
 

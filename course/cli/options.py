@@ -13,7 +13,7 @@ from pathlib import Path
 
 import click
 
-from course.effects import COURSE
+from course.modules import COURSE
 
 INTERRUPTED = 130
 """Exit code after Ctrl-C: 128 + SIGINT, as shells have it."""

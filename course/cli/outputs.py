@@ -12,8 +12,8 @@ from collections.abc import Sequence
 from itertools import combinations
 from pathlib import Path
 
+from course.atomic import check_writable
 from course.errors import OutputError
-from course.imaging.atomic import check_writable
 
 Named = tuple[str, Path | None]
 """What the command line calls an output, such as -o, and its path; None where it isn't asked for."""
@@ -40,7 +40,7 @@ def check_outputs(
     for _, path in pictures:
         if path is not None:
             # With the picture formats comes NumPy, which other commands don't need yet.
-            from course.imaging.files import check_picture_path
+            from course.formats.pictures.files import check_picture_path
 
             check_picture_path(path)
     for _, path in files:

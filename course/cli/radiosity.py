@@ -200,7 +200,7 @@ def _views(
 def _write_pictures(
     solution: Solution, views: Sequence[View], out: Path, size: tuple[int, int] | None
 ) -> None:
-    from course.imaging.files import save
+    from course.formats.pictures.files import save
     from course.radiosity.viewing import look
 
     width, height = size or (int(solution.size[0]), int(solution.size[1]))

@@ -8,7 +8,8 @@ import click
 
 from course.cli.outputs import check_outputs
 from course.cli.tables import count
-from course.effects import COURSE, PROJECT
+from course.effects import PROJECT
+from course.modules import COURSE
 
 
 @click.command()

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 
 import click
 
+from course.atomic import write_text
 from course.cli.outputs import check_outputs
 from course.cli.tables import count
 from course.effects import PROJECT
 from course.errors import OutputError
-from course.imaging.atomic import write_text
 
 if TYPE_CHECKING:
     from course.grading.release.stubs import Stub

@@ -9,14 +9,14 @@ from typing import Any
 
 import click
 
+from course.atomic import write_text
 from course.cli import options
 from course.cli.metu import check_camera, converted, told_of
 from course.cli.outputs import check_outputs
 from course.cli.progress import progress_bar
 from course.cli.tables import print_sections, receipt_sections
 from course.errors import CourseError
-from course.imaging.atomic import write_text
-from course.scene.metu.suffixes import is_metu
+from course.formats.metu.suffixes import is_metu
 
 SAMPLERS = (
     "sobol",
@@ -191,8 +191,8 @@ def _render_one(
 
 def _check_error(scene: Path, sampler: str, samples: int, choices: dict[str, Any]) -> None:
     """A METU scene has a grid of samples, which nobody chose who asks for an error to be aimed at."""
-    from course.rendering.adaptive import ADAPTABLE
-    from course.rendering.allocation import FIRST
+    from course.adaptive.allocation import FIRST
+    from course.adaptive.rounds import ADAPTABLE
 
     if choices["error"] is None or choices["sampler"] is not None or sampler in ADAPTABLE:
         return

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import click
 
+from course.atomic import write_text
 from course.cli import options
-from course.imaging.atomic import write_text
 
 
 @click.command()
@@ -26,7 +26,7 @@ def schema(out: Path | None) -> None:
     the top of a scene completes its keys and marks mistakes; FILE.json is relative to the scene.
     `course schema -o scenes/scene.schema.json` writes the one that scenes/still_life.yaml names.
     """
-    from course.scene.schema import json_schema
+    from course.formats.yaml.schema import json_schema
 
     text = json.dumps(json_schema(), indent=2) + "\n"
     if out is None:

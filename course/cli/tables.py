@@ -60,7 +60,7 @@ def receipt_sections(receipt: Mapping[str, Any]) -> list[Section]:
     Parameters
     ----------
     receipt : mapping
-        As `course.rendering.receipt.Receipt.to_dict` gives it.
+        As `course.jobs.receipt.Receipt.to_dict` gives it.
 
     Returns
     -------

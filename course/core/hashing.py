@@ -1,4 +1,4 @@
-"""Integer hashing: the same well-mixed 32 bits for the same pixel, dimension and seed, anywhere and in any order."""
+"""Integer hashing: 32 well-mixed bits that depend only on pixel, dimension and seed."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ import numpy as np
 from course.core.types import Words
 
 GOLDEN, FIRST, SECOND = 0x9E3779B97F4A7C15, 0xBF58476D1CE4E5B9, 0x94D049BB133111EB
-"""What SplitMix64 adds, and what it multiplies by."""
+"""SplitMix64's increment and its two multipliers."""
 
 _MASK64 = (1 << 64) - 1
 
 
 def mix(value: int) -> int:
-    """One 64-bit word mixed into another (the finaliser of SplitMix64; Steele, Lea & Flood 2014)."""
+    """Hash of a 64-bit word (one step of SplitMix64; Steele, Lea & Flood 2014)."""
     value = (value + GOLDEN) & _MASK64
     value = ((value ^ (value >> 30)) * FIRST) & _MASK64
     value = ((value ^ (value >> 27)) * SECOND) & _MASK64
@@ -21,7 +21,7 @@ def mix(value: int) -> int:
 
 
 def combine(*keys: int) -> int:
-    """A 64-bit word that depends on every key and on their order; keys are non-negative integers."""
+    """64-bit hash of non-negative integers and their order."""
     state = 0
     for key in keys:
         state = mix(state ^ (key & _MASK64))
@@ -29,16 +29,9 @@ def combine(*keys: int) -> int:
 
 
 def hash_words(keys: Words, *salts: int) -> Words:
-    """Uniformly distributed 32-bit words, independent from key to key and from salt to salt.
+    """Uniform 32-bit words (len(salts), n), independent between keys (n,) and between 64-bit salts.
 
-    Parameters
-    ----------
-    keys : (n,) uint32, for instance pixel numbers
-    salts : 64-bit integers, for instance ``combine(seed, dimension)`` for some dimensions
-
-    Returns
-    -------
-    (len(salts), n) uint32
+    Keys are pixel numbers, for instance, and a salt is ``combine(seed, dimension)``.
     """
     state = keys.astype(np.uint64) * np.uint64(GOLDEN)
     state = state + np.array([salt & _MASK64 for salt in salts], np.uint64)[:, None]

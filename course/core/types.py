@@ -1,4 +1,4 @@
-"""Names of the array types that the whole course shares."""
+"""Array types that the whole course shares."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Floats = NDArray[np.floating[Any]]
-"""A float32 or float64 array; which one is the caller's choice and is kept."""
+"""A float32 or float64 array; functions keep the caller's dtype."""
 
 Floats32 = NDArray[np.float32]
 Floats64 = NDArray[np.float64]
@@ -17,10 +17,10 @@ Indices = NDArray[np.intp]
 Mask = NDArray[np.bool_]
 
 Numbers = NDArray[np.int32]
-"""Numbers of triangles, as Embree gives them."""
+"""Triangle numbers, as Embree returns them."""
 
 Materials = NDArray[np.uint16]
-"""Numbers of materials."""
+"""Material numbers."""
 
 Media = NDArray[np.int16]
-"""Material numbers of the media that rays travel in, -1 in the open."""
+"""Material numbers of the media that rays travel in; -1 outside all media."""

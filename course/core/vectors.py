@@ -1,31 +1,36 @@
-"""Vector arithmetic on (3, N) arrays: rows are x, y, z; a column is a ray or a point.
-
-Every function keeps the dtype of its arguments: no float64 constant ever meets a float32 array here.
-"""
+"""Vector arithmetic on (3, N) arrays: rows are x, y, z; columns are vectors or points. It keeps the dtype."""
 
 from __future__ import annotations
 
-import numpy as np
+from typing import Any
 
-from course.core.types import Floats
+import numpy as np
+from numpy.typing import NDArray
+
+from course.core.types import Floats, Floats32
 
 
 def dot(a: Floats, b: Floats) -> Floats:
-    """Scalar product of columns, (3, N) x (3, N) -> (N,); either may be (3, 1)."""
-    # One call instead of five: calls are what two threads wait for each other in.
+    """Dot product of columns, (3, N) x (3, N) -> (N,); either may be (3, 1)."""
+    # One NumPy call instead of five: between calls, threads wait for each other.
     product: Floats = np.einsum("ij,ij->j", a, b)
     return product
 
 
 def cross(a: Floats, b: Floats) -> Floats:
-    """Vector product of columns, (3, N) x (3, N) -> (3, N)."""
+    """Cross product of columns, (3, N) x (3, N) -> (3, N)."""
     return np.stack(
         (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
     )
 
 
 def reflect(direction: Floats, normal: Floats) -> Floats:
-    """Mirror directions of travel in the surface, d - 2 (d . n) n, (3, N) -> (3, N)."""
+    """Mirror directions in a surface with unit normals: d - 2 (d . n) n, (3, N) -> (3, N)."""
     twice = dot(direction, normal)
     twice += twice
     return direction - twice * normal
+
+
+def gather(table: Floats32, number: NDArray[np.integer[Any]]) -> Floats32:
+    """Rows ``number`` (N,) of a table (T, k) float32 as columns (k, N): a C-contiguous copy."""
+    return np.ascontiguousarray(table.take(number, axis=0).T)

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from course import __version__
+from course.atomic import write_text
 from course.grading.catalog import module_checks
 from course.grading.checks.check import Caller, Check, ModuleChecks
 from course.grading.checks.preparing import prepared
@@ -22,7 +23,6 @@ from course.grading.known import Known, known, trusted
 from course.grading.pictures.judging import ssim
 from course.grading.pictures.whole import ALL, NAME, Together
 from course.grading.references import reference
-from course.imaging.atomic import write_text
 
 ROUNDING = 1e-4
 """1 - SSIM that a right picture may always have: float32 is rounded differently on other machines."""

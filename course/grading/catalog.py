@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import cache
 
-from course.effects import COURSE
 from course.errors import CourseError
 from course.grading.checks.building import declared
 from course.grading.checks.check import ModuleChecks
@@ -14,6 +13,7 @@ from course.grading.checks.declare import Module
 from course.grading.checks.weights import weighted
 from course.grading.pictures.catalog import PICTURES
 from course.grading.pictures.whole import NAME, WHOLE
+from course.modules import COURSE
 
 
 @cache

@@ -9,7 +9,6 @@ from pathlib import Path
 from time import perf_counter
 
 from course import __version__
-from course.effects import COURSE
 from course.grading.catalog import module_checks
 from course.grading.checks.check import Caller, Check
 from course.grading.checks.preparing import References
@@ -25,6 +24,7 @@ from course.grading.worker.client import Worker
 from course.grading.worker.limits import Limits
 from course.grading.worker.patience import Patience
 from course.grading.worker.sandbox import Sandbox, sandbox
+from course.modules import COURSE
 
 
 def grade(

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from course.effects import COURSE, Effects
+from course.effects import Effects
 from course.grading.catalog import module_checks
 from course.grading.checks.check import Array
 from course.grading.checks.declarations import declared_function
@@ -20,6 +20,7 @@ from course.grading.checks.result import Status
 from course.grading.checks.running import run_checks
 from course.grading.checks.trusted import TrustedModule
 from course.grading.references import SOLUTIONS
+from course.modules import COURSE
 
 Call = Callable[..., Any]
 Habit = Callable[[Function, Call], Call]

@@ -15,9 +15,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
 
-from course.effects import COURSE, PROJECT
+from course.effects import PROJECT
 from course.errors import CourseError
 from course.grading.checks.trusted import TrustedModule
+from course.modules import COURSE
 
 
 @dataclass(frozen=True)

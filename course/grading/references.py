@@ -12,7 +12,8 @@ from pathlib import Path
 
 import numpy as np
 
-from course.effects import COURSE, PROJECT, Effects
+from course.atomic import replacing
+from course.effects import PROJECT, Effects
 from course.errors import CourseError
 from course.grading.catalog import module_checks
 from course.grading.checks.check import Array, Caller, Check
@@ -20,8 +21,8 @@ from course.grading.checks.preparing import References, prepared
 from course.grading.checks.trusted import TrustedModule
 from course.grading.pictures.whole import ALL, NAME, Together
 from course.grading.report import USUAL_SEED
-from course.imaging.atomic import replacing
 from course.inputs import read_arrays, shown
+from course.modules import COURSE
 
 SOLUTIONS = PROJECT / "solutions"
 

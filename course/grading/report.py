@@ -7,8 +7,8 @@ from dataclasses import dataclass, field, replace
 from math import fsum
 from typing import Protocol
 
-from course.effects import COURSE
 from course.grading.checks.result import NOT_WRITTEN, Result, Status
+from course.modules import COURSE
 
 USUAL_SEED = 0
 """Of checks whose references a student's copy has."""

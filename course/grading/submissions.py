@@ -11,10 +11,10 @@ from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
-from course.effects import COURSE
 from course.errors import CourseError
 from course.grading.errors import StudentError, meant
 from course.inputs import Bound, opened
+from course.modules import COURSE
 
 LARGEST_FILE = 2_000_000
 """Bytes of one file that are read; the worker refuses less than that, with a message of its own."""

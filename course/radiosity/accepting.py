@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from course.scene import description as d
-from course.scene.description.motion import MotionDescription
-from course.scene.description.values import rgb
-from course.scene.document import KeyPath
-from course.scene.loading import Loaded
+from course.formats.yaml import description as d
+from course.formats.yaml.description.motion import MotionDescription
+from course.formats.yaml.description.values import rgb
+from course.formats.yaml.document import KeyPath
+from course.formats.yaml.loading import Loaded
 
 LAMPS = "a rectangle or a sphere with radiance: radiosity takes lamps that are surfaces"
 SHINES = "a light that is a rectangle or a sphere with radiance, or a material with emission"

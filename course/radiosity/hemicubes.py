@@ -14,8 +14,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from course.core.embree import EmbreeAccelerator, QueryTime
 from course.core.types import Floats32, Floats64, Indices
-from course.geometry.embree import Accelerator, QueryTime
 from course.radiosity.functions import Functions
 from course.radiosity.patches import Patches
 
@@ -86,7 +86,7 @@ class Views:
         self._centre = p.mean(axis=1)
         self._above = normal * ABOVE
         self._size = patches.size
-        self._accelerator = Accelerator(vertices, corners)
+        self._accelerator = EmbreeAccelerator(vertices, corners)
         self._threads = os.cpu_count() or 1
         self.rays = 0
 

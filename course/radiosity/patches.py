@@ -1,7 +1,7 @@
 """A scene's surfaces as patches: small triangles that are given one radiosity each, front and back.
 
 Of T triangles, patch t is the front of triangle t, and patch T + t its back: P = 2 T. Lengths are those of the compiled
-scene (``course.scene.frame``).
+scene (``course.building.frame``).
 """
 
 from __future__ import annotations
@@ -14,17 +14,17 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
+from course import shapes
+from course.building.bisection import Triangles, bisected, undivided
+from course.building.frame import Frame
+from course.building.materials import base_color
+from course.building.objects import object_mesh
+from course.core.triangles import Mesh
 from course.core.types import Floats32, Floats64, Indices, Mask
-from course.geometry import shapes
-from course.geometry.bisection import Triangles, bisected, undivided
-from course.geometry.mesh import Mesh
+from course.formats.yaml import description as d
+from course.formats.yaml.description.values import rgb
+from course.formats.yaml.loading import Loaded
 from course.radiosity.accepting import check_accepted
-from course.scene import description as d
-from course.scene.description.values import rgb
-from course.scene.frame import Frame
-from course.scene.instancing import object_mesh
-from course.scene.loading import Loaded
-from course.scene.material_table import base_color
 from course.scene.scene import Scene
 
 MOST = 100_000

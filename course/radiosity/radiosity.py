@@ -6,6 +6,7 @@ from typing import Literal
 
 import numpy as np
 
+from course.building.materials import base_color
 from course.core.types import Mask
 from course.radiosity.accepting import check_accepted
 from course.radiosity.corners import at_corners
@@ -13,7 +14,6 @@ from course.radiosity.functions import Functions
 from course.radiosity.patches import Patches, make_patches
 from course.radiosity.solution import Solution
 from course.radiosity.solving import GATHERED, Report, Shooting, Solved, gathered
-from course.scene.material_table import base_color
 from course.scene.scene import Scene
 
 FINEST = 1e-3

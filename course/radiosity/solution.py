@@ -9,10 +9,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from course.atomic import replacing
+from course.core.embree import EmbreeAccelerator
 from course.core.types import Floats32, Floats64, Numbers
 from course.errors import CourseError
-from course.geometry.embree import Accelerator
-from course.imaging.atomic import replacing
 from course.inputs import read_arrays
 
 FORMAT = 1
@@ -48,9 +48,9 @@ class Solution:
     left: Floats64
 
     @cached_property
-    def accelerator(self) -> Accelerator:
+    def accelerator(self) -> EmbreeAccelerator:
         """The triangles in Embree."""
-        return Accelerator(self.vertices, self.triangles)
+        return EmbreeAccelerator(self.vertices, self.triangles)
 
     def save(self, path: Path) -> None:
         """Write an .npz file, whole or not at all.

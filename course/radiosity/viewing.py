@@ -8,10 +8,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from course.building.cameras import make_camera
+from course.core.camera import Camera
+from course.core.embree import QueryTime
 from course.core.types import Floats32, Floats64, Numbers
 from course.errors import CourseError
-from course.geometry.embree import QueryTime
-from course.imaging.camera import Camera, make_camera
 from course.radiosity.solution import Solution
 
 RAYS = 1 << 17

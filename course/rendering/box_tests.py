@@ -6,13 +6,13 @@ from pathlib import Path
 
 import numpy as np
 
+from course.building.world import compile_camera
 from course.core.types import Indices
-from course.geometry.hierarchy import HierarchyAccelerator
-from course.imaging.files import save
-from course.imaging.heat_map import heat_map
-from course.scene.compiling import compile_camera
+from course.extras.hierarchy import HierarchyAccelerator
+from course.formats.pictures.files import save
+from course.formats.pictures.heat_map import heat_map
 from course.scene.scene import Scene
-from course.scene.world import Settings
+from course.scene.settings import Settings
 
 BATCH = 16384
 """Rays that are asked at once."""
@@ -36,8 +36,7 @@ def box_tests(scene: Scene, settings: Settings) -> Indices:
     for start in range(0, len(tests), BATCH):
         batch = np.arange(start, min(start + BATCH, len(tests)))
         y, x = (place.astype(np.float32) + np.float32(0.5) for place in np.divmod(batch, width))
-        direction = camera.directions(x, y)
-        origin = camera.from_near_plane(camera.origin[:, None], direction)
+        origin, direction = camera.rays(x, y, None, None)
         tests[batch] = accelerator.box_tests(origin, direction)
     return tests.reshape(height, width)
 

@@ -5,15 +5,15 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import partial
 
+from course.core.film import Film
+from course.core.passes import kept_samples
+from course.core.render import UniformSchedule
 from course.core.samplers import Sampler
+from course.core.tracer import Tracer
 from course.effects import Bound
 from course.errors import CourseError
-from course.imaging.film import Film
-from course.rendering.job import Job, Mode
-from course.rendering.passes import kept_samples
+from course.jobs.job import Job, Mode
 from course.rendering.time_limit import TimedSchedule
-from course.rendering.uniform import UniformSchedule
-from course.transport.tracing import Tracer
 
 
 def make(

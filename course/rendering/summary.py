@@ -6,13 +6,12 @@ from collections import Counter
 
 import numpy as np
 
-from course.rendering.binding import needs_of
+from course.building.materials import returned_share
+from course.formats.yaml.document import spell
+from course.rendering.binding import bind, needs_of
 from course.scene.darkness import why_dark
-from course.scene.document import spell
-from course.scene.material_table import returned_share
 from course.scene.scene import Scene
 from course.scene.skipped_modules import skipped_modules
-from course.transport.plan import make_plan
 
 MOST_OBJECTS = 20
 """Objects that are listed one by one."""
@@ -22,7 +21,7 @@ def summarize(scene: Scene) -> dict[str, dict[str, object]]:
     """Sections of labels and values; nothing is rendered."""
     description, settings = scene.loaded.description, scene.settings
     compiled, world = scene.compiled, scene.compiled.world
-    plan = make_plan(world, settings)
+    integrator = bind(scene, settings).integrator
     needs = needs_of(scene, settings)
     frame = compiled.frame
     dimensions = {"pixel": "2 numbers a sample"}
@@ -45,7 +44,7 @@ def summarize(scene: Scene) -> dict[str, dict[str, object]]:
             "title": scene.title,
             "picture": f"{settings.width} x {settings.height} pixels",
             "samples": samples,
-            "bounces": plan.max_depth,
+            "bounces": integrator.max_depth,
         },
         "objects": {
             **{str(shape): number for shape, number in shapes.items()},

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from course.rendering.passes import pass_size, preview
-from course.rendering.pool import Executor
-from course.rendering.render import Run
-from course.rendering.uniform import UniformSchedule
+from course.core.passes import pass_size, preview
+from course.core.render import Run, UniformSchedule
+from course.core.threads import Executor
 
 
 class TimedSchedule(UniformSchedule):

@@ -12,22 +12,24 @@ from pathlib import Path
 
 import numpy as np
 
-from course.appearance.lights import (
+from course.building.world import compile_camera
+from course.core.camera import Camera
+from course.core.embree import EmbreeAccelerator, QueryTime
+from course.core.hits import Hits
+from course.core.lights import (
     DirectionalLight,
     Light,
-    MeshLight,
     PointLight,
     RectangleLight,
+    SphereLight,
 )
 from course.core.types import Floats32, Floats64, Mask
 from course.errors import CourseWarning
-from course.geometry.embree import Accelerator, QueryTime
-from course.geometry.hits import Hits, find_hits
-from course.imaging.camera import Camera
-from course.scene.compiling import compile_camera
+from course.extras.mesh_light import MeshLight
+from course.extras.visible_sphere import VisibleSphereLight
+from course.extras.world import FullWorld
 from course.scene.lightless import why_black
 from course.scene.scene import Scene
-from course.scene.world import World
 
 GRID = 12
 """Rays in each direction of the picture."""
@@ -58,7 +60,7 @@ def why_dark(scene: Scene) -> str:
     world = scene.compiled.world
     reason = why_black(scene)
     # What moves, and the student's hierarchy, would call the student's functions.
-    if reason or not isinstance(world.surface.accelerator, Accelerator):
+    if reason or not isinstance(world.surface.accelerator, EmbreeAccelerator):
         return reason
     film = scene.settings
     camera = compile_camera(scene.loaded, scene.compiled.frame, film.width, film.height)
@@ -87,20 +89,16 @@ def why_dark(scene: Scene) -> str:
     return _turned_away(scene, seen) if world.environment.black and world.lights else ""
 
 
-def _met(world: World, origin: Floats32, direction: Floats32) -> Hits:
-    found = world.surface.accelerator.intersect(origin, direction, QueryTime(), None)
-    return find_hits(world.surface, found, direction)
+def _met(world: FullWorld, origin: Floats32, direction: Floats32) -> Hits:
+    found = world.surface.accelerator.intersect(origin, direction, QueryTime())
+    return world.surface.hits(found, direction)
 
 
-def _seen(world: World, camera: Camera, width: int, height: int) -> Hits:
+def _seen(world: FullWorld, camera: Camera, width: int, height: int) -> Hits:
     """What the middles of GRID x GRID parts of the picture show."""
     steps = (np.arange(GRID, dtype=np.float32) + np.float32(0.5)) / GRID
     x, y = np.repeat(steps, GRID) * np.float32(width), np.tile(steps, GRID) * np.float32(height)
-    direction = camera.directions(x.astype(np.float32), y.astype(np.float32))
-    origin = camera.origin[:, None]
-    if camera.near:
-        origin = camera.from_near_plane(origin, direction)
-    return _met(world, origin, direction)
+    return _met(world, *camera.rays(x.astype(np.float32), y.astype(np.float32), None, None))
 
 
 def _sees_nothing(scene: Scene, camera: Camera, width: int, height: int) -> bool:
@@ -120,7 +118,7 @@ def _sees_nothing(scene: Scene, camera: Camera, width: int, height: int) -> bool
     return True
 
 
-def _may_show_light(world: World, hits: Hits) -> bool:
+def _may_show_light(world: FullWorld, hits: Hits) -> bool:
     """Whether any of the hits gives off light of its own, or shows that of other places."""
     m = world.materials
     shows = (m.emission.max(0) > 0) | (m.mirror.max(0) > 0) | m.refracts
@@ -160,7 +158,8 @@ def _points(light: Light) -> Floats32:
     if isinstance(light, MeshLight):
         return np.ascontiguousarray(light.planes[:: -(-len(light.planes) // FEW), :3].T)
     if isinstance(light, DirectionalLight):
-        return FAR * light.towards[:, None]
+        return FAR * light.to_light[:, None]
+    assert isinstance(light, SphereLight | VisibleSphereLight)
     return light.center[:, None] + np.float32(light.radius) * AROUND
 
 

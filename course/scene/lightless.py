@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import get_args
 
-from course.scene import description as d
-from course.scene.light_power import power
+from course.building.light_power import power
+from course.formats.yaml import description as d
 from course.scene.scene import Scene
 
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
+from course.building.world import Compiled, compile_scene
 from course.effects import Effects
-from course.imaging.srgb import Display
-from course.scene.compiling import Compiled, compile_scene
-from course.scene.loading import Loaded, load_description
-from course.scene.world import Settings, Subdivision
+from course.formats.pictures.exposure import Display
+from course.formats.yaml.loading import Loaded, load_description
+from course.scene.settings import Settings, Subdivision
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from course.effects import Need
-from course.scene import description as d
+from course.formats.yaml import description as d
 
 _REASONS = {
     "supersampling": "one sample a pixel needs no mean, and this sampler none of its patterns",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from course.effects import COURSE
+from course.modules import COURSE
 from sitebuild.place import Place
 
 

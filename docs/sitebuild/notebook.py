@@ -14,9 +14,9 @@ from typing import Any
 import click
 from PIL import Image
 
+from course.atomic import replacing
 from course.benchmarking.sources import engine_hash
 from course.effects import PROJECT, Effects
-from course.imaging.atomic import replacing
 from sitebuild import webp
 from sitebuild.place import Place
 

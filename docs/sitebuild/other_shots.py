@@ -13,10 +13,10 @@ import click
 from PIL import Image
 
 from course import load_scene, render
+from course.atomic import replacing
 from course.benchmarking.sources import engine_hash
 from course.effects import PROJECT, Effects
 from course.errors import SceneError
-from course.imaging.atomic import replacing
 from sitebuild import pictures, webp
 from sitebuild.place import Place
 from sitebuild.shots import laid_out
@@ -54,7 +54,7 @@ def radiosity_shot(place: Place, name: str, words: str = "") -> str:
     command = f"course radiosity scenes/{name}.yaml --patches {PATCHES} --size {width}x{height} -o room.png"
 
     def make() -> Made:
-        from course.imaging.files import save
+        from course.formats.pictures.files import save
         from course.radiosity.radiosity import solve
         from course.radiosity.viewing import look, own_view
 
@@ -72,7 +72,7 @@ def radiosity_shot(place: Place, name: str, words: str = "") -> str:
 
 
 def _converted(scene: Path, camera: str, folder: Path) -> Path:
-    from course.scene.metu.converting import convert
+    from course.formats.metu.converting import convert
 
     converted, _ = convert(scene, folder / "scene.yaml")
     for one in converted:

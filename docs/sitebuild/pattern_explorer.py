@@ -11,7 +11,7 @@ from html import escape
 
 import numpy as np
 
-from course.core.sobol import sobol_words
+from course.core.samplers.sobol import sobol_words
 from course.core.types import Floats32, Floats64
 from course.effects import PROJECT, Effects
 from course.errors import CourseError

@@ -11,11 +11,11 @@ from typing import Any
 import click
 
 from course import load_scene, render
+from course.atomic import replacing
 from course.benchmarking.sources import scene_hash
 from course.cli.tables import plain_text, receipt_sections
 from course.effects import PROJECT, Effects
-from course.imaging.atomic import replacing
-from course.scene.loading import Loaded, load_description
+from course.formats.yaml.loading import Loaded, load_description
 from sitebuild import webp
 
 KEPT = PROJECT / "out" / "docs" / "pictures"

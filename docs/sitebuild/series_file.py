@@ -11,8 +11,8 @@ from typing import Annotated, Any
 import msgspec
 
 from course.errors import CourseError
-from course.scene.document import KeyPath
-from course.scene.overriding import Overrides
+from course.formats.yaml.document import KeyPath
+from course.formats.yaml.overriding import Overrides
 
 FILE = Path(__file__).parents[1] / "series.yaml"
 

@@ -13,8 +13,8 @@ from course import render
 from course.benchmarking.sources import scene_hash
 from course.benchmarking.variants import load_variant
 from course.effects import PROJECT, Effects
-from course.scene.document import spell
-from course.scene.loading import Loaded, load_description
+from course.formats.yaml.document import spell
+from course.formats.yaml.loading import Loaded, load_description
 from course.scene.scene import Scene
 from sitebuild import pictures, webp
 from sitebuild.place import Place

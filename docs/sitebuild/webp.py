@@ -8,7 +8,7 @@ from pathlib import Path
 from PIL import Image
 
 from course import Picture
-from course.imaging.atomic import replacing
+from course.atomic import replacing
 
 GREY = (128, 128, 128)
 

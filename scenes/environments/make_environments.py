@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from course.imaging.files import save
+from course.formats.pictures.files import save
 
 Array = NDArray[np.float64]
 HERE = Path(__file__).parent

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from course.appearance.lights import MeshLight
-from course.appearance.lights.mesh import areas, shares
+from course import shapes
+from course.core.triangles import Mesh, Part
 from course.core.types import Floats32
-from course.geometry import shapes
-from course.geometry.mesh import Mesh
-from course.geometry.surface import Part, build_surface
+from course.extras.mesh_light import MeshLight, areas, shares
+from course.extras.surface import build_surface
 
 
 def lamp(mesh: Mesh) -> MeshLight:
@@ -17,9 +16,9 @@ def lamp(mesh: Mesh) -> MeshLight:
     surface = build_surface([Part(mesh, 0)])
     return MeshLight(
         "light 0",
-        shares(areas(surface.edges)),
-        surface.planes,
-        surface.edges,
+        shares(areas(surface.triangles.edges)),
+        surface.triangles.planes,
+        surface.triangles.edges,
         np.ones(3, np.float32),
     )
 

@@ -5,12 +5,16 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from course.appearance.environment_sampling import ProductSampling, product_sampling
+from course.compiled import packets
+from course.core.environment import ConstantEnvironment
 from course.core.types import Floats32
-from course.geometry import packets
+from course.extras.environment_sampling import ProductSampling, product_sampling
+from course.extras.surface import build_surface
 
 if not packets.available():
     pytest.skip("Numba is not installed (pip install .[fast])", allow_module_level=True)
+
+from course.compiled.stages import CompiledSky
 
 
 def drawn_by(size: int) -> ProductSampling:
@@ -21,6 +25,12 @@ def drawn_by(size: int) -> ProductSampling:
     product = product_sampling(faces, seamless=True)
     assert product is not None
     return product
+
+
+def by_loop(product: ProductSampling) -> CompiledSky:
+    """A compiled sky with these directions over nothing at all."""
+    none, black = np.zeros(0, np.bool_), ConstantEnvironment(np.zeros(3, np.float32))
+    return CompiledSky(build_surface([]), black, product, none, none)
 
 
 def normals(n: int) -> Floats32:
@@ -42,10 +52,10 @@ def test_directions_and_weights(size: int) -> None:
     u[:, -4:] = [[0, 0, 1 - 2.0**-24, 1 - 2.0**-24], [0, 1 - 2.0**-24, 0, 1 - 2.0**-24]]
     for columns in (slice(None), slice(0, 0), slice(None, None, 3)):
         some, numbers = normals(n)[:, columns], u[:, columns]
-        passes, loop = product.sample(some, numbers), product.sample(some, numbers, compiled=True)
+        passes, loop = product.sample(some, numbers), by_loop(product).directions(some, numbers)
         for mine, theirs in zip(passes, loop, strict=True):
             assert (mine.shape, mine.dtype) == (theirs.shape, theirs.dtype)
             assert mine.tobytes() == theirs.tobytes()
-    direction, weight = product.sample(normals(n), u, compiled=True)
+    direction, weight = by_loop(product).directions(normals(n), u)
     assert len(np.unique(direction.round(2), axis=1).T) > 1000
     assert (weight > 0).mean() > 0.9

@@ -15,12 +15,15 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from course.appearance.cube_environment import (
+from course.core.samplers import Block
+from course.core.samplers.sobol import SobolSampler
+from course.effects import Effects
+from course.extras.cube_faces import (
     cube_from_cross,
     cube_from_lat_long,
     texel_directions,
 )
-from course.appearance.environment_sampling import (
+from course.extras.environment_sampling import (
     CELLS,
     NORMALS,
     ProductSampling,
@@ -28,11 +31,8 @@ from course.appearance.environment_sampling import (
     product_sampling,
     tabulated,
 )
-from course.core.hemisphere import cosine_directions
-from course.core.samplers import Block
-from course.core.samplers.sobol import SobolSampler
-from course.effects import Effects
-from course.imaging.reading import read_picture
+from course.extras.hemisphere import cosine_directions
+from course.formats.pictures.reading import read_picture
 
 Array = NDArray[np.float64]
 Faces = NDArray[np.float32]

@@ -11,12 +11,11 @@ import math
 import numpy as np
 import pytest
 
-from course.appearance.lights import MeshLight
-from course.appearance.lights.mesh import areas
-from course.appearance.lights.mesh_groups import GROUPS, TRUST
+from course import shapes
+from course.core.triangles import Mesh
 from course.core.types import Floats32, Floats64
-from course.geometry import shapes
-from course.geometry.mesh import Mesh
+from course.extras.mesh_groups import GROUPS, TRUST
+from course.extras.mesh_light import MeshLight, areas
 from tests.appearance.mesh_lamps import BALL, KNOT, around, lamp, moved, without
 
 LAMPS = {"ball": BALL, "knot": KNOT, "box": shapes.box(), "open": without(BALL, *range(400))}

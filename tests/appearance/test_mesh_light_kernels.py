@@ -5,12 +5,16 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from course.geometry import packets, shapes
-from course.geometry.mesh import Mesh
+from course import shapes
+from course.compiled import packets
+from course.core.lights.sample import towards
+from course.core.triangles import Mesh
 from tests.appearance.mesh_lamps import BALL, KNOT, around, lamp, moved, without
 
 if not packets.available():
     pytest.skip("Numba is not installed (pip install .[fast])", allow_module_level=True)
+
+from course.compiled.direct import on_triangles
 
 LAMPS = {
     "one triangle": without(shapes.quad(), 1),
@@ -42,10 +46,10 @@ def test_the_same_samples(name: str) -> None:
     u[0, 1000:1100] = 0.5
     for columns in (slice(None), slice(0, 0), slice(None, None, 3)):
         some, numbers = points[:, columns], u[:, columns]
-        passes, loop = light.sample(some, numbers), light.sample(some, numbers, compiled=True)
+        passes, loop = light.sample(some, numbers, towards), on_triangles(light, some, numbers)
         for mine, theirs in zip(vars(passes).values(), vars(loop).values(), strict=True):
             assert (mine.shape, mine.dtype) == (theirs.shape, theirs.dtype)
             assert mine.tobytes() == theirs.tobytes()
-    sample = light.sample(points, u, compiled=True)
+    sample = on_triangles(light, points, u)
     assert np.isfinite(sample.factor).all()
     assert sample.factor.any()

@@ -9,9 +9,10 @@ import pytest
 
 from course.benchmarking.estimators import BENCHED, Estimator, Module
 from course.core.types import Floats64
-from course.effects import MODULES, PROJECT, Effects
-from course.scene import description as d
-from course.scene.loading import load_description
+from course.effects import PROJECT, Effects
+from course.formats.yaml import description as d
+from course.formats.yaml.loading import load_description
+from course.modules import MODULES
 
 ALL = [(module, estimator) for module in BENCHED.values() for estimator in module.estimators]
 IDS = [f"{module.name}: {estimator.name}" for module, estimator in ALL]

@@ -28,10 +28,9 @@ from benchmarks.mitsuba_export import (
 from benchmarks.mitsuba_llvm import LlvmScene
 from benchmarks.mitsuba_scalar import NativeScene, native_overrides
 from benchmarks.mitsuba_variants import find_llvm, start_llvm, start_scalar
-from course import Scene, render
+from course import Scene, render, shapes
+from course.core.triangles import Mesh
 from course.effects import PROJECT
-from course.geometry import shapes
-from course.geometry.mesh import Mesh
 from tests.conftest import MakeScene
 
 SIZE = (24, 24)

@@ -17,7 +17,7 @@ from course.benchmarking import measuring
 from course.benchmarking.estimators import BENCHED, FURTHER_BENCHED, Estimator, Module
 from course.benchmarking.measuring import FULL, QUICK, Effort, Measured
 from course.cli.bench import ELSEWHERE
-from course.effects import COURSE, MODULES
+from course.modules import COURSE, MODULES
 from tests.benchmarking.curves import curve
 
 Run = Callable[..., Result]

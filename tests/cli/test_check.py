@@ -10,8 +10,9 @@ import pytest
 from click.testing import Result
 
 from course.cli.options import FAILED
-from course.effects import COURSE, PROJECT
+from course.effects import PROJECT
 from course.grading.known import known as known_submissions
+from course.modules import COURSE
 
 Run = Callable[..., Result]
 

@@ -11,7 +11,7 @@ import pytest
 from click.testing import Result
 from PIL import Image
 
-from course.imaging.files import save
+from course.formats.pictures.files import save
 
 Run = Callable[..., Result]
 

@@ -44,7 +44,7 @@ def test_no_command_makes_the_folder_of_a_file(
         pytest.fail("the work has begun")
 
     monkeypatch.setattr("course.load_scene", work)
-    monkeypatch.setattr("course.scene.metu.converting.convert", work)
+    monkeypatch.setattr("course.formats.metu.converting.convert", work)
     monkeypatch.setattr("course.benchmarking.measuring.measure", work)
     monkeypatch.setattr("course.grading.calibration.calibrate", work)
     monkeypatch.setattr("course.grading.references.make_references", work)

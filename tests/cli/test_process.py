@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from course.imaging.reading import read_picture
+from course.formats.pictures.reading import read_picture
 from tests.cli.signalled import interrupted, started
 
 HEAVY = {"scipy", "skimage", "trimesh", "psutil", "OpenImageIO", "rich", "networkx", "solutions"}

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from click.testing import Result
 
-from course.imaging.reading import read_picture
+from course.formats.pictures.reading import read_picture
 from tests.radiosity.rooms import plates
 
 Run = Callable[..., Result]

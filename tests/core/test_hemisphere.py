@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from course.core.hemisphere import cosine_directions
+from course.extras.hemisphere import cosine_directions
 from tests.solutions.contract import assert_mean, assert_uniform, frozen, unit
 
 Array = NDArray[np.floating]

@@ -13,8 +13,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from course.core.samplers import FUNCTIONS, Block, Sampler, make_sampler
+from course.core.samplers import Block, Sampler
 from course.effects import Effects
+from course.extras.samplers import FUNCTIONS, make_sampler
 
 PRIMES = (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53, 59, 61, 67, 71)
 PIXELS = 40
@@ -133,7 +134,7 @@ def test_xorshift_never_starts_at_0(monkeypatch: pytest.MonkeyPatch) -> None:
     def all_zero(keys: NDArray[np.uint32], *salts: int) -> NDArray[np.uint32]:
         return np.zeros((len(salts), len(keys)), np.uint32)
 
-    monkeypatch.setattr("course.core.samplers.xorshift.hash_words", all_zero)
+    monkeypatch.setattr("course.extras.samplers.xorshift.hash_words", all_zero)
     u = sampler("xorshift").draw(block(8), 0, 2)
     assert (u.reshape(2, PIXELS, 8)[:, :, 1:].std(axis=2) > 0).all()
 
@@ -170,7 +171,7 @@ def test_moved_points_stay_below_1(monkeypatch: pytest.MonkeyPatch, word: int) -
     def highest(i: NDArray[Any], dims: int) -> NDArray[np.float32]:
         return np.full((dims, len(i)), 1 - 2**-24, np.float32)
 
-    monkeypatch.setattr("course.core.samplers.low_discrepancy.hash_words", same)
+    monkeypatch.setattr("course.extras.samplers.low_discrepancy.hash_words", same)
     u = make_sampler("halton", 0, highest).draw(block(4), 0, 2)
     assert u.min() >= 0
     assert u.max() < 1

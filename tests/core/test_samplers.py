@@ -7,8 +7,9 @@ from math import isqrt
 import numpy as np
 import pytest
 
-from course.core.samplers import FUNCTIONS, Block, Sampler, make_sampler
+from course.core.samplers import Block, Sampler
 from course.effects import Effects
+from course.extras.samplers import FUNCTIONS, make_sampler
 
 NAMES = tuple(FUNCTIONS)
 EFFECTS = Effects("solutions")

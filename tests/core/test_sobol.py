@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.stats import qmc
 
-from course.core.sobol import joined, owen_scrambled, reversed_bits, shuffled, sobol_words
+from course.core.samplers.sobol import joined, owen_scrambled, reversed_bits, shuffled, sobol_words
 from course.core.types import Words
 
 

@@ -29,7 +29,7 @@ import yaml
 from click.testing import CliRunner
 
 from course.cli.main import COMMANDS, commands
-from course.effects import COURSE
+from course.modules import COURSE
 from tests.docs.blocks import Block, blocks
 
 NOT_RUN = {
@@ -485,7 +485,7 @@ def extras() -> dict[str, Any]:
 
 def _keys() -> set[str]:
     """The keys that a scene file has at the top."""
-    from course.scene.schema import json_schema
+    from course.formats.yaml.schema import json_schema
 
     schema = json_schema()
     name = schema["$ref"].rpartition("/")[2]

@@ -19,8 +19,9 @@ from course.benchmarking import ticks
 from course.benchmarking.estimators import BENCHED, FURTHER_BENCHED
 from course.benchmarking.plot_data import Plot, Record, Series, write_records
 from course.benchmarking.tables import digits
-from course.effects import COURSE, PROJECT
+from course.effects import PROJECT
 from course.errors import CourseError
+from course.modules import COURSE
 
 pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')
 pytest.importorskip("latex2mathml", reason='the site needs: pip install -e ".[docs]"')

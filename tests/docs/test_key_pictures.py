@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from course.scene.schema import json_schema
+from course.formats.yaml.schema import json_schema
 
 pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')
 

@@ -10,8 +10,9 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from course.effects import COURSE, PROJECT
+from course.effects import PROJECT
 from course.errors import CourseError
+from course.modules import COURSE
 
 pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')
 

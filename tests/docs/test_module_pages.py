@@ -7,8 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from course.effects import COURSE, PROJECT
+from course.effects import PROJECT
 from course.grading.release.archive import solution_lines
+from course.modules import COURSE
 
 PAGES = PROJECT / "docs" / "modules"
 

@@ -22,8 +22,8 @@ from course import load_scene, render
 from course.benchmarking.estimators import FURTHER_BENCHED
 from course.benchmarking.plot_data import Plot, read_records
 from course.benchmarking.variants import load_variant
+from course.compiled.packets import available
 from course.effects import PROJECT
-from course.geometry.packets import available
 from course.radiosity.radiosity import PATCHES
 from course.radiosity.solving import GATHERED, KEPT_BYTES
 from course.rendering.box_tests import box_tests as boxes_met

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from course.core.sobol import owen_scrambled, sobol_words
+from course.core.samplers.sobol import owen_scrambled, sobol_words
 from course.core.types import Floats32
 from course.effects import PROJECT, Effects
 from course.errors import CourseError

@@ -17,7 +17,7 @@ from PIL import Image
 from course.cli.main import commands
 from course.effects import PROJECT
 from course.errors import CourseError
-from course.scene.loading import load_description
+from course.formats.yaml.loading import load_description
 
 pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')
 

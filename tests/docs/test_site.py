@@ -13,8 +13,9 @@ from urllib.parse import unquote, urlsplit
 import pytest
 
 from course.cli.main import COMMANDS
-from course.effects import COURSE, PROJECT
-from course.scene.schema import json_schema
+from course.effects import PROJECT
+from course.formats.yaml.schema import json_schema
+from course.modules import COURSE
 
 HEAVIEST = 1_500_000
 """Bytes of a page, with its styles, scripts and the pictures that aren't loaded only when they are scrolled to."""

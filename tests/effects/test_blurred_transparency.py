@@ -18,14 +18,15 @@ import pytest
 import yaml
 
 from course import EffectError, Scene, load_scene, render
+from course.compiled import packets
+from course.core.counters import Counters
+from course.core.passes import passes
 from course.core.samplers import Block
 from course.core.samplers.sobol import SobolSampler
 from course.core.types import Indices
-from course.effects import COURSE, PROJECT
-from course.geometry import packets
+from course.effects import PROJECT
+from course.modules import COURSE
 from course.rendering.binding import bind
-from course.rendering.passes import passes
-from course.transport.counters import Counters
 
 MakeScene = Callable[..., Scene]
 

@@ -22,13 +22,14 @@ import pytest
 from numpy.typing import NDArray
 
 from course import Scene
-from course.core.samplers import FUNCTIONS, Block, make_sampler
+from course.core.counters import Counters
+from course.core.passes import passes
+from course.core.samplers import Block
 from course.core.samplers.sobol import SobolSampler
 from course.core.types import Indices
 from course.effects import Effects
+from course.extras.samplers import FUNCTIONS, make_sampler
 from course.rendering.binding import bind
-from course.rendering.passes import passes
-from course.transport.counters import Counters
 
 MakeScene = Callable[..., Scene]
 PIXELS = 512

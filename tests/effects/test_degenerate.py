@@ -14,10 +14,11 @@ import pytest
 from numpy.typing import NDArray
 
 from course import Scene, render
+from course.core.counters import Counters
+from course.core.rays import Rays
 from course.core.samplers import Block
+from course.core.tracer import never
 from course.rendering.binding import bind
-from course.transport.counters import Counters
-from course.transport.paths import Draws, Rays
 
 MakeScene = Callable[..., Scene]
 BALL = {"shape": "sphere", "material": "grey", "radius": 0.6, "segments": 32} | {
@@ -66,24 +67,22 @@ def test_an_aperture_of_0_is_the_pinhole(room: MakeScene, shape: str, sampler: s
     same(room(camera=CAMERA | {"lens": lens}), room(), sampler=sampler)
     # The lens's own formula agrees where it is called: at its centre.
     small = room(camera=CAMERA | {"lens": lens | {"aperture_radius": 0.2}})
-    tracer = bind(small, small.settings)
+    camera = bind(small, small.settings).integrator.camera
     optics = small.compiled.world.lens
     assert optics is not None
-    directions = tracer.camera.directions(
-        *np.random.default_rng(1).random((2, 999), np.float32) * 30
-    )
-    origin, turned = optics.lens_rays(
-        tracer.camera.origin,
-        tracer.camera.right,
-        tracer.camera.up,
-        tracer.camera.forward,
+    directions = camera.directions(*np.random.default_rng(1).random((2, 999), np.float32) * 30)
+    origin, turned = optics.thin_lens.lens_rays(
+        camera.origin,
+        camera.right,
+        camera.up,
+        camera.forward,
         directions,
         np.zeros((2, 999), np.float32),
         optics.focus_distance,
     )
     # To rounding: a textbook's formula is four units in the last place off, and isn't called where there is no lens.
     assert np.abs(turned - directions).max() <= 4 * np.finfo(np.float32).eps
-    assert np.array_equal(origin, np.broadcast_to(tracer.camera.origin[:, None], origin.shape))
+    assert np.array_equal(origin, np.broadcast_to(camera.origin[:, None], origin.shape))
     assert not np.array_equal(render(small).linear, render(room()).linear)
 
 
@@ -184,14 +183,14 @@ def test_one_regular_sample_is_the_pixels_centre(room: MakeScene) -> None:
     tracer = bind(scene, scene.settings)
     x, y = np.meshgrid(np.arange(40, dtype=np.float32) + 0.5, np.arange(30, dtype=np.float32) + 0.5)
     rays = Rays(
-        tracer.camera.origin[:, None],
-        tracer.camera.directions(x.ravel(), y.ravel()),
+        tracer.integrator.camera.origin[:, None],
+        tracer.integrator.camera.directions(x.ravel(), y.ravel()),
         None,
         None,
     )
     block = Block(np.arange(1200, dtype=np.uint32), 0, 1, 0)
-    draws = Draws(tracer.sampler, block, Counters(), lambda: False)
-    by_hand = tracer._trace(rays, 1200, draws)
+    draws = tracer.draws(block, Counters(), never)
+    by_hand = tracer.integrator.radiance(rays, draws)
     assert np.array_equal(shown, by_hand.reshape(3, 30, 40).transpose(1, 2, 0))
     assert not draws.counters.numbers, "no other number is drawn"
     # Nothing of it is random.

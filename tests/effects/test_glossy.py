@@ -16,10 +16,11 @@ import pytest
 from numpy.typing import NDArray
 
 from course import Scene, render
-from course.core.samplers import Block, make_sampler
-from course.transport.counters import Counters
-from course.transport.gloss import Blur
-from course.transport.paths import Draws
+from course.core.counters import Counters
+from course.core.gloss import Gloss
+from course.core.rays import Dimensions, Draws
+from course.core.samplers import Block
+from course.extras.samplers import make_sampler
 
 MakeScene = Callable[..., Scene]
 Array = NDArray[np.float64]
@@ -242,19 +243,19 @@ def test_the_engine_scatters_by_the_phong_lobe(
     lobe = {"lobe": "phong", "exponent": exponent}
     scene = seen(make_scene, lobe, [0, 1, 0.01])
     assert len(scene.compiled.world.lobes) == 1
-    place = scene.effects.function("supersampling", "random") if sampler == "random" else None
+    places = [scene.effects.function("supersampling", "random")] if sampler == "random" else []
     draws = Draws(
-        make_sampler(sampler, 2, place),
+        make_sampler(sampler, 2, *places),
+        Dimensions([("before", 6)], [("gloss", 2)]),
         Block(np.arange(1024, dtype=np.uint32), 0, 64, 0),
         Counters(),
-        lambda: False,
     )
     n = 1024 * 64
     axis = np.array([0.36, 0.48, 0.8])
     mirrored = np.repeat(axis.astype(np.float32)[:, None], n, axis=1)
-    blur = Blur(scene.compiled.world.lobes, 6, draws)
+    gloss, material = Gloss(scene.compiled.world.lobes), np.zeros(n, np.uint16)
     # Its own axis as the normal: nothing falls below.
-    out = blur(np.zeros(n, np.uint16), mirrored.copy(), mirrored, np.arange(n)).astype(np.float64)
+    out = gloss(material, mirrored.copy(), mirrored, np.arange(n), 0, draws).astype(np.float64)
     assert draws.counters.numbers == {"gloss": 2 * n}
     assert np.allclose(np.linalg.norm(out, axis=0), 1, atol=1e-5)
     a = np.array([0.8, -0.6, 0.0])

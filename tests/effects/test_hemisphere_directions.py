@@ -18,12 +18,11 @@ import yaml
 from numpy.typing import NDArray
 
 from course import EffectError, Scene, SceneError, load_scene, render
-from course.appearance.cube_environment import CubeEnvironment
-from course.appearance.environment import ConstantEnvironment
-from course.appearance.environment_hemispheres import HemisphereSampling
+from course.core.environment import ConstantEnvironment, CubeEnvironment
 from course.core.vectors import dot
 from course.effects import PROJECT
-from course.imaging.files import save
+from course.extras.environment_hemispheres import HemisphereSampling
+from course.formats.pictures.files import save
 
 MakeScene = Callable[..., Scene]
 Array = NDArray[np.float64]
@@ -124,9 +123,8 @@ def test_pictures_of_the_sky_are_sampled_alike(
         )
         environment, expected = {"type": "lat_long", "image": "sky.exr"}, 5 / 3
     scene = floor(make_scene, environment | {"lights": True, "sampling": way})
-    world = scene.compiled.world.environment
-    assert isinstance(world, CubeEnvironment)
-    assert isinstance(world.product, HemisphereSampling)
+    assert isinstance(scene.compiled.world.environment, CubeEnvironment)
+    assert isinstance(scene.compiled.world.sky, HemisphereSampling)
     check_mean(estimates(scene), expected, 1e-3)
 
 
@@ -142,12 +140,13 @@ def test_paths_take_them_too(make_scene: MakeScene, way: str) -> None:
 def test_directions_are_about_the_normal_and_weights_are_those_of_their_cosine(
     make_scene: MakeScene, way: str
 ) -> None:
-    environment = floor(make_scene, sky(way)).compiled.world.environment
+    sampling = floor(make_scene, sky(way)).compiled.world.sky
+    assert sampling is not None
     rng = np.random.default_rng(5)
     normal = rng.normal(size=(3, 2000))
     normal = (normal / np.linalg.norm(normal, axis=0)).astype(np.float32)
     u = rng.random((2, 2000), np.float32)
-    direction, weight = environment.sample(normal, u)
+    direction, weight = sampling.sample(normal, u)
     assert weight is not None
     assert direction.dtype == weight.dtype == np.float32
     np.testing.assert_allclose(np.linalg.norm(direction, axis=0), 1, atol=1e-5)
@@ -164,12 +163,13 @@ def test_directions_are_about_the_normal_and_weights_are_those_of_their_cosine(
 
 @pytest.mark.parametrize("way", WAYS)
 def test_the_ends_of_the_numbers_are_no_trouble(make_scene: MakeScene, way: str) -> None:
-    environment = floor(make_scene, sky(way)).compiled.world.environment
+    sampling = floor(make_scene, sky(way)).compiled.world.sky
+    assert sampling is not None
     ends = np.array([0, 0.5, np.nextafter(np.float32(1), np.float32(0))], np.float32)
     u = np.stack(np.meshgrid(ends, ends)).reshape(2, -1)
     normal = np.repeat(np.array([[0], [0], [-1]], np.float32), u.shape[1], axis=1)
     for numbers in (u, u[:, :0], u[:, :1]):
-        direction, weight = environment.sample(normal[:, : numbers.shape[1]], numbers)
+        direction, weight = sampling.sample(normal[:, : numbers.shape[1]], numbers)
         assert weight is not None
         assert np.isfinite(direction).all()
         assert np.isfinite(weight).all()
@@ -203,7 +203,7 @@ def test_where_no_direction_is_chosen_the_module_is_not_imported(
     assert "directions towards an environment" in effects["skipped"]["importance_sampling"]
     assert "importance_sampling" not in scene.effects.imported
     assert isinstance(scene.compiled.world.environment, ConstantEnvironment)
-    assert scene.compiled.world.environment.chosen is None
+    assert not isinstance(scene.compiled.world.sky, HemisphereSampling)
 
 
 def test_without_diffuse_surfaces_the_module_is_not_imported(make_scene: MakeScene) -> None:

@@ -15,8 +15,8 @@ from click.testing import CliRunner
 from course import EffectError, Scene, SceneError, load_scene, render
 from course.cli.main import commands
 from course.effects import PROJECT
-from course.geometry.hierarchy import HierarchyAccelerator
-from course.imaging.reading import read_picture
+from course.extras.hierarchy import HierarchyAccelerator
+from course.formats.pictures.reading import read_picture
 from course.rendering.box_tests import box_tests
 
 MakeScene = Callable[..., Scene]

@@ -17,9 +17,9 @@ import numpy as np
 import pytest
 
 from course import Scene, render
-from course.geometry import packets
-from course.geometry.mesh import Mesh
-from course.geometry.mesh_files import save_ply
+from course.compiled import packets
+from course.core.triangles import Mesh
+from course.formats.meshes.files import save_ply
 
 MakeScene = Callable[..., Scene]
 TRACERS = ["distribution", "path"]

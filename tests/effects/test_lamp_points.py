@@ -17,9 +17,12 @@ import pytest
 from numpy.typing import NDArray
 
 from course import EffectError, Scene, load_scene, render
+from course.building.sphere_points import NUMBERS, SPHERES
+from course.core.lights import SphereLight
+from course.core.lights.sample import towards
 from course.effects import PROJECT, Bound, Effects
 from course.errors import SceneError
-from course.scene.sphere_points import NUMBERS, SPHERES, sphere_points
+from course.extras.sampled import NONE, SampledSphereLight
 
 MakeScene = Callable[..., Scene]
 Array = NDArray[np.float64]
@@ -38,11 +41,18 @@ def far(values: Array, mean: float) -> float:
     return abs(float(values.mean()) - mean) / (float(values.std(ddof=1)) / math.sqrt(len(values)))
 
 
+def points(samples: str, center: Any, radius: float, u: Any) -> Any:
+    """Points (3, n) of a lamp: the ways to it from the origin."""
+    functions = Bound(SOLUTIONS).functions(*SPHERES[samples], asked_by=("lights", 0))
+    known = "lamp", center, radius, False, np.ones(3, np.float32), samples, NONE
+    light = SampledSphereLight(*known, len(u), None, functions)
+    return light.sample(np.zeros((3, u.shape[1]), np.float32), u, towards).to_light
+
+
 @pytest.mark.parametrize("samples", WAYS)
 def test_points_have_the_moments_of_the_lamp(samples: str) -> None:
     center, radius = np.array([3.0, -1.0, 0.5], np.float32), 0.25
-    place = sphere_points(samples, Bound(SOLUTIONS), ("lights", 0))
-    found = place(center, radius, numbers(samples))
+    found = points(samples, center, radius, numbers(samples))
     assert found.shape == (3, N)
     assert found.dtype == np.float32
     x, y, z = (found.astype(float) - center[:, None]) / radius
@@ -63,21 +73,24 @@ def test_points_have_the_moments_of_the_lamp(samples: str) -> None:
 
 
 def test_rejection_draws_the_same_for_the_same_numbers_and_others_for_others() -> None:
-    place = sphere_points("ball by rejection", Bound(SOLUTIONS), ("lights", 0))
-    center = np.zeros(3, np.float32)
-    one, other = numbers("ball by rejection", 1), numbers("ball by rejection", 2)
-    first, again, elsewhere = (place(center, 1.0, u) for u in (one, one, other))
+    way, center = "ball by rejection", np.zeros(3, np.float32)
+    one, other = numbers(way, 1), numbers(way, 2)
+    first, again, elsewhere = (points(way, center, 1.0, u) for u in (one, one, other))
     assert (first == again).all()
     assert not (first == elsewhere).any()
-    assert place(center, 1.0, one[:, :0]).shape == (3, 0)
+    assert points(way, center, 1.0, one[:, :0]).shape == (3, 0)
 
 
-def test_the_other_ways_call_what_they_called() -> None:
+def test_the_other_ways_call_what_they_called(make_scene: MakeScene) -> None:
     for samples, (module, name) in SPHERES.items():
         if module == "soft_shadows":
-            assert sphere_points(samples, Bound(SOLUTIONS), ("lights", 0)) is SOLUTIONS.function(
-                module, name
-            )
+            scene = lit(make_scene, samples=samples)
+            (light,) = scene.compiled.world.lights
+            assert type(light) is SphereLight
+            assert vars(light.soft_shadows) == {name: scene.effects.function(module, name)}
+            # So it is that which places the points: there is no other to call.
+            u = np.full((light.width, 1), 0.3, np.float32)
+            assert light.sample(np.zeros((3, 1), np.float32), u, towards).to_light.shape == (3, 1)
 
 
 def lit(make_scene: MakeScene, integrator: str = "distribution", **light: Any) -> Scene:

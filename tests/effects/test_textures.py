@@ -18,10 +18,10 @@ import yaml
 from numpy.typing import NDArray
 
 from course import Scene, SceneError, load_scene, render
+from course.cluster.parcel import pack, unpack
 from course.effects import PROJECT
-from course.imaging.files import save
-from course.imaging.reading import read_picture
-from course.rendering.parcel import pack, unpack
+from course.formats.pictures.files import save
+from course.formats.pictures.reading import read_picture
 
 MakeScene = Callable[..., Scene]
 Array = NDArray[np.float64]

@@ -10,6 +10,7 @@ far less by Sobol points, which are what most pixels use; seeds are fixed.
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from collections.abc import Callable
 from typing import Any
@@ -19,8 +20,8 @@ import pytest
 from numpy.typing import NDArray
 
 from course import Scene, render
+from course.building.world import compile_camera
 from course.rendering.binding import bind
-from course.scene.compiling import compile_camera
 
 MakeScene = Callable[..., Scene]
 Array = NDArray[np.float64]
@@ -165,16 +166,15 @@ def test_rays_leave_all_of_the_aperture_alike(
     n = 2**16
     u = np.random.default_rng(3).random((2, n), np.float32)
     if sampler == "sobol":
-        from course.core.samplers import Block, make_sampler
+        from course.core.samplers import Block
+        from course.extras.samplers import make_sampler
 
-        u = make_sampler("sobol", 3, None).draw(
-            Block(np.arange(4, dtype=np.uint32), 0, n // 4, 0), 2, 2
-        )
+        u = make_sampler("sobol", 3).draw(Block(np.arange(4, dtype=np.uint32), 0, n // 4, 0), 2, 2)
     camera = compile_camera(scene.loaded, scene.compiled.frame, settings.width, settings.height)
     optics = scene.compiled.world.lens
     assert optics is not None
-    direction = np.repeat(camera.forward[:, None], n, axis=1)
-    origins, _ = optics.rays(camera, camera.origin, direction, u)
+    x, y = np.full((2, n), [[settings.width / 2], [settings.height / 2]], np.float32)
+    origins, _ = dataclasses.replace(camera, lens=optics).rays(x, y, u, None)
     frame = scene.compiled.frame
     offset = (origins - camera.origin[:, None]).astype(np.float64) * frame.scale / RADIUS
     x, y = camera.right @ offset, camera.up @ offset
@@ -212,12 +212,14 @@ def test_the_plane_in_focus_is_sharp_to_float32_at_its_corners(
     world, frame = scene.compiled.world, scene.compiled.frame
     assert world.lens is not None
     camera = compile_camera(scene.loaded, frame, 60, 40)
+    with_lens = dataclasses.replace(camera, lens=world.lens)
     u = np.random.default_rng(1).random((2, 1000), np.float32)
     forward = camera.forward.astype(np.float64)
     focus = 4 / frame.scale
     for x, y in ((0, 0), (60, 0), (0, 40), (60, 40), (30, 20)):
-        pinhole = camera.directions(np.full(1000, x, np.float32), np.full(1000, y, np.float32))
-        origin, direction = world.lens.rays(camera, camera.origin, pinhole, u)
+        place = np.full(1000, x, np.float32), np.full(1000, y, np.float32)
+        pinhole = camera.directions(*place)
+        origin, direction = with_lens.rays(*place, u, None)
         origin, direction = origin.astype(np.float64), direction.astype(np.float64)
         start = forward @ (origin - camera.origin.astype(np.float64)[:, None])
         met = origin + direction * ((focus - start) / (forward @ direction))
@@ -287,4 +289,4 @@ def test_the_camera_rays_are_those_of_the_lens(make_scene: MakeScene) -> None:
     paths = SIZE * SIZE * 256
     assert receipt.numbers == {"pixel": 2 * paths, "lens": 2 * paths}
     assert receipt.rays == {"camera": paths, "shadow": 0, "reflection": 0, "refraction": 0}
-    assert bind(scene, scene.settings).plan.lens_dimension == 2
+    assert bind(scene, scene.settings).dimensions.first("lens", 0) == 2

@@ -8,34 +8,45 @@ from typing import Any
 import numpy as np
 import pytest
 
-from course.geometry.accelerators import AnyAccelerator
-from course.geometry.embree import Accelerator, QueryTime
-from course.geometry.hierarchy import HierarchyAccelerator, HierarchyFunctions
-from course.geometry.moving import MovingAccelerator
+from course.compiled import packets
+from course.compiled.accelerator import PacketAccelerator, in_packets
+from course.core.embree import Accelerator, EmbreeAccelerator, QueryTime
+from course.core.functions import Functions
+from course.core.motion import MovingAccelerator
+from course.extras.hierarchy import HierarchyAccelerator
 from solutions import bounding_volumes, motion_blur
 
-KINDS = (Accelerator, MovingAccelerator, HierarchyAccelerator)
+KINDS = (
+    EmbreeAccelerator,
+    MovingAccelerator,
+    HierarchyAccelerator,
+    pytest.param(
+        PacketAccelerator,
+        marks=pytest.mark.skipif(
+            not packets.available(), reason="Numba is not installed (pip install .[fast])"
+        ),
+    ),
+)
 QUERIES = ("intersect", "unoccluded")
 
 VERTICES = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], np.float32)
 TRIANGLES = np.array([[0, 1, 2]], np.int32)
 
 
-def made(kind: type) -> AnyAccelerator:
+def made(kind: type) -> Accelerator:
     """One triangle that stands still in z = 0."""
     if kind is HierarchyAccelerator:
-        functions = HierarchyFunctions(bounding_volumes.build, bounding_volumes.traverse, 4)
-        return HierarchyAccelerator(VERTICES, TRIANGLES, functions)
-    still = Accelerator(VERTICES, TRIANGLES)
-    if kind is Accelerator:
-        return still
-    return MovingAccelerator(still, (), motion_blur.to_object_space, motion_blur.displacement)
+        return HierarchyAccelerator(VERTICES, TRIANGLES, Functions(vars(bounding_volumes)), 4)
+    still = EmbreeAccelerator(VERTICES, TRIANGLES)
+    if kind is MovingAccelerator:
+        return MovingAccelerator(still, (), Functions(vars(motion_blur)))
+    return in_packets(still) if kind is PacketAccelerator else still
 
 
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("query", QUERIES)
 def test_queries_take_what_the_interface_says(kind: type, query: str) -> None:
-    wanted = inspect.signature(getattr(AnyAccelerator, query)).parameters
+    wanted = inspect.signature(getattr(Accelerator, query)).parameters
     has = inspect.signature(getattr(kind, query)).parameters
     by_place = [name for name, each in wanted.items() if each.kind is not each.KEYWORD_ONLY]
     assert list(has)[: len(by_place)] == by_place
@@ -46,9 +57,6 @@ def test_queries_take_what_the_interface_says(kind: type, query: str) -> None:
 @pytest.mark.parametrize("kind", KINDS)
 def test_who_knows_the_interface_alone_gets_the_same_answers(kind: type) -> None:
     accelerator: Any = made(kind)
-    assert accelerator.compiled is False
-    assert accelerator.convex is None
-    accelerator.use_packets(False)
     # The second one passes the triangle by.
     origin = np.array([[0.25, 0.9], [0.25, 0.9], [2, 2]], np.float32)
     direction = np.repeat(np.array([[0], [0], [-1]], np.float32), 2, axis=1)
@@ -59,6 +67,24 @@ def test_who_knows_the_interface_alone_gets_the_same_answers(kind: type) -> None
     np.testing.assert_allclose([found.t[0], found.u[0], found.v[0]], [2, 0.25, 0.25], rtol=1e-6)
     assert accelerator.unoccluded(origin, direction, 3.0, clock, time).tolist() == [False, True]
     assert accelerator.unoccluded(origin, direction, 1.5, clock, time).tolist() == [True, True]
+
+
+@pytest.mark.skipif(not packets.available(), reason="Numba is not installed (pip install .[fast])")
+def test_packets_take_the_place_of_embree_alone() -> None:
+    for kind, other in (
+        (EmbreeAccelerator, PacketAccelerator),
+        (MovingAccelerator, MovingAccelerator),
+        (HierarchyAccelerator, HierarchyAccelerator),
+    ):
+        accelerator: Any = made(kind)
+        packed: Any = in_packets(accelerator)
+        assert type(packed) is other
+        assert (packed is accelerator) == (kind is HierarchyAccelerator)
+        # Nothing has happened to who is asked for single rays.
+        assert type(accelerator) is kind
+        if kind is MovingAccelerator:
+            assert type(accelerator.static) is EmbreeAccelerator
+            assert type(packed.static) is PacketAccelerator
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -10,7 +10,7 @@ import pytest
 
 from course import load_scene
 from course.errors import GeometryError, SceneError
-from course.geometry.mesh_files import read_mesh
+from course.formats.meshes.files import read_mesh
 
 SQUARE = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0))
 TWO = ((0, 1, 2), (0, 2, 3))

@@ -7,15 +7,18 @@ from typing import Any
 import numpy as np
 import pytest
 
+from course import shapes
+from course.building.objects import CONVEX
+from course.compiled import packets
+from course.compiled.convex import ConvexObjects, convex_objects
+from course.core.embree import NO_HIT, EmbreeAccelerator, Intersections, QueryTime
+from course.core.functions import Functions
+from course.core.hits import Hits, Surface
+from course.core.triangles import Mesh
 from course.core.vectors import cross, dot
-from course.geometry import packets, shapes, transforms
-from course.geometry.convex import ConvexObjects, convex_objects
-from course.geometry.embree import NO_HIT, Accelerator, Intersections, QueryTime
-from course.geometry.hits import Hits, find_hits
-from course.geometry.mesh import Mesh
-from course.geometry.surface import Part, Surface, build_surface
-from course.scene import description as d
-from course.scene.instancing import CONVEX
+from course.extras.surface import FullPart, FullSurface, build_surface
+from course.formats.meshes import transforms
+from course.formats.yaml import description as d
 
 compiled = pytest.mark.skipif(
     not packets.available(), reason="Numba is not installed (pip install .[fast])"
@@ -70,11 +73,11 @@ KNOT = at(shapes.torus_knot(2, 3, 0.3, 0.1, 256, 24), 0, -0.5, 0.3)
 ROOM = shapes.box((2, 2, 2))
 
 
-def scene(*parts: tuple[Mesh, bool]) -> Surface:
-    return build_surface([Part(mesh, 0, convex=convex) for mesh, convex in parts])
+def scene(*parts: tuple[Mesh, bool]) -> FullSurface:
+    return build_surface([FullPart(mesh, 0, convex=convex) for mesh, convex in parts])
 
 
-def apart() -> Surface:
+def apart() -> FullSurface:
     """Two balls that are worth being left out, between a small ball and two objects that are not convex."""
     return scene(
         (at(SMALL, 0, 0.1, 0), True),
@@ -85,11 +88,18 @@ def apart() -> Surface:
     )
 
 
-def objects(surface: Surface) -> ConvexObjects | None:
+def in_loops(surface: Surface) -> Any:
+    """The same triangles, for compiled loops."""
+    from course.compiled.stages import compiled_surface
+
+    return compiled_surface(surface)
+
+
+def objects(surface: FullSurface) -> ConvexObjects | None:
     """What compiled loops would look at, whether there are any or not."""
     asked = surface.accelerator
-    assert isinstance(asked, Accelerator)
-    return convex_objects(asked._vertices, asked._triangles, asked._extents)
+    assert isinstance(asked, EmbreeAccelerator)
+    return convex_objects(asked.vertices, asked.triangles, surface.triangles.parts)
 
 
 def test_balls_that_stand_apart_are_worth_it() -> None:
@@ -128,28 +138,30 @@ def test_an_object_without_area_is_in_nobodys_way() -> None:
     assert found.worth.tolist() == [True, False]
 
 
+@compiled
 def test_where_things_move_nothing_is_left_out() -> None:
-    from course.geometry.motion_functions import MotionFunctions
-
-    functions = MotionFunctions(
-        lambda _open, _close, u: u,
-        lambda velocity, time: velocity[:, None] * time,
-        lambda origins, velocity, time: origins - velocity[:, None] * time,
+    functions = Functions(
+        {
+            "displacement": lambda velocity, time: velocity[:, None] * time,
+            "to_object_space": lambda origins, velocity, time: origins - velocity[:, None] * time,
+        }
     )
-    parts = [Part(BALL, 0, convex=True), Part(at(BALL, 0.6, 0, 0), 0, (0.1, 0.0, 0.0))]
-    surface = build_surface(parts, functions)
-    surface.accelerator.use_packets(packets.available())
-    assert surface.accelerator.convex is None
+    parts = [FullPart(BALL, 0, convex=True), FullPart(at(BALL, 0.6, 0, 0), 0, (0.1, 0.0, 0.0))]
+    still, moving = (in_loops(build_surface(some, functions)) for some in (parts[:1], parts))
+    assert still.accelerator.convex is not None
+    assert moving.accelerator.static.convex is None
+    assert moving.accelerator.movers[0].accelerator.convex is None
+    assert moving.leaving(*left_behind(moving, 6)) is None
 
 
 def left_behind(surface: Surface, seed: int) -> tuple[Hits, Any, Any]:
     """Hits all over the surface from both sides, and rays that leave them upwards, some of them at grazing angles."""
     n = 60_000
     rng = np.random.default_rng(seed)
-    triangle = rng.integers(surface.size, size=n).astype(np.int32)
+    triangle = rng.integers(surface.triangles.size, size=n).astype(np.int32)
     _, u, v = rng.dirichlet((1, 1, 1), n).T.astype(np.float32)
     direction = normalised(rng.normal(size=(3, n))).astype(np.float32)
-    hits = find_hits(surface, Intersections(triangle, u, v, u), direction)
+    hits = surface.hits(Intersections(triangle, u, v, u), direction)
     way = rng.normal(size=(3, n))
     way *= np.where(dot(way, hits.ng) > 0, 1, -1)
     # Every third ray leaves at 1 / 1000 or less: nothing else would find itself so often.
@@ -161,10 +173,9 @@ def left_behind(surface: Surface, seed: int) -> tuple[Hits, Any, Any]:
 
 @compiled
 def test_hits_are_the_same_as_if_all_had_been_asked() -> None:
-    surface = apart()
-    surface.accelerator.use_packets(True)
+    surface = in_loops(apart())
     hits, which, way = left_behind(surface, 1)
-    left = hits.leaving(which, way)
+    left = surface.leaving(hits, which, way)
     assert left is not None
     convex = surface.accelerator.convex
     assert convex is not None
@@ -182,11 +193,10 @@ def test_hits_are_the_same_as_if_all_had_been_asked() -> None:
 
 @compiled
 def test_limits_hold_for_rays_that_are_not_asked() -> None:
-    surface = apart()
-    surface.accelerator.use_packets(True)
+    surface = in_loops(apart())
     hits, which, way = left_behind(surface, 2)
     limit = np.random.default_rng(0).random(len(which)).astype(np.float32)
-    left = hits.leaving(which, way)
+    left = surface.leaving(hits, which, way)
     clock = QueryTime()
     some = surface.accelerator.intersect(hits.above, way, clock, limit=limit, left=left)
     every = surface.accelerator.intersect(hits.above, way, clock, limit=limit)
@@ -196,13 +206,12 @@ def test_limits_hold_for_rays_that_are_not_asked() -> None:
 
 @compiled
 def test_only_what_leaves_a_ball_outwards_leaves_it() -> None:
-    surface = apart()
-    surface.accelerator.use_packets(True)
+    surface = in_loops(apart())
     hits, which, way = left_behind(surface, 3)
     # Half of the rays go through the surface instead.
     way = np.where(which % 2 == 0, way, -way)
     some = which[::3]
-    left = hits.leaving(some, np.ascontiguousarray(way[:, some]))
+    left = surface.leaving(hits, some, np.ascontiguousarray(way[:, some]))
     convex = surface.accelerator.convex
     assert left is not None
     assert convex is not None
@@ -216,17 +225,16 @@ def test_only_what_leaves_a_ball_outwards_leaves_it() -> None:
 
 @compiled
 def test_without_convex_objects_nobody_asks_what_a_ray_leaves() -> None:
-    surface = scene((BALL, False), (KNOT, False))
-    surface.accelerator.use_packets(True)
+    surface = in_loops(scene((BALL, False), (KNOT, False)))
     hits, which, way = left_behind(surface, 4)
-    assert hits.leaving(which, way) is None
+    assert surface.leaving(hits, which, way) is None
 
 
 def test_without_compiled_loops_nobody_asks_either() -> None:
     surface = apart()
     hits, which, way = left_behind(surface, 5)
-    assert hits.leaving(which, way) is None
-    # Nor once they have been used and no longer are.
-    surface.accelerator.use_packets(packets.available())
-    surface.accelerator.use_packets(False)
-    assert surface.accelerator.convex is None
+    assert surface.leaving(hits, which, way) is None
+    # Nor once they have been used for the same triangles.
+    if packets.available():
+        assert in_loops(surface).leaving(hits, which, way) is not None
+    assert surface.leaving(hits, which, way) is None

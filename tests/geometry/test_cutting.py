@@ -10,13 +10,16 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from course import shapes
+from course.building import cutting
+from course.building.cutting import NEAR, SmallThings, cut
+from course.core.embree import QueryTime
+from course.core.ray_offset import OFFSET
+from course.core.triangles import Mesh
 from course.core.types import Floats32
-from course.geometry import cutting, shapes, transforms
-from course.geometry.cutting import NEAR, SmallThings, cut
-from course.geometry.embree import QueryTime
-from course.geometry.mesh import Mesh
-from course.geometry.painting import Paint
-from course.geometry.surface import OFFSET, Part, Surface, build_surface
+from course.extras.painting import Paint
+from course.extras.surface import FullPart, FullSurface, build_surface
+from course.formats.meshes import transforms
 
 RATIO = 64.0
 SIZES = (1e-4, 1e-7, 1e-10)
@@ -35,7 +38,7 @@ def turned(mesh: Mesh) -> Mesh:
     return moved(mesh, transforms.rotate((1.0, 2.0, 3.0), 33.0))
 
 
-def edges(parts: list[Part]) -> Counter[frozenset[Any]]:
+def edges(parts: list[FullPart]) -> Counter[frozenset[Any]]:
     """How many triangles have each edge, its ends as float32 has them."""
     found: Counter[frozenset[Any]] = Counter()
     for part in parts:
@@ -48,7 +51,7 @@ def edges(parts: list[Part]) -> Counter[frozenset[Any]]:
     return found
 
 
-def walls(size: float, turn: bool) -> list[Part]:
+def walls(size: float, turn: bool) -> list[FullPart]:
     """A closed room of six objects of a quad each, the floor's middle beside the origin."""
     room = shapes.box((2.0, 2.0, 2.0))
     parts = []
@@ -58,7 +61,7 @@ def walls(size: float, turn: bool) -> list[Part]:
             Mesh(room.vertices, triangles),
             transforms.translate(np.array([0.31, 1 - size / 3, 0.17])),
         )
-        parts.append(Part(turned(mesh) if turn else mesh, wall))
+        parts.append(FullPart(turned(mesh) if turn else mesh, wall))
     return parts
 
 
@@ -77,11 +80,11 @@ def test_every_edge_of_a_closed_room_still_belongs_to_two_triangles(
 
 def test_a_fine_neighbour_is_cut_along_only_where_it_has_to_be() -> None:
     # A strip of many triangles whose edge is in the floor's: some of them have to follow the cuts.
-    floor = Part(Mesh(np.array([[0, 0, 1.0], [1, 0, 0], [-1, 0, 0]]), np.array([[0, 1, 2]])), 0)
+    floor = FullPart(Mesh(np.array([[0, 0, 1.0], [1, 0, 0], [-1, 0, 0]]), np.array([[0, 1, 2]])), 0)
     fan = np.linspace(-0.5, 0.5, 200)
     vertices = np.array([[-1, 0, 0], [1, 0, 0], *([x, 0.2, -0.1] for x in fan)])
     triangles = [[0, 1, 2], *([1, 3 + k, 2 + k] for k in range(199))]
-    wall = Part(Mesh(vertices, np.array(triangles)), 1)
+    wall = FullPart(Mesh(vertices, np.array(triangles)), 1)
     parts = cut([floor, wall], thing(1e-5), RATIO)
     before, after = edges([floor, wall]), edges(parts)
     # Open edges are as long as they were, and so no cut has a triangle on one side alone.
@@ -109,7 +112,7 @@ def test_offsets_shrink_with_the_distance_from_what_is_small(size: float) -> Non
         reach = np.abs(p).max(axis=(1, 2))
         assert (reach <= np.maximum(RATIO, NEAR) * apart * (1 + 1e-9)).all()
     surface = build_surface(parts)
-    assert surface.planes[:, 6].min() <= OFFSET * RATIO * size
+    assert surface.triangles.planes[:, 6].min() <= OFFSET * RATIO * size
 
 
 def test_what_corners_carry_is_interpolated_as_before() -> None:
@@ -122,7 +125,7 @@ def test_what_corners_carry_is_interpolated_as_before() -> None:
     normals /= np.linalg.norm(normals, axis=1)[:, None]
     uv, painted = rng.random((4, 2)), rng.random((2, 3, 3))
     mesh = turned(Mesh(flat.vertices, flat.triangles, normals, uv))
-    part = Part(mesh, 0, paint=Paint(painted, lambda *_: np.zeros((3, 1), np.float32)))
+    part = FullPart(mesh, 0, paint=Paint(painted, lambda *_: np.zeros((3, 1), np.float32)))
     (after,) = cut([part], thing(1e-5), RATIO)
     pieces = after.mesh
     assert pieces.normals is not None
@@ -155,7 +158,7 @@ def test_the_same_normal_at_all_corners_stays_the_same_to_the_bit() -> None:
     normal /= np.linalg.norm(normal)
     flat = shapes.quad(2.0, 2.0)
     mesh = Mesh(flat.vertices, flat.triangles, np.tile(normal, (4, 1)), flat.uv)
-    (after,) = cut([Part(mesh, 0)], thing(1e-6), RATIO)
+    (after,) = cut([FullPart(mesh, 0)], thing(1e-6), RATIO)
     assert after.mesh.normals is not None
     assert (after.mesh.normals == normal).all()
 
@@ -174,7 +177,7 @@ def test_what_is_small_but_far_from_the_origin_asks_for_few_cuts() -> None:
 @pytest.mark.parametrize(("width", "least", "most"), [(1e-9, 100, 5000), (1e-45, 2, 2)])
 def test_needles_are_cut_across_and_not_along(width: float, least: int, most: int) -> None:
     # The thinner one has no area in float32.
-    (after,) = cut([Part(shapes.quad(width, 2.0), 0)], thing(1e-9), RATIO)
+    (after,) = cut([FullPart(shapes.quad(width, 2.0), 0)], thing(1e-9), RATIO)
     assert least <= len(after.mesh.triangles) <= most
 
 
@@ -182,10 +185,10 @@ def test_normals_that_cancel_in_the_middle_stay_finite() -> None:
     flat = shapes.quad(2.0, 2.0)
     normals = np.array([[0, 0.6, 0.8], [0, 0.6, -0.8], [0, -0.6, -0.8], [0, 0.6, 0.8]])
     mesh = Mesh(flat.vertices, flat.triangles, normals, flat.uv)
-    (after,) = cut([Part(mesh, 0)], thing(1e-6), RATIO)
+    (after,) = cut([FullPart(mesh, 0)], thing(1e-6), RATIO)
     assert after.mesh.normals is not None
     assert after.mesh.normals.any(axis=1).all()
-    corner_normals = build_surface([after]).corner_normals
+    corner_normals = build_surface([after]).triangles.corner_normals
     assert corner_normals is not None
     assert np.isfinite(corner_normals).all()
 
@@ -198,17 +201,17 @@ def test_needles_over_each_other_take_no_more_pieces_than_are_of_use() -> None:
         transforms.scale(np.array([1, 1, 1e-32])),
         transforms.translate(np.array([0.12345, 0, 0])),
     )
-    (after,) = cut([Part(disk, 0)], thing(1e-12), RATIO)
+    (after,) = cut([FullPart(disk, 0)], thing(1e-12), RATIO)
     assert cutting.MOST < len(after.mesh.triangles) < 4 * cutting.MOST
 
 
 def test_triangles_without_area_are_no_obstacle() -> None:
     line = Mesh(np.array([[-1, 0, 0], [1, 0, 0], [0.5, 0, 0]]), np.array([[0, 1, 2]]))
     smooth = Mesh(line.vertices, line.triangles, np.tile([0.0, 1, 0], (3, 1)))
-    (after, _) = cut([Part(smooth, 0), Part(shapes.quad(2.0, 2.0), 0)], thing(1e-6), RATIO)
+    (after, _) = cut([FullPart(smooth, 0), FullPart(shapes.quad(2.0, 2.0), 0)], thing(1e-6), RATIO)
     assert after.mesh.normals is not None
     assert np.isfinite(after.mesh.normals).all()
-    assert build_surface([after]).size == 0
+    assert build_surface([after]).triangles.size == 0
 
 
 @pytest.mark.parametrize("turn", [False, True])
@@ -221,7 +224,9 @@ def test_no_ray_slips_through_the_cuts(size: float, turn: bool) -> None:
         for part in cut(walls(size, turn), thing(size), RATIO)
     ]
     surface = build_surface(parts)
-    p, e1, e2 = (rows.astype(np.float64) for rows in (surface.planes[:, :3], *sides(surface)))
+    p, e1, e2 = (
+        rows.astype(np.float64) for rows in (surface.triangles.planes[:, :3], *sides(surface))
+    )
     share = np.random.default_rng(2).uniform(0.05, 0.95, (40, 1, 1))
     ways = (p + share * e1, p + share * e2, p + e1 + share * (e2 - e1))
     aims = np.concatenate([way.reshape(-1, 3) for way in ways]).T
@@ -238,6 +243,6 @@ def test_no_ray_slips_through_the_cuts(size: float, turn: bool) -> None:
     assert (hits.triangle >= 0).all()
 
 
-def sides(surface: Surface) -> tuple[Floats32, Floats32]:
+def sides(surface: FullSurface) -> tuple[Floats32, Floats32]:
     """e1 and e2 of all triangles."""
-    return surface.edges[:, :3], surface.edges[:, 3:6]
+    return surface.triangles.edges[:, :3], surface.triangles.edges[:, 3:6]

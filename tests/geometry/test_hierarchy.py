@@ -5,36 +5,36 @@ Rays through an edge may go either way, and so may those towards the border of t
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from course import shapes
+from course.core.embree import NO_HIT, EmbreeAccelerator, QueryTime
+from course.core.functions import Functions
 from course.core.vectors import dot
 from course.effects import Effects
 from course.errors import EffectError
-from course.geometry import shapes
-from course.geometry.embree import NO_HIT, Accelerator, QueryTime
-from course.geometry.hierarchy import HierarchyAccelerator, HierarchyFunctions
+from course.extras.hierarchy import HierarchyAccelerator
 
 N = 4000
 Array = NDArray[np.float32]
-Pair = tuple[HierarchyAccelerator, Accelerator]
+Pair = tuple[HierarchyAccelerator, EmbreeAccelerator]
 
 
-def functions(leaf_size: int = 4) -> HierarchyFunctions:
+def functions(**replaced: Any) -> Functions:
     effects = Effects("solutions")
-    return HierarchyFunctions(
-        effects.function("bounding_volumes", "build"),
-        effects.function("bounding_volumes", "traverse"),
-        leaf_size,
-    )
+    given = {name: effects.function("bounding_volumes", name) for name in ("build", "traverse")}
+    return Functions(given | replaced)
 
 
 def both(
     vertices: NDArray[np.floating], triangles: NDArray[np.integer], leaf_size: int = 4
 ) -> Pair:
     shape = vertices.astype(np.float32), triangles.astype(np.int32)
-    return HierarchyAccelerator(*shape, functions(leaf_size)), Accelerator(*shape)
+    return HierarchyAccelerator(*shape, functions(), leaf_size), EmbreeAccelerator(*shape)
 
 
 @pytest.fixture(scope="module", params=["knot", "heap"])
@@ -103,11 +103,14 @@ def test_what_hides_a_light_is_what_embree_says(pair: Pair, limit: float) -> Non
 def test_a_limit_is_as_far_as_the_hit_may_be(pair: Pair) -> None:
     origin, direction = rays(4)
     hierarchy, _ = pair
-    free = hierarchy.intersect(origin, direction, QueryTime())
-    for share, kept in ((1 + 1e-6, True), (1 - 1e-6, False)):
-        limit = np.minimum(free.t, 1e30) * np.float32(share)
-        found = hierarchy.intersect(origin, direction, QueryTime(), limit=limit)
-        assert ((found.triangle >= 0) == ((free.triangle >= 0) & kept)).all()
+    found = hierarchy.intersect(origin, direction, QueryTime())
+    some = np.concatenate([np.flatnonzero((found.triangle >= 0) == met)[:50] for met in (0, 1)])
+    for share, beyond in ((1 + 1e-6, False), (1 - 1e-6, True)):
+        for number in some:
+            ray = origin[:, number, None], direction[:, number, None]
+            limit = min(float(found.t[number]), 1e30) * share
+            free = hierarchy.unoccluded(*ray, limit, QueryTime())
+            assert free.tolist() == [found.triangle[number] < 0 or beyond]
 
 
 def test_one_origin_serves_all_rays(pair: Pair) -> None:
@@ -148,15 +151,13 @@ def test_nothing_is_asked_where_there_is_nothing() -> None:
 
 
 def _returning(**replaced: object) -> HierarchyAccelerator:
-    given = functions()
     changed = {name: (lambda *_, value=value: value) for name, value in replaced.items()}
     mesh = shapes.sphere(1, 8)
     return HierarchyAccelerator(
         mesh.vertices.astype(np.float32),
         mesh.triangles.astype(np.int32),
-        HierarchyFunctions(
-            changed.get("build", given.build), changed.get("traverse", given.traverse), 4
-        ),
+        functions(**changed),
+        4,
     )
 
 

@@ -7,15 +7,21 @@ from typing import Any
 import numpy as np
 import pytest
 
-from course.geometry import packets, shapes, transforms
-from course.geometry.embree import Intersections
-from course.geometry.hits import Hits, find_hits
-from course.geometry.leaving import mirrored_above
-from course.geometry.mesh import Mesh
-from course.geometry.surface import Part, Surface, build_surface
+from course import shapes
+from course.compiled import packets
+from course.core.embree import Intersections
+from course.core.hits import Hits
+from course.core.materials import Lookup
+from course.core.triangles import Mesh
+from course.extras.scatter import FullScatter
+from course.extras.surface import FullPart, FullSurface, build_surface
+from course.formats.meshes import transforms
 
 if not packets.available():
     pytest.skip("Numba is not installed (pip install .[fast])", allow_module_level=True)
+
+from course.compiled.scatter import CompiledScatter
+from course.compiled.stages import compiled_surface
 
 PLACES = ("p", "ng", "ns", "offset", "above", "side", "u", "v", "t", "triangle", "material")
 TURN = transforms.rotate(np.array([1.0, 2.0, 3.0]), 33.0)
@@ -29,12 +35,12 @@ MESHES = {
 }
 
 
-def met(mesh: Mesh, share: float, bends: bool = True) -> tuple[Surface, Intersections, Any]:
+def met(mesh: Mesh, share: float, bends: bool = True) -> tuple[FullSurface, Intersections, Any]:
     """A surface, hits of a share of the rays, and directions; a third of the points lie at edges or corners."""
-    surface = build_surface([Part(mesh, 3)], bent=None if bends else np.zeros(4, np.bool_))
+    surface = build_surface([FullPart(mesh, 3)], bent=None if bends else np.zeros(4, np.bool_))
     n = 4800
     rng = np.random.default_rng(3)
-    triangle = rng.integers(surface.size, size=n).astype(np.int32)
+    triangle = rng.integers(surface.triangles.size, size=n).astype(np.int32)
     triangle[rng.random(n) >= share] = -1
     w, u, v = rng.dirichlet((1, 1, 1), n).T
     for number, kept in enumerate(((v, w), (u, w), (u, v))):
@@ -48,13 +54,8 @@ def met(mesh: Mesh, share: float, bends: bool = True) -> tuple[Surface, Intersec
     return surface, Intersections(triangle, u, v, t), direction.astype(np.float32)
 
 
-def both(surface: Surface, found: Intersections, direction: Any) -> tuple[Hits, Hits]:
-    hits = []
-    for wanted in (False, True):
-        surface.accelerator.use_packets(wanted)
-        hits.append(find_hits(surface, found, direction))
-    assert [each.compiled for each in hits] == [False, True]
-    return hits[0], hits[1]
+def both(surface: FullSurface, found: Intersections, direction: Any) -> tuple[Hits, Hits]:
+    return surface.hits(found, direction), compiled_surface(surface).hits(found, direction)
 
 
 @pytest.mark.parametrize("bends", [True, False])
@@ -71,8 +72,8 @@ def test_places_and_normals(name: str, share: float, bends: bool) -> None:
     assert (loop.ns is loop.ng) == (passes.ns is passes.ng) == (name == "box without normals")
     if share == 1:
         # Some points were pulled off edges, and some normals turned to the viewer.
-        p0 = surface.planes[loop.triangle, :3].T
-        e1, e2 = surface.edges[loop.triangle, :6].T.reshape(2, 3, -1)
+        p0 = surface.triangles.planes[loop.triangle, :3].T
+        e1, e2 = surface.triangles.edges[loop.triangle, :6].T.reshape(2, 3, -1)
         assert (np.abs(p0 + e1 * loop.u + e2 * loop.v - loop.p).max(axis=0) > 1e-6).sum() > 500
         if name == "coarse sphere":
             away = (loop.ns * direction).sum(axis=0)
@@ -84,7 +85,7 @@ def test_places_and_normals(name: str, share: float, bends: bool) -> None:
 def test_only_round_triangles_have_normals_to_interpolate(name: str) -> None:
     """A cone has both: its base is flat, its side isn't."""
     surface, found, direction = met(MESHES[name], 1.0, bends=False)
-    flat = surface.planes[:, 7] > 0
+    flat = surface.triangles.planes[:, 7] > 0
     share = {"coarse sphere": 0.0, "box": 1.0, "box without normals": 1.0}.get(name, 0.5)
     assert abs(flat.mean() - share) < 0.03
     for hits in both(surface, found, direction):
@@ -94,18 +95,23 @@ def test_only_round_triangles_have_normals_to_interpolate(name: str) -> None:
 
 @pytest.mark.parametrize("name", MESHES)
 def test_mirrored_directions(name: str) -> None:
-    passes, loop = both(*met(MESHES[name], 1.0))
+    surface, found, direction = met(MESHES[name], 1.0)
+    passes, loop = both(surface, found, direction)
+    mirror = Lookup(np.ones((3, 4), np.float32))
+    one, other = (
+        kind(surface, mirror, None, None, False, None, 0)._mirror_images
+        for kind in (FullScatter, CompiledScatter)
+    )
     for which in (np.arange(passes.size), np.arange(0, passes.size, 3), np.arange(0)):
         ng = passes.ng.take(which, axis=1)
-        mine, theirs = mirrored_above(passes, which, ng), mirrored_above(loop, which, ng)
+        mine, theirs = one(passes, which, ng), other(loop, which, ng)
         assert mine.tobytes() == theirs.tobytes()
     if name == "coarse sphere":
         ns, d = passes.ns.astype(float), passes.direction.astype(float)
         into = ((d - 2 * (d * ns).sum(axis=0) * ns) * passes.ng).sum(axis=0) < 0
         assert into.sum() > 50
-    assert (
-        (mirrored_above(loop, np.arange(loop.size), loop.ng) * loop.ng).sum(axis=0) > -1e-6
-    ).all()
+    way = other(loop, np.arange(loop.size), loop.ng)
+    assert ((way * loop.ng).sum(axis=0) > -1e-6).all()
 
 
 def test_a_mover_carries_its_points(tmp_path: Any) -> None:

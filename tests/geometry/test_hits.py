@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from course import Scene, render
-from course.geometry import shapes, transforms
-from course.geometry.embree import QueryTime
-from course.geometry.hits import Hits, bulge, find_hits
-from course.geometry.mesh import Mesh
-from course.geometry.surface import Part, Surface, build_surface
+from course import Scene, render, shapes
+from course.core.embree import QueryTime
+from course.core.hits import Hits, bulge
+from course.core.triangles import Mesh, Triangles
+from course.extras.surface import FullPart, FullSurface, build_surface
+from course.formats.meshes import transforms
 
 MakeScene = Callable[..., Scene]
 PixelRays = Callable[[Scene], tuple[NDArray[np.float64], NDArray[np.float64]]]
@@ -45,16 +45,16 @@ def aimed(mesh: Mesh, n: int, distance: float = 2.0) -> tuple[NDArray[np.float32
     return origin, (direction / np.linalg.norm(direction, axis=0)).astype(np.float32)
 
 
-def cast(surface: Surface, origin: Any, direction: Any) -> Hits:
+def cast(surface: FullSurface, origin: Any, direction: Any) -> Hits:
     found = surface.accelerator.intersect(origin, direction, QueryTime())
-    return find_hits(surface, found, direction)
+    return surface.hits(found, direction)
 
 
 @pytest.fixture(params=MESHES)
-def met(request: pytest.FixtureRequest) -> tuple[Mesh, Surface, Hits, Any, Any]:
+def met(request: pytest.FixtureRequest) -> tuple[Mesh, FullSurface, Hits, Any, Any]:
     """A mesh, its surface, hits on it, and the rays that found them."""
     mesh = MESHES[request.param]
-    surface = build_surface([Part(mesh, 3)])
+    surface = build_surface([FullPart(mesh, 3)])
     origin, direction = aimed(mesh, 20000)
     hits = cast(surface, origin, direction)
     assert hits.size > 19000
@@ -63,13 +63,13 @@ def met(request: pytest.FixtureRequest) -> tuple[Mesh, Surface, Hits, Any, Any]:
     return mesh, surface, hits, origin, direction
 
 
-Met = tuple[Mesh, Surface, Hits, Any, Any]
+Met = tuple[Mesh, FullSurface, Hits, Any, Any]
 
 
-def corners(surface: Surface, hits: Hits) -> Array:
+def corners(surface: FullSurface, hits: Hits) -> Array:
     """(3 corners, 3, n) float64 of the triangles that were hit."""
-    p0 = surface.planes[hits.triangle, :3].T.astype(np.float64)
-    e1, e2 = surface.edges[hits.triangle, :6].T.astype(np.float64).reshape(2, 3, -1)
+    p0 = surface.triangles.planes[hits.triangle, :3].T.astype(np.float64)
+    e1, e2 = surface.triangles.edges[hits.triangle, :6].T.astype(np.float64).reshape(2, 3, -1)
     return np.stack((p0, p0 + e1, p0 + e2))
 
 
@@ -87,7 +87,7 @@ def test_hit_points_are_where_the_ray_says(met: Met) -> None:
     _, surface, hits, origin, direction = met
     along = origin.astype(np.float64) + hits.t.astype(np.float64) * direction
     distance = np.linalg.norm(hits.p - along, axis=0)
-    offset = surface.planes[hits.triangle, 6]
+    offset = surface.triangles.planes[hits.triangle, 6]
     # Next to an edge they are moved by two offsets, in a corner from both its edges, further where that is acute.
     # Embree's t is off by as much as the offset is there for, over the cosine, and by its own rounding.
     cosine = np.abs((direction * hits.ng).sum(axis=0))
@@ -102,7 +102,7 @@ def test_points_inside_a_triangle_are_exact_and_only_those_at_edges_are_moved(me
     p = corners(surface, hits)
     u, v = hits.u.astype(np.float64), hits.v.astype(np.float64)
     barycentric = np.stack((1 - u - v, u, v))
-    inset = surface.inset[hits.triangle].T
+    inset = surface.triangles.inset[hits.triangle].T
     free = (barycentric > inset + 1e-6).all(axis=0)
     exact = (p * barycentric[:, None, :]).sum(axis=0)
     error = np.abs(hits.p - exact).max(axis=0)
@@ -150,13 +150,13 @@ def test_shading_normals_may_look_away_from_the_ray() -> None:
     origin, direction = aimed(mesh, 20000)
     glass = np.array([False, True])
     plain, bent = (
-        cast(build_surface([Part(mesh, material)], bent=glass), origin, direction)
+        cast(build_surface([FullPart(mesh, material)], bent=glass), origin, direction)
         for material in (0, 1)
     )
     assert np.abs(plain.ns - interpolated(mesh, plain)).max() < 1e-6
     assert ((plain.ns * plain.direction).sum(axis=0) > 0.01).sum() > 100
     # Of the materials that are named they are bent after all.
-    assert np.array_equal(bent.ns, cast(build_surface([Part(mesh, 1)]), origin, direction).ns)
+    assert np.array_equal(bent.ns, cast(build_surface([FullPart(mesh, 1)]), origin, direction).ns)
     assert (bent.ns * bent.direction).sum(axis=0).max() < 1e-6
 
 
@@ -165,7 +165,7 @@ def test_hits_carry_material_ray_and_distance() -> None:
         shapes.quad(2, 2),
         transforms.apply(shapes.quad(2, 2), transforms.translate([0, -1, 0])),
     )
-    surface = build_surface([Part(near, 5), Part(far, 9)])
+    surface = build_surface([FullPart(near, 5), FullPart(far, 9)])
     origin = np.array([[0.1, 0.2, 5, 0.3], [2, 2, 2, -0.5], [0.1, 0.1, 0.1, 0.1]], np.float32)
     direction = np.repeat(np.array([[0], [-1], [0]], np.float32), 4, axis=1)
     before = direction.copy()
@@ -184,23 +184,26 @@ def test_hits_carry_material_ray_and_distance() -> None:
 def test_flat_meshes_shade_with_their_facets() -> None:
     ball = shapes.sphere(1, 12)
     for parts in (
-        [Part(Mesh(ball.vertices, ball.triangles), 0)],
+        [FullPart(Mesh(ball.vertices, ball.triangles), 0)],
         # Beside a smooth mesh, whose tables it shares.
-        [Part(Mesh(ball.vertices, ball.triangles), 0), Part(transforms.apply(ball, CORNER), 1)],
+        [
+            FullPart(Mesh(ball.vertices, ball.triangles), 0),
+            FullPart(transforms.apply(ball, CORNER), 1),
+        ],
     ):
         surface = build_surface(parts)
         hits = cast(surface, *aimed(ball, 2000))
         flat = hits.material == 0
         assert np.abs(hits.ns - hits.ng)[:, flat].max() < 1e-6
-        assert not bulge(surface, hits, np.flatnonzero(flat)).any()
+        assert not bulge(surface.triangles, hits, np.flatnonzero(flat)).any()
 
 
 def test_the_bulge_is_the_height_of_the_round_surface() -> None:
     for segments in (16, 64):
         ball = shapes.sphere(1, segments)
-        surface = build_surface([Part(ball, 0)])
+        surface = build_surface([FullPart(ball, 0)])
         hits = cast(surface, *aimed(ball, 20000, 1.5))
-        height = bulge(surface, hits, np.arange(hits.size))
+        height = bulge(surface.triangles, hits, np.arange(hits.size))
         missing = 1 - np.linalg.norm(hits.p.astype(float), axis=0)
         front = hits.entering
         sagitta = (2 * np.pi / segments) ** 2 / 8
@@ -280,9 +283,9 @@ def test_a_coarse_smooth_ball_is_lit_like_a_round_one(
 def test_without_the_bulge_a_coarse_ball_has_teeth(
     make_scene: MakeScene, pixel_rays: PixelRays, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from course.transport import direct
+    from course.core import direct
 
-    def flat(_surface: Surface, _hits: Hits, which: NDArray[np.intp]) -> NDArray[np.float32]:
+    def flat(_triangles: Triangles, _hits: Hits, which: NDArray[np.intp]) -> NDArray[np.float32]:
         return np.zeros(len(which), np.float32)
 
     monkeypatch.setattr(direct, "bulge", flat)

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from course.errors import GeometryError
-from course.geometry.mesh_files import read_mesh
+from course.formats.meshes.files import read_mesh
 
 
 def saved(folder: Path, content: str) -> Path:

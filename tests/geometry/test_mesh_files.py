@@ -15,12 +15,12 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from course import shapes
+from course.core.triangles import Mesh
 from course.errors import GeometryError, OutputError
-from course.geometry import shapes
-from course.geometry.mesh import Mesh
-from course.geometry.mesh_files import read_mesh, save_ply
-from course.geometry.smooth_normals import smooth_normals
-from course.geometry.transforms import apply, compose, rotate, scale, translate
+from course.formats.meshes.files import read_mesh, save_ply
+from course.formats.meshes.smooth_normals import smooth_normals
+from course.formats.meshes.transforms import apply, compose, rotate, scale, translate
 
 TORUS = shapes.torus(2.0, 0.5, 24, 12)
 
@@ -546,7 +546,7 @@ def test_mixed_polygons_of_another_length_than_the_file_are_refused(
 
 def test_trimesh_is_not_imported_before_a_file_is_read() -> None:
     code = (
-        "import sys; import course.geometry.mesh_files, course.geometry.shapes; "
+        "import sys; import course.formats.meshes.files, course.shapes; "
         "sys.exit(any(m in sys.modules for m in ('trimesh', 'scipy', 'PIL')))"
     )
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 import gc
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 
-from course.geometry import embree, packets
-from course.geometry.embree import NO_HIT, Accelerator, QueryTime
+from course.compiled import accelerator as compiled_accelerator
+from course.compiled import packets
+from course.compiled.accelerator import PacketAccelerator, in_packets
+from course.core import embree
+from course.core.embree import NO_HIT, Accelerator, EmbreeAccelerator, QueryTime
 
 if not packets.available():
     pytest.skip("Numba is not installed (pip install .[fast])", allow_module_level=True)
@@ -33,25 +38,26 @@ def rays(n: int, seed: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 @pytest.fixture(scope="module")
-def accelerator() -> Accelerator:
-    return Accelerator(*soup(2000, 1))
+def accelerator() -> EmbreeAccelerator:
+    return EmbreeAccelerator(*soup(2000, 1))
 
 
-def both(accelerator: Accelerator, wanted: bool) -> Accelerator:
-    accelerator.use_packets(wanted)
-    return accelerator
+def packed(accelerator: EmbreeAccelerator) -> PacketAccelerator:
+    found = in_packets(accelerator)
+    assert isinstance(found, PacketAccelerator)
+    return found
 
 
 # 1 to 17 and 33: packets that are not full; 20,000: many.
 @pytest.mark.parametrize("n", [0, 1, 2, 15, 16, 17, 33, 20_000])
 @pytest.mark.parametrize("coherent", [False, True])
 def test_nearest_hits_are_the_same_bit_for_bit(
-    accelerator: Accelerator, n: int, coherent: bool
+    accelerator: EmbreeAccelerator, n: int, coherent: bool
 ) -> None:
     origin, direction = rays(n, n)
     clock = QueryTime()
-    single = both(accelerator, False).intersect(origin, direction, clock)
-    packet = both(accelerator, True).intersect(origin, direction, clock, coherent=coherent)
+    single = accelerator.intersect(origin, direction, clock)
+    packet = packed(accelerator).intersect(origin, direction, clock, coherent=coherent)
     for name in ("triangle", "u", "v", "t"):
         assert getattr(single, name).tobytes() == getattr(packet, name).tobytes(), name
     if n > 1000:
@@ -60,13 +66,13 @@ def test_nearest_hits_are_the_same_bit_for_bit(
         assert (packet.t[~hit] == np.float32(NO_HIT)).all()
 
 
-def test_limits_hold_and_rays_may_share_an_origin(accelerator: Accelerator) -> None:
+def test_limits_hold_and_rays_may_share_an_origin(accelerator: EmbreeAccelerator) -> None:
     _, direction = rays(5000, 3)
     limit = np.random.default_rng(4).uniform(0, 1, 5000).astype(np.float32)
     origin = np.zeros((3, 1), np.float32)
-    single = both(accelerator, False).intersect(origin, direction, QueryTime(), limit=limit)
+    single = accelerator.intersect(origin, direction, QueryTime(), limit=limit)
     kept = limit.copy()
-    packet = both(accelerator, True).intersect(origin, direction, QueryTime(), limit=limit)
+    packet = packed(accelerator).intersect(origin, direction, QueryTime(), limit=limit)
     assert (limit == kept).all()
     assert (single.triangle == packet.triangle).all()
     hit = packet.triangle >= 0
@@ -76,31 +82,30 @@ def test_limits_hold_and_rays_may_share_an_origin(accelerator: Accelerator) -> N
 
 @pytest.mark.parametrize("n", [0, 1, 16, 31, 20_000])
 @pytest.mark.parametrize("limit", [0.3, 1.0, 1e30])
-def test_free_ways_are_the_same(accelerator: Accelerator, n: int, limit: float) -> None:
+def test_free_ways_are_the_same(accelerator: EmbreeAccelerator, n: int, limit: float) -> None:
     origin, direction = rays(n, n + 1)
-    single = both(accelerator, False).unoccluded(origin, direction, limit, QueryTime())
-    packet = both(accelerator, True).unoccluded(origin, direction, limit, QueryTime())
+    single = accelerator.unoccluded(origin, direction, limit, QueryTime())
+    packet = packed(accelerator).unoccluded(origin, direction, limit, QueryTime())
     assert packet.dtype == np.bool_
     assert (single == packet).all()
     if n > 1000:
         assert 0.02 < packet.mean() < 0.98
 
 
-def test_columns_need_not_lie_next_to_each_other(accelerator: Accelerator) -> None:
+def test_columns_need_not_lie_next_to_each_other(accelerator: EmbreeAccelerator) -> None:
     origin, direction = rays(999, 7)
     clock = QueryTime()
-    expected = both(accelerator, True).intersect(origin, direction, clock)
-    strided = accelerator.intersect(origin.T.copy().T, direction[:, ::-1][:, ::-1], clock)
+    expected = packed(accelerator).intersect(origin, direction, clock)
+    strided = packed(accelerator).intersect(origin.T.copy().T, direction[:, ::-1][:, ::-1], clock)
     assert (expected.triangle == strided.triangle).all()
 
 
 def test_nothing_and_a_single_triangle() -> None:
-    nothing = Accelerator(np.zeros((0, 3), np.float32), np.zeros((0, 3), np.int32))
-    nothing.use_packets(True)
+    none = EmbreeAccelerator(np.zeros((0, 3), np.float32), np.zeros((0, 3), np.int32))
+    nothing = packed(none)
     assert (nothing.intersect(*rays(5, 1), QueryTime()).triangle == -1).all()
     corners = np.array([[-1, -1, 0], [1, -1, 0], [0, 1, 0]], np.float32)
-    one = Accelerator(corners, np.array([[0, 1, 2]], np.int32))
-    one.use_packets(True)
+    one = packed(EmbreeAccelerator(corners, np.array([[0, 1, 2]], np.int32)))
     origin = np.array([[0], [0], [-2]], np.float32)
     found = one.intersect(origin, np.array([[0.0], [0.0], [1.0]], np.float32), QueryTime())
     assert found.triangle[0] == 0
@@ -126,21 +131,28 @@ def test_hierarchies_that_nobody_uses_give_their_memory_back(
 
 
 @pytest.mark.parametrize("n", [0, 1, 255, 256, 257, 20_000])
-def test_rays_that_do_not_enter_the_box_hit_nothing(accelerator: Accelerator, n: int) -> None:
+def test_rays_that_do_not_enter_the_box_hit_nothing(accelerator: EmbreeAccelerator, n: int) -> None:
     origin, direction = rays(n, n + 2)
     origin *= 4
     # Along the axes, where slabs are divided by 0, some of them in the box's own planes.
     direction[:, ::7] = np.eye(3, dtype=np.float32)[:, np.arange(n)[::7] % 3]
     origin[:, ::14] = np.float32(1.2)
     limit = np.random.default_rng(6).uniform(0, 6, n).astype(np.float32)
-    accelerator = both(accelerator, True)
-    found = accelerator.intersect(origin, direction, QueryTime(), limit=limit)
-    packets = accelerator._packets
+    found = packed(accelerator).intersect(origin, direction, QueryTime(), limit=limit)
+    packets = packed(accelerator).packets
     assert packets is not None
     which = packets.entering(origin, direction, limit)
     assert (np.diff(which) > 0).all()
     hit = np.flatnonzero(found.triangle >= 0)
     assert np.isin(hit, which).all()
+    # Where they are looked at first, the answers are the same.
+    apart = replace(packed(accelerator), apart=True)
+    chosen = apart.intersect(origin, direction, QueryTime(), limit=limit)
+    assert (chosen.triangle == found.triangle).all()
+    assert (
+        apart.unoccluded(origin, direction, 1.5, QueryTime())
+        == packed(accelerator).unoccluded(origin, direction, 1.5, QueryTime())
+    ).all()
     if n > 1000:
         # By slabs of its own: the box has room to spare, and nothing else is let through.
         corners = soup(2000, 1)[0]
@@ -149,29 +161,48 @@ def test_rays_that_do_not_enter_the_box_hit_nothing(accelerator: Accelerator, n:
         near = np.fmax.reduce(np.fmin(a, b), axis=0).clip(0)
         far = np.fmin(np.fmin.reduce(np.fmax(a, b), axis=0), limit)
         inside = near < far - 1e-3
-        apart = near > far + 1e-3
+        outside = near > far + 1e-3
         assert np.isin(np.flatnonzero(inside), which).all()
-        assert not np.isin(np.flatnonzero(apart), which).any()
+        assert not np.isin(np.flatnonzero(outside), which).any()
         assert 0.1 < inside.mean() < 0.9
 
 
-def test_where_most_rays_enter_all_are_asked(accelerator: Accelerator) -> None:
+@pytest.mark.parametrize("apart", [False, True])
+def test_where_most_rays_enter_all_are_asked(
+    accelerator: EmbreeAccelerator, apart: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[int] = []
+    scene = packets.PacketScene
+    intersect, unoccluded = scene.intersect, scene.unoccluded
+
+    def nearest(self: Any, *arguments: Any) -> Any:
+        which = arguments[4]
+        asked.append(arguments[1].shape[1] if which is None else len(which))
+        return intersect(self, *arguments)
+
+    def free(self: Any, *arguments: Any) -> Any:
+        asked.append(arguments[1].shape[1])
+        return unoccluded(self, *arguments)
+
+    monkeypatch.setattr(scene, "intersect", nearest)
+    monkeypatch.setattr(scene, "unoccluded", free)
+    mine, clock = replace(packed(accelerator), apart=apart), QueryTime()
     origin, direction = rays(1000, 8)
-    far = np.full(1, NO_HIT, np.float32)
-    clock = QueryTime()
-    assert both(accelerator, True).entering(origin, direction, far, clock) is None
-    chosen = both(accelerator, True).entering(9 * origin, direction, far, clock)
-    assert chosen is not None
-    assert 0 < len(chosen) < 500
-    assert both(accelerator, False).entering(9 * origin, direction, far, clock) is None
+    for times, some in ((1, False), (9, apart)):
+        asked.clear()
+        mine.intersect(times * origin, direction, clock)
+        mine.unoccluded(times * origin, direction, 1e30, clock)
+        assert len(asked) == 2
+        for count in asked:
+            assert 0 < count < 500 if some else count == 1000
 
 
 def test_only_the_hierarchy_that_is_asked_is_built(monkeypatch: pytest.MonkeyPatch) -> None:
     built: list[str] = []
-    for name in ("EmbreeScene", "PacketScene"):
-        made = getattr(embree, name)
+    for module, name in ((embree, "EmbreeScene"), (compiled_accelerator, "PacketScene")):
+        made = getattr(module, name)
         monkeypatch.setattr(
-            embree,
+            module,
             name,
             lambda *arguments, name=name, made=made, **options: (
                 built.append(name),
@@ -180,15 +211,10 @@ def test_only_the_hierarchy_that_is_asked_is_built(monkeypatch: pytest.MonkeyPat
         )
     for wanted, name in ((True, "PacketScene"), (False, "EmbreeScene")):
         built.clear()
-        mine = Accelerator(*soup(10, 3))
+        mine = EmbreeAccelerator(*soup(10, 3))
         assert built == []
         for _ in range(2):
-            mine.use_packets(wanted)
-            assert mine.compiled == wanted
-            mine.intersect(*rays(5, 1), QueryTime())
-            mine.unoccluded(*rays(5, 1), 1.0, QueryTime())
+            asked: Accelerator = packed(mine) if wanted else mine
+            asked.intersect(*rays(5, 1), QueryTime())
+            asked.unoccluded(*rays(5, 1), 1.0, QueryTime())
         assert built == [name]
-    # Whoever asks without having said how asks for single rays.
-    built.clear()
-    Accelerator(*soup(10, 3)).intersect(*rays(5, 1), QueryTime())
-    assert built == ["EmbreeScene"]

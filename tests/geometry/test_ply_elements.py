@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from course.core.triangles import Mesh
 from course.errors import GeometryError
-from course.geometry.mesh import Mesh
-from course.geometry.mesh_files import read_mesh
+from course.formats.meshes.files import read_mesh
 
 ORDERS = ("ascii", "binary_little_endian", "binary_big_endian")
 CODES = {"char": "b", "uchar": "B", "ushort": "H", "int": "i", "uint": "I", "float": "f"}

@@ -10,7 +10,7 @@ ROOT = Path(__file__).parents[2]
 PROGRAM = """
 import sys
 from pathlib import Path
-from course.geometry.mesh_files import read_mesh
+from course.formats.meshes.files import read_mesh
 print(len(read_mesh(Path(sys.argv[1])).triangles))
 """
 

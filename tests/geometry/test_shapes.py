@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from course.geometry import shapes
-from course.geometry.mesh import Mesh
-from course.geometry.shapes.tubes import thickest_tube
+from course import shapes
+from course.core.triangles import Mesh
+from course.shapes.tubes import thickest_tube
 
 # Every closed shape with its Euler characteristic, coarse and fine, thin and thick, tiny and huge.
 CLOSED: dict[str, tuple[Mesh, int]] = {

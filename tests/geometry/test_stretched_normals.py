@@ -6,11 +6,13 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from course.geometry import packets, shapes, transforms
-from course.geometry.embree import Intersections
-from course.geometry.hits import Hits, find_hits
-from course.geometry.mesh import Mesh
-from course.geometry.surface import Part, Surface, build_surface
+from course import shapes
+from course.compiled import packets
+from course.core.embree import Intersections
+from course.core.hits import Hits
+from course.core.triangles import Mesh
+from course.extras.surface import FullPart, FullSurface, build_surface
+from course.formats.meshes import transforms
 
 Array = NDArray[np.float64]
 
@@ -26,20 +28,23 @@ STRETCHES = {
 }
 
 
-def hits_of(mesh: Mesh, compiled: bool = False) -> tuple[Surface, Hits]:
+def hits_of(mesh: Mesh, compiled: bool = False) -> tuple[FullSurface, Hits]:
     """Hits all over a mesh, their normals as they are interpolated, wherever the viewer is."""
-    surface = build_surface([Part(mesh, 0)], bent=np.zeros(1, np.bool_))
-    surface.accelerator.use_packets(compiled)
+    surface = build_surface([FullPart(mesh, 0)], bent=np.zeros(1, np.bool_))
+    if compiled:
+        from course.compiled.stages import compiled_surface
+
+        surface = compiled_surface(surface)
     rng = np.random.default_rng(3)
     n = 5000
-    triangle = rng.integers(surface.size, size=n).astype(np.int32)
+    triangle = rng.integers(surface.triangles.size, size=n).astype(np.int32)
     barycentrics = rng.dirichlet((1, 1, 1), n)
     # Some lie just at corners.
     barycentrics[:300] = np.tile(np.eye(3), (100, 1))
     u, v = np.ascontiguousarray(barycentrics[:, 1:].T, np.float32)
     # Along the facets' normals, so that all meet the front.
-    direction = np.ascontiguousarray(-surface.planes[triangle, 3:6].T)
-    return surface, find_hits(surface, Intersections(triangle, u, v, u), direction)
+    direction = np.ascontiguousarray(-surface.triangles.planes[triangle, 3:6].T)
+    return surface, surface.hits(Intersections(triangle, u, v, u), direction)
 
 
 def stretched_ball(name: str) -> tuple[Mesh, Mesh, Array]:
@@ -54,7 +59,7 @@ def test_a_stretched_ball_is_shaded_as_an_ellipsoid(name: str) -> None:
     """Whose normals are those of the ball at the same barycentrics, which look along the points, transformed."""
     ball, image, inverse_transpose = stretched_ball(name)
     surface, hits = hits_of(image)
-    assert surface.size == len(ball.triangles)
+    assert surface.triangles.size == len(ball.triangles)
     corners = ball.vertices[image.triangles[hits.triangle]]
     u, v = hits.u.astype(float)[:, None], hits.v.astype(float)[:, None]
     point = (1 - u - v) * corners[:, 0] + u * corners[:, 1] + v * corners[:, 2]
@@ -74,8 +79,8 @@ def test_shading_normals_of_stretched_meshes_are_unit(name: str) -> None:
 @pytest.mark.parametrize("name", STRETCHES)
 def test_both_kinds_of_loops_give_the_same_bits(name: str) -> None:
     image = stretched_ball(name)[1]
-    (_, passes), (_, loop) = hits_of(image), hits_of(image, compiled=True)
-    assert (passes.compiled, loop.compiled) == (False, True)
+    (_, passes), (surface, loop) = hits_of(image), hits_of(image, compiled=True)
+    assert type(surface) is not FullSurface
     assert passes.ns.tobytes() == loop.ns.tobytes()
     assert passes.p.tobytes() == loop.p.tobytes()
 
@@ -85,8 +90,10 @@ def test_lengths_of_normals_are_the_same_for_the_round_surface_above_the_facets(
     _, image, _ = stretched_ball("uneven")
     assert image.normals is not None
     unit = image.normals / np.linalg.norm(image.normals, axis=1, keepdims=True)
-    by_direction = build_surface([Part(Mesh(image.vertices, image.triangles, unit), 0)])
-    surface = build_surface([Part(image, 0)])
+    by_direction = build_surface(
+        [FullPart(Mesh(image.vertices, image.triangles, unit), 0)]
+    ).triangles
+    surface = build_surface([FullPart(image, 0)]).triangles
     assert surface.bulge is not None
     assert by_direction.bulge is not None
     np.testing.assert_allclose(surface.bulge, by_direction.bulge, rtol=1e-5, atol=1e-9)
@@ -97,7 +104,9 @@ def test_a_box_has_the_same_tables_however_it_is_stretched() -> None:
     """Facets whose normals agree are as flat as they were."""
     stretched = transforms.apply(shapes.box((1, 1, 1)), transforms.scale((0.9, 0.3, 0.1)))
     made = shapes.box((0.9, 0.3, 0.1))
-    one, other = (build_surface([Part(mesh, 0)]).corner_normals for mesh in (stretched, made))
+    one, other = (
+        build_surface([FullPart(mesh, 0)]).triangles.corner_normals for mesh in (stretched, made)
+    )
     assert one is not None
     assert other is not None
     rows, wanted = (np.unique(table, axis=0) for table in (one + 0.0, other + 0.0))

@@ -21,12 +21,13 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from course import Scene, render
-from course.geometry import shapes, surface, transforms
-from course.geometry.embree import QueryTime
-from course.geometry.hits import Hits, find_hits
-from course.geometry.mesh import Mesh
-from course.geometry.surface import Part, Surface, build_surface
+from course import Scene, render, shapes
+from course.core import ray_offset
+from course.core.embree import QueryTime
+from course.core.hits import Hits
+from course.core.triangles import Mesh
+from course.extras.surface import FullPart, FullSurface, build_surface
+from course.formats.meshes import transforms
 
 MakeScene = Callable[..., Scene]
 Array = NDArray[np.float64]
@@ -96,14 +97,14 @@ def unit(rng: np.random.Generator, n: int) -> Array:
     return d / np.linalg.norm(d, axis=0)
 
 
-def cast(built: Surface, origin: Array, target: Array) -> Hits:
+def cast(built: FullSurface, origin: Array, target: Array) -> Hits:
     start = origin.astype(np.float32)
     direction = target - start
     direction = (direction / np.linalg.norm(direction, axis=0)).astype(np.float32)
-    return find_hits(built, built.accelerator.intersect(start, direction, CLOCK), direction)
+    return built.hits(built.accelerator.intersect(start, direction, CLOCK), direction)
 
 
-def front_hits(mesh: Mesh, built: Surface, rng: np.random.Generator, n: int) -> Hits:
+def front_hits(mesh: Mesh, built: FullSurface, rng: np.random.Generator, n: int) -> Hits:
     """Hits, from outside, of rays at uniform points of random triangles."""
     p = mesh.vertices[mesh.triangles[rng.integers(len(mesh.triangles), size=n)]]
     target = (p * rng.dirichlet((1, 1, 1), n)[:, :, None]).sum(axis=1).T
@@ -129,7 +130,7 @@ def hemisphere(hits: Hits, rng: np.random.Generator, grazing: bool) -> NDArray[n
 
 def self_hits(mesh: Mesh, grazing: bool, n: int = 40000) -> tuple[int, int]:
     """How many rays that leave the front of a convex surface meet it again, and of how many."""
-    built, rng = build_surface([Part(mesh, 0)]), np.random.default_rng(5)
+    built, rng = build_surface([FullPart(mesh, 0)]), np.random.default_rng(5)
     hits = front_hits(mesh, built, rng, n)
     d = hemisphere(hits, rng, grazing)
     # A grazing direction rounded to float32 may point below the surface, which it then rightly meets.
@@ -150,7 +151,7 @@ def test_rays_that_leave_a_surface_do_not_meet_it_again(mesh: Mesh, grazing: boo
 def test_with_a_64th_of_the_offset_rays_would_meet_it_again(
     name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(surface, "OFFSET", surface.OFFSET / 64)
+    monkeypatch.setattr(ray_offset, "OFFSET", ray_offset.OFFSET / 64)
     again, rays = self_hits(CONVEX[name], False)
     assert again > 0.2 * rays
 
@@ -158,34 +159,36 @@ def test_with_a_64th_of_the_offset_rays_would_meet_it_again(
 def test_with_a_constant_offset_long_thin_triangles_would_be_met_again(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(surface, "SLIVER", 1e9)
+    monkeypatch.setattr(ray_offset, "SLIVER", 1e9)
     again, _ = self_hits(CONVEX["cylinder"], True)
     assert again > 10
 
 
 def test_rays_leave_a_slender_box_from_close_by() -> None:
     # A line on the floor of a scene 200 across, 60 long, 0.16 wide and 0.01 high.
-    built = build_surface([Part(shapes.box((0.6, 1e-4, 1.6e-3)), 0)])
-    assert built.size == 4 * 2 * 24 + 4
-    assert built.planes[:, 6].max() < 0.1 * 1e-4
+    built = build_surface([FullPart(shapes.box((0.6, 1e-4, 1.6e-3)), 0)])
+    assert built.triangles.size == 4 * 2 * 24 + 4
+    assert built.triangles.planes[:, 6].max() < 0.1 * 1e-4
 
 
 def test_triangles_without_area_are_left_out_and_the_others_keep_their_materials() -> None:
     vertices = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0.5, 0, 0], [1, 1e-60, 0]], float)
     none = [[0, 0, 0], [0, 1, 1], [0, 3, 1], [0, 1, 4]]
     mesh = Mesh(vertices, np.array([none[0], [0, 1, 2], *none[1:]]))
-    built = build_surface([Part(mesh, 2), Part(Mesh(vertices, np.array(none)), 3), Part(mesh, 4)])
-    assert built.size == 2
-    assert built.material.tolist() == [2, 4]
-    assert np.isfinite(built.planes).all()
-    assert np.isfinite(built.edges).all()
-    assert np.isfinite(built.inset).all()
+    built = build_surface(
+        [FullPart(mesh, 2), FullPart(Mesh(vertices, np.array(none)), 3), FullPart(mesh, 4)]
+    )
+    assert built.triangles.size == 2
+    assert built.triangles.material.tolist() == [2, 4]
+    assert np.isfinite(built.triangles.planes).all()
+    assert np.isfinite(built.triangles.edges).all()
+    assert np.isfinite(built.triangles.inset).all()
 
 
 def test_nothing_at_all_is_missed_by_every_ray() -> None:
     built = build_surface([])
     direction = np.array([[0.0], [0.0], [1.0]], np.float32)
-    assert built.size == 0
+    assert built.triangles.size == 0
     assert built.accelerator.intersect(direction, direction, CLOCK).triangle.tolist() == [-1]
     assert built.accelerator.unoccluded(direction, direction, 1e30, CLOCK).all()
 
@@ -223,7 +226,7 @@ def edge_points(mesh: Mesh, rng: np.random.Generator, n: int, vertices: bool) ->
 @pytest.mark.parametrize("name", CLOSED)
 def test_no_ray_from_inside_gets_out_along_an_edge(name: str, rotate: bool) -> None:
     mesh, inside = closed(name, rotate)
-    built, rng, n = build_surface([Part(mesh, 0)]), np.random.default_rng(8), 40000
+    built, rng, n = build_surface([FullPart(mesh, 0)]), np.random.default_rng(8), 40000
     hits = cast(built, np.repeat(inside[:, None], n, axis=1), edge_points(mesh, rng, n, False))
     assert hits.size == n
     # The first thing met from inside is the inside. Where the tube of a knot bends away, its front begins at the very
@@ -238,7 +241,7 @@ def test_no_ray_from_inside_gets_out_along_an_edge(name: str, rotate: bool) -> N
 @pytest.mark.parametrize("name", CLOSED)
 def test_hardly_a_ray_from_inside_gets_out_through_a_vertex(name: str, rotate: bool) -> None:
     mesh, inside = closed(name, rotate)
-    built, rng, n = build_surface([Part(mesh, 0)]), np.random.default_rng(8), 40000
+    built, rng, n = build_surface([FullPart(mesh, 0)]), np.random.default_rng(8), 40000
     hits = cast(built, np.repeat(inside[:, None], n, axis=1), edge_points(mesh, rng, n, True))
     assert n - hits.size + hits.entering.sum() <= 0.005 * n
 

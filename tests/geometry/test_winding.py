@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 import trimesh
 
+from course import shapes
+from course.core.triangles import Mesh
 from course.errors import CourseWarning
-from course.geometry import shapes
-from course.geometry.mesh import Mesh
-from course.geometry.mesh_files import read_mesh, save_ply
+from course.formats.meshes.files import read_mesh, save_ply
 
 QUAD = "v -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nvn 0 1 0\n"
 

@@ -7,10 +7,10 @@ from itertools import islice
 import numpy as np
 import pytest
 
-from course.effects import COURSE
 from course.grading.checks.declarations import declared_function
 from course.grading.checks.drawing import Draw
 from course.grading.habits import HABITS, lost_by, written
+from course.modules import COURSE
 
 MODULES = [*COURSE]
 

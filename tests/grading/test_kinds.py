@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import re
 
-from course.effects import FURTHER, PROJECT
+from course.effects import PROJECT
 from course.grading.catalog import module_checks
+from course.modules import FURTHER
 
 KINDS = ("order", "picture", "bias", "speed")
 

@@ -12,7 +12,6 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from course.effects import COURSE
 from course.grading.calibration import trusted
 from course.grading.catalog import module_checks
 from course.grading.checks.check import Check
@@ -20,6 +19,7 @@ from course.grading.checks.preparing import References
 from course.grading.known import Known, known
 from course.grading.mutants import Verdict, judge, matrix
 from course.grading.references import reference
+from course.modules import COURSE
 
 ALL = [submission for module in COURSE for submission in known(module)]
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from course.effects import COURSE, PROJECT, Effects
+from course.effects import PROJECT, Effects
 from course.grading.checks.check import Check, Failure, ModuleChecks, Trial
 from course.grading.checks.preparing import References, generator, prepared
 from course.grading.checks.result import Result, Status
@@ -21,6 +21,7 @@ from course.grading.pictures.rendered import BIAS_REFERENCES, loaded, rendered
 from course.grading.pictures.scenes import moving
 from course.grading.pictures.whole import WHOLE, Together
 from course.grading.references import reference
+from course.modules import COURSE
 from course.scene.scene import Scene, load_scene
 
 LOOKS = [

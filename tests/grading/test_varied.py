@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from course.effects import COURSE
 from course.grading.varied import gaps, varied
+from course.modules import COURSE
 
 EXCUSED = {
     "in 1 of 8 octants": (

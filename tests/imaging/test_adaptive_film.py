@@ -18,11 +18,11 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from course.imaging import adaptive_film
-from course.imaging.adaptive_film import PARTS, AdaptiveFilm
-from course.imaging.pixel_groups import PixelGroup
-from course.imaging.tiles import Tile
-from course.imaging.variance import measured_order, variance_share
+from course.adaptive import film as adaptive_film
+from course.adaptive.film import PARTS, AdaptiveFilm
+from course.adaptive.pixel_groups import PixelGroup
+from course.adaptive.variance import measured_order, variance_share
+from course.core.tiles import Tile
 
 Array = NDArray[np.float64]
 WIDTH, HEIGHT = 100, 80

@@ -7,7 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from course.imaging.camera import Camera, make_camera
+from course.building.cameras import make_camera
+from course.core.camera import Camera
 
 UP = np.array([0.0, 1.0, 0.0])
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from course.imaging.difference import NARROWEST, difference_picture
-from course.imaging.srgb import linear_to_srgb8
+from course.comparing.difference import NARROWEST, difference_picture
+from course.formats.pictures.srgb import linear_to_srgb8
 
 
 def colours(a: NDArray[np.float32], b: NDArray[np.float32]) -> NDArray[np.int64]:

@@ -15,10 +15,10 @@ import pytest
 from numpy.typing import NDArray
 from PIL import Image
 
+from course.atomic import check_writable, replacing, write_text
 from course.errors import OutputError
-from course.imaging.atomic import check_writable, replacing, write_text
-from course.imaging.files import check_picture_path, encode_png, save
-from course.imaging.srgb import linear_to_srgb8
+from course.formats.pictures.files import check_picture_path, encode_png, save
+from course.formats.pictures.srgb import linear_to_srgb8
 
 Linear = NDArray[np.float32]
 

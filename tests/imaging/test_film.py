@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from course.imaging.film import Film
-from course.imaging.tiles import Tile, tile_picture
+from course.core.film import Film
+from course.core.tiles import Tile, tile_picture
 
 TILE = Tile(0, 1, 2, 3, 2)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from course.imaging.pixel_groups import PixelGroup, nearby_order
+from course.adaptive.pixel_groups import PixelGroup, nearby_order
 
 SIZES = [(1, 1), (1, 7), (9, 1), (2, 2), (5, 3), (40, 30), (33, 64), (257, 3), (65536, 1)]
 

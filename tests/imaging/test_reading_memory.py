@@ -17,7 +17,7 @@ SIDE = 4000
 PROGRAM = """
 import sys
 from pathlib import Path
-from course.imaging.reading import read_picture
+from course.formats.pictures.reading import read_picture
 
 def peak():
     rows = Path("/proc/self/status").read_text().splitlines()

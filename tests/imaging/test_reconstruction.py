@@ -5,12 +5,15 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from course.core.functions import Functions
+from course.core.reconstruction import Reconstruction
 from course.effects import Effects
-from course.imaging.reconstruction import Reconstruction
 
 EFFECTS = Effects("solutions")
-RESOLVE = EFFECTS.function("supersampling", "resolve")
-GAUSSIAN = EFFECTS.function("supersampling", "gaussian_weights")
+FUNCTIONS = Functions(
+    {name: EFFECTS.function("supersampling", name) for name in ("resolve", "gaussian_weights")}
+)
+RESOLVE = Functions({"resolve": FUNCTIONS.resolve})
 
 
 def samples(n: int = 20, s: int = 16) -> tuple[np.ndarray, np.ndarray]:
@@ -20,7 +23,7 @@ def samples(n: int = 20, s: int = 16) -> tuple[np.ndarray, np.ndarray]:
 
 def test_the_box_filter_is_the_mean() -> None:
     radiance, offsets = samples()
-    mean, weight = Reconstruction(RESOLVE, None, 1 / 6).pixels(radiance, offsets)
+    mean, weight = Reconstruction(RESOLVE, False, None).pixels(radiance, offsets)
     assert np.allclose(mean, radiance.astype(float).mean(axis=2), rtol=1e-6)
     assert weight == 16
     assert mean.dtype == np.float32
@@ -29,7 +32,7 @@ def test_the_box_filter_is_the_mean() -> None:
 @pytest.mark.parametrize("sigma", [0.05, 1 / 6, 3.0])
 def test_the_gaussian_filter_weighs_by_the_distance_from_the_middle(sigma: float) -> None:
     radiance, offsets = samples()
-    mean, weight = Reconstruction(RESOLVE, GAUSSIAN, sigma).pixels(radiance, offsets)
+    mean, weight = Reconstruction(FUNCTIONS, False, sigma).pixels(radiance, offsets)
     squared = ((offsets.astype(float) - 0.5) ** 2).sum(axis=0)
     w = np.exp(-squared / (2 * sigma**2))
     assert np.allclose(mean, (radiance * w).sum(axis=2) / w.sum(axis=1), rtol=1e-4)
@@ -38,14 +41,14 @@ def test_the_gaussian_filter_weighs_by_the_distance_from_the_middle(sigma: float
 
 def test_a_single_sample_is_the_pixel() -> None:
     radiance, offsets = samples(s=1)
-    mean, weight = Reconstruction(None, None, 1 / 6).pixels(radiance, offsets)
+    mean, weight = Reconstruction(Functions({}), True, None).pixels(radiance, offsets)
     assert np.array_equal(mean, radiance[:, :, 0])
     assert weight == 1
 
 
 def test_stretches_of_samples_add_up_to_the_whole() -> None:
     radiance, offsets = samples(s=32)
-    one = Reconstruction(RESOLVE, GAUSSIAN, 1 / 6)
+    one = Reconstruction(FUNCTIONS, False, 1 / 6)
     whole, _ = one.pixels(radiance, offsets)
     halves = [one.pixels(radiance[:, :, h], offsets[:, :, h]) for h in (slice(16), slice(16, 32))]
     total = sum(weight for _, weight in halves)

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from course.imaging import srgb
-from course.imaging.srgb import linear_to_srgb8
+from course.formats.pictures import srgb
+from course.formats.pictures.srgb import linear_to_srgb8
 
 
 def exact_code(x: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
+from course import shapes
+from course.building.bisection import undivided
 from course.effects import PROJECT, Effects
-from course.geometry import shapes
-from course.geometry.bisection import undivided
 from course.radiosity.functions import Functions
 from course.radiosity.patches import Patches
 

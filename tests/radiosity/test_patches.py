@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from course.building.bisection import Triangles, bisected, undivided
 from course.effects import PROJECT
 from course.errors import SceneError
-from course.geometry.bisection import Triangles, bisected, undivided
 from course.radiosity.patches import make_patches
 from tests.conftest import MakeScene
 from tests.radiosity.rooms import CAMERA, plates

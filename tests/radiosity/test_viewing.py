@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 
 from course import load_scene, render
+from course.building.cameras import make_camera
+from course.core.embree import QueryTime
 from course.effects import PROJECT
 from course.errors import CourseError
-from course.geometry.embree import QueryTime
-from course.imaging.camera import make_camera
 from course.radiosity.radiosity import solve
 from course.radiosity.solution import Solution, load_solution
 from course.radiosity.viewing import View, flight, look, own_view, radiance

@@ -23,15 +23,17 @@ import pytest
 from numpy.typing import NDArray
 
 from course import Picture, Scene, load_scene, render
+from course import render_scene as rendering
+from course.adaptive import rounds as adaptive
+from course.adaptive.allocation import FIRST, LADDER, LONGEST
+from course.adaptive.film import PARTS, AdaptiveFilm
+from course.adaptive.pixel_groups import TwinGroup
+from course.adaptive.rounds import Groups, render_adaptively
+from course.core import threads as pool
+from course.core.passes import Work
+from course.core.tracer import Tracer
 from course.errors import CourseError, SceneError
-from course.imaging.adaptive_film import PARTS, AdaptiveFilm
-from course.imaging.pixel_groups import TwinGroup
-from course.imaging.reading import read_picture
-from course.rendering import adaptive, pool, rendering
-from course.rendering.adaptive import Groups, render_adaptively
-from course.rendering.allocation import FIRST, LADDER, LONGEST
-from course.rendering.passes import Work
-from course.transport.tracing import Tracer
+from course.formats.pictures.reading import read_picture
 
 MakeScene = Callable[..., Scene]
 EveryStage = Callable[..., Scene]

@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from course.imaging.adaptive_film import PARTS
-from course.rendering.allocation import (
+from course.adaptive.allocation import (
     BLIND,
     FIRST,
     GROWTH,
@@ -21,6 +20,7 @@ from course.rendering.allocation import (
     one_rung_more,
     smoothed,
 )
+from course.adaptive.film import PARTS
 
 Array = NDArray[Any]
 ORDERS = (0.5, 0.6, 0.75)

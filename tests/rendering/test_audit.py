@@ -13,12 +13,12 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from course.core.samplers.block import Block
+from course.adaptive.audit import DRIFT, EVENLY, FEWEST, PIXELS, QUIET, draw, judge, work_for
+from course.adaptive.film import PARTS, AdaptiveFilm
+from course.adaptive.pixel_groups import PixelGroup, TwinGroup
+from course.core.passes import Work
+from course.core.samplers import Block
 from course.core.samplers.sobol import SobolSampler
-from course.imaging.adaptive_film import PARTS, AdaptiveFilm
-from course.imaging.pixel_groups import PixelGroup, TwinGroup
-from course.rendering.audit import DRIFT, EVENLY, FEWEST, PIXELS, QUIET, draw, judge, work_for
-from course.rendering.passes import Work
 
 Array = NDArray[Any]
 WIDTH, HEIGHT, SAMPLES = 120, 100, 64

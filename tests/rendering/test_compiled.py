@@ -8,9 +8,9 @@ from collections.abc import Callable
 import pytest
 
 from course import Scene, render
+from course import render_scene as rendering
+from course.compiled import packets
 from course.errors import CourseError
-from course.geometry import packets
-from course.rendering import rendering
 
 EveryStage = Callable[..., Scene]
 needs_numba = pytest.mark.skipif(

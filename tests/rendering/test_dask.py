@@ -18,21 +18,21 @@ import numpy as np
 import pytest
 
 from course import Picture, Scene, load_scene, render
-from course.effects import MODULES
+from course.cluster import connection as connection_module
+from course.cluster import executor as cluster_module
+from course.cluster import kept_scenes
+from course.cluster.executor import PIECE, next_piece
+from course.cluster.kept_scenes import KeptScenes, Order, edition
+from course.cluster.parcel import pack, unpack
+from course.core.film import Film
+from course.core.passes import Work
+from course.core.threads import InOrder
+from course.core.tiles import Tile
 from course.errors import CourseError, EffectError
-from course.geometry.mesh_files import save_ply
-from course.geometry.shapes.spheres import sphere
-from course.imaging.files import save
-from course.imaging.film import Film
-from course.imaging.tiles import Tile
-from course.rendering import cluster as cluster_module
-from course.rendering import connection as connection_module
-from course.rendering import kept_scenes
-from course.rendering.cluster import PIECE, next_piece
-from course.rendering.in_order import InOrder
-from course.rendering.kept_scenes import KeptScenes, Order, edition
-from course.rendering.parcel import pack, unpack
-from course.rendering.passes import Work
+from course.formats.meshes.files import save_ply
+from course.formats.pictures.files import save
+from course.modules import MODULES
+from course.shapes.spheres import sphere
 from tests.dask_cluster import Cluster
 
 EveryStage = Callable[..., Scene]
@@ -429,7 +429,7 @@ def test_a_worker_compiles_a_scene_once_and_keeps_two(
         assert kept.tracer(parcels[0], order) is first
         more = kept.tracer(parcels[0], replace(order, settings=replace(scene.settings, samples=9)))
         assert more.settings.samples == 9
-        assert more.world is first.world
+        assert more.integrator.surface is first.integrator.surface
         assert len(folders) == 1
         kept.tracer(parcels[1], order)
         kept.tracer(parcels[0], order)

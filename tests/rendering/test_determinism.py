@@ -11,15 +11,15 @@ import numpy as np
 import pytest
 
 from course import Picture, Scene, render
-from course.core.samplers import FUNCTIONS
+from course.core import render as render_of_core
+from course.core.counters import Counters
+from course.core.film import Film
+from course.core.passes import Work, passes
+from course.core.threads import Pool
+from course.core.tiles import Tile
 from course.errors import CourseError
-from course.imaging.film import Film
-from course.imaging.tiles import Tile
-from course.rendering import uniform
+from course.extras.samplers import FUNCTIONS
 from course.rendering.binding import bind
-from course.rendering.passes import Work, passes
-from course.rendering.pool import Pool
-from course.transport.counters import Counters
 
 SAMPLERS = tuple(FUNCTIONS)
 FILTERS = ("box", "gaussian")
@@ -72,7 +72,7 @@ class Reordered:
             return iter(work)
 
         self.changed = False
-        monkeypatch.setattr(uniform, "passes", reordered)
+        monkeypatch.setattr(render_of_core, "passes", reordered)
 
 
 def shuffled(work: list[Work]) -> None:

@@ -17,9 +17,9 @@ NEVER = {"skimage", "scipy", "trimesh", "psutil", "rich", "networkx", "hypothesi
 """Too heavy, and of no use for a scene of named shapes."""
 
 OTHER_MODES = {
-    *("course.rendering.adaptive", "course.rendering.allocation", "course.rendering.audit"),
-    *("course.rendering.adaptive_schedule", "course.imaging.adaptive_film"),
-    *("course.rendering.subdivision", "course.rendering.corners", "course.rendering.cluster"),
+    *("course.adaptive.rounds", "course.adaptive.allocation", "course.adaptive.audit"),
+    *("course.adaptive.schedule", "course.adaptive.film"),
+    *("course.adaptive.subdivision", "course.adaptive.corners", "course.cluster.executor"),
 }
 """Ways to render that this scene doesn't ask for."""
 
@@ -58,10 +58,15 @@ def test_one_box_imports_no_heavy_library_and_no_module_of_effects_it_does_not_c
     assert (tmp_path / "box.png").exists()
     assert {"numpy", "embreex", "course"} <= roots(modules), "the list is the right one"
     assert not roots(modules) & NEVER
-    assert "course.rendering.uniform" in modules
+    assert "course.core.render" in modules
     assert not modules & OTHER_MODES
     # No random number is drawn, no mesh read, no EXR written.
-    assert not modules & {"numpy.random", "course.geometry.mesh_files", "OpenImageIO", "jsonschema"}
+    assert not modules & {
+        "numpy.random",
+        "course.formats.meshes.files",
+        "OpenImageIO",
+        "jsonschema",
+    }
 
 
 @pytest.mark.parametrize(

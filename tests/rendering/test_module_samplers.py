@@ -18,8 +18,8 @@ import yaml
 from numpy.typing import NDArray
 
 from course import Scene, load_scene, render
-from course.core.samplers import FUNCTIONS
 from course.errors import CourseError, SceneError
+from course.extras.samplers import FUNCTIONS
 
 MakeScene = Callable[..., Scene]
 SCENES = Path(__file__).parents[2] / "scenes"
@@ -137,9 +137,8 @@ def test_rejection_gives_the_same_bits_again_and_others_elsewhere(make_scene: Ma
     assert one.tobytes() != render(scene, spp=24, seed=1).linear.tobytes()
     lens = scene.compiled.world.lens
     assert lens is not None
-    assert lens.point_on_disk is not None
     u = np.random.default_rng(1).random((2, 2, 100), np.float32)
-    first, again, other = (lens.point_on_disk(numbers) for numbers in (u[0], u[0], u[1]))
+    first, again, other = (lens.points(numbers) for numbers in (u[0], u[0], u[1]))
     assert (first == again).all()
     assert not np.isin(other, first).any()
 
@@ -207,7 +206,7 @@ def test_a_function_that_is_not_written_yet_is_named(tmp_path: Path, make_scene:
 
 def test_every_sampler_of_the_format_has_its_functions() -> None:
     from course.cli.render import SAMPLERS
-    from course.scene.schema import json_schema
+    from course.formats.yaml.schema import json_schema
 
     kinds = json_schema()["$defs"]["SamplerDescription"]["properties"]["type"]["enum"]
     assert set(kinds) == set(FUNCTIONS) == set(SAMPLERS)

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 from course import load_scene
+from course.core.film import Film
+from course.core.passes import PASS, SHARES, Work, passes
 from course.core.samplers.sobol import SobolSampler
+from course.core.threads import InOrder
+from course.core.tiles import RAYS
 from course.effects import PROJECT
-from course.imaging.film import Film
-from course.imaging.tiles import RAYS
-from course.rendering.in_order import InOrder
-from course.rendering.passes import PASS, SHARES, Work, passes
-from course.scene.world import Settings
+from course.scene.settings import Settings
 
 WIDTH, HEIGHT, SAMPLES = 1000, 800, 64
 

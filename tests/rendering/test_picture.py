@@ -56,7 +56,7 @@ def test_a_png_and_a_notebook_show_what_the_film_asks_for(
 def test_an_exr_holds_the_radiance_whatever_a_png_shows(
     make_scene: MakeScene, tmp_path: Path
 ) -> None:
-    from course.imaging.reading import read_picture
+    from course.formats.pictures.reading import read_picture
 
     picture = half(make_scene, {"encoding": "linear", "white": 255})
     picture.save(tmp_path / "one.exr")

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from course import Scene, __version__, render
-from course.core.samplers import FUNCTIONS
+from course.extras.samplers import FUNCTIONS
 
 MakeScene = Callable[..., Scene]
 EveryStage = Callable[..., Scene]

@@ -2,47 +2,21 @@
 
 from __future__ import annotations
 
-import ast
 from collections.abc import Callable, Iterable
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
 from course import CourseError, Scene, render
-from course.effects import PROJECT
-from course.imaging.film import Film
-from course.imaging.tiles import Tile
-from course.rendering.passes import Work
-from course.rendering.pool import Execution, Executor
-from course.rendering.render import Run, Schedule
-from course.rendering.render import render as render_film
+from course.core.film import Film
+from course.core.passes import Work
+from course.core.render import Run, Schedule
+from course.core.render import render as render_film
+from course.core.threads import Execution, Executor
+from course.core.tiles import Tile
 
 MakeScene = Callable[..., Scene]
-
-HEART = (
-    "course.imaging.film",
-    "course.imaging.tiles",
-    "course.rendering.in_order",
-    "course.rendering.passes",
-    "course.rendering.pool",
-    "course.rendering.render",
-    "course.rendering.uniform",
-)
-BELOW = ("course.core.", "course.transport.")
-"""Samplers, array types, counters; and the tracer, which renders one tile."""
-
-
-@pytest.mark.parametrize("module", HEART)
-def test_the_heart_imports_nothing_that_a_uniform_render_can_do_without(module: str) -> None:
-    source = Path(PROJECT, *module.split(".")).with_suffix(".py").read_text(encoding="utf-8")
-    for node in ast.walk(ast.parse(source)):
-        names = [node.module or ""] if isinstance(node, ast.ImportFrom) else []
-        names += [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
-        for name in names:
-            allowed = not name.startswith("course") or name in HEART or name.startswith(BELOW)
-            assert allowed, f"{module}, line {node.lineno}: imports {name}"
 
 
 class Steps(Executor):

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from course import Scene, load_scene, render
 from course.errors import CourseWarning
-from course.geometry.transforms import rotate
+from course.formats.meshes.transforms import rotate
 from course.rendering.summary import summarize
 
 MakeScene = Callable[..., Scene]
@@ -233,7 +233,7 @@ def test_the_summary_counts_the_objects_triangles_and_says_how_many_are_cut(
     assert objects["triangles"] == sum(scene.compiled.triangles)
     pieces = scene.compiled.pieces
     assert objects["pieces"] == f"{pieces:,} triangles more"
-    assert scene.compiled.world.surface.size == sum(scene.compiled.triangles) + pieces
+    assert scene.compiled.world.surface.triangles.size == sum(scene.compiled.triangles) + pieces
     assert 100 < pieces < 1000
     # The frame's unit is none of the scene's lengths here.
     assert float(str(objects["half extent"])) == pytest.approx(5e6, rel=1e-5)

@@ -12,13 +12,13 @@ import pytest
 import yaml
 
 from course import CourseError, EffectError, Picture, Scene, load_scene, render
+from course.adaptive.corners import CornerFilm
+from course.adaptive.subdivision import Functions, SubdivisionSchedule
+from course.core.passes import Work
+from course.core.threads import Pool
 from course.effects import PROJECT, Bound, Effects
-from course.rendering.corners import CornerFilm
-from course.rendering.passes import Work
-from course.rendering.pool import Pool
-from course.rendering.subdivision import Functions, SubdivisionSchedule
 from course.rendering.summary import summarize
-from course.scene.world import Subdivision
+from course.scene.settings import Subdivision
 
 MakeScene = Callable[..., Scene]
 

@@ -134,7 +134,7 @@ def test_no_mesh_is_made_a_second_time(
     moving = QUAD | {"motion": {"velocity": [1, 0, 0]}}
     camera = {"eye": [0, 3, 1], "look_at": [0, 0, 0], "shutter": {"open": 2, "close": 4}}
     scene = make_scene(objects=[moving], camera=camera)
-    monkeypatch.setattr("course.scene.instancing.shapes.quad", None)
+    monkeypatch.setattr("course.building.objects.shapes.quad", None)
     # Where the file puts it; while the shutter is open, and in the compiled scene, it is elsewhere.
     (row,) = summarize(scene)["bounds"].values()
     assert " ".join(str(row).split()) == "grey 2 triangles x -0.5..0.5 y 0..0 z -0.5..0.5"

@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pytest
 
 from course import Scene, render
-from course.core.samplers import FUNCTIONS
-from course.rendering import pool, rendering
+from course import render_scene as rendering
+from course.core import threads as pool
+from course.core.tracer import Tracer
+from course.extras.samplers import FUNCTIONS
+from course.rendering.binding import bind
 
 MakeScene = Callable[..., Scene]
 LIMITS = (6.0, 12.0, 24.0, 48.0)
@@ -90,10 +94,11 @@ def test_building_the_hierarchy_counts(scene: Scene, monkeypatch: pytest.MonkeyP
     for building, limit in ((0.0, 24.0), (24.0, 48.0), (0.0, 2.4), (1e3, 24.0)):
         clock = Clock(monkeypatch)
 
-        def build(_packets: bool, clock: Clock = clock, building: float = building) -> None:
+        def build(*arguments: Any, clock: Clock = clock, building: float = building) -> Tracer:
             clock.now += building
+            return bind(*arguments)
 
-        monkeypatch.setattr(scene.compiled.world.surface.accelerator, "use_packets", build)
+        monkeypatch.setattr(rendering, "bind", build)
         samples.append(render(scene, time_limit=limit, threads=1).receipt.samples)
     assert samples[0] == samples[1], "as much as without building in what it leaves"
     assert samples[2] == samples[3], "a tenth of the limit, if it leaves nothing"

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from course.errors import SceneError
-from course.scene.loading import Loaded, load_description
+from course.formats.yaml.loading import Loaded, load_description
 
 GOOD = """\
 title: everything

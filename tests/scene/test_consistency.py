@@ -6,9 +6,9 @@ from collections.abc import Callable
 
 import pytest
 
-from course.geometry import shapes
-from course.scene.consistency import nearest_squares
-from course.scene.loading import Loaded
+from course import shapes
+from course.formats.yaml.consistency import nearest_squares
+from course.formats.yaml.loading import Loaded
 
 
 def _camera(eye: object, look_at: object, up: object = "[0, 1, 0]") -> str:

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 from msgspec import inspect
 
-from course.scene import description
-from course.scene.description import (
+from course.formats.yaml import description
+from course.formats.yaml.description import (
     Box,
     MeshFile,
     RectangleLight,
@@ -24,7 +24,7 @@ from course.scene.description import (
     Translate,
     rgb,
 )
-from course.scene.loading import Loaded
+from course.formats.yaml.loading import Loaded
 
 
 def test_everything_in_the_file_arrives_in_the_description(
@@ -124,7 +124,7 @@ def test_no_union_joins_a_bounded_number_and_a_tuple_of_fixed_length() -> None:
 def test_the_format_survives_a_collection_of_garbage_at_every_step() -> None:
     code = (
         "import gc, msgspec\n"
-        "from course.scene.description import SceneDescription\n"
+        "from course.formats.yaml.description import SceneDescription\n"
         "gc.set_threshold(1)\n"
         "try:\n    msgspec.convert({}, SceneDescription)\n"
         "except msgspec.ValidationError:\n    gc.collect(); raise SystemExit(0)\n"

@@ -14,13 +14,9 @@ import pytest
 from numpy.typing import NDArray
 
 from course import Scene, load_scene
-from course.appearance.cube_environment import (
-    CubeEnvironment,
-    cube_from_cross,
-    cube_from_lat_long,
-    texel_directions,
-)
+from course.core.environment import CubeEnvironment
 from course.errors import SceneError
+from course.extras.cube_faces import cube_from_cross, cube_from_lat_long, texel_directions
 from tests.effects.skies import cube_directions, gradient, paint_lat_long
 from tests.imaging import picture_files
 

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from course import Scene, render
+from course.building.objects import object_mesh
+from course.building.world import compile_camera
+from course.core.triangles import Mesh
 from course.errors import SceneError
-from course.geometry.mesh import Mesh
-from course.scene.compiling import compile_camera
-from course.scene.instancing import object_mesh
 
 MakeScene = Callable[..., Scene]
 

@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 
 from course import Scene, render
+from course.compiled import packets
 from course.errors import SceneError
-from course.geometry import packets
 
 MakeScene = Callable[..., Scene]
 

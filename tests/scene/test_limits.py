@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from course import CourseError, Scene
-from course.imaging.files import save
+from course.formats.pictures.files import save
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 FACES = [f"{side}.exr" for side in "abcdef"]

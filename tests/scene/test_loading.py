@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from course.scene.expected import SYNONYMS, meant_by
-from course.scene.loading import Loaded, load_description
-from course.scene.schema import json_schema
+from course.formats.yaml.expected import SYNONYMS, meant_by
+from course.formats.yaml.loading import Loaded, load_description
+from course.formats.yaml.schema import json_schema
 
 SHAPES = (
     "quad, box, sphere, disk, cylinder, cone, torus, torus_knot, displaced_sphere, height_field "
@@ -434,7 +434,7 @@ def test_loading_imports_nothing_heavier_than_it_needs() -> None:
     code = (
         "import sys\n"
         "before = set(sys.modules)\n"
-        "import course.scene.loading\n"
+        "import course.formats.yaml.loading\n"
         "print(*{name.split('.')[0] for name in set(sys.modules) - before})\n"
     )
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)

@@ -13,9 +13,9 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from course.errors import SceneError
-from course.scene.loading import load_description
-from course.scene.schema import json_schema
-from course.scene.yaml_tree import parse_document
+from course.formats.yaml.loading import load_description
+from course.formats.yaml.schema import json_schema
+from course.formats.yaml.tree import parse_document
 
 VALIDATOR = jsonschema.Draft202012Validator(json_schema())
 FUZZ = settings(

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from course import Scene
-from course.scene.description import MaterialDescription
-from course.scene.material_table import base_color, returned_share
+from course.building.materials import base_color, returned_share
+from course.formats.yaml.description import MaterialDescription
 
 GREY = [0.8, 0.8, 0.8]
 

@@ -67,7 +67,7 @@ def test_the_object_has_a_copy_of_its_material(make_scene: MakeScene) -> None:
     shared = scene(make_scene, objects=[LAMP, FLOOR, LAMP | {"name": "other"}]).compiled.world
     assert shared.materials.emission.T.tolist() == [[0, 0, 0], [1, 2, 3], [1, 2, 3]]
     # Twelve triangles of the lamp, two of the floor, twelve of the other.
-    assert shared.surface.material.tolist() == [2] * 12 + [0] * 2 + [1] * 12
+    assert shared.surface.triangles.material.tolist() == [2] * 12 + [0] * 2 + [1] * 12
 
 
 def test_its_power_is_emission_times_area(make_scene: MakeScene) -> None:

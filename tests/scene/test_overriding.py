@@ -8,10 +8,10 @@ from typing import Any
 import pytest
 
 from course.errors import SceneError
-from course.scene.description import BallLobe, PhongLobe
-from course.scene.loading import load_description
-from course.scene.overriding import override
-from course.scene.yaml_tree import read_document
+from course.formats.yaml.description import BallLobe, PhongLobe
+from course.formats.yaml.loading import load_description
+from course.formats.yaml.overriding import override
+from course.formats.yaml.tree import read_document
 
 SCENE = """\
 camera: {eye: [0, 0, 4], look_at: [0, 0, 0]}

@@ -8,10 +8,10 @@ from typing import Any
 import jsonschema
 import pytest
 
-from course.scene.description.transforms import STEP
-from course.scene.loading import Loaded
-from course.scene.schema import json_schema
-from course.scene.yaml_tree import parse_document, read_document
+from course.formats.yaml.description.transforms import STEP
+from course.formats.yaml.loading import Loaded
+from course.formats.yaml.schema import json_schema
+from course.formats.yaml.tree import parse_document, read_document
 
 ROOT = Path(__file__).parents[2]
 SCENES = sorted((ROOT / "scenes").glob("*.yaml"))

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from course.scene.yaml_scalars import resolve
+from course.formats.yaml.scalars import resolve
 
 
 @pytest.mark.parametrize(

@@ -10,9 +10,11 @@ import pytest
 import yaml
 
 from course.errors import SceneError
-from course.scene import tree_builder, yaml_tree
-from course.scene.document import Document, show, spell, suggest
-from course.scene.yaml_tree import parse_document, read_document
+from course.formats.yaml import tree as yaml_tree
+from course.formats.yaml import tree_builder
+from course.formats.yaml.document import Document, show, spell
+from course.formats.yaml.suggestions import suggest
+from course.formats.yaml.tree import parse_document, read_document
 
 
 @pytest.fixture(params=["C", "Python"])

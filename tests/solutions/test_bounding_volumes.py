@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from course.geometry.embree import Accelerator, QueryTime
-from course.geometry.shapes import torus_knot
+from course.core.embree import EmbreeAccelerator, QueryTime
 from course.grading.checks.conventions import scattered
 from course.grading.checks.laws import DTYPES
+from course.shapes import torus_knot
 from tests.solutions.contract import (
     SOLUTIONS,
     Array,
@@ -334,12 +334,12 @@ def test_triangles_of_another_number_than_the_hierarchys_are_refused() -> None:
 
 
 @cache
-def knot() -> tuple[Accelerator, tuple[Array, ...]]:
+def knot() -> tuple[EmbreeAccelerator, tuple[Array, ...]]:
     """65,536 triangles, in Embree and as corners."""
     mesh = torus_knot(segments=512, sides=64)
     vertices, faces = mesh.vertices.astype(np.float32), mesh.triangles.astype(np.int32)
     p = tuple(np.ascontiguousarray(vertices[faces[:, k]].T) for k in range(3))
-    return Accelerator(vertices, faces), p
+    return EmbreeAccelerator(vertices, faces), p
 
 
 @cache

@@ -9,13 +9,13 @@ from importlib import import_module
 import numpy as np
 import pytest
 
-from course.effects import COURSE
 from course.grading.catalog import module_checks
 from course.grading.checks.check import Array, Check, Trial
 from course.grading.checks.conventions import misshapen
 from course.grading.checks.declare import Argument, Arguments, Function
 from course.grading.checks.drawing import Draw
 from course.grading.references import reference
+from course.modules import COURSE
 from tests.solutions.contract import SOLUTIONS
 
 MODULES = {name: import_module(f"course.grading.modules.{name}").MODULE for name in COURSE}

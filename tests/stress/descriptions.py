@@ -13,8 +13,8 @@ from typing import Any
 from hypothesis import strategies as st
 from msgspec import inspect
 
-from course.scene.description.scene import SceneDescription
-from course.scene.description.transforms import STEP
+from course.formats.yaml.description.scene import SceneDescription
+from course.formats.yaml.description.transforms import STEP
 
 Strategy = st.SearchStrategy[Any]
 

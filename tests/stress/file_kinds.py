@@ -18,15 +18,15 @@ from typing import Any
 import numpy as np
 
 from course import load_scene
-from course.geometry.mesh_files import read_mesh
+from course.formats.meshes.files import read_mesh
+from course.formats.metu.converting import convert
+from course.formats.pictures.reading import read_picture
 from course.grading.classes.policy_file import read_policy
 from course.grading.classes.roster import read_roster
 from course.grading.classes.submitted import read_one
 from course.grading.references import read_references
-from course.imaging.reading import read_picture
 from course.inputs import Bound
 from course.radiosity.solution import load_solution
-from course.scene.metu.converting import convert
 from tests.imaging import picture_files
 
 MODULES = ("motion_blur", "glossy")

@@ -16,7 +16,7 @@ import pytest
 from hypothesis import Phase, assume, given, settings
 from hypothesis import strategies as st
 
-from course.effects import MODULES
+from course.modules import MODULES
 from tests.solutions.contract import SOLUTIONS, Array
 from tests.stress.examples import examples
 from tests.stress.numbers import (

@@ -49,9 +49,9 @@ from benchmarks.stress.verdict import (
     most_of,
 )
 from course import render
-from course.geometry import surface
-from course.geometry.packets import available as packets_available
-from course.geometry.shapes import displaced_sphere
+from course.compiled.packets import available as packets_available
+from course.core import triangles
+from course.shapes import displaced_sphere
 
 REJECTION = "ball by rejection"
 
@@ -129,7 +129,7 @@ def test_the_short_form_has_every_level() -> None:
 def test_the_engine_offsets_rays_as_the_bound_says() -> None:
     """Change them there, and say in benchmarks/stress/axes.py what the bound becomes."""
     for name in ("OFFSET", "SLIVER", "TILT", "MOST"):
-        assert getattr(axes, name) == getattr(surface, name)
+        assert getattr(axes, name) == getattr(triangles, name)
 
 
 @pytest.mark.parametrize("closed", [False, True])

@@ -12,9 +12,9 @@ import pytest
 from benchmarks.stress import optics
 from benchmarks.stress.cells import Cell, tame
 from benchmarks.stress.running import judge_some
-from course.appearance import conductors
-from course.geometry import packets
-from course.transport import ways
+from course.compiled import packets
+from course.core import scatter
+from course.extras import conductors, rough_glass
 
 FORMS = [
     False,
@@ -56,7 +56,7 @@ def schlick(cos_i: Any, eta: Any) -> Any:
     return np.where(share == 1, share, straight + (1 - straight) * (1 - cosine) ** 5), cos_t
 
 
-RIGHT = ways.fresnel_and_cos_t
+RIGHT = scatter.fresnel_and_cos_t
 
 
 @pytest.mark.parametrize("substance", ["glass", "thin", "diamond", "coloured glass"])
@@ -64,7 +64,7 @@ def test_a_wrong_reflectance_of_glass_is_told(
     substance: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     cells = refracting(substance)
-    monkeypatch.setattr(ways, "fresnel_and_cos_t", schlick)
+    monkeypatch.setattr(scatter, "fresnel_and_cos_t", schlick)
     # The two formulae meet at some angle, which for the coloured glass is 75 degrees.
     assert failed(cells, compiled=False) >= max(1, len(cells) - 1)
 
@@ -74,9 +74,9 @@ def test_a_wrong_reflectance_of_glass_is_told(
 def test_a_wrong_reflectance_of_glass_is_told_of_the_compiled_loops(
     substance: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from course.transport import way_kernels
+    from course.compiled import scatter_kernels
 
-    right: Callable[..., None] = way_kernels.divide
+    right: Callable[..., None] = scatter_kernels.divide
 
     def wrong(*arguments: Any) -> None:
         right(*arguments)
@@ -86,7 +86,7 @@ def test_a_wrong_reflectance_of_glass_is_told_of_the_compiled_loops(
         passed -= change
 
     cells = refracting(substance)
-    monkeypatch.setattr(way_kernels, "divide", wrong)
+    monkeypatch.setattr(scatter_kernels, "divide", wrong)
     assert failed(cells, compiled=True) == len(cells)
     assert failed(cells, compiled=False) == 0
 
@@ -102,12 +102,12 @@ def test_a_wrong_reflectance_of_metals_is_told(
 
 def test_light_that_frosted_glass_keeps_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
     cells = [cell.with_level("depth", "2") for cell in made_of("frosted glass", "the same")]
-    right = ways.bend
+    right = rough_glass.bend
 
     def wrong(*arguments: Any) -> Any:
         return right(*arguments[:6], None, arguments[7])
 
-    monkeypatch.setattr(ways, "bend", wrong)
+    monkeypatch.setattr(rough_glass, "bend", wrong)
     assert failed(cells, compiled=False) == len(cells)
 
 

@@ -23,9 +23,9 @@ from numpy.typing import NDArray
 
 from course import CourseError, load_scene, render
 from course.errors import CourseWarning
-from course.imaging.files import save
-from course.scene.description.lights import Light
-from course.scene.description.objects import Object
+from course.formats.pictures.files import save
+from course.formats.yaml.description.lights import Light
+from course.formats.yaml.description.objects import Object
 from tests.stress.descriptions import FACES, FILES, descriptions
 from tests.stress.examples import LONG, examples
 

@@ -6,21 +6,20 @@ from dataclasses import replace
 
 import numpy as np
 
-from course.geometry import shapes
-from course.geometry.embree import Intersections
-from course.geometry.hits import Hits, find_hits
-from course.geometry.surface import Part, build_surface
+from course import shapes
+from course.core.embree import Intersections
+from course.core.hits import Hits
+from course.extras.surface import FullPart, build_surface
 
 
 def hits_on_a_coarse_sphere(count: int, materials: int, seed: int) -> Hits:
     """From within and from outside, of so many materials; some arrive along the surface, and some normals are bent."""
-    surface = build_surface([Part(shapes.sphere(0.9, 12), 3)])
+    surface = build_surface([FullPart(shapes.sphere(0.9, 12), 3)])
     rng = np.random.default_rng(seed)
-    triangle = rng.integers(surface.size, size=count).astype(np.int32)
+    triangle = rng.integers(surface.triangles.size, size=count).astype(np.int32)
     u, v = rng.random((2, count), np.float32) * np.float32(0.5)
     direction = rng.normal(size=(3, count))
     direction /= np.linalg.norm(direction, axis=0)
-    surface.accelerator.use_packets(False)
     found = Intersections(triangle, u, v, np.ones(count, np.float32))
-    hits = find_hits(surface, found, direction.astype(np.float32))
+    hits = surface.hits(found, direction.astype(np.float32))
     return replace(hits, material=rng.integers(materials, size=count).astype(np.uint16))

@@ -10,10 +10,11 @@ import pytest
 from numpy.typing import NDArray
 
 from course import Scene, render
-from course.geometry.embree import QueryTime
-from course.geometry.hits import find_hits
+from course.core.counters import Counters
+from course.core.embree import QueryTime
+from course.core.samplers import Block
+from course.core.tracer import never
 from course.rendering.binding import bind
-from course.transport.bounce import bounced
 
 pytestmark = pytest.mark.usefixtures("each_form")
 
@@ -300,8 +301,9 @@ def test_rays_leave_a_smooth_mesh_on_the_side_they_are_meant_to(
     scene = make_scene(
         objects=[{"shape": "sphere", "material": "m", "segments": segments}],
         materials={"m": {"mirror": 0.1, "dielectric": {"refraction_index": index}}},
+        integrator={"cutoff": 0},
     )
-    tracer = bind(scene, scene.settings)
+    tracer = bind(scene, scene.settings, compiled=each_form)
     rng = np.random.default_rng(2)
     n = 20000
     target = rng.normal(size=(3, n))
@@ -311,16 +313,19 @@ def test_rays_leave_a_smooth_mesh_on_the_side_they_are_meant_to(
     ).astype("f4")
     direction = (target - origin).astype(np.float32)
     direction /= np.linalg.norm(direction, axis=0)
-    surface = tracer.world.surface
-    surface.accelerator.use_packets(each_form)
-    hits = find_hits(
-        surface, surface.accelerator.intersect(origin, direction, QueryTime()), direction
-    )
+    surface, scatter = tracer.integrator.surface, tracer.integrator.scatter
+    assert scatter is not None
+    hits = surface.hits(surface.accelerator.intersect(origin, direction, QueryTime()), direction)
     assert hits.size > 5000
-    found = bounced(tracer.plan, tracer.lookups, hits, None, None, None, 0.0)
+    draws = tracer.draws(Block(np.empty(0, np.uint32), 0, 1, 0), Counters(), never)
+    found = scatter(hits, None, None, None, 0, draws)
+    assert found is not None
+    # Every hit mirrors, and the mirrored rays come first.
+    assert draws.counters.rays["reflection"] == hits.size
+    refracted, mirrored = found.part(slice(hits.size, None)), found.part(slice(hits.size))
     turned_back = 0
-    for rays, side in zip(found, (1, -1), strict=True):
-        assert rays is not None
+    for rays, side in ((mirrored, 1), (refracted, -1)):
+        assert rays.size > 0
         assert rays.path is not None
         ng = hits.ng[:, rays.path]
         assert (side * (rays.direction * ng).sum(axis=0)).min() >= -1e-6

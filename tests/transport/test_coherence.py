@@ -8,8 +8,11 @@ from typing import Any
 import pytest
 
 from course import Scene, render
-from course.geometry.embree import Accelerator
-from course.geometry.moving import MovingAccelerator
+from course.compiled.accelerator import PacketAccelerator
+from course.core.embree import EmbreeAccelerator
+from course.core.motion import MovingAccelerator
+
+pytestmark = pytest.mark.usefixtures("each_form")
 
 MakeScene = Callable[..., Scene]
 LENS = {"lens": {"aperture_radius": 0.1, "focus_distance": 4}}
@@ -38,7 +41,7 @@ def test_camera_rays_and_their_mirror_images(
     expected: list[bool],
 ) -> None:
     told: list[bool] = []
-    for kind in (Accelerator, MovingAccelerator):
+    for kind in (EmbreeAccelerator, PacketAccelerator, MovingAccelerator):
         intersect = kind.intersect
 
         def noted(

@@ -7,8 +7,9 @@ from typing import Any
 import pytest
 
 from course import Picture, render
-from course.geometry import packets
-from course.transport import costs, path_tracing
+from course.adaptive import costs
+from course.compiled import packets
+from course.extras import path_tracing, sky
 from tests.conftest import MakeScene
 
 LOOPS = [
@@ -52,7 +53,7 @@ def adaptive(scene: Any, compiled: bool, **settings: Any) -> Picture:
                 "materials": {"floor": {"color": 0.5}},
                 "environment": {**SKY, "lights": True},
             },
-            1 + costs.HIT + costs.SKY_RAY,
+            1 + costs.HIT + sky.COST,
         ),
     ],
     ids=["nothing", "a hit", "a mirror", "two lights", "a sky that lights"],
@@ -71,7 +72,7 @@ def test_all_costs_are_those_of_all_rays(
 ) -> None:
     """Within a closed room every ray hits something; a box inside has glass, and the lamp's rays are counted."""
     # The rays of audits are in the receipt, and their samples are not in the picture.
-    monkeypatch.setattr("course.rendering.adaptive.AUDITED", ())
+    monkeypatch.setattr("course.adaptive.rounds.AUDITED", ())
     scene = make_scene(
         camera={"eye": [0, 0, 0.9], "look_at": [0, 0, 0], "vertical_fov": 70},
         materials={

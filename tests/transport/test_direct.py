@@ -18,11 +18,11 @@ import pytest
 from numpy.typing import NDArray
 
 from course import Scene, render
+from course.core.counters import Counters
+from course.core.passes import passes
 from course.core.samplers import Block
 from course.core.samplers.sobol import SobolSampler
 from course.rendering.binding import bind
-from course.rendering.passes import passes
-from course.transport.counters import Counters
 
 pytestmark = pytest.mark.usefixtures("each_form")
 

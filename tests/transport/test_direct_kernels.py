@@ -2,23 +2,25 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import fields
 from typing import Any
 
 import numpy as np
 import pytest
 
-from course.appearance.lights.sample import Sample, towards
-from course.appearance.materials import Lookup
+from course.compiled import packets
+from course.compiled.direct import CompiledDirectLight
+from course.compiled.direct import towards as compiled_towards
+from course.compiled.stages import CompiledIntegrator, CompiledSobolSampler
+from course.core.counters import Counters
+from course.core.direct import NEARLY_ALL, Candidates, DirectLight
+from course.core.hits import Hits
+from course.core.integrator import Integrator
+from course.core.lights.sample import Sample, towards
+from course.core.materials import Lookup
+from course.core.rays import Dimensions, Draws
 from course.core.samplers import Block
 from course.core.samplers.sobol import SobolSampler
-from course.geometry import packets
-from course.geometry.hits import Hits
-from course.transport.counters import Counters
-from course.transport.direct import _accumulated, _scale
-from course.transport.facing import NEARLY_ALL, Facing, facing, turned
-from course.transport.paths import Draws
-from course.transport.tracing import add_radiance
 from tests.transport.coarse_sphere import hits_on_a_coarse_sphere
 
 if not packets.available():
@@ -49,7 +51,7 @@ def test_what_arrives(hits: Hits, of_its_own: bool, normal: Any, two_sided: bool
         on_light[:, :20] = np.nextafter(hits.above[:, :20], np.float32(9))
     normal = None if normal is None else np.array(normal, np.float32)
     passes, loop = (
-        towards(on_light, hits.above, normal, two_sided, compiled) for compiled in (False, True)
+        form(on_light, hits.above, normal, two_sided) for form in (towards, compiled_towards)
     )
     for name in ("to_light", "inverse_length", "factor"):
         same(getattr(passes, name), getattr(loop, name))
@@ -59,27 +61,37 @@ def test_what_arrives(hits: Hits, of_its_own: bool, normal: Any, two_sided: bool
         assert ((loop.factor == 0).sum() > N / 5) == (normal is not None and not two_sided)
 
 
-def faced(hits: Hits, sample: Sample, shaded: Any = None) -> tuple[Facing | None, Facing | None]:
+def forms(shaded: Any = None) -> tuple[DirectLight, DirectLight]:
+    """Passes over arrays, and the loops."""
+    nothing: Any = None
+    stage = nothing, (), None, shaded, nothing, None, nothing
+    return DirectLight(*stage), CompiledDirectLight(*stage)
+
+
+PASSES, LOOPS = forms()
+
+
+def faced(
+    hits: Hits, sample: Sample, shaded: Any = None
+) -> tuple[Candidates | None, Candidates | None]:
     """By passes over arrays, and by the loops."""
-    passes, loop = (
-        facing(replace(hits, compiled=which), sample, shaded) for which in (False, True)
-    )
+    passes, loop = (form._candidates(hits, sample) for form in forms(shaded))
     return passes, loop
 
 
-def assert_same_light(hits: Hits, passes: Facing | None, loop: Facing | None) -> None:
+def assert_same_light(hits: Hits, passes: Candidates | None, loop: Candidates | None) -> None:
     """The same hits show the light, and their arrays are the same there; the rest of them get nothing."""
     assert passes is not None
     assert loop is not None
-    same(passes.lit, loop.lit)
-    place = loop.lit if passes.which is None and loop.which is not None else slice(None)
-    for name in ("strength", "cosine", "origin", "to_light", "inverse_length"):
+    same(passes.index, loop.index)
+    place = loop.index if passes.columns is None and loop.columns is not None else slice(None)
+    for name in ("irradiance", "cosine", "origin", "to_light", "inverse_length"):
         mine, theirs = getattr(passes, name), getattr(loop, name)
         same(mine[..., place] if mine.shape[-1] == hits.size else mine, theirs)
-    assert loop.asked is None
-    if passes.asked is not None:
-        same(np.flatnonzero(passes.asked), loop.lit)
-        assert not passes.strength[~passes.asked].any()
+    assert loop.mask is None
+    if passes.mask is not None:
+        same(np.flatnonzero(passes.mask), loop.index)
+        assert not passes.irradiance[~passes.mask].any()
 
 
 @pytest.mark.parametrize("shape", [N, 1], ids=["a direction each", "one direction"])
@@ -107,11 +119,11 @@ def test_which_hits_face_the_light(hits: Hits, shape: int, front: float, shaded:
         return
     assert_same_light(hits, passes, loop)
     assert passes is not None
-    assert 500 < len(passes.lit) < N
+    assert 500 < len(passes.index) < N
     # Copies are made where few face it, and only there.
-    assert (passes.which is None) == (len(passes.lit) >= NEARLY_ALL * N)
+    assert (passes.columns is None) == (len(passes.index) >= NEARLY_ALL * N)
     if shaded is None and shape > 1:
-        assert (passes.which is None) == (front > 0)
+        assert (passes.columns is None) == (front > 0)
 
 
 def test_all_hits_face_the_light(hits: Hits) -> None:
@@ -121,9 +133,9 @@ def test_all_hits_face_the_light(hits: Hits) -> None:
     assert_same_light(hits, passes, loop)
     for each in (passes, loop):
         assert each is not None
-        assert len(each.lit) == N
-        assert each.which is None
-        assert each.asked is None
+        assert len(each.index) == N
+        assert each.columns is None
+        assert each.mask is None
         assert each.origin is hits.above
 
 
@@ -134,9 +146,9 @@ def test_a_light_that_is_no_number_lights_nothing(hits: Hits) -> None:
     passes, loop = faced(hits, Sample(hits.ns, np.ones(N, np.float32), factor))
     assert_same_light(hits, passes, loop)
     assert passes is not None
-    assert passes.which is not None
-    assert 7 not in passes.lit
-    assert np.isfinite(passes.strength).all()
+    assert passes.columns is not None
+    assert 7 not in passes.index
+    assert np.isfinite(passes.irradiance).all()
 
 
 @pytest.mark.parametrize("share", [0.3, 0.9], ids=["few", "most"])
@@ -149,13 +161,13 @@ def test_which_facets_turn_away(hits: Hits, share: float) -> None:
     assert_same_light(hits, passes, loop)
     assert passes is not None
     assert loop is not None
-    assert (passes.which is None) == (share > NEARLY_ALL)
+    assert (passes.columns is None) == (share > NEARLY_ALL)
     found = [
-        each.hit(turned(replace(hits, compiled=which), each, each.to_light, np.float32(0.3)))
-        for which, each in ((False, passes), (True, loop))
+        each.hit(form._turned_away(hits, each, each.to_light, np.float32(0.3)))
+        for form, each in ((PASSES, passes), (LOOPS, loop))
     ]
     same(*found)
-    assert 100 < len(found[1]) < len(loop.lit)
+    assert 100 < len(found[1]) < len(loop.index)
 
 
 def test_lights_add_up(hits: Hits) -> None:
@@ -165,10 +177,11 @@ def test_lights_add_up(hits: Hits) -> None:
         factor = np.where(rng.random(N) < share, 1, 0).astype(np.float32)
         sample = Sample(hits.ns, np.ones(N, np.float32), factor)
         color = rng.random(3, np.float32)
-        for number, each in enumerate(faced(hits, sample)):
+        for number, (form, each) in enumerate(
+            zip((PASSES, LOOPS), faced(hits, sample), strict=True)
+        ):
             assert each is not None
-            mine = replace(hits, compiled=number > 0)
-            totals[number] = _accumulated(totals[number], mine, each, each.strength, color)
+            totals[number] = form._accumulated(totals[number], hits, each, each.irradiance, color)
         same(*totals)
     assert (totals[1] > 0).any()
 
@@ -180,8 +193,8 @@ def test_colours_of_materials(hits: Hits, alike: bool) -> None:
     if alike:
         colors[:] = colors[:, :1]
     totals = rng.random((1, 3, N), np.float32).repeat(2, axis=0)
-    for total, compiled in zip(totals, (False, True), strict=True):
-        _scale(total, replace(hits, compiled=compiled), Lookup(colors))
+    for total, form in zip(totals, (PASSES, LOOPS), strict=True):
+        form._scale(total, hits, Lookup(colors))
     same(*totals)
 
 
@@ -191,8 +204,9 @@ def test_radiance_is_added_to_the_film() -> None:
     path = rng.integers(600, size=N)
     radiance, throughput = rng.random((2, 3, N), np.float32)
     films = np.zeros((2, 3, 1000), np.float32)
-    for film, compiled in zip(films, (False, True), strict=True):
-        add_radiance(film[:, 200:800], path, radiance.copy(), throughput, compiled)
+    stages: Any = [None] * len(fields(Integrator))
+    for film, form in zip(films, (Integrator, CompiledIntegrator), strict=True):
+        form(*stages).add_radiance(film[:, 200:800], path, radiance.copy(), throughput)
     same(*films)
     assert np.allclose(films[1].sum(axis=1), (radiance * throughput).sum(axis=1), rtol=1e-4)
     assert not films[1][:, :200].any()
@@ -206,8 +220,10 @@ def test_the_same_numbers_are_drawn(samples: int, dimension: int, width: int) ->
     block = Block(rng.permutation(90000)[:800].astype(np.uint32), 3 * samples, samples, 5)
     drawn = []
     path = rng.permutation(block.size)[: block.size // 3]
-    for compiled in (False, True):
-        draws = Draws(SobolSampler(7), block, Counters(), lambda: False, compiled)
-        drawn.append(draws("light", dimension, width, path))
+    skip = dimension % 2
+    dimensions = Dimensions([("before", dimension - skip), ("light", skip + width)], [])
+    for sampler in (SobolSampler(7), CompiledSobolSampler(SobolSampler(7))):
+        draws = Draws(sampler, dimensions, block, Counters())
+        drawn.append(draws("light", path, width=width, skip=skip))
     same(*drawn)
     same(drawn[1], SobolSampler(7).draw(block, dimension, width).take(path, axis=1))

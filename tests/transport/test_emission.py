@@ -16,7 +16,7 @@ import pytest
 
 from course import Picture, Scene, render
 from course.errors import SceneError
-from course.imaging.files import save
+from course.formats.pictures.files import save
 from tests.conftest import MakeScene
 from tests.effects import skies
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from course import Scene, render
-from course.geometry import packets
+from course.compiled import packets
 
 MakeScene = Callable[..., Scene]
 LIGHTS: dict[str, dict[str, Any]] = {

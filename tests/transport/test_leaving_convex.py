@@ -9,9 +9,8 @@ import numpy as np
 import pytest
 
 from course import Scene, render
-from course.geometry import convex, packets
-from course.geometry.embree import Accelerator
-from course.transport import tracing
+from course.compiled import accelerator, convex, packets
+from course.core import integrator
 
 if not packets.available():
     pytest.skip("Numba is not installed (pip install .[fast])", allow_module_level=True)
@@ -52,17 +51,17 @@ def balls(make_scene: MakeScene, **parts: Any) -> Scene:
     ids=["mirrors", "gloss", "paths"],
 )
 # Batches that are cut in two, as glass makes them grow: what is known of each ray goes with it.
-@pytest.mark.parametrize("largest", [tracing.LARGEST_BATCH, 500])
+@pytest.mark.parametrize("largest", [integrator.LARGEST_BATCH, 500])
 def test_pictures_keep_their_bits(
     make_scene: MakeScene, monkeypatch: pytest.MonkeyPatch, parts: dict[str, Any], largest: int
 ) -> None:
-    monkeypatch.setattr(tracing, "LARGEST_BATCH", largest)
+    monkeypatch.setattr(integrator, "LARGEST_BATCH", largest)
     scene = balls(make_scene, **parts)
-    accelerator = scene.compiled.world.surface.accelerator
-    assert isinstance(accelerator, Accelerator)
-    accelerator.use_packets(True)
-    assert accelerator.convex is not None
-    assert accelerator.convex.worth.tolist() == [True, True, True, False]
+    surface = scene.compiled.world.surface
+    packed = accelerator.in_packets(surface.accelerator, surface.triangles.parts)
+    assert isinstance(packed, accelerator.PacketAccelerator)
+    assert packed.convex is not None
+    assert packed.convex.worth.tolist() == [True, True, True, False]
     asked, whole = 0, 0
     remaining = convex.ConvexObjects.remaining
 
@@ -75,7 +74,9 @@ def test_pictures_keep_their_bits(
     monkeypatch.setattr(convex.ConvexObjects, "remaining", counted)
     some = render(scene, compiled=True, threads=1).linear
     assert 0 < asked < 0.8 * whole
-    monkeypatch.setattr(accelerator, "_convex", None)
-    everything = render(scene, compiled=True, threads=1).linear
+    asked = 0
+    monkeypatch.setattr(accelerator, "convex_objects", lambda *_: None)
+    everything = render(balls(make_scene, **parts), compiled=True, threads=1).linear
+    assert asked == 0
     assert np.array_equal(some, everything)
     assert np.array_equal(some, render(scene, compiled=False, threads=1).linear)

@@ -14,12 +14,12 @@ import numpy as np
 import pytest
 
 from course import Scene
+from course.core.counters import Counters
+from course.core.passes import passes
 from course.core.samplers import Block
 from course.core.samplers.sobol import SobolSampler
 from course.core.types import Indices
 from course.rendering.binding import bind
-from course.rendering.passes import passes
-from course.transport.counters import Counters
 from tests.effects.test_decorrelation import LOCKED, measures
 
 MakeScene = Callable[..., Scene]

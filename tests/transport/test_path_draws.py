@@ -7,10 +7,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from course.core.samplers import Block, make_sampler
+from course.core.counters import Counters
+from course.core.rays import Dimensions, Draws
+from course.core.samplers import Block
 from course.core.samplers.sobol import SobolSampler
-from course.transport.counters import Counters
-from course.transport.paths import Draws
+from course.extras.samplers import make_sampler
 
 PIXELS = np.arange(100, 356, dtype=np.uint32)
 
@@ -34,8 +35,9 @@ def test_few_paths_leave_the_block_alone(monkeypatch: pytest.MonkeyPatch) -> Non
         raise AssertionError("a whole block was drawn")
 
     monkeypatch.setattr(SobolSampler, "draw", refuse)
-    draws = Draws(SobolSampler(3), Block(PIXELS, 16, 16, 7), Counters(), lambda: False)
-    assert draws("light", 4, 2, np.arange(ALL // 2)).shape == (2, ALL // 2)
+    block = Block(PIXELS, 16, 16, 7)
+    found = _drawn(SobolSampler(3), block, Counters(), 4, 2, np.arange(ALL // 2))
+    assert found.shape == (2, ALL // 2)
 
 
 def test_samplers_that_know_no_parts_draw_the_whole() -> None:
@@ -45,15 +47,23 @@ def test_samplers_that_know_no_parts_draw_the_whole() -> None:
     sampler = make_sampler("random", 3, place)
     block = Block(PIXELS, 0, 16, 7)
     path = np.arange(0, ALL, 100)
-    found = Draws(sampler, block, Counters(), lambda: False)("light", 4, 2, path)
+    found = _drawn(sampler, block, Counters(), 4, 2, path)
     assert found.tobytes() == np.ascontiguousarray(sampler.draw(block, 4, 2)[:, path]).tobytes()
+
+
+def _drawn(
+    sampler: Any, block: Block, counters: Counters, dimension: int, width: int, path: Any
+) -> Any:
+    """Numbers of some paths from a dimension on; a name's own begin at even ones."""
+    skip = dimension % 2
+    dimensions = Dimensions([("before", dimension - skip), ("light", skip + width)], [])
+    return Draws(sampler, dimensions, block, counters)("light", path, width=width, skip=skip)
 
 
 def _check(block: Block, count: int, dimension: int, width: int) -> None:
     counters = Counters()
-    draws = Draws(SobolSampler(3), block, counters, lambda: False)
     path = np.sort(np.random.default_rng(count).choice(block.size, count, replace=False))
-    found = draws("light", dimension, width, path)
+    found = _drawn(SobolSampler(3), block, counters, dimension, width, path)
     whole = SobolSampler(3).draw(block, dimension, width)
     assert found.dtype == np.float32
     assert found.tobytes() == np.ascontiguousarray(whole[:, path]).tobytes()

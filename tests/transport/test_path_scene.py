@@ -7,7 +7,8 @@ import pytest
 import yaml
 
 from course import load_scene, render
-from course.effects import COURSE, PROJECT
+from course.effects import PROJECT
+from course.modules import COURSE
 
 SCENES = PROJECT / "scenes"
 

@@ -16,14 +16,12 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from course import Picture, Scene, render
+from course import Picture, Scene, render, shapes
+from course.core import passes
 from course.effects import PROJECT
 from course.errors import EffectError, SceneError
-from course.geometry import shapes
-from course.rendering import passes
+from course.extras import path_pieces, path_tracing, plan
 from course.scene.scene import load_scene
-from course.transport import path_pieces, path_tracing
-from course.transport.path_tracing import PathTracer
 from tests.effects import skies
 
 pytestmark = pytest.mark.usefixtures("each_form")
@@ -407,7 +405,7 @@ def test_batches_that_are_followed_together_give_the_same_bits(
     monkeypatch.setattr(passes, "SHARES", 1)
 
     def picture(batches: int, **settings: Any) -> bytes:
-        monkeypatch.setattr(PathTracer, "batches", batches)
+        monkeypatch.setattr(plan, "PIECES", batches)
         return render(scene, size=(140, 130), spp=16, **settings).linear.tobytes()
 
     # 4.4 batches of rays, in tiles of one, of two and of four.

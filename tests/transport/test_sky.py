@@ -19,10 +19,12 @@ import pytest
 from numpy.typing import NDArray
 
 from course import Scene, render
-from course.appearance.cube_environment import CubeEnvironment, texel_directions
-from course.appearance.environment import ConstantEnvironment
-from course.core.hemisphere import cosine_directions
-from course.imaging.files import save
+from course.core.environment import ConstantEnvironment, CubeEnvironment
+from course.extras.cube_faces import texel_directions
+from course.extras.environment_sampling import ProductSampling
+from course.extras.hemisphere import cosine_directions
+from course.extras.sky import CosineSampling
+from course.formats.pictures.files import save
 
 pytestmark = pytest.mark.usefixtures("each_form")
 
@@ -99,10 +101,9 @@ def by_cosine(scene: Scene) -> Scene:
     """The same scene without tables."""
     world = scene.compiled.world
     assert isinstance(world.environment, CubeEnvironment)
-    assert world.environment.product is not None
-    plain = dataclasses.replace(world.environment, product=None)
+    assert isinstance(world.sky, ProductSampling)
     compiled = dataclasses.replace(
-        scene.compiled, world=dataclasses.replace(world, environment=plain)
+        scene.compiled, world=dataclasses.replace(world, sky=CosineSampling())
     )
     return dataclasses.replace(scene, compiled=compiled)
 
@@ -278,9 +279,9 @@ def test_mirrors_need_no_tables(make_scene: MakeScene, tmp_path: Path, lights: b
     scene = make_scene(
         **MIXED | {"objects": objects}, environment=environment(tmp_path, uneven(), lights=lights)
     )
-    sky = scene.compiled.world.environment
-    assert isinstance(sky, CubeEnvironment)
-    assert sky.product is None
+    world = scene.compiled.world
+    assert isinstance(world.environment, CubeEnvironment)
+    assert not isinstance(world.sky, ProductSampling)
     picture = render(scene)
     assert picture.receipt.rays["shadow"] == 0
     assert "environment" not in picture.receipt.numbers
@@ -309,14 +310,17 @@ def test_an_even_sky_keeps_the_cosine_exactly(make_scene: MakeScene, tmp_path: P
     normal = rng.normal(size=(3, 100)).astype(np.float32)
     normal /= np.linalg.norm(normal, axis=0)
     u = rng.random((2, 100), np.float32)
-    constant = ConstantEnvironment(np.ones(3, np.float32), True)
-    direction, weight = constant.sample(normal, u)
-    assert weight is None
-    assert np.array_equal(direction, cosine_directions(normal, u))
     # A cube of one colour is a constant environment, to the last bit but for the interpolation's weights.
     cube = environment(tmp_path, np.full((6, 4, 4, 3), 0.75))
     flat = {"type": "constant", "radiance": 0.75, "lights": True}
-    a, b = (render(make_scene(**MIXED, environment=sky)) for sky in (cube, flat))
+    cube_scene, flat_scene = (make_scene(**MIXED, environment=sky) for sky in (cube, flat))
+    world = flat_scene.compiled.world
+    assert isinstance(world.environment, ConstantEnvironment)
+    assert world.sky is not None
+    direction, weight = world.sky.sample(normal, u)
+    assert weight is None
+    assert np.array_equal(direction, cosine_directions(normal, u))
+    a, b = render(cube_scene), render(flat_scene)
     assert np.allclose(a.linear, b.linear, rtol=1e-5)
     assert a.receipt.rays == b.receipt.rays
     assert a.receipt.numbers == b.receipt.numbers

@@ -3,24 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
-from types import SimpleNamespace
+from dataclasses import fields
 from typing import Any
 
 import numpy as np
 import pytest
 
 from course import Scene, render
-from course.appearance.materials import Lookup
-from course.geometry import packets
-from course.transport.path_bounce import (
+from course.compiled import packets
+from course.compiled.scatter import CompiledPathBounce, CompiledScatter
+from course.core.materials import Lookup
+from course.core.scatter import Scatter
+from course.extras.path_bounce import (
     DIFFUSE,
     MIRRORED,
     REFRACTED,
     PathBounce,
-    _ordered,
 )
-from course.transport.ways import departures, divided, refracted
+from course.extras.plan import same_fields
 from tests.transport.coarse_sphere import hits_on_a_coarse_sphere
 
 if not packets.available():
@@ -42,13 +42,13 @@ def test_the_same_way_and_throughput(
     taken: list[Any] = []
     passes = PathBounce._chosen
 
-    def both(bounce: PathBounce, hits: Any, *arguments: Any) -> Any:
-        mine = passes(bounce, replace(hits, compiled=False), *arguments)
-        theirs = passes(bounce, replace(hits, compiled=True), *arguments)
+    def both(bounce: PathBounce, *arguments: Any) -> Any:
+        mine = passes(bounce, *arguments)
+        theirs = CompiledPathBounce(**same_fields(bounce))._chosen(*arguments)
         for one, other in zip(mine, theirs, strict=True):
             assert (one.shape, one.dtype) == (other.shape, other.dtype)
             assert one.tobytes() == other.tobytes()
-        taken.append(mine[1].take(arguments[2]))
+        taken.append(mine[1].take(arguments[4]))
         return mine
 
     monkeypatch.setattr(PathBounce, "_chosen", both)
@@ -71,11 +71,18 @@ def test_the_same_way_and_throughput(
             ),
         ],
     )
-    render(scene, threads=1)
+    render(scene, threads=1, compiled=False)
     ways = np.concatenate(taken)
     assert len(taken) > 4
     for way, some in ((DIFFUSE, True), (MIRRORED, True), (REFRACTED, glass)):
         assert (np.count_nonzero(ways == way) > 1000) == some
+
+
+def both_forms(index: Any) -> tuple[Scatter, Scatter]:
+    """Passes over arrays, and the loops."""
+    surface: Any = None
+    stage = surface, Lookup(np.zeros((3, 3), np.float32)), Lookup(index), None, False, None, 0.0
+    return Scatter(*stage), CompiledScatter(*stage)
 
 
 @pytest.mark.parametrize("some", [False, True], ids=["all hits", "some hits"])
@@ -84,17 +91,16 @@ def test_the_same_division_and_refracted_directions(some: bool) -> None:
     hits = hits_on_a_coarse_sphere(6000, 3, seed=5)
     which = np.arange(0, hits.size, 3) if some else None
     index = np.array([0, 1.5, 0.7], np.float32)
-    lookups: Any = SimpleNamespace(refraction_index=Lookup(index))
-    plan: Any = SimpleNamespace(refraction_dimension=None)
     results = []
-    for compiled in (False, True):
-        mine = replace(hits, compiled=compiled)
-        share, passed, boundary = divided(plan, lookups, mine, which, None)
+    for scatter in both_forms(index):
+        boundary = scatter.boundary(hits, which, 0)
         chosen = np.arange(hits.size) if which is None else which
         glass = np.flatnonzero(index[hits.material[chosen]] > 0)
         there = boundary.of(glass)
-        way = refracted(plan, mine, chosen[glass], there, glass, None)
-        results.append((share, passed, there.cos_i, there.cos_t, there.eta, way))
+        draws: Any = None
+        way = scatter.refracted(hits, chosen[glass], there, glass, 0, draws)
+        shares = boundary.reflected, boundary.refracted
+        results.append((*shares, there.cos_i, there.cos_t, there.eta, way))
     for one, other in zip(*results, strict=True):
         assert (one.shape, one.dtype) == (other.shape, other.dtype)
         assert one.tobytes() == other.tobytes()
@@ -112,10 +118,13 @@ def test_the_same_division_and_refracted_directions(some: bool) -> None:
 
 
 def test_the_same_order_of_ways() -> None:
+    nothing: Any = [None] * len(fields(PathBounce))
     rng = np.random.default_rng(8)
     kind = rng.integers(3, size=5000).astype(np.int8)
     for goes_on in (rng.random(5000) < 0.6, np.ones(5000, np.bool_), np.zeros(5000, np.bool_)):
-        passes, loop = (_ordered(goes_on, kind, compiled) for compiled in (False, True))
+        passes, loop = (
+            form(*nothing)._ordered(goes_on, kind) for form in (PathBounce, CompiledPathBounce)
+        )
         assert passes[0].tobytes() == loop[0].tobytes()
         assert passes[1:] == loop[1:]
         which, scattered, above = loop
@@ -132,8 +141,7 @@ def test_the_same_places_to_leave_from() -> None:
     which = rng.permutation(hits.size)[:4000]
     for crossing in (0, 1500, 4000):
         passes, loop = (
-            departures(replace(hits, compiled=compiled), which, crossing, after)
-            for compiled in (False, True)
+            form.origins(hits, which, crossing, after) for form in both_forms(np.ones(3, "f4"))
         )
         for one, other in zip(passes, loop, strict=True):
             assert (one.shape, one.dtype) == (other.shape, other.dtype)

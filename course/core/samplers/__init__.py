@@ -1,69 +1,80 @@
-"""Samplers: where the numbers of a path come from.
+"""Samplers: the numbers in [0, 1) that paths use.
 
-A sampler has a ``name``, says whether its points may be extended from n to 2n samples (``extensible``), and draws
-``(width, paths)`` float32 numbers in [0, 1) for consecutive dimensions of a block of paths.
+A block holds the same range of samples of several pixels. Path p of a block belongs to pixel p // samples and is its
+sample first + p % samples, so reshaping assigns rays to pixels.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any, Protocol
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
 
-from course.core.samplers.block import Block
-from course.core.samplers.low_discrepancy import ChainedSampler, HaltonSampler, HammersleySampler
-from course.core.samplers.sobol import SobolSampler
-from course.core.samplers.stratified import (
-    JitteredSampler,
-    RandomSampler,
-    RegularSampler,
-)
-from course.core.samplers.xorshift import XorshiftSampler
-from course.core.types import Floats32
+import numpy as np
 
-__all__ = ["FUNCTIONS", "Block", "Sampler", "make_sampler"]
-
-FUNCTIONS: dict[str, tuple[tuple[str, str], ...]] = {
-    "sobol": (),
-    "random": (("supersampling", "random"),),
-    "jittered": (("supersampling", "jittered"),),
-    "regular": (("supersampling", "regular"),),
-    "halton": (("quasi_monte_carlo", "halton"),),
-    "hammersley": (("quasi_monte_carlo", "hammersley"),),
-    "chained": (("quasi_monte_carlo", "hammersley"), ("quasi_monte_carlo", "chain")),
-    "xorshift": (("sampling", "xorshift32"),),
-}
-"""Every sampler, and the module and name of each function that its numbers come from."""
+from course.core.types import Floats32, Indices, Words
 
 
-class Sampler(Protocol):
-    """What the renderer needs of a sampler."""
+@dataclass(frozen=True)
+class Block:
+    """The paths of a batch.
+
+    Attributes
+    ----------
+    pixels : (n,) uint32, number of each pixel in the picture, row by row
+    first : number of the first sample of each pixel
+    samples : number of samples of each pixel
+    part : number of the tile or other area; seeds samplers that use a generator
+    """
+
+    pixels: Words
+    first: int
+    samples: int
+    part: int
+
+    @cached_property
+    def size(self) -> int:
+        """Number of paths: pixels times samples."""
+        return len(self.pixels) * self.samples
+
+    def places(self, path: Indices) -> tuple[Indices, Indices]:
+        """Index into ``pixels`` and sample number after ``first`` of paths (m,), (m,) each."""
+        bits = self.samples.bit_length() - 1
+        if self.samples == 1 << bits:
+            return path >> bits, path & (self.samples - 1)
+        pixel, sample = np.divmod(path, self.samples)
+        return pixel, sample
+
+
+class Sampler(ABC):
+    """Draws numbers for the paths of a block; blocks may come in any order.
+
+    Attributes
+    ----------
+    name : its name in scene files
+    extensible : true if n samples can be continued to 2n
+    """
 
     name: str
     extensible: bool
 
+    @abstractmethod
     def draw(self, block: Block, dimension: int, width: int) -> Floats32:
-        """(width, block.size) float32 numbers in [0, 1) for consecutive dimensions."""
-        ...
+        """Numbers in [0, 1) for ``width`` dimensions from ``dimension`` on, (width, block.size) float32."""
+
+    def draw_some(self, block: Block, dimension: int, width: int, path: Indices) -> Floats32:
+        """The columns of ``draw`` for paths (m,)."""
+        return self.draw(block, dimension, width).take(path, axis=1)
 
 
-def make_sampler(
-    name: str, seed: int, place: Callable[..., Any] | None = None, *further: Callable[..., Any]
-) -> Sampler:
-    """The sampler of that name.
+if TYPE_CHECKING:
+    from numpy.random import Generator
 
-    Parameters
-    ----------
-    place, further : the functions that FUNCTIONS has for it, in that order; None for ``sobol``, which needs none
-    """
-    if place is None:
-        return SobolSampler(seed)
-    kinds: dict[str, Callable[..., Sampler]] = {
-        "random": RandomSampler,
-        "jittered": JitteredSampler,
-        "regular": RegularSampler,
-        "halton": HaltonSampler,
-        "hammersley": HammersleySampler,
-        "chained": ChainedSampler,
-        "xorshift": XorshiftSampler,
-    }
-    return kinds[name](seed, place, *further)
+
+def generator(seed: int, dimension: int, block: Block) -> Generator:
+    """A new NumPy generator for one dimension of one block."""
+    # numpy.random takes 20 ms to import; scenes without random numbers save them.
+    from numpy.random import PCG64, Generator, SeedSequence
+
+    return Generator(PCG64(SeedSequence((seed, dimension, block.part, block.first))))

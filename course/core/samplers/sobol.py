@@ -1,8 +1,7 @@
-"""The engine's default: for each pair of dimensions of a path a shuffled and scrambled (0, 2)-sequence.
+"""The default sampler: a shuffled and scrambled (0, 2)-sequence for each pair of dimensions of a path.
 
-The first two pairs, the pixel's and whatever a path decides next, are one net in four dimensions.
-
-The first n points are the same whether n or 2n are asked for, so that a picture can be continued.
+The first two pairs, the pixel's and the path's next, form one net in four dimensions. The first n points don't depend
+on the number of samples, so a picture can be continued.
 """
 
 from __future__ import annotations
@@ -12,25 +11,24 @@ from functools import lru_cache
 import numpy as np
 
 from course.core.hashing import combine, hash_words
-from course.core.samplers.block import Block
-from course.core.sobol import joined, owen_scrambled, shuffled, sobol_words
+from course.core.samplers import Block, Sampler
 from course.core.types import Floats32, Indices, Words
 
 TO_UNIT = np.float32(2.0**-24)
 
 ORDERS = 1024
-"""Orders and scrambles of the points; two pairs of a pixel share one by chance of 1 in this many."""
+"""Number of orders of the points, each with a scramble; two pairs of a pixel share one with probability 1 / ORDERS."""
 
 _JOINED_PAIRS = 2
-"""The first pairs of dimensions, which share their order."""
+"""Number of first pairs of dimensions, which share one order."""
 
 
-class SobolSampler:
+class SobolSampler(Sampler):
     """u = a point of the shuffled and scrambled sequence that a hash of (seed, pair, pixel) chooses.
 
-    The sequences are tables, the same for all pixels. The exclusive-or with another hash, which keeps a
-    (0, 2)-sequence one, makes each pixel's points its own (Kollig & Keller, "Efficient multidimensional sampling",
-    2002): as even as if every pixel had been scrambled by itself, at a tenth of the cost.
+    All pixels share the tables of sequences. The exclusive-or with another hash gives each pixel its own points, which
+    are still a (0, 2)-sequence (Kollig & Keller, "Efficient multidimensional sampling", 2002). They are as even as with
+    a scramble per pixel, at a tenth of the cost.
     """
 
     name = "sobol"
@@ -40,12 +38,7 @@ class SobolSampler:
         self._seed = seed
 
     def draw(self, block: Block, dimension: int, width: int) -> Floats32:
-        """Numbers for ``width`` consecutive dimensions.
-
-        Returns
-        -------
-        (width, block.size) float32 in [0, 1); the top 24 bits, so that none rounds up to 1.
-        """
+        """See ``Sampler.draw``; 24 bits, so that no number rounds up to 1."""
         pairs = _pairs(dimension, width)
         table = _points(block.first, block.samples)
         salts = _salts(self._seed, pairs)
@@ -65,13 +58,13 @@ class SobolSampler:
         return u.reshape(width, block.size)
 
     def draw_some(self, block: Block, dimension: int, width: int, path: Indices) -> Floats32:
-        """The columns of ``draw`` that belong to some paths (n,), made without the others where that is less work."""
+        """The columns of ``draw`` for paths (m,), without computing the others if that is less work."""
         first, pair = dimension % 2, dimension // 2
         if 2 * len(path) > block.size or first + width > 2:
             return self.draw(block, dimension, width).take(path, axis=1)
         rows, salts = self.pair(block, pair)
         pixel, sample = block.places(path)
-        # Hashed once for each path or for each pixel, whichever there are fewer of.
+        # One hash per path or per pixel: the smaller number.
         if len(path) < len(block.pixels):
             hashes = hash_words(block.pixels.take(pixel), *salts)
         else:
@@ -86,12 +79,12 @@ class SobolSampler:
         return u
 
     def pair(self, block: Block, pair: int) -> tuple[Words, tuple[int, ...]]:
-        """The points of a pair of dimensions, and what chooses among them.
+        """The points of a pair of dimensions, and the salts that choose among them.
 
         Returns
         -------
-        points : (2 or more, orders, samples) uint32; the pair's are the first two rows
-        salts : with which a pixel's number is hashed for its order and for either scramble
+        points : (2 or more, orders, samples) uint32; the first two rows are the pair's
+        salts : hash a pixel's number into its order and its two scrambles
         """
         rows = _points(block.first, block.samples)[2 * pair if pair < _JOINED_PAIRS else 0 :]
         return rows, _salts(self._seed, range(pair, pair + 1))
@@ -103,7 +96,7 @@ def _pairs(dimension: int, width: int) -> range:
 
 @lru_cache(maxsize=1024)
 def _salts(seed: int, pairs: range) -> tuple[int, ...]:
-    """Of each pair: one for its order and one for either scramble."""
+    """Three salts per pair: for the order and the two scrambles."""
     return tuple(
         combine(seed, 0 if word == 0 and pair < _JOINED_PAIRS else pair, word)
         for pair in pairs
@@ -113,14 +106,101 @@ def _salts(seed: int, pairs: range) -> tuple[int, ...]:
 
 @lru_cache(maxsize=64)
 def _points(first: int, samples: int) -> Words:
-    """(4, orders, samples) uint32: a stretch of the sequence in every order, each scrambled in its way.
+    """(4, orders, samples) uint32: a range of the sequence in every order, each with its own scramble.
 
-    Rows 0 and 1 are any pair's, rows 2 and 3 those of the pair that is joined to the first.
+    Rows 2 and 3 are the second pair's, rows 0 and 1 every other pair's.
     """
     index = np.arange(first, first + samples, dtype=np.uint32)
-    # The renderer asks for 16 samples at a time; whoever asks for very long stretches gets fewer orders of them.
+    # The renderer uses 16 samples per call; fewer orders bound the memory of long ranges.
     orders = min(ORDERS, max(2**20 // samples, 1))
     order = shuffled(index, orders)
     words = np.concatenate([sobol_words(order), sobol_words(joined(order))])
     seeds = hash_words(np.arange(orders, dtype=np.uint32), *(combine(row) for row in range(1, 5)))
     return owen_scrambled(words, seeds[:, :, None])
+
+
+BITS = 32
+
+
+def _second_dimension() -> list[int]:
+    """Direction numbers of x + 1, left-aligned: m_k = 2 m_(k-1) xor m_(k-1) (Bratley & Fox 1988)."""
+    numbers = [1]
+    while len(numbers) < BITS:
+        numbers.append((numbers[-1] << 1) ^ numbers[-1])
+    return [number << (BITS - 1 - k) for k, number in enumerate(numbers)]
+
+
+DIRECTIONS = ([1 << (BITS - 1 - k) for k in range(BITS)], _second_dimension())
+"""Direction numbers v_k of both dimensions: a point is the exclusive-or of the v_k at the set bits k of its index."""
+
+
+def sobol_words(index: Words) -> Words:
+    """Points (2, ...) uint32 of the sequence, as 32-bit fractions, at indices of any shape."""
+    words = np.zeros((2, *index.shape), np.uint32)
+    for k in range(int(index.max(initial=0)).bit_length()):
+        bit = (index >> np.uint32(k)) & np.uint32(1)
+        for dimension in range(2):
+            words[dimension] ^= bit * np.uint32(DIRECTIONS[dimension][k])
+    return words
+
+
+_JOINED_COLUMNS = (1, 2, 5, 11, 16, 33, 67, 236, 303, 565, 1744, 2769, 5363, 11408)
+"""Images of the powers of two under ``joined``: bit k is the highest of column k. Found by a beam search; its cost was
+the sum of t^2 over m = 1 to 14 and over all nets in two, three and four of the four dimensions."""
+
+
+def joined(index: Words) -> Words:
+    """Indices whose points, as dimensions 3 and 4 beside those at ``index``, form a net in four dimensions.
+
+    The map is linear over bits and triangular, so it permutes every aligned block of 2^m indices. So the points at the
+    new indices are a (0, 2)-sequence, too. Among the first 2^m points, every dyadic box of volume 2^(t - m) in the four
+    dimensions has 2^t points, with t = 1 for m = 4 and 6, and at most 3 for m up to 10.
+    """
+    words = index.copy()
+    for k, column in enumerate(_JOINED_COLUMNS):
+        words ^= ((index >> np.uint32(k)) & np.uint32(1)) * np.uint32(column ^ 1 << k)
+    return words
+
+
+def shuffled(index: Words, orders: int) -> Words:
+    """Nested random permutations of indices (n,), (orders, n) uint32.
+
+    Bit j of an index is flipped at random, alike for all indices that agree in the bits above it. If those are all 0,
+    it stays. So indices below 2^m stay below 2^m, for every m.
+    """
+    order = np.arange(orders, dtype=np.uint32)
+    result = np.repeat(index[None], orders, axis=0)
+    for bit in range(int(index.max(initial=0)).bit_length()):
+        above = index >> np.uint32(bit + 1)
+        keys = hash_words(order, combine(bit))[0][:, None] ^ above
+        chance = hash_words(keys.ravel(), combine(bit, 1)).reshape(keys.shape)
+        result ^= (chance & np.uint32(1)) * (above > 0) << np.uint32(bit)
+    return result
+
+
+def owen_scrambled(words: Words, seeds: Words) -> Words:
+    """Nested uniform scramble: each digit is flipped at random, alike for words with equal digits before it.
+
+    In reversed words, additions and multiplications carry only from earlier digits to later ones: the hash of Laine &
+    Karras (2011), with Burley's constants (2020).
+
+    Parameters
+    ----------
+    words : (..., n) uint32
+    seeds : uint32 that broadcasts against words; one scramble each
+    """
+    state = reversed_bits(words) + np.zeros_like(seeds)
+    state ^= state * np.uint32(0x3D20ADEA)
+    state += seeds
+    state *= (seeds >> np.uint32(16)) | np.uint32(1)
+    state ^= state * np.uint32(0x05526C56)
+    state ^= state * np.uint32(0x53A22864)
+    return reversed_bits(state)
+
+
+def reversed_bits(words: Words) -> Words:
+    """Words with their 32 bits in reverse order."""
+    for shift, mask in ((1, 0x55555555), (2, 0x33333333), (4, 0x0F0F0F0F), (8, 0x00FF00FF)):
+        low = np.uint32(mask)
+        words = ((words >> np.uint32(shift)) & low) | ((words & low) << np.uint32(shift))
+    return (words >> np.uint32(16)) | (words << np.uint32(16))

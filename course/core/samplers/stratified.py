@@ -1,72 +1,62 @@
-"""The classic samplers: regular, random and jittered points, made by the course's `supersampling` module.
+"""The classic samplers: random, jittered and regular points.
 
-The student's function places the points in the pixel (dimensions 0 and 1). The other dimensions of a path get points
-of the same kind from the engine, in an order of their own, because a light sampled in the pixel's order would only
-ever pair the pixel's corner with the light's corner (Cook 1984, section 4.2).
+The student's `supersampling` functions place the points in the pixel (dimensions 0 and 1). The engine draws points of
+the same kind for the other dimensions of a path, each in its own order. Otherwise, the pixel's corner would always be
+paired with the light's corner (Cook 1984, section 4.2).
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from math import isqrt
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from course.core.samplers.block import Block
-from course.core.samplers.generator import generator
+from course.core.functions import Functions
+from course.core.samplers import Block, Sampler, generator
 from course.core.types import Floats32
 
-if TYPE_CHECKING:
-    from numpy.random import Generator
-
-Place = Callable[[int, int], Floats32]
-"""supersampling.regular: (k, n) -> (2, n, k * k)."""
-
-PlaceAtRandom = Callable[[int, int, "Generator"], Floats32]
-"""supersampling.random and jittered: (k, n, rng) -> (2, n, k * k)."""
-
 PIXEL = 0
-"""The pixel's two dimensions are the first ones of every path."""
+"""First of the pixel's two dimensions."""
 
 
-class RandomSampler:
+class RandomSampler(Sampler):
     """Independent uniform numbers."""
 
     name = "random"
     extensible = True
 
-    def __init__(self, seed: int, place: PlaceAtRandom) -> None:
+    def __init__(self, seed: int, supersampling: Functions) -> None:
         self._seed = seed
-        self._place = place
+        self._supersampling = supersampling
 
     def draw(self, block: Block, dimension: int, width: int) -> Floats32:
-        """See SobolSampler.draw."""
+        """See Sampler.draw."""
         rng = generator(self._seed, dimension, block)
         if dimension == PIXEL:
             k = isqrt(block.samples - 1) + 1
-            points = self._place(k, len(block.pixels), rng)[..., : block.samples]
-            return points.reshape(2, block.size)
+            points: Floats32 = self._supersampling.random(k, len(block.pixels), rng)
+            return points[..., : block.samples].reshape(2, block.size)
         return rng.random((width, block.size), np.float32)
 
 
-class JitteredSampler:
-    """Stratified numbers: each sample of a pixel in a stratum of its own."""
+class JitteredSampler(Sampler):
+    """Stratified numbers: one sample of a pixel per stratum."""
 
     name = "jittered"
     extensible = False
 
-    def __init__(self, seed: int, place: PlaceAtRandom) -> None:
+    def __init__(self, seed: int, supersampling: Functions) -> None:
         self._seed = seed
-        self._place = place
+        self._supersampling = supersampling
 
     def draw(self, block: Block, dimension: int, width: int) -> Floats32:
-        """See SobolSampler.draw; block.samples is a square number."""
+        """See Sampler.draw; block.samples is a square number."""
         rng = generator(self._seed, dimension, block)
         k = isqrt(block.samples)
         n = len(block.pixels)
         if dimension == PIXEL:
-            return self._place(k, n, rng).reshape(2, block.size)
+            points: Floats32 = self._supersampling.jittered(k, n, rng)
+            return points.reshape(2, block.size)
         strata = np.arange(block.samples, dtype=np.float32)
         if width == 2:
             cell = rng.permuted(np.broadcast_to(strata, (n, block.samples)), axis=1)
@@ -82,25 +72,26 @@ class JitteredSampler:
         return u.reshape(width, block.size)
 
 
-class RegularSampler:
-    """Centres of equal cells, the same in every pixel: aliasing in its pure form."""
+class RegularSampler(Sampler):
+    """Centres of equal strata, the same in every pixel: pure aliasing."""
 
     name = "regular"
     extensible = False
 
-    def __init__(self, seed: int, place: Place) -> None:
+    def __init__(self, seed: int, supersampling: Functions) -> None:
         self._seed = seed
-        self._place = place
+        self._supersampling = supersampling
 
     def draw(self, block: Block, dimension: int, width: int) -> Floats32:
-        """See SobolSampler.draw; block.samples is a square number."""
+        """See Sampler.draw; block.samples is a square number."""
         k = isqrt(block.samples)
         n = len(block.pixels)
         if dimension == PIXEL:
-            return self._place(k, n).reshape(2, block.size)
+            centers: Floats32 = self._supersampling.regular(k, n)
+            return centers.reshape(2, block.size)
         strata = np.arange(block.samples)
         if block.samples > 1:
-            # One order for the whole picture: whatever the grid misses, it misses in every pixel.
+            # One order for the whole picture: what the grid misses, it misses in every pixel.
             rng = generator(self._seed, dimension, Block(block.pixels, 0, block.samples, 0))
             strata = rng.permuted(np.broadcast_to(strata, (width, block.samples)), axis=1)
         else:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from functools import cache
 from importlib import import_module
 
-from course.effects import COURSE
 from course.grading.checks.declare import Function, Module
+from course.modules import COURSE
 
 
 @cache

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from course.core.sobol import joined, owen_scrambled, shuffled, sobol_words
+from course.core.samplers.sobol import joined, owen_scrambled, shuffled, sobol_words
 from course.core.types import Words
 from course.grading.checks.check import Array, Failure, Kind, Role, Trial
 from course.grading.checks.declare import Arguments, Case, Function, Law

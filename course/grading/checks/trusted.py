@@ -37,5 +37,8 @@ class TrustedModule:
         return value, list(arguments), _state() != before
 
 
-def _state() -> str:
-    return repr(np.random.get_state(legacy=False))  # noqa: NPY002
+def _state() -> tuple[bytes, str]:
+    state = np.random.get_state(legacy=False)  # noqa: NPY002
+    # As text its 624 words would take a millisecond, which is more than most calls take.
+    key = state["state"].pop("key", b"")
+    return bytes(key), repr(state)

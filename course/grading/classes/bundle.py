@@ -12,9 +12,9 @@ import zipfile
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from course.atomic import replacing
 from course.grading.classes.job import with_whole
 from course.grading.references import make_references
-from course.imaging.atomic import replacing
 
 FOLDERS = {"course": {".py", ".typed", ".json", ".jinja"}, "solutions": {".py"}}
 """Folders of the project that grading needs, and the kinds of file in them; its scenes are part of the course."""

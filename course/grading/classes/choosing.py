@@ -6,11 +6,11 @@ import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
-from course.effects import COURSE
 from course.grading.classes.entries import Entry, archive_suffix
 from course.grading.classes.file_names import NOTEBOOK, PYTHON, Named, read_name
 from course.grading.classes.notebooks import notebook_source
 from course.grading.submissions import LARGEST_FILE, SubmissionError
+from course.modules import COURSE
 
 LARGEST_NOTEBOOK = 20_000_000
 """Bytes; pictures are part of a notebook."""

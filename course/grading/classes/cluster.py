@@ -10,8 +10,8 @@ from collections.abc import Callable, Generator, Sequence
 from queue import SimpleQueue
 from typing import Any, TypeVar
 
+from course.cluster.connection import Connection, arrived
 from course.grading.classes.outcome import Outcome, told
-from course.rendering.connection import Connection, arrived
 
 Item = TypeVar("Item")
 Shared = TypeVar("Shared")

@@ -10,6 +10,7 @@ from zipfile import BadZipFile
 
 import numpy as np
 
+from course.atomic import replacing
 from course.effects import PROJECT
 from course.grading.classes.apart import apart
 from course.grading.classes.shingling import LARGEST, shingles, statements
@@ -17,7 +18,6 @@ from course.grading.classes.similarity import Shingles, Similar, as_shingles, fi
 from course.grading.classes.submitted import Submission
 from course.grading.references import SOLUTIONS
 from course.grading.release.stubs import make_stub
-from course.imaging.atomic import replacing
 
 _FORMAT = "1"
 """Goes up when what is kept would come out otherwise."""

@@ -17,7 +17,7 @@ from time import perf_counter
 from typing import Any
 
 from course import __version__
-from course.effects import COURSE
+from course.atomic import replacing
 from course.errors import CourseError
 from course.grading.catalog import module_checks
 from course.grading.checks.preparing import References
@@ -30,7 +30,7 @@ from course.grading.references import read_references, references
 from course.grading.report import Report
 from course.grading.worker.limits import Limits
 from course.grading.worker.sandbox import NotProtected, protected, sandbox
-from course.imaging.atomic import replacing
+from course.modules import COURSE
 
 LIMITS = Limits(call_seconds=20.0)
 """Half a core, as Gradescope gives it, takes twice the time."""

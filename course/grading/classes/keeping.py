@@ -14,11 +14,11 @@ from dataclasses import fields
 from pathlib import Path
 
 from course import __version__
+from course.atomic import replacing
 from course.errors import OutputError
 from course.grading.checks.result import Result, Status
 from course.grading.classes.job import RESULTS, Graded, json_bytes
 from course.grading.report import Report
-from course.imaging.atomic import replacing
 
 INSTRUCTOR = "instructor"
 """Folder beside those of the students for what they are not to see."""

@@ -7,9 +7,9 @@ import uuid
 from collections.abc import Sequence
 from pathlib import Path
 
-from course.effects import COURSE
 from course.grading.classes.image import HOME, IMAGE, image_contents
 from course.grading.classes.totals import totals
+from course.modules import COURSE
 
 LONGEST = 600
 """Seconds that PrairieLearn lets an external grader take."""

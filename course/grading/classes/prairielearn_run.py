@@ -11,7 +11,7 @@ import traceback
 from collections.abc import Sequence
 from pathlib import Path
 
-from course.effects import COURSE
+from course.atomic import replacing
 from course.errors import CourseError
 from course.grading.checks.preparing import References
 from course.grading.classes.job import json_bytes, troubled
@@ -21,7 +21,7 @@ from course.grading.references import read_references, references
 from course.grading.report import Report
 from course.grading.worker.limits import Limits
 from course.grading.worker.sandbox import protected, sandbox
-from course.imaging.atomic import replacing
+from course.modules import COURSE
 
 CALL_SECONDS = 20.0
 """A container that shares its cores takes twice the time."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterable, Iterator
 
-from course.effects import COURSE
+from course.modules import COURSE
 
 
 def reachable(module: str, tree: ast.Module, imports: bool = False) -> Iterator[ast.stmt]:

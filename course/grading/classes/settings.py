@@ -6,10 +6,10 @@ from pathlib import Path
 
 import msgspec
 
+from course.atomic import write_text
 from course.errors import CourseError
 from course.grading.classes.finishing import Terms
 from course.grading.classes.keeping import INSTRUCTOR
-from course.imaging.atomic import write_text
 
 
 class Settings(msgspec.Struct, frozen=True):

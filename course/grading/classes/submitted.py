@@ -11,7 +11,6 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 
-from course.effects import COURSE
 from course.errors import CourseError
 from course.grading.classes.choosing import choose, module_defined
 from course.grading.classes.entries import (
@@ -26,6 +25,7 @@ from course.grading.classes.entries import (
 from course.grading.classes.file_names import read_name, sent
 from course.grading.classes.naming import safe_name, same_name, short_name
 from course.grading.submissions import LARGEST_FILE, SubmissionError
+from course.modules import COURSE
 
 _IGNORED = ("__MACOSX", "__pycache__", "Thumbs.db", "desktop.ini")
 

@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from course.geometry.shapes import torus
 from course.grading.checks.check import Array
 from course.grading.checks.declare import Case
 from course.grading.checks.drawing import Draw
@@ -19,6 +18,7 @@ from course.grading.modules.hierarchies import (
     lopsided,
     one_leaf,
 )
+from course.shapes import torus
 
 WIDTH, HEIGHT = 56, 42
 """Of the picture whose rays are compared with Embree's."""

@@ -14,8 +14,8 @@ from importlib.resources import files
 import numpy as np
 from scipy.special import stdtrit
 
+from course.formats.pictures.srgb import linear_to_srgb8
 from course.grading.checks.check import Array, Failure
-from course.imaging.srgb import linear_to_srgb8
 
 BIAS_FALSE_FAIL = 1e-6
 """Of one test of all blocks of a picture."""

@@ -19,7 +19,7 @@ from course.grading.errors import StudentError
 from course.grading.pictures import scenes
 from course.grading.pictures.judging import BIAS_FALSE_FAIL, block_means, check_bias, check_ssim
 from course.grading.pictures.stage import Stage
-from course.rendering.rendering import render
+from course.render_scene import render
 from course.scene.scene import Scene, load_scene
 
 BIAS_SAMPLES = 16

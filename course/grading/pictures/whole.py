@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from course.effects import MODULES
 from course.grading.checks.check import Array, Caller, Check, ModuleChecks, Trial
 from course.grading.errors import StudentError
 from course.grading.pictures import scenes
 from course.grading.pictures.judging import check_ssim
 from course.grading.pictures.rendered import Find, loaded, rendered
 from course.grading.pictures.shapes import usable
+from course.modules import MODULES
 
 NAME = "whole"
 

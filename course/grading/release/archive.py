@@ -11,14 +11,14 @@ import tempfile
 import zipfile
 from pathlib import Path
 
-from course.effects import COURSE
+from course.atomic import replacing
 from course.errors import CourseError, OutputError
 from course.grading.pictures.whole import NAME
 from course.grading.references import make_references
 from course.grading.release.regions import find_regions
 from course.grading.release.stubs import make_stubs
 from course.grading.report import USUAL_SEED
-from course.imaging.atomic import replacing
+from course.modules import COURSE
 
 FOLDERS = {
     "course": {".py", ".typed", ".json", ".jinja"},

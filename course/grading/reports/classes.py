@@ -12,6 +12,7 @@ from statistics import fmean, median
 from types import MappingProxyType
 from urllib.parse import quote
 
+from course.atomic import write_text
 from course.grading.checks.result import Result, Status
 from course.grading.classes.marks import Mark
 from course.grading.classes.roster import Matched
@@ -19,7 +20,6 @@ from course.grading.report import Report, ending
 from course.grading.reports.grouping import grouped
 from course.grading.reports.templates import render
 from course.grading.reports.text import clean, finite
-from course.imaging.atomic import write_text
 
 MARKS = ("raw", "adjusted", "final")
 """Columns of the score by a policy."""

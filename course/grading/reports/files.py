@@ -7,10 +7,10 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from course.atomic import write_text
 from course.grading.checks.result import Result, Status
 from course.grading.report import Report, docs_page, reproduce
 from course.grading.reports.text import clean, finite
-from course.imaging.atomic import write_text
 
 FORMAT = 1
 """Goes up when a key changes its meaning or goes away."""

@@ -5,11 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
+from course.atomic import write_text
 from course.grading.checks.result import Result, Status
 from course.grading.report import Report, docs_page, ending, reproduce, unstarted
 from course.grading.reports.grouping import ModuleResults, explained, grouped
 from course.grading.reports.text import clean, finite
-from course.imaging.atomic import write_text
 
 _ERRORS = (Status.TIMEOUT, Status.CRASHED, Status.GRADER_ERROR)
 

@@ -7,13 +7,13 @@ from pathlib import Path
 
 from markupsafe import Markup
 
+from course.atomic import write_text
 from course.grading.checks.result import Status
 from course.grading.report import Report, docs_page, ending, findings, reproduce, unstarted
 from course.grading.reports.drawing import draw
 from course.grading.reports.grouping import grouped
 from course.grading.reports.plots import with_own_ids
 from course.grading.reports.templates import render
-from course.imaging.atomic import write_text
 
 
 def write_page(report: Report, path: Path) -> None:

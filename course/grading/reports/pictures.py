@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from course.core.types import Floats64
+from course.formats.pictures.srgb import linear_to_srgb8
 from course.grading.checks.check import Array, Figure
 from course.grading.reports.panels import Drawing, NotDrawable, Panel, Scale, numbers
-from course.imaging.srgb import linear_to_srgb8
 
 WORST = 12
 """Pixels across the enlarged region."""

@@ -7,9 +7,9 @@ from collections.abc import Mapping, Sequence
 from io import StringIO
 from pathlib import Path
 
+from course.atomic import write_text
 from course.grading.classes.roster import Listed
 from course.grading.reports.text import clean, finite
-from course.imaging.atomic import write_text
 
 _CANVAS = ("Student", "ID", "SIS User ID", "SIS Login ID", "Section")
 _MOODLE = ("Identifier", "Full name", "Username", "ID number", "Email address")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from course.effects import COURSE
+from course.modules import COURSE
 
 _SHAPE = re.compile(r"\(([0-9, ]{1,80})\)")
 

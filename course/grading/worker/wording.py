@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from course.effects import COURSE
 from course.grading.checks.declarations import declaration
 from course.grading.errors import StudentError, Trouble, meant
 from course.grading.worker.framing import LARGEST_INTEGER, Passed
 from course.grading.worker.remedies import remedy
+from course.modules import COURSE
 
 LONGEST_MESSAGE = 300
 LONGEST_LINE = 160

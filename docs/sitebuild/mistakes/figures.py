@@ -18,10 +18,10 @@ import click
 import numpy as np
 from PIL import Image, ImageDraw
 
+from course.atomic import replacing
 from course.benchmarking.sources import engine_hash
 from course.effects import PROJECT
 from course.errors import CourseError
-from course.imaging.atomic import replacing
 from sitebuild import webp
 from sitebuild.mistakes.catalog import look
 from sitebuild.mistakes.look import SIZE

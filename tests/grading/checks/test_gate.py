@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from course.effects import COURSE
 from course.grading.catalog import module_checks
 from course.grading.checks.check import Caller, Check, ModuleChecks
 from course.grading.checks.gate import Gate
@@ -17,6 +16,7 @@ from course.grading.checks.running import run_checks
 from course.grading.checks.trusted import TrustedModule
 from course.grading.errors import StudentError
 from course.grading.references import reference
+from course.modules import COURSE
 
 RENDERED = [
     (module, check)

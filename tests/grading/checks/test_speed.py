@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from course.effects import COURSE
 from course.grading.catalog import module_checks
 from course.grading.checks.building import ROUNDS
 from course.grading.checks.check import Check, Trial
@@ -15,6 +14,7 @@ from course.grading.checks.preparing import generator
 from course.grading.checks.trusted import TrustedModule
 from course.grading.errors import StudentError
 from course.grading.references import reference
+from course.modules import COURSE
 
 CHECKS = [
     (module, check)

@@ -16,10 +16,10 @@ import pytest
 from click.testing import CliRunner
 
 from course.cli.main import commands
+from course.cluster import connection
 from course.errors import CourseError
 from course.grading.classes.cluster import on_cluster
 from course.grading.known import known
-from course.rendering import connection
 from tests.dask_cluster import Cluster
 
 PROJECT = Path(__file__).parents[3]

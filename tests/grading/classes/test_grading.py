@@ -22,7 +22,6 @@ from click.testing import CliRunner, Result
 
 from course.cli.classes import ClassOptions
 from course.cli.main import commands
-from course.effects import COURSE
 from course.errors import CourseError
 from course.grading.checks.result import Status
 from course.grading.classes import grading
@@ -33,6 +32,7 @@ from course.grading.classes.outcome import Outcome
 from course.grading.classes.settings import read_settings
 from course.grading.classes.totals import totals
 from course.grading.known import known
+from course.modules import COURSE
 
 PROJECT = Path(__file__).parents[3]
 RIGHT = (PROJECT / "solutions" / "motion_blur.py").read_text("utf-8")

@@ -9,7 +9,6 @@ from typing import Any
 
 import pytest
 
-from course.effects import COURSE
 from course.grading.classes import comparing, shingling
 from course.grading.classes.apart import apart
 from course.grading.classes.comparing import compare
@@ -19,6 +18,7 @@ from course.grading.classes.similarity import find_similar as similar_of
 from course.grading.classes.submitted import Submission
 from course.grading.known import known
 from course.grading.release.stubs import make_stub
+from course.modules import COURSE
 
 SOLUTIONS = Path(__file__).parents[3] / "solutions"
 STUBS = {

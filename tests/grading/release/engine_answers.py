@@ -32,7 +32,7 @@ class Answer:
 
 ANSWERS = {
     "glossy.orthonormal_basis": Answer(
-        "course/core/hemisphere.py",
+        "course/extras/hemisphere.py",
         ("turned",),
         """
 def orthonormal_basis(w):
@@ -49,7 +49,7 @@ def keep_above(direction, normal):
 """,
     ),
     "blurred_transparency.refract": Answer(
-        "course/appearance/fresnel.py",
+        "course/core/fresnel.py",
         ("fresnel_and_cos_t", "refract"),
         """
 bent = refract
@@ -63,7 +63,7 @@ def refract(direction, normal, eta):
 """,
     ),
     "blurred_transparency.fresnel": Answer(
-        "course/appearance/fresnel.py",
+        "course/core/fresnel.py",
         ("fresnel_and_cos_t",),
         """
 def fresnel(cos_i, eta):
@@ -71,7 +71,7 @@ def fresnel(cos_i, eta):
 """,
     ),
     "importance_sampling.cosine_hemisphere": Answer(
-        "course/core/hemisphere.py",
+        "course/extras/hemisphere.py",
         ("cosine_directions", "turned"),
         """
 def cosine_hemisphere(u):
@@ -79,7 +79,7 @@ def cosine_hemisphere(u):
 """,
     ),
     "importance_sampling.uniform_hemisphere": Answer(
-        "course/core/hemisphere.py",
+        "course/extras/hemisphere.py",
         ("cone_directions", "turned"),
         """
 def uniform_hemisphere(u):
@@ -88,7 +88,7 @@ def uniform_hemisphere(u):
 """,
     ),
     "path_tracing.diffuse_bounce": Answer(
-        "course/core/hemisphere.py",
+        "course/extras/hemisphere.py",
         ("cosine_directions", "turned"),
         """
 def diffuse_bounce(normal, u):
@@ -96,7 +96,7 @@ def diffuse_bounce(normal, u):
 """,
     ),
     "sampling.sphere_by_polar": Answer(
-        "course/core/hemisphere.py",
+        "course/extras/hemisphere.py",
         ("cone_directions", "turned"),
         """
 def sphere_by_polar(u):
@@ -105,7 +105,7 @@ def sphere_by_polar(u):
 """,
     ),
     "soft_shadows.point_on_sphere": Answer(
-        "course/core/hemisphere.py",
+        "course/extras/hemisphere.py",
         ("cone_directions", "turned"),
         """
 def point_on_sphere(center, radius, u):
@@ -115,7 +115,7 @@ def point_on_sphere(center, radius, u):
 """,
     ),
     "cube_map.face_and_uv": Answer(
-        "course/appearance/environment_sampling.py",
+        "course/extras/environment_sampling.py",
         ("FRAMES",),
         """
 def face_and_uv(direction):
@@ -125,7 +125,7 @@ def face_and_uv(direction):
 """,
     ),
     "textures.texture_lookup": Answer(
-        "course/appearance/cube_environment.py",
+        "course/extras/cube_faces.py",
         ("_bilinear",),
         """
 def texture_lookup(image, uv):

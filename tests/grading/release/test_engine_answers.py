@@ -7,11 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from course.effects import COURSE
 from course.grading.checks.preparing import References
 from course.grading.grading import grade
 from course.grading.references import references
 from course.grading.release.archive import FOLDERS
+from course.modules import COURSE
 from tests.grading.release.engine_answers import ANSWERS, copied
 
 PAGE = Path(__file__).parents[3] / "docs" / "grading.md"
@@ -47,7 +47,7 @@ def test_it_is_worth_what_the_page_says(name: str, usual_references: References)
 
 
 def test_a_submission_that_imports_the_engine_is_not_imported() -> None:
-    source = "from course.appearance.fresnel import fresnel_and_cos_t\n"
+    source = "from course.core.fresnel import fresnel_and_cos_t\n"
     report = grade(
         {"blurred_transparency": source.encode()}, references(), modules=["blurred_transparency"]
     )

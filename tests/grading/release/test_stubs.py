@@ -7,9 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from course.effects import COURSE, PROJECT
+from course.effects import PROJECT
 from course.grading.release.regions import SolutionError
 from course.grading.release.stubs import Stub, make_stub, make_stubs
+from course.modules import COURSE
 
 SOLUTION = '''\
 """lens - a lens."""

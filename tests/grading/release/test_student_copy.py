@@ -10,11 +10,12 @@ from pathlib import Path
 
 import pytest
 
-from course.effects import COURSE, PROJECT
+from course.effects import PROJECT
 from course.grading.catalog import module_checks
 from course.grading.checks.result import Status, result_of
 from course.grading.pictures.whole import NAME
 from course.grading.report import docs_page, reproduce
+from course.modules import COURSE
 
 
 @pytest.fixture(scope="module")

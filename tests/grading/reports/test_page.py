@@ -12,7 +12,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from course.effects import COURSE
 from course.errors import OutputError
 from course.grading.catalog import module_checks
 from course.grading.checks.preparing import prepared
@@ -25,6 +24,7 @@ from course.grading.references import reference
 from course.grading.report import Report, docs_page, reproduce
 from course.grading.reports.classes import Line, write_class_page
 from course.grading.reports.page import write_page
+from course.modules import COURSE
 
 VOID = {"meta", "img", "br"}
 # What SVG writes as <path/> comes as handle_startendtag.

@@ -11,7 +11,7 @@ from textwrap import indent
 
 import pytest
 
-from course.effects import COURSE, PROJECT
+from course.effects import PROJECT
 from course.grading import grading
 from course.grading.checks.check import Check
 from course.grading.checks.preparing import References
@@ -25,6 +25,7 @@ from course.grading.report import Report
 from course.grading.worker.client import Worker
 from course.grading.worker.limits import Limits
 from course.grading.worker.patience import ALTOGETHER, NOT_RUN, Patience
+from course.modules import COURSE
 
 MODULE = "motion_blur"
 # No function of it calls another.

@@ -13,8 +13,8 @@ import pytest
 from numpy.typing import NDArray
 
 from course import Scene, load_scene, render
-from course.geometry import packets
-from course.scene.metu.converting import convert
+from course.compiled import packets
+from course.formats.metu.converting import convert
 
 Tree = dict[str, Any]
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from course import Scene, render
-from course.appearance.conductors import approximate_reflectance
+from course.extras.conductors import approximate_reflectance
 
 MakeScene = Callable[..., Scene]
 N, K = (0.37, 2.82, 0.0), (2.82, 1.1, 1.5)

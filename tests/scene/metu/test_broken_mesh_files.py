@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from course.errors import SceneError
-from course.scene.metu.converting import convert
+from course.formats.metu.converting import convert
 from tests.scene.metu.conftest import Metu, Tree, tree, write
 
 GOOD: Tree = {"_id": "1", "Material": "1", "Faces": "1 2 3"}

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from course import Scene
-from course.scene.compiling import compile_camera
+from course.building.world import compile_camera
 from tests.scene.metu.conftest import MATT, Metu, Tree, tree
 
 TILTED: Tree = {
@@ -134,7 +136,7 @@ def test_the_lens_is_a_square_whose_edge_is_the_aperture_size(metu: Metu) -> Non
     # A picture point near a corner, the same for four points of the lens.
     x, y = np.full(4, 0.5, np.float32), np.full(4, 2.5, np.float32)
     pinhole = built.directions(x, y)
-    origin, direction = lens.rays(built, built.origin, pinhole, corners)
+    origin, direction = replace(built, lens=lens).rays(x, y, corners, None)
     got = origin.T.astype(float) * frame.scale + frame.center
     expected = np.array([1, 2, 5]) + np.array(
         [0.4 * (a - 0.5) * u + 0.4 * (b - 0.5) * v for a, b in corners.T]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from course.appearance.conductors import Conductors, conductor_reflectance
+from course.extras.conductors import Conductors, conductor_reflectance
 
 INDICES = [(0.37, 2.82), (2.9, 3.1), (1.5, 0.0), (0.05, 4.0), (0.0, 2.0), (1.0, 0.0), (0.7, 1e-4)]
 

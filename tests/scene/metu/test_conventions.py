@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from course.geometry.mesh import Mesh
-from course.geometry.mesh_files import read_mesh, save_ply
+from course.core.triangles import Mesh
+from course.formats.meshes.files import read_mesh, save_ply
 from tests.scene.metu.conftest import CAMERA, MATT, Metu, Tree, tree
 
 POINT = {"_id": "1", "Position": "3 0 0", "Intensity": "800 800 800"}
@@ -76,7 +76,7 @@ def test_directions_into_a_surface_are_kept_and_shadow_rays_start_at_facets(metu
     assert (integrator.into_surface, integrator.terminator) == ("keep", "facets")
     assert integrator.shading_normals == "interpolated"
     assert scene.compiled.world.keeps
-    assert scene.compiled.world.surface.bulge is None
+    assert scene.compiled.world.surface.triangles.bulge is None
 
 
 GLASS: Tree = {"_id": "2", "_type": "dielectric", "RefractionIndex": "1.5"}

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from course.effects import Effects
-from course.imaging.srgb import SRGB, Display, linear_to_srgb8
+from course.formats.pictures.exposure import SRGB, Display
+from course.formats.pictures.srgb import linear_to_srgb8
 
 METU = Display(255.0, "linear")
 

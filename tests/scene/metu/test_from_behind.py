@@ -15,9 +15,9 @@ import pytest
 from numpy.typing import NDArray
 
 from course import Scene, load_scene, render
+from course.core.triangles import Mesh
 from course.errors import SceneError
-from course.geometry.mesh import Mesh
-from course.geometry.mesh_files import save_ply
+from course.formats.meshes.files import save_ply
 from course.radiosity.accepting import check_accepted
 
 MakeScene = Callable[..., Scene]
@@ -253,7 +253,7 @@ def test_what_can_not_be_kept_is_refused_by_its_key(make_scene: MakeScene) -> No
 
 def test_who_asks_for_nothing_pays_nothing(make_scene: MakeScene) -> None:
     surface = make_scene(objects=[{"shape": "box", "material": "grey"}]).compiled.world.surface
-    assert surface.seen is surface.accelerator
+    assert surface.eye is surface.accelerator
     assert (surface.kept, surface.through) == (None, None)
     # From outside a closed thing no back is seen before a front: all the same the hierarchy has no backs.
     box = {"shape": "box", "material": "grey", "shading": "flat", "from_behind": "unseen"}

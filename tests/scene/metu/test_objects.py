@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from course import Scene
+from course.building.objects import object_mesh
 from course.errors import SceneError
-from course.geometry.mesh_files import read_mesh
-from course.scene.instancing import object_mesh
+from course.formats.meshes.files import read_mesh
 from tests.scene.metu.conftest import MATT, Metu, Tree, tree
 
 STEPS: Tree = {

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from course.geometry.mesh_files import read_mesh
-from course.scene.instancing import object_mesh
+from course.building.objects import object_mesh
+from course.formats.meshes.files import read_mesh
 from tests.scene.metu.conftest import Metu, Tree, tree
 
 FLOOR: Tree = {"_id": "1", "Material": "1", "Point": "1", "Normal": "0 2 0"}

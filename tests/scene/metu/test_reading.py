@@ -10,9 +10,9 @@ from typing import Any
 import pytest
 
 from course.errors import SceneError
-from course.scene.metu.converting import convert
-from course.scene.metu.element import Element
-from course.scene.metu.notes import Notes
+from course.formats.metu.converting import convert
+from course.formats.metu.element import Element
+from course.formats.metu.notes import Notes
 from tests.scene.metu.conftest import CAMERA, MATT, Metu, Tree, tree, write
 
 Change = Callable[[Tree], Any]

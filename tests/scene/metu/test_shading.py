@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from course import render
-from course.appearance.rough_glass import RoughGlass
 from tests.scene.metu.conftest import MATT, Metu, tree
 
 POINT = {"_id": "1", "Position": "0 0 0", "Intensity": "800 800 800"}
@@ -231,7 +230,7 @@ def test_roughness_jitters_on_a_square_of_that_edge(metu: Metu) -> None:
     assert lobe.parameter == 0.25
     direction = np.array([[0], [0], [-1.0]], np.float32).repeat(4, axis=1)
     corners = np.array([[0, 0, 1, 1], [0, 1, 0, 1]], np.float32)
-    jittered = lobe.jitter(direction, lobe.parameter, corners)
+    jittered = lobe.jitter(direction, corners)
     # The corners are half a diagonal, 0.25 / sqrt(2), from the direction's end.
     tangents = np.linalg.norm(jittered[:2], axis=0) / np.abs(jittered[2])
     np.testing.assert_allclose(tangents, 0.25 / math.sqrt(2), rtol=1e-6)
@@ -240,9 +239,8 @@ def test_roughness_jitters_on_a_square_of_that_edge(metu: Metu) -> None:
 def test_rough_glass_blurs_what_it_mirrors_and_what_it_refracts(metu: Metu) -> None:
     rough = {"_id": "1", "_type": "dielectric", "RefractionIndex": "1.5", "Roughness": "0.25"}
     world = metu.load(tree(materials=[rough], MaxRecursionDepth="4")).compiled.world
-    (lobe,) = world.lobes
-    assert isinstance(lobe, RoughGlass)
-    assert (lobe.parameter, lobe.roughness) == (0.25, 0.25)
+    (lobe,), (glass,) = world.lobes, world.rough
+    assert (lobe.parameter, glass.roughness, glass.glossy) == (0.25, 0.25, True)
     assert metu.warnings == []
 
 

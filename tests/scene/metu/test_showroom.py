@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from course import load_scene, render
-from course.scene.metu.converting import convert
+from course.formats.metu.converting import convert
 
 SHOWROOM = Path(__file__).parents[3] / "scenes" / "metu" / "showroom.xml"
 

@@ -10,7 +10,7 @@ import pytest
 from numpy.typing import NDArray
 
 from course import Scene, render
-from course.appearance.turned_square import jitter_on_turned_square
+from course.extras.turned_square import jitter_on_turned_square
 
 MakeScene = Callable[..., Scene]
 EDGE = 0.5

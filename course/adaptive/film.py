@@ -1,0 +1,226 @@
+"""A film whose pixels have different numbers of samples, and which knows about how wrong each of them still is."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from course.adaptive.pixel_groups import TwinGroup
+from course.adaptive.variance import INDEPENDENT, measured_order, variance_share
+from course.core.tiles import Area
+from course.core.types import Floats32, Floats64, Indices
+
+PARTS = 4
+"""Parts into which the samples of a stretch are divided, to be compared with each other."""
+
+_NEARLY_NOTHING = np.float32(1e-30)
+"""As in ``Film``: the weight of a mean whose own weights vanish."""
+
+_FARTHEST_APART = np.float32(1e28)
+"""Squared differences beyond it count as this, so that sums of many, times their samples, stay within float32."""
+
+
+class AdaptiveFilm:
+    """A picture in the making, with an estimate of its error.
+
+    A pixel's variance is the mean over the three channels of the squared standard error of its colour. It is estimated
+    anew with each stretch of samples, from how far its quarters, its halves, and the stretch and the samples before it
+    are apart, and mixed with what was estimated before.
+
+    Parameters
+    ----------
+    width, height : pixels
+    """
+
+    def __init__(self, width: int, height: int) -> None:
+        self.width = width
+        self.height = height
+        pixels = width * height
+        self.linear = np.zeros((3, height, width), np.float32)
+        """(3, H, W) linear radiance, valid where samples have been added."""
+        self.samples = np.zeros((height, width), np.int32)
+        """(H, W) samples behind each pixel."""
+        self.variance = np.zeros((height, width), np.float32)
+        """(H, W) estimated variance of each pixel [radiance^2]."""
+        self.cost = np.ones((height, width), np.float32)
+        """(H, W) what a sample of each pixel has cost on average, in any unit."""
+        self.order = INDEPENDENT
+        """Order of convergence, as measured in the last round."""
+        self._sums = np.zeros((pixels, 4))
+        self._differences: dict[int, tuple[float, float]] = {}
+        self._begun = False
+        self.correction = 1.0
+        """By what audits multiply the variance of the whole picture."""
+        self.doubt = 0.0
+        """Variance of the logarithm of ``correction`` after the last audit."""
+        self.judged = 0.0
+        """Mean variance that the last audit corrected [radiance^2]; 0 before the first."""
+        self.audited = 0
+        """Samples that audits have taken, which are not in the picture."""
+        self._twins: dict[int, tuple[Indices, Floats64, Floats32]] = {}
+
+    def add(
+        self, group: Area, mean: Floats32, weight: Floats32 | float, samples: int, whole: bool
+    ) -> None:
+        """Add one stretch of samples of some pixels.
+
+        Groups that are added between two calls of ``end_round`` have no pixel in common.
+
+        Parameters
+        ----------
+        mean : (4, n * PARTS) float32, the parts of each pixel next to each other: colours, and what a sample of the
+            pixel cost
+        weight : (n * PARTS,) float32 or one number
+        samples : how many samples of each pixel the picture holds with this stretch
+        whole : false for a preview without parts, (3, n), which later stretches replace
+        """
+        if isinstance(group, TwinGroup):
+            self._add_twins(group, mean, weight, samples)
+            return
+        which, n = group.pixel_numbers(self.width).astype(np.intp), group.size
+        if not whole:
+            self.linear.reshape(3, -1)[:, which] = mean
+            return
+        compared = _Compared(mean, weight, n)
+        stretch = compared.stretch
+        sums = float(compared.of_halves.sum()), float(compared.of_quarters.sum())
+        self._differences[group.number] = sums
+
+        earlier = self._sums.take(which, axis=0)
+        before = int(self.samples.reshape(-1)[which[0]])
+        estimates = _Estimates(samples, self.order)
+        estimates.add_parts(compared, (samples - before) // PARTS)
+        if before:
+            since = _apart(earlier.T.astype(np.float32), stretch)
+            estimates.add(since, before, samples - before, 2)
+            estimates.keep(self.variance.reshape(-1).take(which), before, 1)
+        share = np.float32((samples - before) / samples)
+        cost = self.cost.reshape(-1)
+        cost[which] += share * (mean[3, ::PARTS] - cost.take(which))
+        total = earlier + stretch.T
+        self._sums[which] = total
+        self.linear.reshape(3, -1)[:, which] = (total[:, :3] / total[:, 3:]).T
+        self.variance.reshape(-1)[which] = estimates.mean()
+        self.samples.reshape(-1)[which] = samples
+
+    def _add_twins(
+        self, group: TwinGroup, mean: Floats32, weight: Floats32 | float, samples: int
+    ) -> None:
+        compared = _Compared(mean, weight, group.size)
+        estimates = _Estimates(samples, self.order)
+        estimates.add_parts(compared, samples // PARTS)
+        stretch = compared.stretch.astype(np.float64)
+        self._twins[group.number] = group.pixels, stretch[:3] / stretch[3], estimates.mean()
+
+    def twins_apart(self, pixels: Indices) -> tuple[Floats64, Floats64]:
+        """Squared differences (n,) of pixels (n,) from their second pictures, and the estimated variances of these.
+
+        All of them were added since the last call, in `course.adaptive.pixel_groups.TwinGroup`, and are forgotten then.
+        """
+        twins = np.zeros((4, self.width * self.height))
+        for which, colours, variance in self._twins.values():
+            twins[:3, which] = colours
+            twins[3, which] = variance
+        self._twins.clear()
+        difference = self.linear.reshape(3, -1)[:, pixels] - twins[:3, pixels]
+        squared: Floats64 = (difference * difference).mean(axis=0)
+        return np.minimum(squared, float(_FARTHEST_APART)), twins[3, pixels]
+
+    @property
+    def error(self) -> float:
+        """Estimated root-mean-square error of the whole picture [radiance]."""
+        return math.sqrt(self.correction * self.variance.mean(dtype=np.float64))
+
+    @property
+    def uniform_samples(self) -> float:
+        """How many samples in every pixel would have brought the same error, by the same estimates."""
+        if self.error == 0:
+            return float(self.samples.max(initial=0))
+        exponent = 2 * self.order
+        unit = self.variance * self.samples.astype(np.float64) ** exponent
+        return float((self.correction * unit.mean() / self.error**2) ** (1 / exponent))
+
+    def end_round(self) -> None:
+        """Measure the order of convergence on the stretches that were added since the last call.
+
+        Only parts of one stretch are compared: which pixels got it was decided before, by other samples, so no
+        selection makes these differences smaller or larger than they are.
+        """
+        # In the order of the groups, so the sums don't depend on which thread was first.
+        pairs = [self._differences[number] for number in sorted(self._differences)]
+        self._differences.clear()
+        of_halves, of_quarters = map(sum, zip(*pairs, strict=True))
+        order = measured_order(of_halves, of_quarters)
+        if not self._begun:
+            # The first estimates were made with the order of independent samples. With order a the quarters and the
+            # halves both say V = D r^2 / (4 (1 - r)), r = 2^-2a, D the squared difference of the quarters.
+            r = 2.0 ** (-2 * order)
+            self.variance *= np.float32(r * r / (4 * (1 - r)) / (0.0625 + 0.125 * r))
+            self._begun = True
+        self.order = order
+
+
+class _Compared:
+    """A stretch of n pixels whose parts are held against each other.
+
+    Attributes
+    ----------
+    stretch : (4, n) float32 r w, g w, b w and w
+    of_halves, of_quarters : (n,) float32 squared differences
+    """
+
+    def __init__(self, mean: Floats32, weight: Floats32 | float, n: int) -> None:
+        parts = np.empty((4, n, PARTS), np.float32)
+        parts[:3] = mean[:3].reshape(3, n, PARTS)
+        parts[3] = np.reshape(weight, (n, PARTS)) if np.ndim(weight) else weight
+        np.maximum(parts[3], _NEARLY_NOTHING, out=parts[3])
+        parts[:3] *= parts[3]
+        halves = parts[:, :, 0::2] + parts[:, :, 1::2]
+        self.stretch: Floats32 = halves[:, :, 0] + halves[:, :, 1]
+        self.of_quarters = _apart(parts[:, :, 0], parts[:, :, 1])
+        self.of_quarters += _apart(parts[:, :, 2], parts[:, :, 3])
+        self.of_quarters *= np.float32(0.5)
+        self.of_halves = _apart(halves[:, :, 0], halves[:, :, 1])
+
+
+class _Estimates:
+    """The weighted mean of several estimates of the variance of the mean of some samples."""
+
+    def __init__(self, samples: int, order: float) -> None:
+        self._samples = samples
+        self._order = order
+        self._sum: Floats32 | None = None
+        self._weight = 0
+
+    def add(self, difference: Floats32, n: int, m: int, weight: int) -> None:
+        """From the squared difference of two means, of n and of m samples."""
+        self._take(difference, variance_share(n, m, self._samples, self._order), weight)
+
+    def add_parts(self, compared: _Compared, quarter: int) -> None:
+        """From the parts of a stretch with so many samples in each."""
+        self.add(compared.of_quarters, quarter, quarter, 1)
+        self.add(compared.of_halves, 2 * quarter, 2 * quarter, 1)
+
+    def keep(self, variance: Floats32, n: int, weight: int) -> None:
+        """From the variance that a mean of n of the samples had."""
+        self._take(variance, (n / self._samples) ** (2 * self._order), weight)
+
+    def _take(self, values: Floats32, share: float, weight: int) -> None:
+        scaled = values * np.float32(share * weight)
+        self._sum = scaled if self._sum is None else np.add(self._sum, scaled, out=self._sum)
+        self._weight += weight
+
+    def mean(self) -> Floats32:
+        """(n,) variances."""
+        assert self._sum is not None
+        return self._sum * np.float32(1 / self._weight)
+
+
+def _apart(a: Floats32, b: Floats32) -> Floats32:
+    """Squared difference (n,) of two means, averaged over the channels; rows of a and b are r w, g w, b w and w."""
+    difference = a[:3] / a[3] - b[:3] / b[3]
+    squared: Floats32 = np.einsum("cn,cn->n", difference, difference)
+    squared *= np.float32(1 / 3)
+    # The squares of the brightest lights overflow float32.
+    return np.minimum(squared, _FARTHEST_APART, out=squared)

@@ -1,0 +1,91 @@
+"""The mode that samples until the picture's error is small enough (``course.adaptive.rounds``)."""
+
+from __future__ import annotations
+
+from math import inf, isfinite
+from typing import Any
+
+from course.adaptive.allocation import FIRST
+from course.adaptive.film import AdaptiveFilm
+from course.adaptive.rounds import ADAPTABLE, Groups, render_adaptively
+from course.core.passes import preview
+from course.core.render import Run, Schedule
+from course.core.threads import Executor
+from course.core.tracer import Tracer
+from course.effects import Bound
+from course.errors import CourseError
+from course.jobs.job import Job, Mode
+
+
+class AdaptiveSchedule(Schedule):
+    """Rounds in which samples go where the film's estimated error is.
+
+    Parameters
+    ----------
+    target : root-mean-square error of the whole picture [radiance]
+    """
+
+    def __init__(self, film: AdaptiveFilm, tracer: Tracer, target: float) -> None:
+        self._film = film
+        self._tracer = tracer
+        self._target = target
+
+    def render(self, run: Run, executor: Executor) -> bool:
+        """See ``Schedule``; under a deadline a preview comes first, so that every pixel has something."""
+        settings = self._tracer.settings
+        if executor.left < inf:
+            run(preview(settings, 1), 0.0, 0.0)
+            if executor.interrupted:
+                return False
+        budget = settings.samples * settings.width * settings.height
+        batches = executor.batches(self._tracer.batches)
+        groups = Groups(settings.width, batches, executor.threads)
+        return render_adaptively(self._film, self._target, budget, groups, run)
+
+    def receipt(self) -> dict[str, Any]:
+        """How far the target was reached, and what that took."""
+        film = self._film
+        uniform = film.uniform_samples
+        spent = (float(film.samples.sum()) + film.audited) / film.samples.size
+        return {
+            "error": {
+                "target": self._target,
+                "estimated": film.error,
+                "fewest": int(film.samples.min()),
+                "most": int(film.samples.max()),
+                "audited": film.audited,
+                "uniform": uniform,
+                "saved": 1.0 - spent / uniform if uniform else 0.0,
+            }
+        }
+
+
+def check(job: Job) -> None:
+    """See ``Mode``: samplers must be able to go on anywhere, and tell their error."""
+    error, sampler, samples = job.settings.error, job.settings.sampler, job.settings.samples
+    if error is None or not (isfinite(error) and error > 0):
+        raise CourseError(f"an error of {error}: expected a finite radiance > 0")
+    if sampler == "halton":
+        raise CourseError(
+            "the halton sampler moves all points of a pixel together, so they don't tell their error; "
+            "use sobol, random or xorshift"
+        )
+    if sampler not in ADAPTABLE:
+        raise CourseError(
+            f"the {sampler} sampler places all its samples at once, so it can't go on where the error is; "
+            "use sobol, random or xorshift"
+        )
+    if samples < FIRST:
+        raise CourseError(
+            f"{samples} samples a pixel: an error can be aimed at with {FIRST} or more"
+        )
+
+
+def make(job: Job, tracer: Tracer, _bound: Bound) -> tuple[AdaptiveFilm, AdaptiveSchedule]:
+    """See ``Mode``."""
+    assert job.settings.error is not None
+    film = AdaptiveFilm(job.settings.width, job.settings.height)
+    return film, AdaptiveSchedule(film, tracer, job.settings.error)
+
+
+ADAPTIVE = Mode(make, check, final="a picture with an error to aim at")

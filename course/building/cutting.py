@@ -1,0 +1,194 @@
+"""Large triangles beside small things, cut where these are, so that offsets and rounding shrink with the distance.
+
+The rounding of a hit point, and the distance by which rays leave it, are shares of the largest coordinate of its
+triangle (``course.core.triangles``). Beside a thing of size s at distance d a triangle of the extent R is too large
+if R is many times max(s, d). It is halved until it isn't, or until its largest coordinate is that of the place where it
+lies, which no cut makes smaller: small things should lie near the origin (``course.building.small_objects``).
+
+No ray slips through: triangles that share an edge share the corners that it is cut at, to the last bit, whichever
+object they belong to. What corners carry is interpolated as it is at hits, so no hit carries anything else than before.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from course.building.bisection import Triangles, bisected, undivided
+from course.core.triangles import Mesh
+from course.core.types import Floats64, Indices, Mask
+from course.extras.painting import Paint
+from course.extras.surface import FullPart
+from course.formats.meshes.welding import same
+
+NEAR = 2.0
+"""A triangle whose largest coordinate is at most this many times that of its nearest point is not cut: it would be of
+little use."""
+
+
+CANCELLED = 1e-9
+"""Length of a normal that has none, as short as float32 has them beside others."""
+
+MOST = 50_000
+"""Pieces from which on nothing more is cut: a thing beside a floor takes some hundred, but needles that lie over each
+other, a million times as long as wide, could take any number."""
+
+
+@dataclass(frozen=True)
+class SmallThings:
+    """F boxes in which something small lies.
+
+    Attributes
+    ----------
+    low, high : (F, 3) float64, their corners
+    size : (F,) float64, of what lies there, positive
+    """
+
+    low: Floats64
+    high: Floats64
+    size: Floats64
+
+
+def cut(parts: Sequence[FullPart], things: SmallThings, ratio: float) -> list[FullPart]:
+    """The same surfaces, with triangles cut that are more than ``ratio`` times as large as what lies beside them.
+
+    Parameters
+    ----------
+    parts : whose coordinates lie in about [-1, 1]
+    things : in the same coordinates, at least one
+    """
+    vertices = np.concatenate([part.mesh.vertices for part in parts])
+    first = np.cumsum([0, *(len(part.mesh.vertices) for part in parts)])
+    corners = np.concatenate(
+        [part.mesh.triangles + start for part, start in zip(parts, first, strict=False)]
+    ).astype(np.intp)
+    if not _too_large(vertices[corners], things, ratio).any():
+        return list(parts)
+    # Embree sees float32: what is one place there is one here.
+    rounded = vertices.astype(np.float32)
+    places, place = same(*rounded.T)
+    pieces = _cut(vertices[places], place[corners], things, ratio)
+    ends = np.cumsum([len(part.mesh.triangles) for part in parts])
+    counts = np.bincount(pieces.origin, minlength=len(corners))
+    halved = np.flatnonzero(counts[pieces.origin] > 1)
+    owner = np.searchsorted(ends, pieces.origin[halved], side="right")
+    found = []
+    for number, (part, end) in enumerate(zip(parts, ends, strict=True)):
+        mine = halved[owner == number]
+        if len(mine):
+            begin = end - len(part.mesh.triangles)
+            at = pieces.vertices[pieces.corners[mine]]
+            part = _with_pieces(part, at, pieces.origin[mine] - begin)
+        found.append(part)
+    return found
+
+
+def _too_large(p: Floats64, things: SmallThings, ratio: float) -> Mask:
+    """Which triangles (T, 3 corners, 3) are to be halved."""
+    low, high = p.min(axis=1), p.max(axis=1)
+    reach = np.maximum(-low, high).max(axis=1, initial=0)
+    nearest = np.maximum(low, -high).max(axis=1, initial=0)
+    large: Mask = reach > np.maximum(NEAR * nearest, ratio * things.size.min())
+    some = np.flatnonzero(large)
+    # A thing at a time: they may be many, and so may the triangles, but seldom both.
+    limit = np.full(len(some), np.inf)
+    for thing_low, thing_high, size in zip(things.low, things.high, things.size, strict=True):
+        apart = np.maximum(low[some] - thing_high, thing_low - high[some]).max(axis=1, initial=0)
+        np.minimum(limit, ratio * np.maximum(apart, size), out=limit)
+    large[some] = reach[some] > limit
+    return large
+
+
+def _cut(vertices: Floats64, corners: Indices, things: SmallThings, ratio: float) -> Triangles:
+    """Pieces of those triangles that are too large, and of those that have to be halved with them.
+
+    Others share no edge with them that is halved; some that are whole are among them.
+    """
+    # What has two corners in one place has no area in float32, and is as good as not there.
+    there = (corners != np.roll(corners, 1, axis=1)).all(axis=1)
+    inside = there & _too_large(vertices[corners], things, ratio)
+    while True:
+        numbers = np.flatnonzero(inside)
+        pieces = undivided(vertices, corners[numbers])
+        edges = _edges(corners[numbers])
+        while len(pieces.corners) < MOST:
+            chosen = _too_large(pieces.vertices[pieces.corners], things, ratio)
+            if not chosen.any():
+                break
+            pieces = bisected(pieces, chosen)
+            # Always the longest edge, or needles would be halved along as often as across, into ever more of them.
+            turned = undivided(pieces.vertices, pieces.corners)
+            pieces = replace(turned, origin=pieces.origin)
+        # Whose edges are halved, though nobody has asked: they have to come in, and all is done again.
+        gone = np.setdiff1d(edges, _edges(pieces.corners))
+        outside = np.flatnonzero(there & ~inside)
+        touched = np.isin(_edges(corners[outside]), gone).reshape(-1, 3).any(axis=1)
+        if not touched.any():
+            return replace(pieces, origin=numbers[pieces.origin])
+        inside[outside[touched]] = True
+
+
+def _edges(corners: Indices) -> Indices:
+    """(3 T,) a number for each edge, the same for both of its triangles."""
+    ends = np.sort(np.stack((corners, np.roll(corners, -1, axis=1)), axis=2), axis=2).reshape(-1, 2)
+    numbers: Indices = (ends[:, 0] << 32) + ends[:, 1]
+    return numbers
+
+
+def _with_pieces(part: FullPart, at: Floats64, parent: Indices) -> FullPart:
+    """A part with some of its triangles replaced by pieces of theirs.
+
+    Parameters
+    ----------
+    at : (P, 3 corners, 3) where the pieces lie
+    parent : (P,) whose pieces they are
+    """
+    mesh = part.mesh
+    whole = np.ones(len(mesh.triangles), np.bool_)
+    whole[parent] = False
+    weights = _barycentrics(mesh.vertices[mesh.triangles[parent]], at)
+
+    def carried(rows: Floats64) -> Floats64:
+        """At the pieces' corners, (3 P, k), what is (P, 3 corners, k) at their parents'."""
+        # In this form what is the same at all corners is the same in between, to the last bit.
+        start = rows[:, 0]
+        u, v = weights[..., :1], weights[..., 1:]
+        between = (
+            start[:, None] + u * (rows[:, 1] - start)[:, None] + v * (rows[:, 2] - start)[:, None]
+        )
+        return between.reshape(-1, rows.shape[2])
+
+    def joined(rows: Floats64 | None) -> Floats64 | None:
+        return (
+            None if rows is None else np.concatenate((rows, carried(rows[mesh.triangles[parent]])))
+        )
+
+    normals = joined(mesh.normals)
+    if normals is not None:
+        # Where opposite ones cancel any direction is as good as another, but there must be one.
+        normals[~normals.any(axis=1)] = (CANCELLED, 0, 0)
+    own = len(mesh.vertices) + np.arange(3 * len(at)).reshape(-1, 3)
+    pieces = Mesh(
+        np.concatenate((mesh.vertices, at.reshape(-1, 3))),
+        np.concatenate((mesh.triangles[whole], own)),
+        normals,
+        joined(mesh.uv),
+    )
+    paint = part.paint
+    if paint is not None:
+        corners = carried(paint.corners[parent]).reshape(-1, 3, 3)
+        paint = Paint(np.concatenate((paint.corners[whole], corners)), paint.color_at)
+    return replace(part, mesh=pieces, paint=paint)
+
+
+def _barycentrics(p: Floats64, at: Floats64) -> Floats64:
+    """Barycentrics (P, k, 2) of the corners 1 and 2 of triangles (P, 3, 3) at points (P, k, 3) on them."""
+    e1, e2 = p[:, None, 1] - p[:, None, 0], p[:, None, 2] - p[:, None, 0]
+    away = at - p[:, None, 0]
+    normal = np.cross(e1, e2)
+    # A triangle without area is as good as none: what its pieces carry is of no consequence, but must be finite.
+    normal /= np.maximum((normal * normal).sum(axis=2, keepdims=True), np.finfo(np.float64).tiny)
+    u, v = np.cross(away, e2) * normal, np.cross(e1, away) * normal
+    return np.stack((u.sum(axis=2), v.sum(axis=2)), axis=2)

@@ -1,0 +1,144 @@
+"""From an environment description to the environment of the compiled scene."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from course.building.brightness import in_range
+from course.building.materials import base_color, has_body
+from course.core.environment import ConstantEnvironment, CubeEnvironment, Environment
+from course.core.types import Floats32
+from course.effects import Bound
+from course.errors import SceneError
+from course.extras.cube_faces import cube_from_cross, cube_from_lat_long
+from course.extras.environment_hemispheres import WAYS, HemisphereSampling
+from course.extras.environment_sampling import product_sampling
+from course.extras.sky import CosineSampling, SkySampling
+from course.formats.pictures.reading import read_picture
+from course.formats.yaml import description as d
+from course.formats.yaml.description.values import rgb
+from course.formats.yaml.limits import bytes_of_files, pixels_of_pictures
+from course.formats.yaml.loading import Loaded
+
+LOOKUPS = {"seamless": "lookup_seamless", "clamped": "lookup"}
+"""The cube_map function for each value of ``lookup``."""
+
+HEMISPHERES = {
+    "uniform": ("uniform_hemisphere", "phong_lobe_pdf"),
+    "cosine": ("cosine_hemisphere", "cosine_hemisphere_pdf"),
+    "power": (
+        *("uniform_hemisphere", "phong_lobe_pdf", "cosine_hemisphere", "cosine_hemisphere_pdf"),
+        "power_heuristic",
+    ),
+}
+"""The importance_sampling functions for each value of ``sampling``, but for ``automatic``."""
+
+
+def compile_environment(loaded: Loaded, bound: Bound) -> tuple[Environment, SkySampling | None]:
+    """Read the pictures, if there are any, and make a cube of them.
+
+    Returns
+    -------
+    The environment, and what chooses directions of its light; None where it lights nothing
+
+    Raises
+    ------
+    SceneError
+        A picture is missing, can't be read, has the wrong size or is too bright; names the key that asks for it.
+    """
+    environment = loaded.description.environment
+    if isinstance(environment, d.ConstantEnvironment):
+        radiance = in_range(rgb(environment.radiance), loaded, ("environment",), "radiance")
+        hemispheres = _hemispheres(loaded, bound) if radiance.any() else None
+        return ConstantEnvironment(radiance), _sampling(environment.lights, hemispheres)
+    if isinstance(environment, d.CubeEnvironment):
+        faces = _faces(environment, loaded)
+    else:
+        image = _read(environment.image, ("environment", "image"), loaded)
+        height, width = image.shape[:2]
+        if width != 2 * height:
+            raise loaded.document.error(
+                ("environment", "image"),
+                f"a picture of all directions is twice as wide as high, not {width} x {height}",
+            )
+        faces = cube_from_lat_long(image, environment.size or max(height // 2, 1))
+    scale = rgb(environment.scale)
+    brightest = faces.max(axis=(0, 1, 2)) * scale
+    in_range(brightest, loaded, ("environment", "scale"), "radiance")
+    if not brightest.any():
+        # What nobody looks at needs no lookup.
+        return ConstantEnvironment(np.zeros(3, np.float32)), None
+    # In double precision, for a scale may be larger than any radiance.
+    faces = np.multiply(faces, scale, out=np.empty_like(faces), casting="same_kind")
+    faces = np.ascontiguousarray(faces, np.float32)
+    lookup = LOOKUPS[environment.lookup]
+    cube_map = bound.functions("cube_map", lookup, asked_by=("environment", "type"))
+    chosen: SkySampling | None = _hemispheres(loaded, bound)
+    seamless = environment.lookup == "seamless"
+    if chosen is None and environment.lights and faces.any() and _anything_diffuse(loaded):
+        chosen = product_sampling(faces, seamless)
+    return CubeEnvironment(faces, cube_map, seamless), _sampling(environment.lights, chosen)
+
+
+def _sampling(lights: bool, chosen: SkySampling | None) -> SkySampling | None:
+    if not lights:
+        return None
+    return chosen or CosineSampling()
+
+
+def hemisphere_functions(loaded: Loaded) -> list[str]:
+    """Names of the importance_sampling functions that are called."""
+    environment = loaded.description.environment
+    if not environment.lights or environment.sampling == "automatic":
+        return []
+    return list(HEMISPHERES[environment.sampling]) if _anything_diffuse(loaded) else []
+
+
+def _hemispheres(loaded: Loaded, bound: Bound) -> HemisphereSampling | None:
+    """None where no function of the importance_sampling module is called; it is not even imported then."""
+    names = hemisphere_functions(loaded)
+    if not names:
+        return None
+    asked_by = ("environment", "sampling")
+    functions = bound.functions("importance_sampling", *names, asked_by=asked_by)
+    return HemisphereSampling(functions, tuple(name for name in WAYS if name in names))
+
+
+def _anything_diffuse(loaded: Loaded) -> bool:
+    """Whether any object shows the light that falls on it."""
+    scene = loaded.description
+    used = (scene.materials[thing.material] for thing in scene.objects)
+    return any(has_body(m) and (base_color(m) * m.diffuse).any() for m in used)
+
+
+def _faces(environment: d.CubeEnvironment, loaded: Loaded) -> Floats32:
+    if (environment.faces is None) == (environment.cross is None):
+        raise loaded.document.error(("environment",), "give exactly one of faces and cross")
+    if environment.cross is not None:
+        key = ("environment", "cross")
+        try:
+            return cube_from_cross(_read(environment.cross, key, loaded))
+        except ValueError as error:
+            raise loaded.document.error(key, str(error)) from error
+    pictures: list[Floats32] = []
+    for number, file in enumerate(environment.faces or ()):
+        path = ("environment", "faces", number)
+        picture = _read(file, path, loaded)
+        height, width = picture.shape[:2]
+        if height != width or picture.shape != (pictures or [picture])[0].shape:
+            raise loaded.document.error(
+                path, f"all faces are squares of one size, this is {width} x {height}"
+            )
+        pictures.append(picture)
+    return np.stack(pictures)
+
+
+def _read(file: str, path: tuple[str | int, ...], loaded: Loaded) -> Floats32:
+    try:
+        return read_picture(
+            loaded.path.parent / file,
+            bytes_of_files(loaded.document),
+            pixels_of_pictures(loaded.document),
+        )
+    except SceneError as error:
+        raise loaded.document.error(path, str(error)) from error

@@ -1,0 +1,63 @@
+"""The frame of the compiled scene: its own centre as origin, its own size as unit.
+
+Everything is moved and scaled in float64 before it becomes float32, so a scene in nanometres or parsecs, at the
+origin or 10^8 of its sizes away, gives the same picture.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from course.core.triangles import Mesh
+from course.core.types import Floats64
+
+
+@dataclass(frozen=True)
+class Frame:
+    """x_compiled = (x - center) / scale, for positions in the units of the scene file.
+
+    Attributes
+    ----------
+    center : (3,) float64
+    scale : float > 0 [units of the scene file]
+    reach : largest compiled coordinate of all objects; 1 unless some are very small (``course.building.small_objects``)
+    """
+
+    center: Floats64
+    scale: float
+    reach: float = 1.0
+
+    def position(self, x: Sequence[float] | Floats64) -> Floats64:
+        """Compiled positions, (3,) or (V, 3) float64."""
+        moved: Floats64 = np.asarray(x, np.float64) - self.center
+        return moved / self.scale
+
+    def vector(self, x: Sequence[float] | Floats64) -> Floats64:
+        """Compiled differences of positions."""
+        scaled: Floats64 = np.asarray(x, np.float64) / self.scale
+        return scaled
+
+    def mesh(self, mesh: Mesh) -> Mesh:
+        """A compiled mesh; normals don't change."""
+        return Mesh(self.position(mesh.vertices), mesh.triangles, mesh.normals, mesh.uv)
+
+
+def bounds_of(mesh: Mesh) -> Floats64:
+    """The lowest and the highest corner of a mesh's triangles, (2, 3)."""
+    corners = mesh.vertices[mesh.triangles.ravel()]
+    return np.stack((corners.min(axis=0), corners.max(axis=0)))
+
+
+def frame_of(boxes: Sequence[Floats64]) -> Frame:
+    """The frame in which all boxes, (2, 3) each, just fill [-1, 1]."""
+    if not boxes:
+        return Frame(np.zeros(3), 1.0)
+    low = np.min([box[0] for box in boxes], axis=0)
+    high = np.max([box[1] for box in boxes], axis=0)
+    # Halved before they are added: the sum of two huge coordinates may overflow.
+    center = low / 2 + high / 2
+    scale = float((high / 2 - low / 2).max())
+    return Frame(center, scale if scale > 0 else 1.0)

@@ -1,0 +1,71 @@
+"""From gloss descriptions to lobes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from course.core.gloss import Lobe
+from course.effects import Bound
+from course.extras.lobes import ForeignLobe
+from course.formats.yaml import description as d
+from course.formats.yaml.description.values import rgb
+
+FLAT = 1e6
+"""A roughness from which a square's directions lie in its plane, to rounding; the functions are asked for no more."""
+
+
+def lobe_function(material: d.MaterialDescription, cutoff: float) -> str | None:
+    """Name of the glossy function that a material calls; None where its reflection is a mirror's, or too weak to see.
+
+    Parameters
+    ----------
+    cutoff : throughputs up to this are dropped
+    """
+    # In float32, as the rays' throughputs are; a dielectric reflects more than its mirror.
+    strongest = rgb(material.mirror).astype(np.float32).max()
+    if strongest <= cutoff and (strongest == 0 or material.dielectric is None):
+        return None
+    match material.gloss:
+        case d.PlaneLobe(roughness=roughness) if roughness > 0:
+            return "jitter_on_plane"
+        case d.BallLobe(glossiness=glossiness) if glossiness > 0:
+            return "jitter_in_ball"
+        case d.PhongLobe():
+            return "sample_phong_lobe"
+    return None
+
+
+def calls_module(gloss: d.Gloss | None) -> bool:
+    """Whether a gloss takes its directions from the module glossy."""
+    return not (isinstance(gloss, d.PlaneLobe) and gloss.basis == "smallest")
+
+
+def compile_lobes(
+    materials: Sequence[tuple[str, d.MaterialDescription]],
+    bound: Bound,
+    integrator: d.IntegratorDescription,
+) -> tuple[Lobe, ...]:
+    """One lobe for each glossy material; none where the depth allows no reflection."""
+    lobes: list[Lobe] = []
+    for number, (which, material) in enumerate(materials):
+        name = lobe_function(material, integrator.cutoff)
+        if name is None or integrator.max_depth == 0:
+            continue
+        parameter: float
+        match material.gloss:
+            case d.PlaneLobe(roughness=roughness):
+                kind, parameter = "plane", min(roughness, FLAT)
+            case d.BallLobe(glossiness=parameter):
+                kind = "ball"
+            case d.PhongLobe(exponent=parameter):
+                kind = "phong"
+        keeps = integrator.into_surface != "mirror"
+        turned = not calls_module(material.gloss)
+        called = [*([] if keeps else ["keep_above"]), *([] if turned else [name])]
+        glossy = bound.functions("glossy", *called, asked_by=("materials", which, "gloss"))
+        known = number, kind, parameter, glossy
+        foreign = turned or keeps
+        lobes.append(ForeignLobe(*known, turned, keeps) if foreign else Lobe(*known))
+    return tuple(lobes)

@@ -1,0 +1,38 @@
+"""How strong a described light is, and whether anything shows it."""
+
+from __future__ import annotations
+
+from course.core.materials import MaterialTable
+from course.core.types import Floats64
+from course.formats.yaml import description as d
+from course.formats.yaml.description.values import rgb
+
+
+def given(*colors: float | tuple[float, ...] | None) -> float | tuple[float, ...]:
+    """The one of two alternatives that the file gives."""
+    return next(color for color in colors if color is not None)
+
+
+def power(
+    light: d.AmbientLight | d.PointLight | d.DirectionalLight | d.RectangleLight | d.SphereLight,
+) -> Floats64:
+    """(3,) float64 strength in the light's own unit."""
+    match light:
+        case d.PointLight():
+            return rgb(light.intensity)
+        case d.DirectionalLight():
+            return rgb(light.irradiance)
+        case d.RectangleLight() | d.SphereLight():
+            return rgb(given(light.intensity, light.radiance))
+        case d.AmbientLight():
+            return rgb(light.radiance)
+
+
+def why_dark(light: d.Light, materials: MaterialTable) -> str:
+    """The reason why a light needs no samples; empty if it needs them."""
+    # An object without emission is refused as a light.
+    if not isinstance(light, d.ObjectLight) and not power(light).any():
+        return "it has no power"
+    if not materials.shaded.any():
+        return "no material has a diffuse or specular term"
+    return ""

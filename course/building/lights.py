@@ -1,0 +1,229 @@
+"""From light descriptions to lights in the frame of the compiled scene."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from course.building.brightness import in_range
+from course.building.frame import Frame
+from course.building.light_power import given, why_dark
+from course.building.reach import in_reach
+from course.building.shutter import Shutter
+from course.building.sphere_points import NUMBERS, SPHERES
+from course.core.functions import Functions
+from course.core.lights import DirectionalLight, Light, PointLight, RectangleLight, SphereLight
+from course.core.materials import MaterialTable
+from course.core.triangles import Triangles
+from course.core.types import Floats32, Floats64
+from course.effects import Bound
+from course.errors import FunctionError
+from course.extras.mesh_light import MeshLight, areas, shares
+from course.extras.sampled import SampledSphereLight
+from course.extras.visible_sphere import VisibleSphereLight
+from course.formats.yaml import description as d
+from course.formats.yaml.description.values import rgb
+from course.formats.yaml.loading import Loaded
+
+
+@dataclass(frozen=True)
+class Lit:
+    """Objects that are lights, as rays hit them.
+
+    Attributes
+    ----------
+    triangles : of the whole scene
+    materials : the number of the material that each light's object has for itself, by the number of the light
+    """
+
+    triangles: Triangles
+    materials: dict[int, int]
+
+
+def compile_lights(
+    loaded: Loaded,
+    frame: Frame,
+    shutter: Shutter,
+    bound: Bound,
+    materials: MaterialTable,
+    objects: Lit,
+) -> tuple[tuple[Light, ...], dict[str, str]]:
+    """Lights that light something, and name -> reason for those that don't.
+
+    A light that is sampled as a grid becomes a point light for each cell.
+    """
+    lights: list[Light] = []
+    skipped: dict[str, str] = {}
+    for number, light in enumerate(loaded.description.lights):
+        name = f"light {number}"
+        if isinstance(light, d.AmbientLight):
+            continue
+        reason = why_dark(light, materials)
+        if reason:
+            skipped[name] = reason
+            continue
+        compiler = _Compiler(name, ("lights", number), loaded, frame, shutter, bound)
+        if isinstance(light, d.ObjectLight):
+            lights.append(compiler.of_object(light, objects.triangles, objects.materials[number]))
+        else:
+            lights += compiler(light)
+    return tuple(lights), skipped
+
+
+@dataclass(frozen=True)
+class _Compiler:
+    """Compiles one light; an intensity counts per squared length, so it shrinks with the scene's unit squared."""
+
+    name: str
+    path: tuple[str | int, ...]
+    loaded: Loaded
+    frame: Frame
+    shutter: Shutter
+    bound: Bound
+
+    def __call__(
+        self, light: d.PointLight | d.DirectionalLight | d.RectangleLight | d.SphereLight
+    ) -> list[Light]:
+        match light:
+            case d.PointLight():
+                power = rgb(light.intensity) / self.frame.scale / self.frame.scale
+                position = self._position(light.position, light.motion)
+                color = self._color(power)
+                whole = light.shadow_rays == "whole"
+                velocity = self._velocity(light)
+                return [PointLight(self.name, position, color, velocity=velocity, whole=whole)]
+            case d.DirectionalLight():
+                direction = np.array(light.direction) / np.abs(light.direction).max()
+                towards = -direction / np.linalg.norm(direction)
+                color = self._color(rgb(light.irradiance))
+                return [DirectionalLight(self.name, _single(towards), color)]
+            case d.RectangleLight():
+                return self._rectangle(light)
+            case d.SphereLight():
+                return [self._sphere(light)]
+
+    def of_object(self, light: d.ObjectLight, triangles: Triangles, material: int) -> MeshLight:
+        """A light of the triangles that have a material."""
+        which = np.flatnonzero(triangles.material == material)
+        edges = triangles.edges[which]
+        area = areas(edges)
+        if not area.sum() > 0:
+            raise self.loaded.document.error(
+                (*self.path, "object"),
+                f'the object "{light.object}" has no area to shine from: expected triangles with an area,'
+                " in a scene that isn't 10^7 times as large",
+            )
+        scene = self.loaded.description
+        thing = next(thing for thing in scene.objects if thing.name == light.object)
+        radiance = rgb(scene.materials[thing.material].emission)
+        return MeshLight(
+            self.name,
+            shares(area),
+            triangles.planes[which],
+            edges,
+            self._color(radiance * area.sum()),
+            velocity=self._velocity(thing),
+        )
+
+    def _rectangle(self, light: d.RectangleLight) -> list[Light]:
+        edge_u, edge_v = self.frame.vector(light.edge_u), self.frame.vector(light.edge_v)
+        in_reach(np.stack((edge_u, edge_v)), self.loaded, self.path, "the light's size")
+        # Of unit edges: the area of a speck of a light may be 0 in float64, but it has a normal still.
+        unit_u, unit_v = (edge / np.abs(edge).max() for edge in (edge_u, edge_v))
+        normal = np.cross(unit_u, unit_v)
+        sine = float(np.linalg.norm(normal))
+        area = float(np.abs(edge_u).max() * np.abs(edge_v).max()) * sine
+        corner = self._position(light.corner, light.motion)
+        facing = None if light.radiance is None else _single(normal / sine)
+        power = self._power(light, area)
+        velocity = self._velocity(light)
+        if light.samples == "point":
+            soft_shadows = self.bound.functions(
+                "soft_shadows", "point_on_rectangle", asked_by=self.path
+            )
+            edges = _single(edge_u), _single(edge_v)
+            color = self._color(power)
+            return [
+                RectangleLight(
+                    self.name,
+                    corner,
+                    *edges,
+                    facing,
+                    color,
+                    soft_shadows,
+                    velocity=velocity,
+                    two_sided=light.two_sided,
+                    visible=light.visible,
+                )
+            ]
+        k = grid_size(light.samples)
+        soft_shadows = self.bound.functions("soft_shadows", "light_grid", asked_by=self.path)
+        try:
+            points = soft_shadows.light_grid(corner, _single(edge_u), _single(edge_v), k)
+        except FunctionError as error:
+            # It is called before there is a render that would say so.
+            raise error.asked_by(
+                self.loaded.document.where(self.path), self.path
+            ) from error.__cause__
+        color = self._color(power / (k * k))
+        return [
+            PointLight(
+                self.name,
+                _single(point),
+                color,
+                facing,
+                velocity=velocity,
+                two_sided=light.two_sided,
+                visible=light.visible,
+            )
+            for point in points.T
+        ]
+
+    def _sphere(self, light: d.SphereLight) -> Light:
+        radius = light.radius / self.frame.scale
+        in_reach(np.array(radius), self.loaded, self.path, "the light's size")
+        color = self._color(self._power(light, 4 * math.pi * radius * radius))
+        center = self._position(light.center, light.motion)
+        velocity = self._velocity(light)
+        if np.float32(radius) == 0:
+            return PointLight(self.name, center, color, velocity=velocity)
+        if light.samples == "visible":
+            return VisibleSphereLight(self.name, center, radius, color, velocity=velocity)
+        module, function = SPHERES[light.samples]
+        functions = self.bound.functions(module, function, asked_by=self.path)
+        known = self.name, center, radius, light.radiance is not None, color, light.samples
+        drawn = NUMBERS.get(light.samples, 2), velocity
+        if module == "sampling":
+            return SampledSphereLight(*known, Functions({}), *drawn, functions)
+        return SphereLight(*known, functions, *drawn)
+
+    def _power(self, light: d.RectangleLight | d.SphereLight, area: float) -> Floats64:
+        """Intensity in compiled units, or radiance times compiled area."""
+        if light.radiance is not None:
+            return rgb(light.radiance) * area
+        return rgb(given(light.intensity)) / self.frame.scale / self.frame.scale
+
+    def _color(self, power: Floats64) -> Floats32:
+        return in_range(power / math.pi, self.loaded, self.path, "the light's power")
+
+    def _position(self, x: d.Vector, motion: d.MotionDescription) -> Floats32:
+        position = self.frame.position(np.array(x) + self.shutter.start(motion))
+        return in_reach(position, self.loaded, self.path, "the light's distance")
+
+    def _velocity(
+        self, mover: d.PointLight | d.RectangleLight | d.SphereLight | d.Object
+    ) -> Floats32 | None:
+        if not self.shutter.moves(mover.motion):
+            return None
+        return np.array(self.shutter.velocity(mover.motion, self.frame), np.float32)
+
+
+def grid_size(samples: str) -> int:
+    """K of ``grid K``."""
+    return int(samples.removeprefix("grid "))
+
+
+def _single(x: Floats64) -> Floats32:
+    return x.astype(np.float32)

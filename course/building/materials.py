@@ -1,0 +1,129 @@
+"""From material descriptions to the table that hits look things up in."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from course.building.frame import Frame
+from course.core.types import Floats64, Mask
+from course.extras.conductors import Conductors
+from course.extras.materials import FullMaterials
+from course.formats.yaml.description import MaterialDescription
+from course.formats.yaml.description.values import rgb
+
+DEFAULT_COLOR = 0.8
+"""Of the light that the mirror leaves, where the file names no colour."""
+
+LARGEST_INDEX = 1e8
+"""An index of refraction beyond it is as good as infinite."""
+
+LARGEST = 1e30
+"""An exponent or absorption beyond it is as good as infinite, and float32 carries it."""
+
+
+def base_color(material: MaterialDescription) -> Floats64:
+    """(3,) float64 colour of the ambient and diffuse terms, as given or as the mirror leaves it."""
+    if material.color is None:
+        # The picture of a texture says itself how dark it is.
+        share = DEFAULT_COLOR if material.texture is None else 1.0
+        return share * (1.0 - rgb(material.mirror))
+    return rgb(material.color)
+
+
+def returned_share(material: MaterialDescription) -> Floats64:
+    """(3,) float64 share of the light that diffuse reflection, mirror and glass return together.
+
+    Above 1 the material makes light. Highlights are left out: how much they return depends on the
+    directions.
+    """
+    rest = base_color(material) * material.diffuse if has_body(material) else np.zeros(3)
+    return rest + handed_on(material)
+
+
+def handed_on(material: MaterialDescription) -> Floats64:
+    """(3,) float64 share of the light that mirror and glass return together."""
+    # A dielectric reflects a part and lets the rest through, all in all 1.
+    return rgb(material.mirror) + (1.0 if material.dielectric else 0.0)
+
+
+def has_body(material: MaterialDescription) -> bool:
+    """Whether a material has ambient and diffuse terms."""
+    return material.dielectric is None or material.dielectric.shaded
+
+
+def ambient_color(material: MaterialDescription) -> Floats64:
+    """(3,) float64 colour of the ambient term."""
+    if material.ambient_color is None:
+        return base_color(material)
+    return rgb(material.ambient_color)
+
+
+def _conductors(materials: Mapping[str, MaterialDescription], count: int) -> Conductors | None:
+    metals = {
+        column: material.conductor
+        for column, material in enumerate(materials.values())
+        if material.conductor is not None
+    }
+    if not metals:
+        return None
+    metal, (n, k) = np.zeros(count, np.bool_), np.ones((2, 3, count), np.float32)
+    for column, conductor in metals.items():
+        metal[column] = True
+        # Beyond it the metal is a perfect mirror to float32, and the square of a square overflows.
+        n[:, column] = np.minimum(rgb(conductor.refraction_index), LARGEST_INDEX)
+        k[:, column] = np.minimum(rgb(conductor.absorption_index), LARGEST_INDEX)
+    approximate = np.zeros(count, np.bool_)
+    approximate[[column for column in metals if metals[column].fresnel == "approximate"]] = True
+    return Conductors(metal, n, k, approximate if approximate.any() else None)
+
+
+def _plain(materials: Mapping[str, MaterialDescription], count: int) -> Mask | None:
+    plain = np.zeros(count, np.bool_)
+    for column, material in enumerate(materials.values()):
+        plain[column] = material.highlight == "plain" and rgb(material.specular).any()
+    return plain if plain.any() else None
+
+
+def compile_materials(
+    materials: Mapping[str, MaterialDescription], emission: list[Floats64], frame: Frame
+) -> FullMaterials:
+    """One column for each material, then one for each surface of a light, which reflects nothing.
+
+    Parameters
+    ----------
+    emission : radiance of the lights that have a surface
+    """
+    count = len(materials) + len(emission)
+    ambient, diffuse, specular, mirror, absorption, emitted = np.zeros((6, 3, max(count, 1)))
+    exponent, index = np.ones(max(count, 1)), np.zeros(max(count, 1))
+    for column, material in enumerate(materials.values()):
+        color = base_color(material)
+        specular[:, column] = rgb(material.specular)
+        mirror[:, column] = rgb(material.mirror)
+        emitted[:, column] = rgb(material.emission)
+        exponent[column] = material.exponent
+        if has_body(material):
+            ambient[:, column] = ambient_color(material) * material.ambient
+            diffuse[:, column] = color * material.diffuse
+        if material.dielectric is not None:
+            index[column] = min(material.dielectric.refraction_index, LARGEST_INDEX)
+            per_unit = np.minimum(rgb(material.dielectric.absorption), LARGEST / frame.scale)
+            absorption[:, column] = per_unit * frame.scale
+    for column, radiance in enumerate(emission, start=len(materials)):
+        emitted[:, column] = radiance
+    f = np.float32
+    return FullMaterials(
+        ambient.astype(f),
+        diffuse.astype(f),
+        specular.astype(f),
+        np.minimum(exponent, LARGEST).astype(f),
+        mirror.astype(f),
+        index.astype(f),
+        absorption.astype(f),
+        emitted.astype(f),
+        np.arange(max(count, 1)) >= len(materials),
+        conductors=_conductors(materials, max(count, 1)),
+        plain=_plain(materials, max(count, 1)),
+    )

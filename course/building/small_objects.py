@@ -1,0 +1,194 @@
+"""Small objects and lamps beside huge objects: where the scene's origin has to be, and what float32 can't hold."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from course.building.cutting import SmallThings
+from course.building.frame import Frame, frame_of
+from course.building.shutter import Shutter
+from course.core.triangles import Mesh
+from course.core.types import Floats64
+from course.errors import CourseWarning
+from course.formats.yaml import description as d
+from course.formats.yaml.loading import Loaded
+
+TOO_LARGE = 1024.0
+"""From so many times the size of an object on, a triangle beside it shows that rays leave it at a distance.
+
+That distance is then a 512th of the object's size, and shifts a picture full of its shadows by less than 1e-3.
+"""
+
+CUT = 64.0
+"""Where anything is cut, triangles are at most this many times as large as what lies beside them."""
+
+LARGEST_RATIO = 1e12
+"""Of half the scene's extent over the smallest object, as far as float32 can render both."""
+
+
+FEW = 64
+"""Triangles up to which each of an object's is looked at by itself, and not the box around them all."""
+
+
+@dataclass(frozen=True)
+class Extents:
+    """Where objects and lamps lie, in the units of the scene file.
+
+    Attributes
+    ----------
+    boxes : (F, 2, 3) float64, lowest and highest corner of all that each passes through, first the objects'
+    sizes : (F,) float64, of an object the middle one of its three extents, so of a plate the width and of a rod the
+        thickness; of a lamp the same or, if that is more, its distance from the nearest object
+    """
+
+    boxes: Floats64
+    sizes: Floats64
+
+    def __add__(self, others: Extents) -> Extents:
+        boxes, sizes = (self.boxes, others.boxes), (self.sizes, others.sizes)
+        return Extents(np.concatenate(boxes), np.concatenate(sizes))
+
+
+def extents_of_objects(bounds: Sequence[Floats64], boxes: Sequence[Floats64]) -> Extents:
+    """Extents from the box (2, 3) of each object, and from its boxes when the shutter opens and when it closes."""
+    swept = np.reshape(boxes, (-1, 2, 2, 3))
+    together = np.stack((swept[:, :, 0].min(axis=1), swept[:, :, 1].max(axis=1)), axis=1)
+    return Extents(together, np.array([_middle_extent(box) for box in bounds]))
+
+
+def extents_of_lamps(
+    loaded: Loaded, shutter: Shutter, objects: Extents, meshes: Sequence[Mesh]
+) -> Extents:
+    """Extents of the lights that have a place; one inside an object's box has no distance from that object.
+
+    Parameters
+    ----------
+    meshes : of the objects; where triangles are few, their boxes are looked at instead of the object's
+    """
+    boxes, sizes = [], []
+    near = None
+    for light in loaded.description.lights:
+        match light:
+            case d.PointLight():
+                corners = np.array([light.position])
+            case d.SphereLight():
+                corners = np.array(light.center) + light.radius * np.array([[-1.0], [1.0]])
+            case d.RectangleLight():
+                u, v = np.array(light.edge_u), np.array(light.edge_v)
+                corners = np.array(light.corner) + np.array((0 * u, u, v, u + v))
+            case _:
+                continue
+        if near is None:
+            near = _boxes_of(objects, meshes)
+        start, sweep = shutter.start(light.motion), shutter.sweep(light.motion)
+        own = np.stack((corners.min(axis=0), corners.max(axis=0)))
+        box = np.stack(
+            (own[0] + start + np.minimum(sweep, 0), own[1] + start + np.maximum(sweep, 0))
+        )
+        apart = np.maximum(near[:, 0] - box[1], box[0] - near[:, 1]).max(axis=1)
+        distance = apart[apart > 0].min(initial=np.inf)
+        boxes.append(box)
+        sizes.append(max(_middle_extent(own), distance if np.isfinite(distance) else 0.0))
+    return Extents(np.reshape(boxes, (-1, 2, 3)), np.array(sizes))
+
+
+def _boxes_of(objects: Extents, meshes: Sequence[Mesh]) -> Floats64:
+    """Boxes (B, 2, 3) of objects, or of their triangles where these are few."""
+    found = [np.zeros((0, 2, 3))]
+    for box, mesh in zip(objects.boxes, meshes, strict=True):
+        if len(mesh.triangles) > FEW:
+            found.append(box[None])
+            continue
+        p = mesh.vertices[mesh.triangles]
+        found.append(np.stack((p.min(axis=1), p.max(axis=1)), axis=1))
+    return np.concatenate(found)
+
+
+def _middle_extent(box: Floats64) -> float:
+    # Halved and doubled: the difference of two huge coordinates may overflow.
+    return float(np.sort(box[1] / 2 - box[0] / 2)[1] * 2)
+
+
+def frame_for(extents: Extents, objects: int) -> tuple[Frame, SmallThings | None]:
+    """The frame of a scene, and in its coordinates the things beside which triangles are to be cut.
+
+    These are None, and the frame is that of all objects, where nothing is so small that it matters. Else its origin is
+    where small things are placed best: each may be off by so much more as it is larger.
+
+    Parameters
+    ----------
+    objects : how many of the extents are those of objects
+    """
+    frame = frame_of(list(extents.boxes[:objects]))
+    there = extents.sizes > 0
+    if not there[:objects].any() or extents.sizes[there].min() / frame.scale * TOO_LARGE >= 1:
+        return frame, None
+    # What is smaller still has no surface in float32.
+    sizes = np.maximum(extents.sizes[there], frame.scale / LARGEST_RATIO)
+    boxes = extents.boxes[there]
+    center = np.array([_between(middle, sizes) for middle in (boxes[:, 0] / 2 + boxes[:, 1] / 2).T])
+    own = extents.boxes[:objects]
+    farthest = float(np.maximum(own[:, 1] - center, center - own[:, 0]).max())
+    # The smallest is as much smaller than 1 as the farthest is larger: both are far from where products under- or
+    # overflow, and lights from the least distance that counts.
+    reach = float(2.0 ** np.round(np.log2(farthest / sizes.min()) / 2))
+    frame = Frame(center, farthest / reach, reach)
+    placed = frame.position(boxes)
+    return frame, SmallThings(placed[:, 0], placed[:, 1], sizes / frame.scale)
+
+
+def _between(places: Floats64, sizes: Floats64) -> float:
+    """The number whose largest distance from any of some places, in sizes of what is there, is smallest."""
+    least, most = 0.0, float((places.max() - places.min()) / sizes.min())
+    for _ in range(100):
+        reach = least / 2 + most / 2
+        if (places - reach * sizes).max() <= (places + reach * sizes).min():
+            most = reach
+        else:
+            least = reach
+    return float((places - most * sizes).max() / 2 + (places + most * sizes).min() / 2)
+
+
+def warn_of_small(loaded: Loaded, extents: Extents, frame: Frame) -> None:
+    """Say which object is too small for the scene or for its place in it, once for all of them.
+
+    Parameters
+    ----------
+    extents : of the objects alone
+    """
+    nearest = np.maximum(extents.boxes[:, 0] - frame.center, frame.center - extents.boxes[:, 1])
+    # An object without extent is seen by nobody.
+    sizes = np.where(extents.sizes > 0, extents.sizes, np.inf)
+    excess = np.maximum(
+        nearest.max(axis=1) / (TOO_LARGE * sizes),
+        frame.scale * frame.reach / (LARGEST_RATIO * sizes),
+    )
+    small = np.flatnonzero(excess > 1)
+    if len(small) == 0:
+        return
+    worst = int(excess.argmax())
+    # The farthest point of any object, seen from this one.
+    middle = extents.boxes[worst].mean(axis=0)
+    reaches = np.maximum(extents.boxes[:, 1] - middle, middle - extents.boxes[:, 0]).max(axis=1)
+    other = int(reaches.argmax())
+    more = f" (and {len(small) - 1:,} more)" if len(small) > 1 else ""
+    named = f"{_named(loaded, worst)} of a width of {extents.sizes[worst]:.3g}{more}"
+    across = (extents.boxes[other, 1] - extents.boxes[other, 0]).max()
+    there = "it" if other == worst else f"{_named(loaded, other)}, {across:.3g} across,"
+    warnings.warn(
+        f"{loaded.document.where(('objects', worst))}: {named} is too small for a scene in which {there} reaches"
+        f" {reaches[other]:.3g} away from its middle: float32 holds no more than the rough place of its"
+        " surface; make the one larger or the other smaller, or move small objects closer together",
+        CourseWarning,
+        stacklevel=2,
+    )
+
+
+def _named(loaded: Loaded, number: int) -> str:
+    thing = loaded.description.objects[number]
+    name = f' "{thing.name}"' if thing.name else ""
+    return f"objects[{number}] ({thing.__struct_config__.tag}{name})"

@@ -1,0 +1,126 @@
+"""From texture descriptions to what paints the objects."""
+
+from __future__ import annotations
+
+import msgspec
+import numpy as np
+
+from course.building.materials import ambient_color, base_color, has_body
+from course.building.objects import object_mesh
+from course.core.triangles import Mesh
+from course.core.types import Floats32, Floats64
+from course.effects import Bound
+from course.errors import SceneError
+from course.extras.painting import Paint
+from course.extras.textures import OnMesh, OnRectangle, OnSphere, Texture
+from course.formats.pictures.reading import read_picture
+from course.formats.yaml import description as d
+from course.formats.yaml.description.materials import TextureDescription
+from course.formats.yaml.document import KeyPath
+from course.formats.yaml.limits import bytes_of_files, pixels_of_pictures
+from course.formats.yaml.loading import Loaded
+
+
+def shows_texture(material: d.MaterialDescription) -> bool:
+    """Whether a material has a texture, and an ambient or diffuse term that it colours."""
+    if material.texture is None or not has_body(material):
+        return False
+    colored = base_color(material) * material.diffuse + ambient_color(material) * material.ambient
+    return bool(colored.any())
+
+
+def places_function(thing: d.Object) -> str:
+    """Name of the function of the textures module that finds places on an object."""
+    if isinstance(thing, d.Quad):
+        return "rectangle_uv"
+    return "sphere_uv" if isinstance(thing, d.Sphere) else "triangle_uv"
+
+
+class Painter:
+    """Makes the paint of objects; each picture is read once, and those that nothing shows never.
+
+    Parameters
+    ----------
+    files : mesh files that have been read, by their normals and names in the scene
+    """
+
+    def __init__(self, loaded: Loaded, bound: Bound, files: dict[str, Mesh]) -> None:
+        self._loaded = loaded
+        self._bound = bound
+        self._files = files
+        self._images: dict[str, Floats32] = {}
+
+    def paint(self, number: int, mesh: Mesh) -> Paint | None:
+        """The paint of an object; None where it has none.
+
+        Parameters
+        ----------
+        mesh : as it is compiled, of which the triangles and uv count
+
+        Raises
+        ------
+        SceneError
+            The picture is missing, can't be read or returns more light than it gets, or the mesh has no texture
+            coordinates; names the key that asks for it.
+        """
+        thing = self._loaded.description.objects[number]
+        material = self._loaded.description.materials[thing.material]
+        if material.texture is None or not shows_texture(material):
+            return None
+        texture = self._texture(material.texture, ("materials", thing.material, "texture", "image"))
+        name = places_function(thing)
+        asked_by = ("materials", thing.material, "texture")
+        places = self._bound.function("textures", name, asked_by)
+        if name == "triangle_uv":
+            if mesh.uv is None:
+                raise self._loaded.document.error(
+                    ("objects", number),
+                    f'material "{thing.material}" has a texture, but the mesh has no texture coordinates;'
+                    " save it with some (vt in an OBJ file), or give it another material",
+                )
+            corners = np.zeros((len(mesh.triangles), 3, 3))
+            corners[:, :, :2] = mesh.uv[mesh.triangles]
+            return Paint(corners, OnMesh(texture, places))
+        local = self._own_coordinates(thing, number)
+        corners = local[mesh.triangles]
+        if name == "sphere_uv":
+            return Paint(corners, OnSphere(texture, places))
+        # The quad's corners in their order around it: u goes from the first to the second, v to the fourth.
+        p1, p2, _, p3 = local.astype(np.float32)
+        return Paint(corners, OnRectangle(texture, p1, p2, p3, places))
+
+    def _own_coordinates(self, thing: d.Object, number: int) -> Floats64:
+        """Vertices (V, 3) of a shape before it is transformed, its longest extent 2."""
+        still = msgspec.structs.replace(thing, transform=())
+        loaded = self._loaded
+        mesh = object_mesh(still, number, loaded.document, loaded.path.parent, self._files)
+        scaled: Floats64 = mesh.vertices / np.abs(mesh.vertices).max()
+        return scaled
+
+    def _texture(self, texture: TextureDescription, path: KeyPath) -> Texture:
+        if texture.image not in self._images:
+            self._images[texture.image] = self._read(texture.image, path)
+        return Texture(
+            self._images[texture.image],
+            np.array(texture.repeat, np.float32),
+            self._bound.function("textures", "texture_lookup", path[:-1]),
+        )
+
+    def _read(self, file: str, path: KeyPath) -> Floats32:
+        try:
+            image = read_picture(
+                self._loaded.path.parent / file,
+                bytes_of_files(self._loaded.document),
+                pixels_of_pictures(self._loaded.document),
+            )
+        except SceneError as error:
+            raise self._loaded.document.error(path, str(error)) from error
+        # By its largest value, for which no array of the picture's size is made.
+        if image.max(initial=0) > 1:
+            y, x, channel = np.argwhere(image > 1)[0]
+            raise self._loaded.document.error(
+                path,
+                f"{file}: the pixel in column {x}, row {y} is {image[y, x, channel]:g}: a surface returns a share"
+                " of the light, expected 0 to 1",
+            )
+        return np.ascontiguousarray(image)

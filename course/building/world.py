@@ -1,0 +1,236 @@
+"""Compile a checked description into what is rendered: meshes read, moved to the frame, rounded to float32."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from course.building.brightness import in_range
+from course.building.cameras import make_camera, make_window_camera
+from course.building.cutting import cut
+from course.building.environment import compile_environment
+from course.building.frame import Frame, bounds_of
+from course.building.gloss import compile_lobes
+from course.building.growth import check_growth
+from course.building.hierarchy import compile_acceleration
+from course.building.lens import compile_lens
+from course.building.lights import Lit, compile_lights
+from course.building.materials import compile_materials
+from course.building.motion import check_sweeps, compile_motion
+from course.building.objects import CONVEX, object_mesh
+from course.building.path_tracing import compile_paths
+from course.building.reach import in_reach
+from course.building.rough_glass import compile_rough_glass, reflecting
+from course.building.shutter import shutter_of
+from course.building.small_objects import (
+    CUT,
+    extents_of_lamps,
+    extents_of_objects,
+    frame_for,
+    warn_of_small,
+)
+from course.building.textures import Painter, shows_texture
+from course.building.visible_lights import emitter_parts
+from course.core.camera import Camera
+from course.core.triangles import Mesh
+from course.core.types import Floats64
+from course.effects import Bound, Effects, Need
+from course.extras.surface import FullPart, build_surface
+from course.extras.world import FullWorld
+from course.formats.yaml import description as d
+from course.formats.yaml.description.values import rgb
+from course.formats.yaml.loading import Loaded
+from course.formats.yaml.object_lights import material_columns
+from course.formats.yaml.surroundings import in_its_surroundings, outsides, warn_of_nested
+
+
+@dataclass(frozen=True)
+class Compiled:
+    """A world, and what its numbers were before they were compiled.
+
+    Attributes
+    ----------
+    frame : where the scene file's origin and unit went
+    triangles : of each object
+    bounds : of each object its lowest and its highest corner, (2, 3) float64 in the units of the scene file, where the
+        file puts it: what moves is there at time 0
+    pieces : how many triangles there are more because large ones were cut beside small things
+    needs : the functions of the course that rendering calls, whatever its settings
+    """
+
+    world: FullWorld
+    frame: Frame
+    triangles: tuple[int, ...]
+    bounds: tuple[Floats64, ...]
+    pieces: int = 0
+    needs: tuple[Need, ...] = ()
+
+
+def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
+    """Read the meshes and build everything that rays meet.
+
+    Raises
+    ------
+    SceneError
+        For what only shows when meshes are there; names file, line and key path.
+    """
+    scene, document = loaded.description, loaded.document
+    bound = Bound(effects)
+    shutter = shutter_of(loaded)
+    meshes: list[Mesh] = []
+    files: dict[str, Mesh] = {}
+    bounds: list[Floats64] = []
+    boxes: list[Floats64] = []
+    for number, thing in enumerate(scene.objects):
+        mesh = object_mesh(thing, number, document, loaded.path.parent, files)
+        bounds.append(bounds_of(mesh))
+        start = shutter.start(thing.motion)
+        meshes.append(_moved(mesh, start))
+        boxes += [bounds[-1] + start, bounds[-1] + start + shutter.sweep(thing.motion)]
+    extents = extents_of_objects(bounds, boxes)
+    lamps = extents_of_lamps(loaded, shutter, extents, meshes)
+    frame, small = frame_for(extents + lamps, len(bounds))
+    pieces = 0
+    check_sweeps(loaded, frame, shutter)
+    columns = material_columns(scene)
+    used = {
+        str(number): in_its_surroundings(scene.materials[name], scene.materials)
+        for number, name in enumerate(columns.names)
+    }
+    painter = _painter(used, loaded, bound, files)
+    parts = [
+        FullPart(
+            frame.mesh(mesh),
+            columns.of_objects[number],
+            shutter.velocity(thing.motion, frame),
+            isinstance(thing, CONVEX),
+            None if painter is None else painter.paint(number, mesh),
+            thing.from_behind,
+        )
+        for number, (mesh, thing) in enumerate(zip(meshes, scene.objects, strict=True))
+    ]
+    for name, material in zip(columns.names, used.values(), strict=True):
+        in_range(rgb(material.emission), loaded, ("materials", name, "emission"), "the emission")
+    emitters, emission = emitter_parts(loaded, frame, shutter, first_material=len(used))
+    materials = compile_materials(used, emission, frame)
+    around = outsides(columns.names, scene.materials, len(materials.exponent))
+    materials = materials if around is None else replace(materials, outside=around)
+    if scene.integrator.into_surface == "mirror":
+        # Where directions are kept the picture is another renderer's, which knows of no media in each other.
+        warn_of_nested(scene, document, bounds, meshes)
+    motion = compile_motion(loaded, frame, shutter, bound, materials)
+    parts += emitters
+    if small is not None:
+        whole, parts = parts, cut(parts, small, CUT)
+        pieces = sum(len(part.mesh.triangles) for part in parts)
+        pieces -= sum(len(part.mesh.triangles) for part in whole)
+    offset = scene.integrator.surface_offset / frame.scale
+    path = ("integrator", "surface_offset")
+    in_reach(np.array(offset), loaded, path, "the distance by which rays leave surfaces")
+    surface = build_surface(
+        parts,
+        motion.motion_blur if motion else None,
+        bulges=scene.integrator.terminator == "round",
+        # Refraction is not defined by a normal that looks away.
+        bent=None if scene.integrator.shading_normals == "bent" else materials.refracts,
+        hierarchy=compile_acceleration(loaded, shutter, bound),
+        least_offset=offset,
+        eye=_still_eye(loaded, frame),
+    )
+    objects = Lit(surface.triangles, columns.of_lights)
+    lights, skipped = compile_lights(loaded, frame, shutter, bound, materials, objects)
+    ambient = np.zeros(3)
+    for light in scene.lights:
+        if isinstance(light, d.AmbientLight):
+            ambient += rgb(light.radiance)
+    environment, sky = compile_environment(loaded, bound)
+    named = list(zip(columns.names, used.values(), strict=True))
+    mirrors = [(name, reflecting(material)) for name, material in named]
+    lobes = compile_lobes(mirrors, bound, scene.integrator)
+    world = FullWorld(
+        surface=surface,
+        materials=materials,
+        lights=lights,
+        skipped_lights=skipped,
+        ambient=in_range(ambient, loaded, ("lights",), "ambient radiance"),
+        environment=environment,
+        sky=sky,
+        lobes=lobes,
+        rough=compile_rough_glass(named, lobes, bound, scene.integrator),
+        lens=compile_lens(loaded, frame, bound),
+        motion=motion,
+        paths=compile_paths(scene, bound, materials, columns.of_lights.values()),
+        backdrop=scene.environment.seen_by == "camera",
+        keeps=scene.integrator.into_surface == "keep",
+        lifted=scene.integrator.surface_offset > 0,
+    )
+    check_growth(loaded, columns.names, world)
+    if small is not None:
+        warn_of_small(loaded, extents, frame)
+    triangles = tuple(len(mesh.triangles) for mesh in meshes)
+    return Compiled(world, frame, triangles, tuple(bounds), pieces, bound.needs)
+
+
+def _still_eye(loaded: Loaded, frame: Frame) -> Floats64 | None:
+    """Where all camera rays begin, (3,); None where they don't begin in one place."""
+    camera, shutter = loaded.description.camera, shutter_of(loaded)
+    if shutter.moves(camera.motion) or (camera.lens and camera.lens.aperture_radius):
+        return None
+    return frame.position(np.array(camera.eye) + shutter.start(camera.motion))
+
+
+def _painter(
+    used: dict[str, d.MaterialDescription], loaded: Loaded, bound: Bound, files: dict[str, Mesh]
+) -> Painter | None:
+    """What paints the objects; None where no surface shows a texture."""
+    if not any(shows_texture(material) for material in used.values()):
+        return None
+    return Painter(loaded, bound, files)
+
+
+def _moved(mesh: Mesh, by: Floats64) -> Mesh:
+    if not by.any():
+        return mesh
+    return Mesh(mesh.vertices + by, mesh.triangles, mesh.normals, mesh.uv)
+
+
+STEEPEST = 1e6
+"""Sideways over forwards, of the widest ray: beyond it float32 forgets that rays go forwards at all."""
+
+
+def _check_slopes(edges: Floats64, loaded: Loaded, key: str) -> None:
+    steepest = float(np.abs(edges).max())
+    if not steepest < STEEPEST:
+        raise loaded.document.error(
+            ("camera", key),
+            f"the widest ray goes {steepest:.3g} times as far sideways as forwards: expected less than {STEEPEST:g}",
+        )
+
+
+def compile_camera(loaded: Loaded, frame: Frame, width: int, height: int) -> Camera:
+    """The camera for a picture of that size."""
+    camera = loaded.description.camera
+    start = shutter_of(loaded).start(camera.motion)
+    eye = frame.position(np.array(camera.eye) + start)
+    in_reach(eye, loaded, ("camera", "eye"), "the camera's distance")
+    near = camera.near / frame.scale
+    in_reach(np.array(near), loaded, ("camera", "near"), "the distance from which the camera sees")
+    # In the file's units: in a huge scene the two positions may round to one.
+    view, up = np.array(camera.look_at) - np.array(camera.eye), np.array(camera.up)
+    plane = camera.image_plane
+    if plane is not None:
+        edges = np.array((plane.left, plane.right, plane.bottom, plane.top)) / plane.distance
+        _check_slopes(edges, loaded, "image_plane")
+    else:
+        fov = np.radians(camera.vertical_fov)
+        edges = np.tan(fov / 2) * np.array((-width / height, width / height, -1, 1))
+        _check_slopes(edges, loaded, "vertical_fov")
+        if camera.handedness == "right":
+            return make_camera(eye, view, up, fov, width, height, near)
+    if camera.handedness == "right":
+        return make_window_camera(eye, view, up, edges, width, height, near)
+    # What lies at x to the right is shown where -x would be; the lens, too, is mirrored.
+    edges[:2] *= -1
+    mirrored = make_window_camera(eye, view, up, edges, width, height, near)
+    return replace(mirrored, right=-mirrored.right)

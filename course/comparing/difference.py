@@ -1,0 +1,71 @@
+"""A picture of where two pictures differ: red where the first is brighter, blue where the second is."""
+
+from __future__ import annotations
+
+import numpy as np
+from PIL import Image, ImageDraw, ImageFont
+
+from course.core.types import Floats, Floats32
+from course.formats.pictures.srgb import srgb_to_linear
+
+# sRGB, from the second being brighter to the first: ColorBrewer's RdBu (Brewer and Harrower), backwards.
+_COLOURS = np.array(
+    [
+        (5, 48, 97),
+        (33, 102, 172),
+        (67, 147, 195),
+        (146, 197, 222),
+        (247, 247, 247),
+        (244, 165, 130),
+        (214, 96, 77),
+        (178, 24, 43),
+        (103, 0, 31),
+    ]
+)
+SHOWN = 99.5
+"""Percentile of the differences' sizes that gets the darkest colour, so that a single bright pixel doesn't set it."""
+
+NARROWEST = 180
+"""Pixels that the legend needs."""
+
+_MARGIN, _BAR, _TEXT = 8, 8, 14
+
+
+def difference_picture(a: Floats32, b: Floats32) -> Floats32:
+    """The mean over the channels of a - b as colours, with a legend below.
+
+    Parameters
+    ----------
+    a, b : (H, W, 3) float32, linear
+
+    Returns
+    -------
+    (3, H', W') float32, linear RGB, as `course.formats.pictures.files.write_png` takes it
+    """
+    difference = (a.astype(np.float64) - b).mean(axis=2)
+    scale = float(np.percentile(np.abs(difference), SHOWN)) or float(np.abs(difference).max())
+    height, width = difference.shape
+    wide = max(width, NARROWEST)
+    canvas = np.full((height + 3 * _MARGIN + _BAR + _TEXT, wide, 3), 255, np.uint8)
+    left = (wide - width) // 2
+    canvas[:height, left : left + width] = _coloured(difference / (scale or 1.0))
+    top = height + _MARGIN
+    bar = np.linspace(-1, 1, wide - 2 * _MARGIN)
+    canvas[top : top + _BAR, _MARGIN:-_MARGIN] = _coloured(bar)
+    image = Image.fromarray(canvas)
+    draw = ImageDraw.Draw(image)
+    font = ImageFont.load_default(size=11)
+    ends = (
+        (_MARGIN, "la", f"-{scale:.3g}"),
+        (wide / 2, "ma", "0  radiance"),
+        (wide - _MARGIN, "ra", f"+{scale:.3g}"),
+    )
+    for x, anchor, text in ends:
+        draw.text((x, top + _BAR + 2), text, fill=(0, 0, 0), font=font, anchor=anchor)
+    return np.moveaxis(srgb_to_linear(np.asarray(image) / 255), -1, 0)
+
+
+def _coloured(place: Floats) -> Floats:
+    """Codes of sRGB (..., 3) of numbers (...) from -1 to 1; beyond, as at the ends."""
+    at = np.linspace(-1, 1, len(_COLOURS))
+    return np.stack([np.interp(place, at, channel) for channel in _COLOURS.T], axis=-1).round()

@@ -1,0 +1,157 @@
+"""Embree asked for sixteen rays at a time, and the boxes of convex objects before it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from time import perf_counter
+from typing import Any
+from weakref import WeakKeyDictionary
+
+import numpy as np
+
+from course.compiled.convex import ConvexObjects, convex_objects
+from course.compiled.packets import PacketScene
+from course.core.embree import (
+    NO_HIT,
+    Accelerator,
+    EmbreeAccelerator,
+    Intersections,
+    QueryTime,
+    nothing_met,
+)
+from course.core.motion import MovingAccelerator
+from course.core.types import Floats32, Indices, Mask
+
+WORTH_CHOOSING = 0.75
+"""Share of a batch up to which copying the rays in question costs less than asking all."""
+
+_FAR = np.full(1, NO_HIT, np.float32)
+
+_BUILT: WeakKeyDictionary[EmbreeAccelerator, tuple[PacketScene, ConvexObjects | None]]
+_BUILT = WeakKeyDictionary()
+"""What has been built: a scene is rendered more than once."""
+
+
+@dataclass(frozen=True, eq=False)
+class PacketAccelerator(EmbreeAccelerator):
+    """Triangles that stand still; see ``EmbreeAccelerator``.
+
+    Attributes
+    ----------
+    packets : None where there are no triangles
+    convex : the objects that the triangles belong to, where looking at these spares queries
+    apart : whether most rays pass by all triangles, so that their box is looked at first
+    """
+
+    packets: PacketScene | None
+    convex: ConvexObjects | None = None
+    apart: bool = False
+
+    def intersect(
+        self,
+        origin: Floats32,
+        direction: Floats32,
+        clock: QueryTime,
+        time: Floats32 | None = None,
+        *,
+        coherent: bool = False,
+        left: Any = None,
+        limit: Floats32 | None = None,
+    ) -> Intersections:
+        """See ``EmbreeAccelerator``; ``left`` (N,) is the convex object that each ray leaves."""
+        n = direction.shape[1]
+        if self.packets is None or n == 0:
+            return nothing_met(n)
+        start = perf_counter()
+        far = _FAR if limit is None else limit
+        which = None
+        if left is not None and self.convex is not None:
+            which = self.convex.remaining(origin, direction, far, left)
+        elif (
+            self.apart
+            and len(some := self.packets.entering(origin, direction, far)) < WORTH_CHOOSING * n
+        ):
+            hits = self._some(some, origin, direction, far, coherent)
+            clock.seconds += perf_counter() - start
+            return hits
+        hits = Intersections(*self.packets.intersect(origin, direction, far, coherent, which))
+        clock.seconds += perf_counter() - start
+        return hits
+
+    def _some(
+        self,
+        which: Indices,
+        origin: Floats32,
+        direction: Floats32,
+        limit: Floats32,
+        coherent: bool,
+    ) -> Intersections:
+        """Nearest hits of some rays (m,) of (3, N): copies in one piece are faster than to pick them out."""
+        assert self.packets is not None
+        found = nothing_met(direction.shape[1])
+        start = origin if origin.shape[1] == 1 else origin.take(which, axis=1)
+        far = limit if len(limit) == 1 else limit.take(which)
+        arrays = self.packets.intersect(start, direction.take(which, axis=1), far, coherent)
+        for mine, theirs in zip((found.triangle, found.u, found.v, found.t), arrays, strict=True):
+            mine[which] = theirs
+        return found
+
+    def unoccluded(
+        self,
+        origin: Floats32,
+        direction: Floats32,
+        limit: float,
+        clock: QueryTime,
+        time: Floats32 | None = None,
+        *,
+        asked: Mask | None = None,
+    ) -> Mask:
+        """See ``EmbreeAccelerator``."""
+        n = direction.shape[1]
+        if self.packets is None or n == 0:
+            return np.ones(n, np.bool_)
+        start = perf_counter()
+        which = None
+        if self.apart:
+            which = self.packets.entering(origin, direction, np.full(1, limit, np.float32))
+        if which is None or len(which) >= WORTH_CHOOSING * n:
+            free = self.packets.unoccluded(origin, direction, limit)
+        else:
+            free = np.ones(n, np.bool_)
+            some = origin.take(which, axis=1), direction.take(which, axis=1)
+            free[which] = self.packets.unoccluded(*some, limit)
+        clock.seconds += perf_counter() - start
+        return free
+
+
+def in_packets(
+    accelerator: Accelerator, parts: tuple[tuple[int, int, bool], ...] = ()
+) -> Accelerator:
+    """The same triangles, asked by packets; a hierarchy that isn't Embree's as it is.
+
+    Parameters
+    ----------
+    parts : of the objects that the triangles belong to, where they stand still: see ``Triangles``
+    """
+    if isinstance(accelerator, EmbreeAccelerator) and not isinstance(
+        accelerator, PacketAccelerator
+    ):
+        return _packets(accelerator, parts, apart=False)
+    if isinstance(accelerator, MovingAccelerator):
+        movers = tuple(
+            replace(mover, accelerator=_packets(mover.accelerator, (), apart=True))
+            for mover in accelerator.movers
+        )
+        return replace(accelerator, static=_packets(accelerator.static, (), False), movers=movers)
+    return accelerator
+
+
+def _packets(
+    accelerator: EmbreeAccelerator, parts: tuple[tuple[int, int, bool], ...], apart: bool
+) -> PacketAccelerator:
+    if not len(accelerator.triangles):
+        return PacketAccelerator(None)
+    if accelerator not in _BUILT:
+        arrays = accelerator.vertices, accelerator.triangles
+        _BUILT[accelerator] = PacketScene(*arrays), convex_objects(*arrays, parts)
+    return PacketAccelerator(*_BUILT[accelerator], apart)

@@ -1,0 +1,205 @@
+"""Loops over the hits of a batch, compiled by Numba; imported where they are used, and only then.
+
+They do what passes over arrays do elsewhere, in the same order and so to the same bits; but a hit's numbers stay in
+registers on the way, where forty passes carry them to the cache and back.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit, types
+
+from course.compiled.options import COLUMNS, OBJECTS, OPTIONS, ROW
+
+_LEAST = np.float32(1e-20)
+_NOTHING, _ONE = np.float32(0), np.float32(1)
+_AHEAD = 64
+"""Hits whose rows are touched before they are worked on: then the processor waits for many of them at once."""
+
+
+@njit(**OPTIONS)
+def _touched(begin, end, hit, triangle, planes, edges, corner_normals):
+    """Read a number of each row, so that it is in the cache; the sum is there so that the reading isn't left out."""
+    total = _NOTHING
+    for i in range(begin, end):
+        k = triangle[hit[i] if len(hit) else i]
+        total += planes[k, 0] + planes[k, 7] + edges[k, 0] + edges[k, 7]
+        if corner_normals.shape[0]:
+            total += corner_normals[k, 0] + corner_normals[k, 8]
+    return total
+
+
+@njit(**OPTIONS)
+def _pulled(x, y, z, a, b, c, plane, edges, inset):
+    """A point next to an edge moved inwards, in float64; see ``course.core.hits``."""
+    e1x, e1y, e1z = np.float64(edges[0]), np.float64(edges[1]), np.float64(edges[2])
+    e2x, e2y, e2z = np.float64(edges[3]), np.float64(edges[4]), np.float64(edges[5])
+    nx, ny, nz = np.float64(plane[3]), np.float64(plane[4]), np.float64(plane[5])
+    twice_area = (
+        (e1y * e2z - e1z * e2y) * nx + (e1z * e2x - e1x * e2z) * ny + (e1x * e2y - e1y * e2x) * nz
+    )
+    px, py, pz = np.float64(x), np.float64(y), np.float64(z)
+    for side in range(3):
+        if side == 0:
+            ex, ey, ez, lacking = e2x - e1x, e2y - e1y, e2z - e1z, max(inset[0] - c, _NOTHING)
+        elif side == 1:
+            ex, ey, ez, lacking = -e2x, -e2y, -e2z, max(inset[1] - a, _NOTHING)
+        else:
+            ex, ey, ez, lacking = e1x, e1y, e1z, max(inset[2] - b, _NOTHING)
+        far = lacking * twice_area / (ex * ex + ey * ey + ez * ez)
+        px += (ny * ez - nz * ey) * far
+        py += (nz * ex - nx * ez) * far
+        pz += (nx * ey - ny * ex) * far
+    return np.float32(px), np.float32(py), np.float32(pz)
+
+
+@njit(
+    types.float32(
+        *(types.int64[::1], types.int32[::1], ROW, ROW, ROW, COLUMNS),
+        *(COLUMNS, COLUMNS, COLUMNS, COLUMNS, types.uint16[::1], types.boolean),
+        *(types.int32[::1], COLUMNS, COLUMNS, types.uint16[::1]),
+        *(COLUMNS, COLUMNS, COLUMNS, ROW, COLUMNS, ROW),
+    ),
+    **OPTIONS,
+)
+def find(
+    hit,
+    triangle,
+    u,
+    v,
+    t,
+    direction,
+    planes,
+    edges,
+    inset,
+    corner_normals,
+    materials,
+    bends,
+    met,
+    uvt,
+    arriving,
+    material,
+    p,
+    ng,
+    ns,
+    offset,
+    above,
+    side,
+):
+    """Fill what ``Hits`` says; what is returned means nothing.
+
+    Parameters
+    ----------
+    hit : (n,) which of the rays hit something; (0,) for all
+    triangle, u, v, t, direction : (N,) and (3, N) of the rays
+    planes, edges, inset, corner_normals : of ``Surface``; the last is (0, 9) where all triangles are flat
+    materials : (T,) of ``Surface``
+    bends : whether normals that look away from the ray are bent until they no longer do
+    met, uvt, arriving : (n,) and (3, n), filled with the above of the rays that hit; without columns if all do
+    material, p, ng, ns, offset, above, side : (n,) and (3, n), filled; ``ns`` is (3, 0) where all triangles are flat
+    """
+    smooth = corner_normals.shape[0] > 0
+    some = len(hit) > 0
+    total = _NOTHING
+    for i in range(len(side)):
+        if i % _AHEAD == 0:
+            end = min(i + _AHEAD, len(side))
+            total += _touched(i, end, hit, triangle, planes, edges, corner_normals)
+        j = hit[i] if some else i
+        k = triangle[j]
+        a, b = u[j], v[j]
+        dx, dy, dz = direction[0, j], direction[1, j], direction[2, j]
+        if some:
+            met[i] = k
+            uvt[0, i], uvt[1, i], uvt[2, i] = a, b, t[j]
+            arriving[0, i], arriving[1, i], arriving[2, i] = dx, dy, dz
+        material[i] = materials[k]
+        x = edges[k, 0] * a + edges[k, 3] * b + planes[k, 0]
+        y = edges[k, 1] * a + edges[k, 4] * b + planes[k, 1]
+        z = edges[k, 2] * a + edges[k, 5] * b + planes[k, 2]
+        c = _ONE - a - b
+        if min(a, b, c) < edges[k, 6] and (c < inset[k, 0] or a < inset[k, 1] or b < inset[k, 2]):
+            x, y, z = _pulled(x, y, z, a, b, c, planes[k], edges[k], inset[k])
+        nx, ny, nz = planes[k, 3], planes[k, 4], planes[k, 5]
+        # A sum that begins with 0, as NumPy's does, is never -0.
+        facing = _NOTHING + nx * dx + ny * dy + nz * dz
+        way = np.float32(math.copysign(_ONE, -facing))
+        nx, ny, nz = nx * way, ny * way, nz * way
+        far = planes[k, 6]
+        p[0, i], p[1, i], p[2, i] = x, y, z
+        ng[0, i], ng[1, i], ng[2, i] = nx, ny, nz
+        above[0, i], above[1, i], above[2, i] = x + nx * far, y + ny * far, z + nz * far
+        offset[i], side[i] = far, way
+        if smooth:
+            if planes[k, 7] > 0:
+                ns[0, i], ns[1, i], ns[2, i] = nx, ny, nz
+                continue
+            nx = corner_normals[k, 3] * a + corner_normals[k, 6] * b + corner_normals[k, 0]
+            ny = corner_normals[k, 4] * a + corner_normals[k, 7] * b + corner_normals[k, 1]
+            nz = corner_normals[k, 5] * a + corner_normals[k, 8] * b + corner_normals[k, 2]
+            scale = _ONE / np.sqrt(max(nx * nx + ny * ny + nz * nz, _LEAST))
+            nx, ny, nz = nx * scale * way, ny * scale * way, nz * scale * way
+            away = nx * dx + ny * dy + nz * dz
+            if bends and away > 0:
+                nx, ny, nz = nx - away * dx, ny - away * dy, nz - away * dz
+                scale = _ONE / np.sqrt(max(nx * nx + ny * ny + nz * nz, _LEAST))
+                nx, ny, nz = nx * scale, ny * scale, nz * scale
+            ns[0, i], ns[1, i], ns[2, i] = nx, ny, nz
+    return total
+
+
+@njit(types.void(types.int64[::1], *(COLUMNS,) * 4), **OPTIONS)
+def mirror(which, direction, ns, ng, way):
+    """Mirrored directions of some hits, none of them into the surface, into ``way`` (3, m).
+
+    Parameters
+    ----------
+    which : (m,) the hits
+    direction, ns : (3, n) of all hits
+    ng : (3, m) of those
+    """
+    for i in range(len(which)):
+        j = which[i]
+        dx, dy, dz = direction[0, j], direction[1, j], direction[2, j]
+        nx, ny, nz = ns[0, j], ns[1, j], ns[2, j]
+        twice = dx * nx + dy * ny + dz * nz
+        twice += twice
+        x, y, z = dx - twice * nx, dy - twice * ny, dz - twice * nz
+        nx, ny, nz = ng[0, i], ng[1, i], ng[2, i]
+        below = x * nx + y * ny + z * nz
+        if below < 0:
+            below += below
+            x, y, z = x - below * nx, y - below * ny, z - below * nz
+        way[0, i], way[1, i], way[2, i] = x, y, z
+
+
+@njit(
+    types.void(
+        *(types.int64[::1], types.int32[::1], ROW, COLUMNS, COLUMNS),
+        *(types.int32[::1], types.boolean[::1], OBJECTS),
+    ),
+    **OPTIONS,
+)
+def leave(which, triangle, side, ng, direction, first, worth, left):
+    """The convex object that each ray leaves outwards, or -1, into ``left`` (m,).
+
+    Parameters
+    ----------
+    which : (m,) the hits that the rays leave
+    triangle, side, ng : (n,), (n,) and (3, n) of all hits, as ``Hits`` has them
+    direction : (3, m) of the rays
+    first, worth : of ``ConvexObjects``
+    """
+    for i in range(len(which)):
+        j = which[i]
+        # The normal is on the incoming side: a ray that leaves on that side leaves the object if it came from outside.
+        up = direction[0, i] * ng[0, j] + direction[1, i] * ng[1, j] + direction[2, i] * ng[2, j]
+        left[i] = -1
+        if up * side[j] > 0:
+            number = 0
+            for k in range(1, len(worth)):
+                number += triangle[j] >= first[k]
+            if worth[number]:
+                left[i] = number

@@ -1,0 +1,128 @@
+"""The camera: rays through points of the picture, from a pinhole or a thin lens.
+
+Picture coordinates are in pixels, x to the right and y down from the upper left corner. With a field of view, the axis
+goes through the middle of the picture and pixels are square. A window may lie anywhere and have oblong pixels.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from course.core.functions import Functions
+from course.core.types import Floats32
+from course.core.vectors import dot
+
+
+@dataclass(frozen=True)
+class Lens:
+    """A thin lens.
+
+    Attributes
+    ----------
+    aperture_radius, focus_distance : [units of the compiled scene]
+    shape : "disk", "square" or "polygon"
+    blades : corners of the polygon
+    thin_lens : functions of the module
+    """
+
+    aperture_radius: float
+    focus_distance: float
+    shape: str
+    blades: int
+    thin_lens: Functions
+
+    def points(self, u: Floats32) -> Floats32:
+        """Uniform points (2, N) on an aperture of radius 1, from u (2, N) in [0, 1)."""
+        if self.shape == "disk":
+            on_disk: Floats32 = self.thin_lens.point_on_disk(u)
+            return on_disk
+        if self.shape == "square":
+            return 2 * u - 1
+        return point_on_polygon(u, self.blades)
+
+
+def point_on_polygon(u: Floats32, corners: int) -> Floats32:
+    """Uniform points (2, N) on the regular polygon inscribed in the unit circle, from u (2, N) in [0, 1).
+
+    The integer part of u[0] * corners chooses a triangle around the centre, its fraction a point on the outer edge.
+    sqrt(u[1]) scales that point towards the centre.
+    """
+    scaled = u[0] * np.float32(corners)
+    number = np.minimum(np.floor(scaled), np.float32(corners - 1))
+    along = scaled - number
+    angle = number * np.float32(2 * math.pi / corners)
+    step = np.float32(2 * math.pi / corners)
+    x = (1 - along) * np.cos(angle) + along * np.cos(angle + step)
+    y = (1 - along) * np.sin(angle) + along * np.sin(angle + step)
+    points: Floats32 = np.stack((x, y))
+    points *= np.sqrt(u[1])
+    return points
+
+
+@dataclass(frozen=True)
+class Camera:
+    """A camera in the compiled scene.
+
+    Attributes
+    ----------
+    origin : (3,) float32
+    right, up, forward : (3,) float32, an orthonormal basis
+    corner : (3,) float32, direction to the upper left corner of the picture; its forward component is 1
+    step_x, step_y : (3,) float32, change of direction per pixel
+    near : depth along forward at which rays start
+    lens : None for a pinhole
+    """
+
+    origin: Floats32
+    right: Floats32
+    up: Floats32
+    forward: Floats32
+    corner: Floats32
+    step_x: Floats32
+    step_y: Floats32
+    near: float = 0.0
+    lens: Lens | None = None
+
+    def rays(
+        self, x: Floats32, y: Floats32, u: Floats32 | None, moved: Floats32 | None
+    ) -> tuple[Floats32, Floats32]:
+        """Origins (3, N) or (3, 1), and unit directions (3, N).
+
+        Parameters
+        ----------
+        x, y : (N,) float32 [pixels]
+        u : (2, N) float32 in [0, 1), for the point on the lens; None for a pinhole
+        moved : (3, N) float32, displacement of the camera; None if it stands still
+        """
+        origin, direction = self.origin[:, None], self.directions(x, y)
+        if self.lens is not None and u is not None:
+            points = self.lens.points(u)
+            points *= np.float32(self.lens.aperture_radius)
+            axes = self.right, self.up, self.forward
+            origin, direction = self.lens.thin_lens.lens_rays(
+                self.origin, *axes, direction, points, self.lens.focus_distance
+            )
+        if moved is not None:
+            origin = origin + moved
+        if self.near:
+            origin = origin + direction * self.way_to_near_plane(direction)
+        return origin, direction
+
+    def directions(self, x: Floats32, y: Floats32) -> Floats32:
+        """Unit directions (3, N) float32 through picture points x, y (N,) float32 [pixels]."""
+        direction = self.step_x[:, None] * x
+        direction += self.corner[:, None]
+        direction += self.step_y[:, None] * y
+        length = np.sqrt(dot(direction, direction))
+        direction *= np.divide(np.float32(1), length, out=length)
+        return direction
+
+    def way_to_near_plane(self, direction: Floats32) -> Floats32:
+        """Distance from depth 0 to depth ``near`` along unit directions (3, N), (N,) float32."""
+        # In the widest fields of view the forward component can round to 0.
+        forwards = np.maximum(dot(self.forward[:, None], direction), np.float32(1e-12))
+        way: Floats32 = np.divide(np.float32(self.near), forwards)
+        return way

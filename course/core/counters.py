@@ -1,0 +1,54 @@
+"""Counters of the receipt: one set per thread, added up at the end."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from time import perf_counter
+
+from course.core.embree import QueryTime
+
+RAY_KINDS = ("camera", "shadow", "reflection", "refraction")
+
+
+@dataclass
+class Counters:
+    """Counts and seconds of one thread.
+
+    Attributes
+    ----------
+    rays : kind -> rays cast
+    numbers : dimension -> numbers drawn
+    seconds : stage -> seconds
+    embree : seconds inside Embree, or tests of the BVH in its place
+    """
+
+    rays: dict[str, int] = field(default_factory=lambda: dict.fromkeys(RAY_KINDS, 0))
+    numbers: dict[str, int] = field(default_factory=dict)
+    seconds: dict[str, float] = field(default_factory=dict)
+    embree: QueryTime = field(default_factory=QueryTime)
+    _since: float = field(default_factory=perf_counter)
+
+    def start(self) -> None:
+        """Start the clock for the next ``lap``."""
+        self._since = perf_counter()
+
+    def lap(self, stage: str) -> None:
+        """Add the time since the last lap to a stage."""
+        now = perf_counter()
+        self.seconds[stage] = self.seconds.get(stage, 0.0) + now - self._since
+        self._since = now
+
+    def drew(self, dimension: str, count: int) -> None:
+        """Count random numbers."""
+        self.numbers[dimension] = self.numbers.get(dimension, 0) + count
+
+    def add(self, other: Counters) -> None:
+        """Add another thread's counters."""
+        for mine, theirs in ((self.rays, other.rays), (self.numbers, other.numbers)):
+            for key, count in theirs.items():
+                mine[key] = mine.get(key, 0) + count
+        for stage, seconds in other.seconds.items():
+            self.seconds[stage] = self.seconds.get(stage, 0.0) + seconds
+        self.embree.seconds += other.embree.seconds
+        self.embree.box_tests += other.embree.box_tests
+        self.embree.triangle_tests += other.embree.triangle_tests

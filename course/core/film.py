@@ -1,0 +1,84 @@
+"""The film: weighted sums of the radiance of each pixel's samples.
+
+Samples arrive in passes. The sums are float64, hold whole passes only and grow in a fixed order. A last, partial pass
+enters the picture but not the sums. So a picture continued from n to 2n samples repeats the partial pass and equals,
+bit for bit, one rendered in one go.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Protocol
+
+import numpy as np
+
+from course.core.tiles import Tile
+from course.core.types import Floats32, Numbers
+
+_NEARLY_NOTHING = 1e-300
+"""Least weight of a mean: avoids a division by 0, and is negligible beside any other weight."""
+
+
+class AnyFilm(Protocol):
+    """Accumulates rendered pieces of a picture.
+
+    Attributes
+    ----------
+    linear : (3, H, W) linear radiance, row 0 at the top
+    samples : (H, W) samples of each pixel
+    """
+
+    linear: Floats32
+    samples: Numbers
+
+    def add(
+        self, tile: Any, mean: Floats32, weight: Floats32 | float, samples: int, whole: bool
+    ) -> None:
+        """Add one piece; see ``Film.add``."""
+        ...
+
+
+class Film:
+    """The film of uniform sampling; ``width`` and ``height`` in pixels."""
+
+    def __init__(self, width: int, height: int) -> None:
+        self.width = width
+        self.height = height
+        self.linear = np.zeros((3, height, width), np.float32)
+        """(3, H, W) linear radiance, valid where a pass was added."""
+        self.samples = np.zeros((height, width), np.int32)
+        """(H, W) samples of each pixel of ``linear``."""
+        self._sum = np.zeros((3, height, width))
+        self._weight = np.zeros((height, width))
+
+    def add(
+        self, tile: Tile, mean: Floats32, weight: Floats32 | float, samples: int, whole: bool
+    ) -> None:
+        """Add one pass of a tile.
+
+        Parameters
+        ----------
+        mean : (3, n) float32, radiance of the tile's n pixels, row by row
+        weight : (n,) float32 or one number
+        samples : of each pixel, this pass included
+        whole : true if the pass enters the sums; a partial pass is the last
+        """
+        rows, columns = tile.rows, tile.columns
+        shape = (tile.height, tile.width)
+        w = np.broadcast_to(np.asarray(weight, np.float64).reshape(-1), (tile.size,)).reshape(shape)
+        w = np.maximum(w, _NEARLY_NOTHING)
+        total = self._sum[:, rows, columns] + mean.reshape(3, *shape) * w
+        total_weight = self._weight[rows, columns] + w
+        if whole:
+            self._sum[:, rows, columns] = total
+            self._weight[rows, columns] = total_weight
+        self.linear[:, rows, columns] = total / total_weight
+        self.samples[rows, columns] = samples
+
+    def continued(self, samples: int) -> Film:
+        """A copy from which a longer render starts; its sums hold the first ``samples`` samples."""
+        film = Film(self.width, self.height)
+        film._sum[:] = self._sum
+        film._weight[:] = self._weight
+        film.linear[:] = self.linear
+        film.samples[:] = samples
+        return film

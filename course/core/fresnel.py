@@ -1,0 +1,48 @@
+"""Reflection and refraction at the smooth boundary of two clear media.
+
+Symbols: n the normal on the incoming side, cos_i = -d . n, cos_t the cosine of the refracted ray,
+eta = n_from / n_to. Snell's law: sin_t = eta sin_i. Above 1 there is total internal reflection.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from course.core.types import Floats32
+
+
+def fresnel_and_cos_t(cos_i: Floats32, eta: Floats32) -> tuple[Floats32, Floats32]:
+    """Exact unpolarised Fresnel reflectance, and the cosine of the refracted ray.
+
+    Parameters
+    ----------
+    cos_i : (n,) float32 in [0, 1]
+    eta : (n,) float32, n_from / n_to
+
+    Returns
+    -------
+    reflectance : (n,) float32 in [0, 1], exactly 1 for total internal reflection
+    cos_t : (n,) float32, 0 for total internal reflection
+    """
+    # 1 - sin_t^2 loses digits at the critical angle; (1 - eta sin_i)(1 + eta sin_i) keeps them.
+    bent_sine = np.sqrt((1 - cos_i) * (1 + cos_i))
+    bent_sine *= eta
+    squared = (1 - bent_sine) * (1 + bent_sine)
+    total = squared <= 0
+    cos_t = np.sqrt(np.maximum(squared, 0))
+    # Amplitudes of both polarisations, each side over n_to. At cos_i = cos_t = 0 their limit is 1.
+    s_sum, p_sum = eta * cos_i + cos_t, cos_i + eta * cos_t
+    s = (eta * cos_i - cos_t) / np.maximum(s_sum, np.float32(1e-20))
+    p = (cos_i - eta * cos_t) / np.maximum(p_sum, np.float32(1e-20))
+    reflectance = (s * s + p * p) * np.float32(0.5)
+    reflectance[total] = 1
+    return np.minimum(reflectance, 1, out=reflectance), cos_t
+
+
+def refract(
+    direction: Floats32, normal: Floats32, cos_i: Floats32, cos_t: Floats32, eta: Floats32
+) -> Floats32:
+    """Refracted directions eta d + (eta cos_i - cos_t) n, (3, n) float32, unit length."""
+    bent: Floats32 = direction * eta
+    bent += normal * (eta * cos_i - cos_t)
+    return bent

@@ -1,0 +1,17 @@
+"""Functions of one module of the course, called by their own names: ``glossy.keep_above``."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+
+class Functions:
+    """Some functions of a module, by name."""
+
+    def __init__(self, functions: Mapping[str, Callable[..., Any]]) -> None:
+        self.__dict__.update(functions)
+
+    def __getattr__(self, name: str) -> Callable[..., Any]:
+        """Refuse a name that was not bound: no receipt would list it."""
+        raise AttributeError(f"{name} is called, but was not bound")

@@ -1,0 +1,86 @@
+"""Glossy reflection: mirrored directions are jittered within the lobe of their material."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from course.core.functions import Functions
+from course.core.rays import Draws
+from course.core.types import Floats32, Indices, Materials
+
+
+@dataclass(frozen=True)
+class Lobe:
+    """Scattering of one glossy material about the mirrored direction.
+
+    Attributes
+    ----------
+    material : its number
+    kind : "plane", "ball" or "phong"
+    parameter : roughness, glossiness or exponent of that kind
+    glossy : functions of that module
+    """
+
+    material: int
+    kind: str
+    parameter: float
+    glossy: Functions
+
+    @property
+    def width(self) -> int:
+        """Random numbers per direction."""
+        return 3 if self.kind == "ball" else 2
+
+    def jitter(self, direction: Floats32, u: Floats32) -> Floats32:
+        """Jitter mirrored directions (3, N) by u (width, N); the results have unit length."""
+        scattered: Floats32
+        match self.kind:
+            case "plane":
+                scattered = self.glossy.jitter_on_plane(direction, self.parameter, u)
+            case "ball":
+                scattered = self.glossy.jitter_in_ball(direction, self.parameter, u)
+            case _:
+                scattered = self.glossy.sample_phong_lobe(direction, self.parameter, u)
+        return scattered
+
+    def above(self, direction: Floats32, ng: Floats32) -> Floats32:
+        """Directions (3, N), moved to the side of the geometric normals ng (3, N) if they are below."""
+        kept: Floats32 = self.glossy.keep_above(direction, ng)
+        return kept
+
+
+@dataclass(frozen=True)
+class Gloss:
+    """The lobes of all glossy materials."""
+
+    lobes: tuple[Lobe, ...]
+
+    def __call__(
+        self,
+        material: Materials,
+        mirrored: Floats32,
+        ng: Floats32,
+        path: Indices,
+        depth: int,
+        draws: Draws,
+    ) -> Floats32:
+        """Reflected directions (3, n), jittered for glossy materials.
+
+        Parameters
+        ----------
+        material : (n,) of the reflecting surface
+        mirrored, ng : (3, n) mirrored directions (may be overwritten) and geometric normals
+        path : (n,)
+        """
+        for lobe in self.lobes:
+            which = np.flatnonzero(material == lobe.material)
+            if len(which) == 0:
+                continue
+            u = draws("gloss", path.take(which), depth, lobe.width)
+            if len(which) == len(material):
+                return lobe.above(lobe.jitter(mirrored, u), ng)
+            scattered = lobe.jitter(mirrored.take(which, axis=1), u)
+            mirrored[:, which] = lobe.above(scattered, ng.take(which, axis=1))
+        return mirrored

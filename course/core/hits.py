@@ -1,0 +1,290 @@
+"""Hits of a batch of rays: points, normals, and origins from which rays leave without hitting the same triangle."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from course.core.embree import Accelerator, Intersections, QueryTime
+from course.core.motion import MovingAccelerator
+from course.core.ray_offset import OFFSET
+from course.core.triangles import Triangles
+from course.core.types import Floats32, Indices, Mask, Materials, Numbers
+from course.core.vectors import cross, dot, gather
+
+Places = tuple[Floats32, Floats32, Floats32, Floats32, Floats32, Floats32]
+"""p, ng, ns, offset, above, side; see ``Hits``."""
+
+Found = tuple[Indices | None, Numbers, Floats32, Floats32, Floats32, Materials, Floats32, Places]
+"""ray, triangle, u, v, t, material, direction; see ``Hits``."""
+
+
+@dataclass(frozen=True)
+class Hits:
+    """The hits of a batch, one column a hit.
+
+    Attributes
+    ----------
+    ray : (n,) index of the ray in its batch; None if every ray hit
+    triangle : (n,) int32
+    u, v : (n,) float32 barycentrics
+    t : (n,) float32, distance along the ray
+    material : (n,) uint16 material number
+    direction : (3, n) float32, of the incoming ray
+    p : (3, n) float32, the point
+    ng, ns : (3, n) float32, unit geometric and shading normals, on the incoming side
+    offset : (n,) float32, distance from p at which rays leave
+    above : (3, n) float32, p + offset ng: origin of rays that leave on the incoming side
+    side : (n,) float32, 1 at the front of the triangle, -1 at the back
+    time : (n,) float32, share of the exposure; None if nothing moves
+    tint : (3, n) float32, colour factor from textures, 1 where there is none; None if no hit has one
+    """
+
+    ray: Indices | None
+    triangle: Numbers
+    u: Floats32
+    v: Floats32
+    t: Floats32
+    material: Materials
+    direction: Floats32
+    p: Floats32
+    ng: Floats32
+    ns: Floats32
+    offset: Floats32
+    above: Floats32
+    side: Floats32
+    time: Floats32 | None = None
+    tint: Floats32 | None = None
+
+    @property
+    def size(self) -> int:
+        """Number of hits."""
+        return len(self.t)
+
+    @property
+    def entering(self) -> Mask:
+        """(n,) bool, true where the ray meets the triangle's front and so comes from outside."""
+        return np.asarray(self.side > 0)
+
+    def below(self, which: Indices) -> Floats32:
+        """Origin p - offset ng, (3, m), of rays that leave hits ``which`` (m,) on the far side."""
+        below: Floats32 = self.p.take(which, axis=1)
+        below -= self.ng.take(which, axis=1) * self.offset.take(which)
+        return below
+
+
+@dataclass(frozen=True)
+class Surface:
+    """All triangles of a scene, and the accelerator that intersects rays with them."""
+
+    triangles: Triangles
+    accelerator: Accelerator
+
+    @property
+    def bends(self) -> bool:
+        """True if interpolated shading normals that face away from the ray are turned; see ``turn_to_viewer``."""
+        return True
+
+    @property
+    def eye(self) -> Any:
+        """Intersects camera rays, by ``Accelerator.intersect``."""
+        return self.accelerator
+
+    def seen(
+        self,
+        origin: Floats32,
+        direction: Floats32,
+        clock: QueryTime,
+        time: Floats32 | None,
+        coherent: bool,
+    ) -> Intersections:
+        """Nearest hits of camera rays; see ``Accelerator.intersect``."""
+        found: Intersections = self.eye.intersect(origin, direction, clock, time, coherent=coherent)
+        # Rays of a camera exactly on a surface would hit only that; they start one offset further.
+        stuck = np.flatnonzero((found.t <= 0) & (found.triangle >= 0))
+        if len(stuck) == 0:
+            return found
+        way = direction.take(stuck, axis=1)
+        start = origin if origin.shape[1] == 1 else origin.take(stuck, axis=1)
+        when = None if time is None else time.take(stuck)
+        step = self.triangles.planes[found.triangle.take(stuck), 6]
+        start = start + way * np.maximum(step, np.float32(OFFSET))
+        again = self.eye.intersect(start, way, clock, when)
+        for mine, theirs in (
+            (found.triangle, again.triangle),
+            (found.u, again.u),
+            (found.v, again.v),
+            (found.t, again.t),
+        ):
+            mine[stuck] = theirs
+        return found
+
+    def hits(
+        self,
+        found: Intersections,
+        direction: Floats32,
+        time: Floats32 | None = None,
+        of_camera: bool = False,
+    ) -> Hits:
+        """Geometry and material of the rays that hit.
+
+        Parameters
+        ----------
+        direction : (3, N) float32, unit vectors, of all rays of the batch
+        time : (N,) float32 of all rays; None if nothing moves
+        of_camera : true for camera rays
+        """
+        ray, triangle, u, v, t, material, direction, places = self._find(found, direction)
+        p, ng, ns, offset, above, side = places
+        if time is not None and ray is not None:
+            time = time.take(ray)
+        if isinstance(self.accelerator, MovingAccelerator) and time is not None:
+            self.accelerator.follow(p, triangle, time)
+            np.add(p, ng * offset, out=above)
+        return Hits(
+            *(ray, triangle, u, v, t, material, direction, p, ng, ns, offset, above, side, time)
+        )
+
+    def _find(self, found: Intersections, direction: Floats32) -> Found:
+        """The hits at time 0."""
+        hit = np.flatnonzero(found.triangle >= 0)
+        triangle, u, v, t = found.triangle, found.u, found.v, found.t
+        ray: Indices | None = None
+        if len(hit) < len(triangle):
+            ray = hit
+            triangle, u, v, t = triangle.take(hit), u.take(hit), v.take(hit), t.take(hit)
+            direction = direction.take(hit, axis=1)
+        places = _places(self.triangles, triangle, u, v, direction, self.bends)
+        material = self.triangles.material.take(triangle)
+        return ray, triangle, u, v, t, material, direction, places
+
+    def leaving(self, hits: Hits, which: Indices, direction: Floats32) -> Any:
+        """``left`` of ``Accelerator.intersect`` for rays (3, m) that leave hits ``which`` (m,); None here."""
+        return None
+
+
+def _places(
+    triangles: Triangles,
+    triangle: Numbers,
+    u: Floats32,
+    v: Floats32,
+    direction: Floats32,
+    bends: bool,
+) -> Places:
+    """Points and normals of the hits at time 0."""
+    plane = gather(triangles.planes, triangle)
+    corner, ng, offset, flat = plane[0:3], plane[3:6], plane[6], plane[7]
+
+    # From barycentrics, not origin + t * direction, whose error would grow with the ray's length.
+    edges = gather(triangles.edges, triangle)
+    p, along_2, widest = edges[0:3], edges[3:6], edges[6]
+    p *= u
+    along_2 *= v
+    p += along_2
+    p += corner
+    _pull_off_edges(triangles, p, triangle, u, v, widest)
+
+    facing = dot(ng, direction)
+    side = np.copysign(np.float32(1), -facing)
+    ng *= side
+    ns = ng
+    if triangles.corner_normals is not None:
+        # Most triangles of a room are flat.
+        some = np.flatnonzero(flat == 0)
+        if len(some) == len(side):
+            ns = _interpolated(triangles, triangle, u, v, side, direction, bends)
+        else:
+            ns = ng.copy()
+            if len(some):
+                ns[:, some] = _interpolated(
+                    triangles,
+                    *(triangle.take(some), u.take(some), v.take(some), side.take(some)),
+                    direction.take(some, axis=1),
+                    bends,
+                )
+    above = ng * offset
+    above += p
+    return p, ng, ns, offset, above, side
+
+
+def bulge(triangles: Triangles, hits: Hits, which: Indices) -> Floats32:
+    """Height (m,) float32 >= 0 of the bulge above hits ``which`` (m,), on the incoming side; see ``Triangles``."""
+    if triangles.bulge is None:
+        return np.zeros(len(which), np.float32)
+    u, v = hits.u.take(which), hits.v.take(which)
+    w = 1 - u - v
+    height = dot(
+        gather(triangles.bulge, hits.triangle.take(which)), np.stack((w * u, w * v, u * v))
+    )
+    height *= hits.side.take(which)
+    return np.maximum(height, 0, out=height)
+
+
+def _pull_off_edges(
+    triangles: Triangles, p: Floats32, triangle: Numbers, u: Floats32, v: Floats32, widest: Floats32
+) -> None:
+    """Move points next to an edge inwards, at right angles to it, in place."""
+    w = 1 - u
+    w -= v
+    smallest = np.minimum(u, v)
+    np.minimum(smallest, w, out=smallest)
+    # The triangle's largest inset rules out most points; only the others look up all three.
+    near = np.flatnonzero(smallest < widest)
+    inset = gather(triangles.inset, triangle.take(near))
+    close = (w.take(near) < inset[0]) | (u.take(near) < inset[1]) | (v.take(near) < inset[2])
+    near, inset = near[close], inset[:, close]
+    if len(near) == 0:
+        return
+    edges = triangles.edges[triangle.take(near), :6].T.astype(np.float64)
+    e1, e2 = edges[:3], edges[3:]
+    ng = triangles.planes[triangle.take(near), 3:6].T.astype(np.float64)
+    twice_area = dot(cross(e1, e2), ng)
+    moved = p[:, near].astype(np.float64)
+    for edge, barycentric, least in zip((e2 - e1, -e2, e1), (w, u, v), inset, strict=True):
+        # Height = twice the area / |edge|; the other |edge| normalises the inward normal.
+        lacking = np.maximum(least - barycentric.take(near), 0)
+        moved += cross(ng, edge) * (lacking * twice_area / dot(edge, edge))
+    p[:, near] = moved
+
+
+def _interpolated(
+    triangles: Triangles,
+    triangle: Numbers,
+    u: Floats32,
+    v: Floats32,
+    side: Floats32,
+    direction: Floats32,
+    bends: bool,
+) -> Floats32:
+    """Shading normals (3, n) on the incoming side."""
+    assert triangles.corner_normals is not None
+    rows = gather(triangles.corner_normals, triangle)
+    normal = rows[3:6]
+    normal *= u
+    rows[6:9] *= v
+    normal += rows[6:9]
+    normal += rows[0:3]
+    squared = dot(normal, normal)
+    # Opposite corner normals may cancel. The clamp avoids a division by 0.
+    np.maximum(squared, np.float32(1e-20), out=squared)
+    normal *= 1 / np.sqrt(squared)
+    normal *= side
+    if bends:
+        turn_to_viewer(normal, direction)
+    return normal
+
+
+def turn_to_viewer(ns: Floats32, direction: Floats32) -> None:
+    """Turn shading normals that face away from the ray until they are orthogonal to it, in place."""
+    away = dot(ns, direction)
+    wrong = np.flatnonzero(away > 0)
+    if len(wrong):
+        d = direction.take(wrong, axis=1)
+        bent = ns.take(wrong, axis=1)
+        bent -= away.take(wrong) * d
+        squared = dot(bent, bent)
+        np.maximum(squared, np.float32(1e-20), out=squared)
+        bent *= 1 / np.sqrt(squared)
+        ns[:, wrong] = bent

@@ -1,0 +1,224 @@
+"""Distribution ray tracing: follow a batch of camera rays from depth to depth and add their radiance to the film.
+
+Whitted's ray tree (1980) with Cook's random sampling of lens, time, gloss and lights (1984). Each hit casts at most
+one shadow ray per light, one reflected ray and one refracted ray. A stage that the scene doesn't need is None.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from course.core.absorption import Absorption
+from course.core.camera import Camera
+from course.core.direct import DirectLight
+from course.core.environment import Environment
+from course.core.hits import Hits, Surface
+from course.core.materials import Lookup
+from course.core.motion import Motion
+from course.core.rays import Draws, Rays
+from course.core.scatter import Scatter
+from course.core.tiles import RAYS
+from course.core.types import Floats32, Indices, Mask, Media
+
+LARGEST_BATCH = 4 * RAYS
+"""Largest number of rays followed at once."""
+
+
+class CancelledError(Exception):
+    """The render was cancelled."""
+
+
+@dataclass(frozen=True)
+class Integrator:
+    """Follows rays. All threads share it, and none writes to it.
+
+    Attributes
+    ----------
+    environment : radiance of the rays that hit nothing; None for none
+    environment_depth : largest depth at which such rays add radiance, -1 for none
+    direct : direct light; None if no material reflects any
+    ambient : (3, M) reflected ambient radiance; None if all 0
+    dark_inside : (M,) bool, dielectrics, whose inside reflects no ambient or diffuse light; None if no side does
+    glow : (3, M) emission of surfaces that are no lights, from both sides; None if all 0
+    emission : (3, M) emission of the surfaces of lights, from their fronts; None if all 0
+    absorption : along rays in dielectrics; None if nothing absorbs
+    scatter : reflects and refracts rays; None if no material does
+    max_depth : largest number of bounces in this scene
+    coherent_depth : largest depth at which neighbouring rays have similar directions, -1 for none
+    """
+
+    surface: Surface
+    camera: Camera
+    motion: Motion | None
+    environment: Environment | None
+    environment_depth: int
+    direct: DirectLight | None
+    ambient: Lookup | None
+    dark_inside: Mask | None
+    glow: Lookup | None
+    emission: Lookup | None
+    absorption: Absorption | None
+    scatter: Scatter | None
+    max_depth: int
+    coherent_depth: int
+
+    def camera_rays(self, x: Floats32, y: Floats32, draws: Draws) -> Rays:
+        """Rays through picture points (N,) [pixels], with random lens points and times if the scene needs them."""
+        u = draws("lens") if self.camera.lens is not None else None
+        time = moved = None
+        if self.motion is not None:
+            motion_blur = self.motion.motion_blur
+            time = motion_blur.shutter_times(0.0, 1.0, draws("time")[0])
+            if self.motion.camera_velocity is not None:
+                moved = self.motion.moved(self.motion.camera_velocity, time)
+        origin, direction = self.camera.rays(x, y, u, moved)
+        return Rays(origin, direction, None, None, time=time)
+
+    def radiance(self, camera_rays: Rays, draws: Draws) -> Floats32:
+        """Radiance (3, paths) along the camera rays, gathered from all rays that follow from them.
+
+        Raises
+        ------
+        CancelledError
+            Soon after ``draws.cancelled()`` becomes true.
+        """
+        film = np.zeros((3, draws.block.size), np.float32)
+        # Glass may double the rays at each depth, so batches that outgrow the cache are split. The
+        # last batch is followed to its end first: memory grows with the depth, not with 2^depth.
+        pile = [(0, camera_rays)]
+        while pile:
+            if draws.cancelled():
+                raise CancelledError
+            depth, rays = pile.pop()
+            if rays.size > LARGEST_BATCH:
+                pile += [(depth, part) for part in rays.halves()]
+                continue
+            following = self._follow(rays, depth, film, draws)
+            if following is not None:
+                pile.append((depth + 1, following))
+        return film
+
+    def _follow(self, rays: Rays, depth: int, film: Floats32, draws: Draws) -> Rays | None:
+        """Follow rays by one depth: add radiance to the film, return the rays of the next depth."""
+        counters = draws.counters
+        # ---- intersection, environment, absorption
+        hits, throughput, path, medium = self._met(rays, True, depth, film, draws)
+        if hits.size == 0:
+            return None
+        # ---- radiance from the hits towards the viewer
+        radiance = self._shade(hits, path, depth, draws)
+        if radiance is not None:
+            self.add_radiance(film, path, radiance, throughput)
+        counters.lap("shade")
+        # ---- reflection, gloss, refraction
+        if self.scatter is None or depth == self.max_depth:
+            return None
+        following = self.scatter(hits, throughput, path, medium, depth, draws)
+        counters.lap("bounce")
+        return following
+
+    def _met(
+        self, rays: Rays, sees: Mask | bool, depth: int, film: Floats32, draws: Draws
+    ) -> tuple[Hits, Floats32 | None, Indices | None, Media | None]:
+        """Hits of the rays, with throughput, path and medium of the rays that hit.
+
+        The rays that hit nothing add the environment's radiance to the film if ``sees`` is true, for each or for all.
+        """
+        counters, of_camera = draws.counters, depth == 0
+        arrays = rays.origin, rays.direction, counters.embree, rays.time
+        coherent = depth <= self.coherent_depth
+        if of_camera:
+            found = self.surface.seen(*arrays, coherent)
+        else:
+            accelerator = self.surface.accelerator
+            found = accelerator.intersect(*arrays, coherent=coherent, left=rays.left)
+        counters.lap("trace")
+        if depth <= self.environment_depth and sees is not False:
+            self._add_environment(film, rays, (found.triangle < 0) & sees)
+        hits = self.surface.hits(found, rays.direction, rays.time, of_camera)
+        throughput, path, medium = _of_hits(rays, hits)
+        draws.hit(path)
+        if self.absorption is not None:
+            throughput = self.absorption(rays, hits, throughput, medium, of_camera)
+        counters.lap("hits")
+        return hits, throughput, path, medium
+
+    def _shade(self, hits: Hits, path: Indices | None, depth: int, draws: Draws) -> Floats32 | None:
+        """Radiance (3, n) from the hits towards the viewer, without further bounces."""
+        radiance = None
+        if self.direct is not None:
+            radiance = self.direct(hits, path, depth, draws)
+        if self.ambient is not None:
+            radiance = _sum(radiance, self._ambient_light(hits, self.ambient))
+        if self.glow is not None:
+            radiance = _sum(radiance, self.glow(hits.material))
+        if self.emission is not None:
+            radiance = _sum(radiance, self.emission(hits.material) * hits.entering)
+        if radiance is not None and radiance.shape[1] == 1:
+            radiance = np.repeat(radiance, hits.size, axis=1)
+        return radiance
+
+    def _ambient_light(self, hits: Hits, ambient: Lookup) -> Floats32:
+        """Reflected ambient radiance, (3, n) or (3, 1)."""
+        reflected = ambient(hits.material)
+        if hits.tint is not None:
+            reflected = reflected * hits.tint
+        inside = self.insides(hits)
+        if len(inside):
+            reflected = np.array(np.broadcast_to(reflected, (3, hits.size)))
+            reflected[:, inside] = 0
+        return reflected
+
+    def insides(self, hits: Hits) -> Indices:
+        """Indices of the hits on the inside of a dielectric in ``dark_inside``."""
+        if self.dark_inside is None:
+            return np.empty(0, np.intp)
+        return np.flatnonzero(~hits.entering & self.dark_inside.take(hits.material))
+
+    def _add_environment(self, film: Floats32, rays: Rays, missed: Mask) -> None:
+        which = np.flatnonzero(missed)
+        if len(which) == 0 or self.environment is None:
+            return
+        radiance = self.environment.radiance(rays.direction.take(which, axis=1))
+        if radiance.shape[1] == 1:
+            radiance = np.repeat(radiance, len(which), axis=1)
+        throughput = None if rays.throughput is None else rays.throughput.take(which, axis=1)
+        path = which if rays.path is None else rays.path.take(which)
+        self.add_radiance(film, path, radiance, throughput)
+
+    def add_radiance(
+        self,
+        film: Floats32,
+        path: Indices | None,
+        radiance: Floats32,
+        throughput: Floats32 | None,
+    ) -> None:
+        """Add radiance (3, n) times throughput (3, n) (None: 1) to the film. Several rays may share a path."""
+        if throughput is not None:
+            radiance = radiance * throughput
+        if path is None:
+            film += radiance
+            return
+        for channel, values in zip(film, radiance, strict=True):
+            # In the order of the rays, so that a sum doesn't depend on the rest of the batch.
+            np.add.at(channel, path, values)
+
+
+def _of_hits(rays: Rays, hits: Hits) -> tuple[Floats32 | None, Indices | None, Media | None]:
+    throughput, path, medium = rays.throughput, rays.path, rays.medium
+    if hits.ray is None:
+        return throughput, path, medium
+    return (
+        None if throughput is None else throughput.take(hits.ray, axis=1),
+        hits.ray if path is None else path.take(hits.ray),
+        None if medium is None else medium.take(hits.ray),
+    )
+
+
+def _sum(radiance: Floats32 | None, term: Floats32) -> Floats32:
+    """Add (3, n) or (3, 1), in place only if radiance is (3, n): a single column may be shared."""
+    if radiance is None:
+        return term
+    return np.add(radiance, term, out=radiance if radiance.shape[1] > 1 else None)

@@ -1,0 +1,80 @@
+"""A sphere: made of point lights (by intensity) or a Lambertian emitter (by radiance)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from course.core.functions import Functions
+from course.core.lights.sample import (
+    TO_A_POINT,
+    TO_A_SURFACE,
+    Sample,
+    Towards,
+    inverse_square,
+)
+from course.core.types import Floats32
+from course.core.vectors import dot
+
+
+@dataclass(frozen=True)
+class SphereLight:
+    """Sampled uniformly by area or by volume.
+
+    Attributes
+    ----------
+    center : (3,) float32
+    radius : float > 0; a sphere of radius 0 is built as a point light
+    emitter : whether it is a Lambertian emitter: points lie on its surface and emit outwards only
+    color : (3,) float32, I / pi, or radiance times area / pi
+    samples : where its points lie: on the "sphere", in the "ball", or on the "facing disk" of each shading point
+    soft_shadows : functions of that module
+    """
+
+    name: str
+    center: Floats32
+    radius: float
+    emitter: bool
+    color: Floats32
+    samples: str
+    soft_shadows: Functions
+    width: int = 2
+    velocity: Floats32 | None = None
+
+    @property
+    def limit(self) -> float:
+        """See ``Light``."""
+        return TO_A_POINT if not self.emitter else TO_A_SURFACE
+
+    def sample(self, points: Floats32, u: Floats32 | None, towards: Towards) -> Sample:
+        """See ``Light``."""
+        assert u is not None
+        if self.emitter:
+            return self._sample_emitter(points, u)
+        return towards(self._on_light(self.center, points, u), points)
+
+    def _on_light(self, center: Floats32, points: Floats32, u: Floats32) -> Floats32:
+        """Points (3, n) of the light, with its centre moved to ``center``."""
+        on_light: Floats32
+        match self.samples:
+            case "sphere":
+                on_light = self.soft_shadows.point_on_sphere(center, self.radius, u)
+            case "ball":
+                on_light = self.soft_shadows.point_in_ball(center, self.radius, u)
+            case _:
+                points = np.ascontiguousarray(points)
+                on_light = self.soft_shadows.point_on_facing_disk(center, self.radius, points, u)
+        return on_light
+
+    def _sample_emitter(self, points: Floats32, u: Floats32) -> Sample:
+        # Sampled about the origin: a radius of a few float32 steps of the centre keeps its normals.
+        from_center = self._on_light(np.zeros(3, np.float32), points, u)
+        to_light = from_center + self.center[:, None]
+        to_light -= points
+        inverse_length, factor = inverse_square(to_light)
+        cosine = dot(from_center, to_light)
+        cosine *= inverse_length
+        cosine *= np.float32(-1 / self.radius)
+        factor *= np.maximum(cosine, 0, out=cosine)
+        return Sample(to_light, inverse_length, factor)

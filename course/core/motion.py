@@ -1,0 +1,140 @@
+"""Moving triangles: each velocity has its own Embree scene, and ray origins are shifted into its frame.
+
+embreex has no motion blur. A ray meets an object moved by d where a ray with its origin moved by -d meets the static
+object; translation keeps directions (the `motion_blur` module). Triangle numbers count first the static triangles,
+then those of each mover.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from course.core.embree import EmbreeAccelerator, Intersections, QueryTime
+from course.core.functions import Functions
+from course.core.types import Floats32, Mask, Numbers
+
+NEARLY_ALL = 0.9
+"""Share of unblocked rays above which testing all is cheaper than copying those."""
+
+
+@dataclass(frozen=True)
+class Motion:
+    """Motion while the shutter is open.
+
+    Attributes
+    ----------
+    motion_blur : functions of the module
+    camera_velocity : (3,) float32 [units of the compiled scene / exposure], or None
+    """
+
+    motion_blur: Functions
+    camera_velocity: Floats32 | None
+
+    def moved(self, velocity: Floats32, time: Floats32) -> Floats32:
+        """Displacement at times (N,), (3, N) float32."""
+        return moved(self.motion_blur, velocity, time)
+
+
+@dataclass(frozen=True)
+class Mover:
+    """Triangles first .. last - 1, with velocity (3,) float32 [units of the compiled scene / exposure]."""
+
+    velocity: Floats32
+    accelerator: EmbreeAccelerator
+    first: int
+    last: int
+
+
+@dataclass(frozen=True)
+class MovingAccelerator:
+    """Static triangles and movers; see ``course.core.embree.Accelerator``."""
+
+    static: EmbreeAccelerator
+    movers: tuple[Mover, ...]
+    motion_blur: Functions
+
+    def intersect(
+        self,
+        origin: Floats32,
+        direction: Floats32,
+        clock: QueryTime,
+        time: Floats32 | None = None,
+        *,
+        coherent: bool = False,
+        left: Any = None,
+    ) -> Intersections:
+        """See ``Accelerator.intersect``."""
+        assert time is not None
+        found = self.static.intersect(origin, direction, clock, coherent=coherent)
+        origin = _each_its_own(origin, direction.shape[1])
+        for mover in self.movers:
+            other = mover.accelerator.intersect(
+                self._shifted(origin, mover, time),
+                direction,
+                clock,
+                limit=found.t,
+                coherent=coherent,
+            )
+            nearer = np.flatnonzero(other.triangle >= 0)
+            if len(nearer) == 0:
+                continue
+            found.triangle[nearer] = other.triangle.take(nearer) + np.int32(mover.first)
+            for mine, theirs in ((found.u, other.u), (found.v, other.v), (found.t, other.t)):
+                mine[nearer] = theirs.take(nearer)
+        return found
+
+    def unoccluded(
+        self,
+        origin: Floats32,
+        direction: Floats32,
+        limit: float,
+        clock: QueryTime,
+        time: Floats32 | None = None,
+        *,
+        asked: Mask | None = None,
+    ) -> Mask:
+        """See ``Accelerator.unoccluded``."""
+        assert time is not None
+        free = self.static.unoccluded(origin, direction, limit, clock, asked=asked)
+        if asked is not None:
+            free &= asked
+        origin = _each_its_own(origin, direction.shape[1])
+        for mover in self.movers:
+            # Only rays that are still unblocked are tested again; if they are nearly all, copies cost more.
+            left = np.flatnonzero(free)
+            if len(left) == 0:
+                break
+            start, toward, when = origin, direction, time
+            if len(left) < NEARLY_ALL * len(free):
+                start, toward = origin.take(left, axis=1), direction.take(left, axis=1)
+                when = time.take(left)
+            else:
+                left = np.arange(len(free))
+            shifted = self._shifted(start, mover, when)
+            free[left] &= mover.accelerator.unoccluded(shifted, toward, limit, clock)
+        return free
+
+    def _shifted(self, origin: Floats32, mover: Mover, time: Floats32) -> Floats32:
+        """Origins (3, N) in the mover's frame."""
+        shifted: Floats32 = self.motion_blur.to_object_space(origin, mover.velocity, time)
+        return shifted
+
+    def follow(self, points: Floats32, triangle: Numbers, time: Floats32) -> None:
+        """Move points (3, n) with their triangles from time 0 to ``time`` (n,), in place."""
+        for mover in self.movers:
+            which = np.flatnonzero((triangle >= mover.first) & (triangle < mover.last))
+            if len(which):
+                points[:, which] += moved(self.motion_blur, mover.velocity, time.take(which))
+
+
+def moved(motion_blur: Functions, velocity: Floats32, time: Floats32) -> Floats32:
+    """Displacement at times (N,), (3, N) float32."""
+    displacement: Floats32 = motion_blur.displacement(velocity, time)
+    return displacement
+
+
+def _each_its_own(origin: Floats32, n: int) -> Floats32:
+    return origin if origin.shape[1] == n else np.repeat(origin, n, axis=1)

@@ -1,0 +1,168 @@
+"""Batches of rays, and the random numbers that their paths draw."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, fields, replace
+from typing import Any
+
+import numpy as np
+
+from course.core.counters import Counters
+from course.core.samplers import Block, Sampler
+from course.core.types import Floats32, Indices, Media
+
+OPEN = np.int16(-1)
+"""Medium of rays outside all dielectrics."""
+
+
+@dataclass(frozen=True)
+class Rays:
+    """A batch of rays, one column per ray.
+
+    Attributes
+    ----------
+    origin : (3, n) float32, or (3, 1) if shared
+    direction : (3, n) float32, unit length
+    throughput : (3, n) float32, share of a ray's radiance that reaches the film; None for 1
+    path : (n,) number of the path in the block; None for one ray per path, in order
+    medium : (n,) int16, material that the ray is in, or OPEN; None if nothing absorbs, and for camera rays
+    time : (n,) float32 since the shutter opened, in exposures; None if nothing moves
+    left : result of ``Surface.leaving`` for these rays, passed to the accelerator
+    start : (3, n) float32, hit point that the ray leaves, next to its origin; None if ``medium`` is
+    """
+
+    origin: Floats32
+    direction: Floats32
+    throughput: Floats32 | None
+    path: Indices | None
+    medium: Media | None = None
+    time: Floats32 | None = None
+    left: Any = None
+    start: Floats32 | None = None
+
+    @property
+    def size(self) -> int:
+        """Number of rays."""
+        return int(self.direction.shape[1])
+
+    def halves(self) -> tuple[Rays, Rays]:
+        """The second half and the first half as batches."""
+        middle = self.size // 2
+        rays = self if self.path is not None else replace(self, path=np.arange(self.size))
+        return rays.part(slice(middle, None)), rays.part(slice(middle))
+
+    def part(self, columns: slice) -> Rays:
+        """Some of the rays. If ``path`` is None it stays None: one ray per path of the part."""
+        arrays = {field.name: getattr(self, field.name) for field in fields(self)}
+        # A shared origin has one column.
+        kept = {
+            name: array if array is None or array.shape[-1] != self.size else array[..., columns]
+            for name, array in arrays.items()
+        }
+        return Rays(**kept)
+
+
+def joined(batches: Sequence[Rays]) -> Rays:
+    """Batches as one, which costs less than several small ones; an attribute is None in all of them or in none."""
+
+    def columns(name: str) -> Any:
+        arrays = [getattr(rays, name) for rays in batches]
+        return None if arrays[0] is None else np.concatenate(arrays, axis=-1)
+
+    return Rays(*(columns(field.name) for field in fields(Rays)))
+
+
+class Dimensions:
+    """The plan of the random numbers: which dimensions of the sampler each name has, and how many (``width``).
+
+    A name of width 0 has no dimensions. Others have whole pairs: the sampler's pairs (0, 1), (2, 3), ... are its best.
+    A path draws ``of_path`` once and ``of_bounce`` at each depth; both are pairs of name and width.
+    """
+
+    def __init__(
+        self, of_path: Iterable[tuple[str, int]], of_bounce: Iterable[tuple[str, int]]
+    ) -> None:
+        self.width: dict[str, int] = {}
+        self._first: dict[str, int] = {}
+        self._next = 0
+        self._take(of_path)
+        begin = self._next
+        self._take(of_bounce)
+        self._stride = self._next - begin
+
+    def _take(self, wanted: Iterable[tuple[str, int]]) -> None:
+        for name, width in wanted:
+            if width:
+                self.width[name], self._first[name] = width, self._next
+                self._next += width + width % 2
+
+    def __contains__(self, name: str) -> bool:
+        return name in self.width
+
+    def first(self, name: str, depth: int) -> int:
+        """First dimension of a name at a depth."""
+        return self._first[name] + depth * self._stride
+
+
+@dataclass(frozen=True)
+class Draws:
+    """Draws the random numbers of a block's paths on demand; ``cancelled()`` is true once the render is cancelled."""
+
+    sampler: Sampler
+    dimensions: Dimensions
+    block: Block
+    counters: Counters
+    cancelled: Callable[[], bool] = lambda: False
+
+    def __call__(
+        self,
+        name: str,
+        path: Indices | None = None,
+        depth: int = 0,
+        width: int | None = None,
+        skip: int = 0,
+    ) -> Floats32:
+        """Random numbers (width, n) in [0, 1).
+
+        Parameters
+        ----------
+        name : one in ``dimensions``
+        path : (n,) the paths; None for all of the block, in order
+        depth : number of bounces before
+        width : None for the name's width
+        skip : how many of the name's first numbers to skip
+        """
+        width = self.dimensions.width[name] if width is None else width
+        dimension = self.dimensions.first(name, depth) + skip
+        if path is None:
+            u = self.sampler.draw(self.block, dimension, width)
+        else:
+            u = self.sampler.draw_some(self.block, dimension, width, path)
+        self.counters.drew(name, u.size)
+        return u
+
+    def cast(
+        self,
+        kind: str,
+        n: int,
+        path: Indices | None,
+        which: Indices | None = None,
+        cost: float | None = None,
+    ) -> None:
+        """Count n rays that are cast.
+
+        Parameters
+        ----------
+        path : of each hit; None for one hit per path, in order
+        which : (n,) the hits that cast a ray; None for all
+        cost : of each ray; None for that of its kind (``course.adaptive.costs``)
+        """
+        self.counters.rays[kind] = self.counters.rays.get(kind, 0) + n
+
+    def hit(self, path: Indices | None) -> None:
+        """Hook of ``course.adaptive.costs``: hits of the paths (n,) are shaded."""
+
+    def part(self, block: Block, paths: slice) -> Draws:
+        """The same for a block of some of the pixels, which has some of the paths."""
+        return replace(self, block=block)

@@ -1,0 +1,265 @@
+"""Reflected and refracted rays: mirrors, gloss and dielectrics, as long as the throughput is above a cutoff."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from course.core.fresnel import fresnel_and_cos_t, refract
+from course.core.gloss import Gloss
+from course.core.hits import Hits, Surface
+from course.core.materials import Lookup
+from course.core.rays import OPEN, Draws, Rays, joined
+from course.core.types import Floats32, Indices, Media
+from course.core.vectors import dot, reflect
+
+
+@dataclass(frozen=True)
+class Boundary:
+    """The boundary of a dielectric at n hits.
+
+    Attributes
+    ----------
+    reflected, refracted : (n,) Fresnel reflectance and transmittance, 0 for opaque materials
+    cos_i, cos_t : (n,) cosines of incidence and refraction
+    eta : (n,) n_from / n_to
+    bent : (3, n) directions refracted by rough glass, undefined at other hits; None if there is no rough glass
+    """
+
+    reflected: Floats32
+    refracted: Floats32
+    cos_i: Floats32
+    cos_t: Floats32
+    eta: Floats32
+    bent: Floats32 | None = None
+
+    def of(self, which: Indices) -> Boundary:
+        """The boundary at some of the hits."""
+        return Boundary(
+            self.reflected.take(which),
+            self.refracted.take(which),
+            self.cos_i.take(which),
+            self.cos_t.take(which),
+            self.eta.take(which),
+            None if self.bent is None else self.bent.take(which, axis=1),
+        )
+
+
+@dataclass(frozen=True)
+class Scatter:
+    """Casts reflected and refracted rays.
+
+    Attributes
+    ----------
+    mirror : (3, M) mirror reflectance; a dielectric's Fresnel reflectance is added to it
+    index : (M,) refraction index, 0 for opaque materials; None if all are opaque
+    gloss : jitters mirrored directions; None if nothing is glossy
+    absorbs : whether rays carry their medium
+    outside : (M,) material around each dielectric, -1 for vacuum; None if vacuum is around all
+    cutoff : rays are dropped unless their largest throughput channel is above this
+    """
+
+    surface: Surface
+    mirror: Lookup
+    index: Lookup | None
+    gloss: Gloss | None
+    absorbs: bool
+    outside: Media | None
+    cutoff: float
+
+    @property
+    def mirrors(self) -> bool:
+        """True if the mirror reflectance of any material is above the cutoff."""
+        return bool((self.mirror.rows.max(axis=0) > self.cutoff).any())
+
+    def __call__(
+        self,
+        hits: Hits,
+        throughput: Floats32 | None,
+        path: Indices | None,
+        medium: Media | None,
+        depth: int,
+        draws: Draws,
+    ) -> Rays | None:
+        """Rays of the next depth; None if there are none.
+
+        Parameters
+        ----------
+        throughput : (3, n) float32 of the incoming rays; None for 1
+        path : (n,); None for all paths, in order
+        medium : (n,) of the incoming rays; None if nothing absorbs, and for camera rays
+        """
+        if self.absorbs and medium is None:
+            medium = np.full(hits.size, OPEN)
+        mirror = self.reflectance(hits, None)
+        if self.index is None:
+            weight = mirror if throughput is None else mirror * throughput
+            return self._reflected(hits, weight, path, medium, depth, draws)
+        boundary = self.boundary(hits, None, depth)
+        weight, through = mirror + boundary.reflected, boundary.refracted
+        if throughput is not None:
+            weight, through = weight * throughput, through * throughput
+        reflected = self._reflected(hits, weight, path, medium, depth, draws)
+        refracted = self._refracted(hits, through, boundary, path, medium, depth, draws)
+        if reflected is None or refracted is None:
+            return reflected or refracted
+        return joined([reflected, refracted])
+
+    def reflectance(self, hits: Hits, which: Indices | None) -> Floats32:
+        """Mirror reflectance at the given hits (None: all), (3, m) or (3, 1), without Fresnel's (``boundary``)."""
+        return self.mirror(hits.material if which is None else hits.material.take(which))
+
+    def boundary(self, hits: Hits, which: Indices | None, depth: int) -> Boundary:
+        """Fresnel reflectance and refraction at the given hits (None: all)."""
+        assert self.index is not None
+        material, entering, direction, ns = hits.material, hits.entering, hits.direction, hits.ns
+        if which is not None:
+            material, entering = material.take(which), entering.take(which)
+            direction, ns = direction.take(which, axis=1), ns.take(which, axis=1)
+        index = self.index(material)
+        glass = index > 0
+        # The index is relative to the medium outside, whose index counts as 1.
+        safe = np.where(glass, index, np.float32(1))
+        eta = np.where(entering, 1 / safe, safe)
+        cos_i = np.clip(-dot(direction, ns), 0, 1)
+        share, cos_t = fresnel_and_cos_t(cos_i, eta)
+        return Boundary(share * glass, (1 - share) * glass, cos_i, cos_t, eta)
+
+    def mirrored(
+        self, hits: Hits, which: Indices, path: Indices, depth: int, draws: Draws
+    ) -> Floats32:
+        """Reflected directions (3, m) at the given hits (path: (m,)), never into the surface."""
+        ng = hits.ng.take(which, axis=1)
+        way = self._mirror_images(hits, which, ng)
+        if self.gloss is None:
+            return way
+        return self.gloss(hits.material.take(which), way, ng, path, depth, draws)
+
+    def _mirror_images(self, hits: Hits, which: Indices, ng: Floats32) -> Floats32:
+        way = reflect(hits.direction.take(which, axis=1), hits.ns.take(which, axis=1))
+        return kept_above(way, ng)
+
+    def refracted(
+        self,
+        hits: Hits,
+        which: Indices,
+        boundary: Boundary,
+        path: Indices,
+        depth: int,
+        draws: Draws,
+    ) -> Floats32:
+        """Refracted directions (3, m) at the given hits, to which boundary and path (m,) belong."""
+        direction, ns = hits.direction.take(which, axis=1), hits.ns.take(which, axis=1)
+        way = refract(direction, ns, boundary.cos_i, boundary.cos_t, boundary.eta)
+        return kept_above(way, -hits.ng.take(which, axis=1))
+
+    def beyond(self, hits: Hits, which: Indices) -> Media:
+        """Medium (m,) of rays refracted at the given hits."""
+        material = hits.material.take(which).astype(np.int16)
+        outside = OPEN if self.outside is None else self.outside.take(material)
+        return np.where(hits.entering.take(which), material, outside)
+
+    def origins(
+        self, hits: Hits, which: Indices, above: int, after: Floats32
+    ) -> tuple[Floats32, Floats32]:
+        """Origins and throughput, (3, m) each, of rays that leave the given hits.
+
+        Parameters
+        ----------
+        which : (m,) the hits
+        above : number of rays that leave on the incoming side, the first of them; the others leave on the far side
+        after : (3, n) throughput of such a ray at each of all hits
+        """
+        origin = hits.above.take(which[:above], axis=1)
+        if above < len(which):
+            origin = np.concatenate((origin, hits.below(which[above:])), axis=1)
+        return origin, after.take(which, axis=1)
+
+    def _reflected(
+        self,
+        hits: Hits,
+        weight: Floats32,
+        path: Indices | None,
+        medium: Media | None,
+        depth: int,
+        draws: Draws,
+    ) -> Rays | None:
+        which = _above(weight, hits.size, self.cutoff)
+        if len(which) == 0:
+            return None
+        path = which if path is None else path.take(which)
+        origin, rest = self._origins_and_weights(hits, which, len(which), weight)
+        direction = self.mirrored(hits, which, path, depth, draws)
+        medium = None if medium is None else medium.take(which)
+        draws.cast("reflection", len(which), path)
+        return self._rays(hits, which, origin, direction, rest, path, medium)
+
+    def _refracted(
+        self,
+        hits: Hits,
+        weight: Floats32,
+        boundary: Boundary,
+        path: Indices | None,
+        medium: Media | None,
+        depth: int,
+        draws: Draws,
+    ) -> Rays | None:
+        which = _above(weight, hits.size, self.cutoff)
+        if len(which) == 0:
+            return None
+        path = which if path is None else path.take(which)
+        origin, rest = self._origins_and_weights(hits, which, 0, weight)
+        direction = self.refracted(hits, which, boundary.of(which), path, depth, draws)
+        medium = None if medium is None else self.beyond(hits, which)
+        draws.cast("refraction", len(which), path)
+        return self._rays(hits, which, origin, direction, rest, path, medium)
+
+    def _origins_and_weights(
+        self, hits: Hits, which: Indices, above: int, weight: Floats32
+    ) -> tuple[Floats32, Floats32]:
+        """As ``origins``, for weights (3, n), (3, 1) or (n,)."""
+        if weight.ndim == 2 and weight.shape[1] == hits.size:
+            return self.origins(hits, which, above, weight)
+        origin = hits.above.take(which, axis=1) if above else hits.below(which)
+        if weight.ndim == 1:
+            return origin, np.repeat(weight.take(which)[None], 3, axis=0)
+        return origin, np.repeat(weight, len(which), axis=1)
+
+    def _rays(
+        self,
+        hits: Hits,
+        which: Indices,
+        origin: Floats32,
+        direction: Floats32,
+        throughput: Floats32,
+        path: Indices,
+        medium: Media | None,
+    ) -> Rays:
+        return Rays(
+            origin,
+            direction,
+            throughput,
+            path,
+            medium,
+            None if hits.time is None else hits.time.take(which),
+            self.surface.leaving(hits, which, direction),
+            None if medium is None else hits.p.take(which, axis=1),
+        )
+
+
+def kept_above(direction: Floats32, ng: Floats32) -> Floats32:
+    """Mirror directions that an interpolated normal has sent below the surface back above it."""
+    below = np.minimum(dot(direction, ng), 0)
+    if not below.any():
+        return direction
+    below += below
+    return np.subtract(direction, below * ng)
+
+
+def _above(weight: Floats32, size: int, cutoff: float) -> Indices:
+    """Columns of (3, size), (3, 1) or (size,) whose largest channel is above the cutoff."""
+    largest = weight.max(axis=0) if weight.ndim == 2 else weight
+    if len(largest) < size:
+        return np.arange(size if largest[0] > cutoff else 0)
+    return np.flatnonzero(largest > cutoff)

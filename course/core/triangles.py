@@ -1,0 +1,265 @@
+"""All triangles of a scene as float32 tables, one row per triangle.
+
+The scene has already been moved and scaled to [-1, 1], in float64.
+
+Symbols: p0, p1, p2 corners; e1 = p1 - p0, e2 = p2 - p0; ng geometric normal; n0, n1, n2 corner normals;
+u, v barycentrics of p1 and p2, w = 1 - u - v.
+
+In a mesh that has been stretched unevenly, corner normals differ in length. Interpolated first and normalised last,
+they give the normals of the stretched surface: an ellipsoid if it was a sphere. Nothing else uses their lengths.
+
+The bulge. A coarse mesh with smooth normals stands for a round surface above its flat triangles. Near the terminator,
+shadow rays from the flat triangles hit neighbouring facets, and the mesh shows black teeth. So shadow rays start
+from the round surface, higher by
+
+    h(u, v) = 1/2 (w u k01 + w v k02 + u v k12),    k_ij = (p_j - p_i) . (n_j - n_i)
+
+Along an edge, h is the parabola that has the normals of both ends. An edge of length L on a sphere of radius R has
+k = L^2 / R, and h at its middle is the sagitta L^2 / (8 R). (Hanika, "Hacking the shadow terminator", Ray Tracing
+Gems II, ch. 4, moves the point to the tangent planes instead, twice as high.)
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from course.core.embree import Accelerator, EmbreeAccelerator
+from course.core.functions import Functions
+from course.core.motion import Mover, MovingAccelerator
+from course.core.ray_offset import offset_and_inset
+from course.core.types import Floats, Floats32, Floats64, Materials, Numbers
+from course.core.vectors import cross, dot
+
+UNIT = 1e-9
+"""Normals whose lengths are within this of 1 count as unit vectors."""
+
+FLAT = 1e-5
+"""A triangle is flat if its corner normals are equal and each component is within this of ng's."""
+
+FAINTEST = 2.0**-24
+"""Least length of a corner normal relative to its triangle's longest: negligible in float32, but never 0."""
+
+
+Velocity = tuple[float, float, float]
+
+STILL: Velocity = (0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True)
+class Part:
+    """One object's mesh, before its tables are made.
+
+    Attributes
+    ----------
+    material : material number
+    velocity : [units of the compiled scene / exposure]
+    convex : closed, with triangles that face outwards; no straight line that leaves it meets it again
+    """
+
+    mesh: Mesh
+    material: int
+    velocity: Velocity = STILL
+    convex: bool = False
+
+
+@dataclass(frozen=True)
+class Tables:
+    """One part's rows of ``Triangles``; ``kept`` (T,) are the numbers of the mesh's triangles that have an area.
+
+    Normals and bulge are empty if no part of the scene has normals.
+    """
+
+    part: Part
+    kept: NDArray[np.intp]
+    vertices: Floats32
+    triangles: Numbers
+    planes: Floats32
+    edges: Floats32
+    inset: Floats32
+    corner_normals: Floats32
+    bulge: Floats32
+    bend: float
+
+
+@dataclass(frozen=True)
+class Triangles:
+    """T triangles.
+
+    Attributes
+    ----------
+    planes : (T, 8) float32, p0, ng (unit), the offset of leaving rays, and 1 if ng is also the shading normal, else 0
+    edges : (T, 8) float32, e1, e2, the largest inset, and padding: NumPy gathers rows of 32 bytes in half the time
+        of rows of 24 or 36
+    inset : (T, 3) float32, the barycentrics w, u, v below which a point counts as next to an edge
+    corner_normals : (T, 9) float32, n0, n1 - n0, n2 - n0, where the longest of n0, n1, n2 has length 1; None if no part
+        has normals
+    bulge : (T, 3) float32, k01 / 2, k02 / 2, k12 / 2; None if no part has normals or shadow rays ignore the bulge
+    bend : sine of the largest angle between ng and a corner normal, 0 if every triangle is flat
+    material : (T,) uint16 material numbers
+    parts : (vertices, triangles, convex) of each object: two counts and a bool, in the order of the triangles
+    """
+
+    planes: Floats32
+    edges: Floats32
+    inset: Floats32
+    corner_normals: Floats32 | None
+    bulge: Floats32 | None
+    bend: float
+    material: Materials
+    parts: tuple[tuple[int, int, bool], ...] = ()
+
+    @property
+    def size(self) -> int:
+        """Number of triangles."""
+        return len(self.planes)
+
+
+def make_tables(parts: Sequence[Part], least_offset: float = 0.0) -> list[Tables]:
+    """Tables of all parts, static ones first, then moving ones sorted by velocity. Coordinates lie in about [-1, 1].
+
+    Triangles without area in float32 are left out: no ray can hit them. Rays leave a surface by at least
+    ``least_offset``.
+    """
+    ordered = sorted(parts, key=lambda part: (part.velocity != STILL, part.velocity))
+    smooth = any(part.mesh.normals is not None for part in ordered)
+    empty = Part(Mesh(np.zeros((0, 3)), np.zeros((0, 3), np.intp)), 0)
+    return [_tables(part, smooth, least_offset) for part in ordered or [empty]]
+
+
+def join_tables(tables: Sequence[Tables], bulges: bool = True) -> Triangles:
+    """The triangles of all parts; without ``bulges``, shadow rays start from the flat triangles."""
+    smooth = tables[0].corner_normals.size > 0 or any(
+        t.part.mesh.normals is not None for t in tables
+    )
+
+    def joined(rows: Callable[[Tables], Floats32]) -> Floats32:
+        return np.concatenate([rows(table) for table in tables])
+
+    return Triangles(
+        planes=joined(lambda table: table.planes),
+        edges=joined(lambda table: table.edges),
+        inset=joined(lambda table: table.inset),
+        corner_normals=joined(lambda table: table.corner_normals) if smooth else None,
+        bulge=joined(lambda table: table.bulge) if smooth and bulges else None,
+        bend=max(table.bend for table in tables),
+        material=np.concatenate(
+            [np.full(len(table.triangles), table.part.material, np.uint16) for table in tables]
+        ),
+        parts=tuple((len(t.vertices), len(t.triangles), t.part.convex) for t in tables),
+    )
+
+
+def accelerate(tables: Sequence[Tables], motion_blur: Functions | None = None) -> Accelerator:
+    """One BVH for all parts; if some move, one per velocity, which needs ``motion_blur``."""
+    groups: dict[Velocity, list[Tables]] = {STILL: []}
+    for table in tables:
+        groups.setdefault(table.part.velocity, []).append(table)
+    static = EmbreeAccelerator(*vertices_and_triangles(groups.pop(STILL)))
+    if not groups:
+        return static
+    assert motion_blur is not None
+    return MovingAccelerator(static, tuple(_movers(groups, tables)), motion_blur)
+
+
+def vertices_and_triangles(tables: Sequence[Tables]) -> tuple[Floats32, Numbers]:
+    """Vertices (V, 3) and triangles (T, 3) of several parts."""
+    if not tables:
+        return np.zeros((0, 3), np.float32), np.zeros((0, 3), np.int32)
+    first = np.cumsum([0, *(len(table.vertices) for table in tables)])[:-1]
+    triangles = [table.triangles + start for table, start in zip(tables, first, strict=True)]
+    vertices = np.concatenate([table.vertices for table in tables])
+    return vertices, np.concatenate(triangles).astype(np.int32)
+
+
+def _movers(groups: dict[Velocity, list[Tables]], tables: Sequence[Tables]) -> Iterator[Mover]:
+    """Movers in the order of their triangles, which follow the static ones."""
+    moving = sum(len(table.triangles) for group in groups.values() for table in group)
+    first = sum(len(table.triangles) for table in tables) - moving
+    for velocity, group in groups.items():
+        last = first + sum(len(table.triangles) for table in group)
+        accelerator = EmbreeAccelerator(*vertices_and_triangles(group))
+        yield Mover(np.array(velocity, np.float32), accelerator, first, last)
+        first = last
+
+
+def _tables(part: Part, smooth: bool, least_offset: float) -> Tables:
+    mesh = part.mesh
+    # Rounded to float32 once, so that every number below agrees with Embree's vertices.
+    vertices = mesh.vertices.astype(np.float32)
+    p = np.ascontiguousarray(np.moveaxis(vertices.astype(np.float64)[mesh.triangles], 0, 2))
+    ng = cross(p[1] - p[0], p[2] - p[0])
+    has_area = np.flatnonzero(dot(ng, ng) > 0)
+    triangles = mesh.triangles[has_area]
+    p, ng = p[:, :, has_area], ng[:, has_area]
+    e1, e2 = p[1] - p[0], p[2] - p[0]
+    twice_area = np.sqrt(dot(ng, ng))
+    ng /= twice_area
+    lengths = np.sqrt(np.stack([dot(e, e) for e in (e2 - e1, e2, e1)]))
+    offset, inset = offset_and_inset(p, lengths, twice_area)
+    corner_normals, bulge = np.zeros((2, 0, 0), np.float32)
+    bend = 0.0
+    flat = np.ones(len(triangles))
+    if smooth:
+        n = unit = np.repeat(ng[None], 3, axis=0)
+        if mesh.normals is not None:
+            n, unit = _at_corners(mesh.normals, triangles)
+            # The file's normal is more precise: rounding vertices to float32 turns a small triangle.
+            flat = (np.abs(n - ng) < FLAT).all(axis=(0, 1)) & (n == n[0]).all(axis=(0, 1))
+            ng = np.where(flat, n[0], ng)
+            cosine = min((float(dot(ng, corner).min(initial=1)) for corner in unit), default=1.0)
+            bend = math.sqrt(max(1 - cosine * cosine, 0)) if cosine > 0 else 1.0
+        corner_normals = _table(n[0], n[1] - n[0], n[2] - n[0])
+        d1, d2 = unit[1] - unit[0], unit[2] - unit[0]
+        bulge = _table(np.stack((dot(e1, d1), dot(e2, d2), dot(e2 - e1, d2 - d1))) / 2)
+    return Tables(
+        part=part,
+        kept=has_area,
+        vertices=vertices,
+        triangles=triangles.astype(np.int32),
+        planes=_table(p[0], ng, np.maximum(offset, least_offset)[None], flat[None]),
+        edges=_table(e1, e2, inset.max(axis=0)[None], np.zeros((1, len(flat)))),
+        inset=_table(inset),
+        corner_normals=corner_normals,
+        bulge=bulge,
+        bend=bend,
+    )
+
+
+def _at_corners(normals: Floats64, triangles: NDArray[np.integer]) -> tuple[Floats64, Floats64]:
+    """Corner normals (3, 3, T), as interpolated and at unit length."""
+    n = np.moveaxis(normals[triangles], 0, 2)
+    lengths = np.sqrt(np.stack([dot(corner, corner) for corner in n]))
+    if np.abs(lengths - 1).max(initial=0) < UNIT:
+        return n, n
+    # Only ratios within a triangle matter. The longest gets length 1, so that no square leaves float32's range.
+    unit = n / lengths[:, None]
+    return unit * np.maximum(lengths / lengths.max(axis=0), FAINTEST)[:, None], unit
+
+
+def _table(*rows: Floats) -> Floats32:
+    """Float64 rows, together (k, T), as a float32 table (T, k)."""
+    return np.ascontiguousarray(np.concatenate(rows).T, np.float32)
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """Triangles over shared vertices.
+
+    Attributes
+    ----------
+    vertices : (V, 3) float64 [m]
+    triangles : (T, 3) integer, counter-clockwise seen from outside: cross(p1 - p0, p2 - p0) points outwards
+    normals : (V, 3) float64 shading normals, not 0; None for flat shading. Unit vectors, unless the mesh has been
+        stretched unevenly: longer ones then weigh more (`course.formats.meshes.transforms.apply`)
+    uv : (V, 2) float64 texture coordinates or None
+    """
+
+    vertices: NDArray[np.float64]
+    triangles: NDArray[np.integer]
+    normals: NDArray[np.float64] | None = None
+    uv: NDArray[np.float64] | None = None

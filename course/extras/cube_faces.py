@@ -1,0 +1,77 @@
+"""The six faces of a cube map, from pictures of other forms."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from course.core.types import Floats32, Floats64
+from course.extras.environment_sampling import FRAMES
+
+
+def texel_directions(size: int, subsamples: int = 1) -> Floats64:
+    """Directions through the texels of all faces, (6, size, size, subsamples^2, 3) float64, not normalised."""
+    n = size * subsamples
+    place = (np.arange(n) + 0.5) * 2 / n - 1
+    middle, right, down = FRAMES.swapaxes(0, 1)[:, :, None, None]
+    directions: Floats64 = middle + place[:, None] * right + place[:, None, None] * down
+    split = directions.reshape(6, size, subsamples, size, subsamples, 3)
+    return np.moveaxis(split, 2, 3).reshape(6, size, size, subsamples * subsamples, 3)
+
+
+def cube_from_lat_long(image: Floats32, size: int) -> Floats32:
+    """Faces (6, size, size, 3) from a latitude-longitude picture (H, W, 3).
+
+    The picture's middle looks along -z, its right half to +x, its top row to +y. Each texel is the mean of four
+    bilinear samples.
+    """
+    height, width = image.shape[:2]
+    faces = np.empty((6, size, size, 3), np.float32)
+    for number, directions in enumerate(texel_directions(size, 2)):
+        x, y, z = np.moveaxis(directions, -1, 0)
+        column = (0.5 + np.arctan2(x, -z) / (2 * np.pi)) * width - 0.5
+        row = np.arctan2(np.hypot(x, z), y) / np.pi * height - 0.5
+        faces[number] = _bilinear(image, column, row).mean(axis=2)
+    return faces
+
+
+def _bilinear(image: Floats32, column: Floats64, row: Floats64) -> Floats64:
+    """Samples of a picture that repeats sideways and ends at the poles."""
+    height, width = image.shape[:2]
+    left, top = np.floor(column), np.floor(row)
+    a, b = (column - left)[..., None], (row - top)[..., None]
+    c0 = left.astype(np.intp) % width
+    c1 = (c0 + 1) % width
+    r0 = np.clip(top.astype(np.intp), 0, height - 1)
+    r1 = np.clip(top.astype(np.intp) + 1, 0, height - 1)
+    upper = image[r0, c0] * (1 - a) + image[r0, c1] * a
+    lower = image[r1, c0] * (1 - a) + image[r1, c1] * a
+    mixed: Floats64 = upper * (1 - b) + lower * b
+    return mixed
+
+
+def cube_from_cross(image: Floats32) -> Floats32:
+    """Faces (6, S, S, 3) from a cross: horizontal (3 S, 4 S, 3) or vertical (4 S, 3 S, 3).
+
+    Both have -x, +z, +x side by side with +y above and -y below +z; -z stands right of +x, or upside down below -y.
+
+    Raises
+    ------
+    ValueError
+        The picture has other proportions.
+    """
+    height, width = image.shape[:2]
+    if height * 4 == width * 3 and width % 4 == 0:
+        size = width // 4
+        minus_z = image[size : 2 * size, 3 * size :]
+    elif height * 3 == width * 4 and width % 3 == 0:
+        size = width // 3
+        minus_z = image[3 * size :, size : 2 * size][::-1, ::-1]
+    else:
+        raise ValueError(f"a cross has proportions 4:3 or 3:4, not {width} x {height}")
+
+    def cell(row: int, column: int) -> Floats32:
+        return image[row * size : (row + 1) * size, column * size : (column + 1) * size]
+
+    return np.ascontiguousarray(
+        np.stack((cell(1, 2), cell(1, 0), cell(0, 1), cell(2, 1), cell(1, 1), minus_z))
+    )

@@ -1,0 +1,65 @@
+"""Direct light with what only some scenes have: the environment's light, and other renderers' conventions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from course.core.direct import Candidates, DirectLight
+from course.core.hits import Hits
+from course.core.lights import Light
+from course.core.lights.sample import TO_THE_LIGHT
+from course.core.rays import Draws
+from course.core.types import Floats32, Indices, Mask
+from course.core.vectors import dot
+from course.extras.sky import Sky
+
+
+@dataclass(frozen=True)
+class FullDirectLight(DirectLight):
+    """What lights and the environment make visible at hits.
+
+    Attributes
+    ----------
+    sky : the environment as a light, None where it is none
+    plain : (M,) which materials have highlights without the cosine in E, None where none has
+    lifted : whether rays leave surfaces so far off that light is worked out at the surface itself
+    """
+
+    sky: Sky | None = None
+    plain: Mask | None = None
+    lifted: bool = False
+
+    def _points(self, hits: Hits, light: Light) -> Floats32:
+        return (
+            self._as_if_still(hits.p, hits, light) if self.lifted else super()._points(hits, light)
+        )
+
+    def _to_light(self, light: Light, hits: Hits, candidates: Candidates) -> Floats32:
+        to_light = super()._to_light(light, hits, candidates)
+        if self.lifted and light.limit <= TO_THE_LIGHT:
+            # The light was looked at from the surface, the shadow ray starts above it.
+            to_light = to_light + candidates.of(hits.p) - candidates.origin
+        return to_light
+
+    def _highlight(self, hits: Hits, candidates: Candidates, irradiance: Floats32) -> Floats32:
+        highlight = super()._highlight(hits, candidates, irradiance)
+        if self.plain is not None:
+            cosine = dot(candidates.of(hits.ns), candidates.to_light) * candidates.inverse_length
+            plain = self.plain.take(candidates.of(hits.material))
+            highlight /= np.where(plain, np.maximum(cosine, np.float32(1e-20)), np.float32(1))
+        return highlight
+
+    def _further(
+        self,
+        irradiance: Floats32 | None,
+        hits: Hits,
+        path: Indices | None,
+        depth: int,
+        draws: Draws,
+    ) -> Floats32 | None:
+        arriving = None if self.sky is None else self.sky(hits, path, depth, draws)
+        if arriving is None:
+            return irradiance
+        return arriving if irradiance is None else np.add(irradiance, arriving, out=irradiance)

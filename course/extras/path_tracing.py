@@ -1,0 +1,161 @@
+"""Path tracing: each camera ray is followed from surface to surface, and brings all light, however it came.
+
+Kajiya, "The rendering equation", 1986. Light reaches a diffuse surface in two ways: from lamps and the environment,
+for which direct light casts its shadow rays at every hit, and from other surfaces, for which the path goes on. A ray
+that has left a diffuse surface and runs into a lamp, or out into the environment, has found what a shadow ray has
+already counted, so it adds nothing; after a mirror or glass, where no shadow rays are cast, it does. Lamps are lights
+with a surface, from its front, and objects that are lights, from both sides.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from course.core.hits import Hits
+from course.core.integrator import CancelledError, Integrator
+from course.core.rays import Draws, Rays
+from course.core.tiles import RAYS
+from course.core.types import Floats32, Indices, Mask
+from course.extras.path_bounce import PathBounce
+from course.extras.path_pieces import Piece, Pieces
+
+
+class Glow:
+    """Light that M materials give off.
+
+    Parameters
+    ----------
+    radiance : (3, M) float32
+    """
+
+    def __init__(self, radiance: Floats32) -> None:
+        self._radiance = radiance
+        self._glows = radiance.any(axis=0)
+
+    def added(self, radiance: Floats32 | None, hits: Hits, seen: Mask | None) -> Floats32 | None:
+        """Radiance (3, n) or None for 0, with what surfaces add that glow, where they are seen or at all hits."""
+        glows = self._glows.take(hits.material)
+        if seen is not None:
+            glows &= seen
+        which = np.flatnonzero(glows)
+        if len(which) == 0:
+            return radiance
+        if radiance is None:
+            radiance = np.zeros((3, hits.size), np.float32)
+        radiance[:, which] += self._radiance.take(hits.material.take(which), axis=1)
+        return radiance
+
+
+@dataclass(frozen=True)
+class PathIntegrator(Integrator):
+    """Follows each path to its end; the camera and the film are the distribution ray tracer's.
+
+    Attributes
+    ----------
+    bounce : sends paths on
+    pieces : batches that a tile is cut into
+    unsought : light that no shadow ray looks for: it counts whenever a path meets it; None where there is none
+    reflected : ambient light, the same at every point of a surface: as if the surface gave it off
+    lamps, objects : light that shadow rays look for, of the fronts of lights and of both sides of objects
+    """
+
+    bounce: PathBounce
+    pieces: int
+    unsought: Glow | None
+    reflected: Glow | None
+    lamps: Glow | None
+    objects: Glow | None
+
+    def radiance(self, camera_rays: Rays, draws: Draws) -> Floats32:
+        """Radiance (3, paths) that the paths bring back; see ``Integrator``."""
+        film = np.zeros((3, draws.block.size), np.float32)
+        pieces = Pieces(draws, film)
+        for piece in pieces.cut(camera_rays, self.pieces):
+            self._advance(piece, 0, pieces, RAYS // 2)
+        while (rest := pieces.shallowest()) is not None:
+            self._advance(*rest, pieces, 0)
+        return film
+
+    def _advance(self, piece: Piece | None, depth: int, pieces: Pieces, least: int) -> None:
+        """Follow paths to their ends, or until fewer than ``least`` are left, which wait for others."""
+        while piece is not None:
+            if piece.draws.cancelled():
+                raise CancelledError
+            rest = self._step(piece.rays, piece.sees, depth, piece.film, piece.draws)
+            if rest is None:
+                return
+            depth += 1
+            piece = pieces.joined(replace(piece, rays=rest[0], sees=rest[1]), depth, least)
+
+    def _step(
+        self,
+        rays: Rays,
+        sees: Mask | None,
+        depth: int,
+        film: Floats32,
+        draws: Draws,
+    ) -> tuple[Rays, Mask | None] | None:
+        """One depth: what the rays bring is added to the film, and the rays that go on are returned.
+
+        Parameters
+        ----------
+        sees : (n,) which rays bring light from lamps and the environment; None for none of them
+        """
+        counters = draws.counters
+        hits, throughput, path, medium = self._met(
+            rays, False if sees is None else sees, depth, film, draws
+        )
+        if sees is not None and hits.ray is not None:
+            sees = sees.take(hits.ray)
+        if hits.size == 0:
+            return None
+        inside = self.insides(hits)
+        radiance = self._light(hits, sees, inside, path, depth, draws)
+        if radiance is not None:
+            self.add_radiance(film, path, radiance, throughput)
+        counters.lap("shade")
+        if depth == self.max_depth:
+            return None
+        following = self.bounce(hits, throughput, path, medium, inside, depth, draws)
+        counters.lap("bounce")
+        return following
+
+    def _light(
+        self,
+        hits: Hits,
+        sees: Mask | None,
+        inside: Indices,
+        path: Indices | None,
+        depth: int,
+        draws: Draws,
+    ) -> Floats32 | None:
+        """Radiance (3, n) that leaves the hits towards the viewer, without what is reflected by another surface."""
+        radiance = None
+        if self.direct is not None:
+            radiance = self.direct(hits, path, depth, draws)
+        outside = None
+        if len(inside):
+            outside = np.ones(hits.size, np.bool_)
+            outside[inside] = False
+        if self.reflected is not None:
+            radiance = self.reflected.added(radiance, hits, outside)
+        if self.unsought is not None:
+            radiance = self.unsought.added(radiance, hits, None)
+        if hits.tint is not None and self.ambient is not None:
+            # A texture colours the ambient term, and no other light that a surface gives off.
+            change = self.ambient(hits.material) * (hits.tint - 1)
+            if outside is not None:
+                change *= outside
+            radiance = change if radiance is None else np.add(radiance, change, out=radiance)
+        if self.lamps is not None and sees is not None:
+            radiance = self.lamps.added(radiance, hits, sees & hits.entering)
+        if self.objects is not None and sees is not None:
+            radiance = self.objects.added(radiance, hits, sees)
+        return radiance
+
+
+def glow(radiance: Floats32) -> Glow | None:
+    """Light (3, M) that materials give off; None for none."""
+    return Glow(radiance) if radiance.any() else None

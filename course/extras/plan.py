@@ -1,0 +1,123 @@
+"""The plan of a scene with extras: the core's stages, or fuller ones in their place where the scene asks for more."""
+
+from __future__ import annotations
+
+from dataclasses import fields, replace
+from typing import Any
+
+import numpy as np
+
+from course.core.camera import Camera
+from course.core.direct import DirectLight, direct_light
+from course.core.integrator import Integrator
+from course.core.materials import Lookup, MaterialTable
+from course.core.plan import plan_dimensions, plan_direct_light, plan_integrator, plan_scatter
+from course.core.rays import Dimensions
+from course.core.samplers import Sampler
+from course.core.samplers.sobol import SobolSampler
+from course.core.scatter import Scatter
+from course.extras.conductors import Conductors
+from course.extras.direct import FullDirectLight
+from course.extras.materials import FullMaterials
+from course.extras.path_bounce import PathBounce
+from course.extras.path_tracing import PathIntegrator, glow
+from course.extras.rough_glass import REFRACTION
+from course.extras.scatter import FullScatter
+from course.extras.sky import NUMBERS, Sky
+from course.extras.world import FullWorld, Paths
+
+BOUNCE, CHOICE = ("bounce", 2), ("choice", 2)
+"""What a path draws after a diffuse hit; and which of its ways light takes from a surface, and whether it survives."""
+
+PIECES = 16
+"""Batches of rays in a tile: most paths end soon, and the few that are left of several batches make one."""
+
+
+def same_fields(stage: Any) -> dict[str, Any]:
+    """A stage's fields by name, for a fuller stage in its place."""
+    return {each.name: getattr(stage, each.name) for each in fields(stage) if each.init}
+
+
+def plan(
+    world: FullWorld, camera: Camera, max_depth: int, cutoff: float, sampler: Sampler
+) -> tuple[Integrator, Dimensions]:
+    """What follows the rays of a scene, and which dimensions its numbers have."""
+    paths = world.paths
+    scatter = _scatter(world, max_depth, cutoff if paths is None else 0.0)
+    sky = _sky(world)
+    direct = _direct_light(world, sky)
+    diffuses = paths is not None and bool(world.materials.diffuses.any())
+    depth = max_depth if scatter is not None or diffuses else 0
+    integrator = plan_integrator(world, camera, depth, direct, scatter)
+    if world.backdrop:
+        seen = min(integrator.environment_depth, 0)
+        integrator = replace(integrator, environment_depth=seen)
+    if world.rough or paths is not None:
+        integrator = replace(integrator, coherent_depth=min(integrator.coherent_depth, 0))
+    rough = (REFRACTION,) if isinstance(scatter, FullScatter) and scatter.rough else ()
+    further = [NUMBERS] if sky is not None else []
+    if paths is not None:
+        further += [BOUNCE, CHOICE] if diffuses and max_depth > 0 else [CHOICE]
+        integrator = _path_integrator(integrator, world.materials, paths, sampler)
+    return integrator, plan_dimensions(world, camera, rough, further)
+
+
+def _scatter(world: FullWorld, max_depth: int, cutoff: float) -> Scatter | None:
+    scatter = plan_scatter(world, max_depth, cutoff)
+    conductors = _conductors(world.materials)
+    if scatter is None or not (conductors or world.rough or world.keeps):
+        return scatter
+    rough = world.rough if scatter.index is not None else ()
+    return FullScatter(
+        **same_fields(scatter),
+        conductors=conductors,
+        rough=rough,
+        keeps=world.keeps,
+        max_depth=max_depth,
+    )
+
+
+def _conductors(materials: MaterialTable) -> Conductors | None:
+    return materials.conductors if isinstance(materials, FullMaterials) else None
+
+
+def _sky(world: FullWorld) -> Sky | None:
+    materials = world.materials
+    if world.sky is None or world.environment.black or not materials.diffuses.any():
+        return None
+    arrays = materials.diffuses, materials.refracts
+    return Sky(world.surface, world.environment, world.sky, *arrays)
+
+
+def _direct_light(world: FullWorld, sky: Sky | None) -> DirectLight | None:
+    materials = world.materials
+    direct = plan_direct_light(world)
+    plain = materials.plain if isinstance(materials, FullMaterials) else None
+    if sky is None and (direct is None or (plain is None and not world.lifted)):
+        return direct
+    direct = direct or direct_light(world.surface, world.lights, world.motion, materials)
+    return FullDirectLight(**same_fields(direct), sky=sky, plain=plain, lifted=world.lifted)
+
+
+def _path_integrator(
+    integrator: Integrator, materials: MaterialTable, paths: Paths, sampler: Sampler
+) -> PathIntegrator:
+    looked_for = paths.lamps | paths.objects
+    ambient = None if integrator.ambient is None else glow(integrator.ambient.rows)
+    return PathIntegrator(
+        **same_fields(integrator),
+        bounce=PathBounce(
+            integrator.surface,
+            integrator.scatter,
+            np.asarray(materials.refracts | (materials.mirror.max(axis=0) > 0)),
+            Lookup(materials.diffuse),
+            paths.path_tracing,
+            paths.roulette,
+        ),
+        # Sobol points are each pixel's own; those of other samplers belong to a tile, which can't be divided.
+        pieces=PIECES if isinstance(sampler, SobolSampler) and paths.together else 1,
+        unsought=glow(materials.emission * ~looked_for),
+        reflected=ambient,
+        lamps=glow(materials.emission * paths.lamps),
+        objects=glow(materials.emission * paths.objects),
+    )

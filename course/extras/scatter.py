@@ -1,0 +1,107 @@
+"""Scattering with what only some scenes have: metals, rough glass, and directions that are kept as they are."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from course.core.fresnel import refract
+from course.core.hits import Hits
+from course.core.rays import Draws
+from course.core.scatter import Boundary, Scatter, kept_above
+from course.core.types import Floats32, Indices
+from course.core.vectors import dot, reflect
+from course.extras import rough_glass
+from course.extras.conductors import Conductors
+from course.extras.rough_glass import RoughGlass
+
+
+@dataclass(frozen=True)
+class FullScatter(Scatter):
+    """Sends rays on that mirror or refract.
+
+    Attributes
+    ----------
+    conductors : the metals, None where there are none
+    rough : the rough glasses
+    keeps : whether directions into the surface are kept
+    max_depth : bounces
+    """
+
+    conductors: Conductors | None = None
+    rough: tuple[RoughGlass, ...] = ()
+    keeps: bool = False
+    max_depth: int = 0
+
+    def reflectance(self, hits: Hits, which: Indices | None) -> Floats32:
+        """See ``Scatter``."""
+        mirror = super().reflectance(hits, which)
+        if self.conductors is None:
+            return mirror
+        material, direction, ns = hits.material, hits.direction, hits.ns
+        if which is not None:
+            material = material.take(which)
+            direction, ns = direction.take(which, axis=1), ns.take(which, axis=1)
+        return self.conductors.weakened(mirror, material, -dot(direction, ns))
+
+    def boundary(self, hits: Hits, which: Indices | None, depth: int) -> Boundary:
+        """See ``Scatter``."""
+        smooth = super().boundary(hits, which, depth)
+        if not self.rough or self.index is None:
+            return smooth
+        material, entering, direction, ns = hits.material, hits.entering, hits.direction, hits.ns
+        if which is not None:
+            material, entering = material.take(which), entering.take(which)
+            direction, ns = direction.take(which, axis=1), ns.take(which, axis=1)
+        # What is kept as the functions made it is another renderer's picture, which loses that light.
+        ends = ~entering if depth + 1 == self.max_depth and not self.keeps else None
+        share = smooth.reflected
+        cos_i, cos_t, eta = smooth.cos_i, smooth.cos_t, smooth.eta
+        bent = rough_glass.bend(self.rough, material, direction, ns, cos_i, eta, ends, share)
+        glass = self.index(material) > 0
+        return Boundary(share * glass, (1 - share) * glass, cos_i, cos_t, eta, bent)
+
+    def mirrored(
+        self, hits: Hits, which: Indices, path: Indices, depth: int, draws: Draws
+    ) -> Floats32:
+        """See ``Scatter``; on the inside of rough glass that has no gloss directions are jittered, too."""
+        way = super().mirrored(hits, which, path, depth, draws)
+        if not self.rough:
+            return way
+        material, ng = hits.material.take(which), hits.ng.take(which, axis=1)
+        inside = np.flatnonzero(~hits.entering.take(which))
+        back, away = way.take(inside, axis=1), -ng.take(inside, axis=1)
+        arrays = material.take(inside), back, away, path.take(inside)
+        rough_glass.scatter(
+            self.rough, self.keeps, *arrays, depth, draws, direction=back, glossy=False
+        )
+        way[:, inside] = back
+        return way
+
+    def _mirror_images(self, hits: Hits, which: Indices, ng: Floats32) -> Floats32:
+        if not self.keeps:
+            return super()._mirror_images(hits, which, ng)
+        return reflect(hits.direction.take(which, axis=1), hits.ns.take(which, axis=1))
+
+    def refracted(
+        self,
+        hits: Hits,
+        which: Indices,
+        boundary: Boundary,
+        path: Indices,
+        depth: int,
+        draws: Draws,
+    ) -> Floats32:
+        """See ``Scatter``."""
+        if not self.keeps and not self.rough:
+            return super().refracted(hits, which, boundary, path, depth, draws)
+        direction, ns = hits.direction.take(which, axis=1), hits.ns.take(which, axis=1)
+        ng = hits.ng.take(which, axis=1)
+        way = refract(direction, ns, boundary.cos_i, boundary.cos_t, boundary.eta)
+        if not self.keeps:
+            way = kept_above(way, -ng)
+        if boundary.bent is not None:
+            arrays = hits.material.take(which), boundary.bent, ng, path
+            rough_glass.scatter(self.rough, self.keeps, *arrays, depth, draws, direction=way)
+        return way

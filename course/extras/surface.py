@@ -1,0 +1,156 @@
+"""Triangles with textures, with backs that camera rays see otherwise, or in another hierarchy than Embree's."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from course.core.embree import Accelerator, EmbreeAccelerator, Intersections
+from course.core.functions import Functions
+from course.core.hits import Hits, Surface, turn_to_viewer
+from course.core.triangles import (
+    Part,
+    Tables,
+    accelerate,
+    join_tables,
+    make_tables,
+    vertices_and_triangles,
+)
+from course.core.types import Floats32, Floats64, Mask
+from course.core.vectors import dot
+from course.extras.behind import Behind, SeenThrough, keep_normals
+from course.extras.hierarchy import HierarchyAccelerator
+from course.extras.painting import Paint, Painting, make_painting
+
+
+@dataclass(frozen=True)
+class FullPart(Part):
+    """One object's mesh with its texture, and how camera rays see it from behind (``course.extras.behind``)."""
+
+    paint: Paint | None = None
+    behind: Behind = "turned"
+
+
+@dataclass(frozen=True)
+class FullSurface(Surface):
+    """All triangles, with what only some scenes have.
+
+    Attributes
+    ----------
+    painting : the textures, None where there are none
+    bent : (M,) bool, of which materials shading normals that look away from the viewer are bent until they no longer
+        do; None for all
+    kept : (T,) bool, whose normals camera rays see as they are from behind; None for none
+    through : what camera rays meet where they see through backs; None where they meet what all rays do
+    """
+
+    painting: Painting | None = None
+    bent: Mask | None = None
+    kept: Mask | None = None
+    through: SeenThrough | None = None
+
+    @property
+    def bends(self) -> bool:
+        """See ``Surface``."""
+        return self.bent is None
+
+    @property
+    def eye(self) -> Any:
+        """See ``Surface``."""
+        return self.accelerator if self.through is None else self.through
+
+    def hits(
+        self,
+        found: Intersections,
+        direction: Floats32,
+        time: Floats32 | None = None,
+        of_camera: bool = False,
+    ) -> Hits:
+        """See ``Surface``."""
+        hits = super().hits(found, direction, time, of_camera)
+        if self.bent is not None and hits.ns is not hits.ng:
+            some = np.flatnonzero(self.bent.take(hits.material))
+            turned = hits.ns.take(some, axis=1)
+            turn_to_viewer(turned, hits.direction.take(some, axis=1))
+            hits.ns[:, some] = turned
+        if of_camera and self.kept is not None:
+            keep_normals(self.kept, hits)
+        if self.painting is None:
+            return hits
+        return replace(hits, tint=self.painting.tint(hits.triangle, hits.u, hits.v))
+
+
+def build_surface(
+    parts: Sequence[FullPart],
+    motion_blur: Functions | None = None,
+    bulges: bool = True,
+    hierarchy: tuple[Functions, int] | None = None,
+    bent: Mask | None = None,
+    least_offset: float = 0.0,
+    eye: Floats64 | None = None,
+) -> FullSurface:
+    """Gather the triangles of all parts, whose coordinates lie in about [-1, 1].
+
+    Parameters
+    ----------
+    motion_blur : functions of the module; needed where a part has a velocity
+    bulges : whether shadow rays start from the round surfaces that meshes stand for
+    hierarchy : functions of the bounding_volumes module and the size of a leaf, in Embree's place; nothing moves then
+    bent : as ``FullSurface`` has it
+    least_offset : rays leave surfaces at this distance or farther
+    eye : (3,) where all camera rays begin, None where they don't begin in one place
+    """
+    tables = make_tables(parts, least_offset)
+    triangles = join_tables(tables, bulges)
+    accelerator: Accelerator
+    if hierarchy is not None:
+        accelerator = HierarchyAccelerator(*vertices_and_triangles(tables), *hierarchy)
+    else:
+        accelerator = accelerate(tables, motion_blur)
+    unseen, through = _seen(tables, "unseen"), None
+    if unseen is not None:
+        hidden = np.concatenate([_hidden(table, eye) for table in tables])
+        front = accelerator
+        if isinstance(accelerator, EmbreeAccelerator) and hidden.any():
+            # Triangles that are a point: no ray meets them.
+            corners = accelerator.triangles
+            corners = np.where(hidden[:, None], corners[:, :1], corners)
+            front = EmbreeAccelerator(accelerator.vertices, corners)
+        through = SeenThrough(front, unseen, triangles.planes)
+    return FullSurface(
+        triangles=triangles,
+        accelerator=accelerator,
+        painting=make_painting([(len(table.triangles), _paint(table)) for table in tables]),
+        bent=bent,
+        kept=_seen(tables, "kept"),
+        through=through,
+    )
+
+
+def _paint(table: Tables) -> Paint | None:
+    """The paint of the triangles that have an area."""
+    if not isinstance(table.part, FullPart) or table.part.paint is None:
+        return None
+    paint = table.part.paint
+    return Paint(paint.corners[table.kept], paint.color_at)
+
+
+def _behind(table: Tables) -> Behind:
+    return table.part.behind if isinstance(table.part, FullPart) else "turned"
+
+
+def _seen(tables: Sequence[Tables], behind: Behind) -> Mask | None:
+    """(T,) which triangles are seen like that from behind; None for none."""
+    kinds = [np.full(len(table.triangles), _behind(table) == behind) for table in tables]
+    return np.concatenate(kinds) if any(kind.any() for kind in kinds) else None
+
+
+def _hidden(table: Tables, eye: Floats64 | None) -> Mask:
+    """(T,) which triangles are seen through by an eye (3,), None for an eye of which that is not known."""
+    if eye is None or _behind(table) != "unseen":
+        return np.zeros(len(table.triangles), np.bool_)
+    corner, normal = table.planes[:, :3].T.astype(np.float64), table.planes[:, 3:6].T
+    return np.asarray(dot(eye[:, None] - corner, normal.astype(np.float64)) <= 0)

@@ -1,0 +1,240 @@
+"""Mesh files: PLY, OBJ, STL and GLB in, PLY out.
+
+A mesh leaves `read_mesh` checked: finite, every index in range, one triangle or more, unit normals.
+"""
+
+from __future__ import annotations
+
+import warnings
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from course.core.triangles import Mesh
+from course.errors import CourseWarning, GeometryError, OutputError
+from course.formats.meshes.formats import Part, parse_stl
+from course.formats.meshes.glb import parse_glb
+from course.formats.meshes.obj import parse_obj
+from course.formats.meshes.ply import parse_ply
+from course.formats.meshes.smooth_normals import (
+    area_normals,
+    edges_and_faces,
+    smooth_normals,
+    unit,
+)
+from course.formats.meshes.transforms import apply
+from course.formats.meshes.welding import same
+from course.inputs import LARGEST_DATA, Bound, read_input, shown
+from course.shapes.joining import join
+
+FORMATS = {".ply": parse_ply, ".obj": parse_obj, ".stl": parse_stl, ".glb": parse_glb}
+
+# Beyond this, squares of distances overflow float64; no unit makes a scene that large.
+FARTHEST = 1e150
+
+# Areas of triangles of size 1 under which rounding decides where they look.
+SLIVER = 1e-6
+
+
+USUAL = Bound(LARGEST_DATA)
+
+Weights = Literal["angle", "area"]
+"""By what the faces around a vertex count in its normal."""
+
+
+def read_mesh(path: Path, weights: Weights = "angle", bound: Bound = USUAL) -> Mesh:
+    """Read a mesh file; several geometries in it become one mesh, in the file's own frame.
+
+    Normals and uv are the file's where it has them. Without normals, triangles that share a vertex
+    are smooth; vertices that only lie at the same place, as in every STL file, are smooth up to a
+    crease of 40 degrees (`smooth_normals`), unless faces weigh by their areas (`area_normals`).
+    Triangles without area are let through. Where the file has normals they say which side is out:
+    triangles that are wound the other way are turned, and a `CourseWarning` says how many.
+
+    Parameters
+    ----------
+    path : Path
+        Ends in .ply, .obj, .stl or .glb, in capitals or not. No other file is read.
+    weights : "angle" or "area"
+        By what faces count in normals that the file doesn't have.
+    bound : Bound
+        The most bytes that the file may have.
+
+    Raises
+    ------
+    GeometryError
+        Naming the file and the trouble: missing, no regular file, too large, empty, unreadable, no triangles, an
+        index out of range, a vertex or a normal that is not finite; in a PLY or OBJ file a face of
+        fewer than three corners. Of text the line is told.
+    """
+    path = Path(path)
+    parse = FORMATS.get(path.suffix.lower())
+    if parse is None:
+        raise GeometryError(
+            f"{shown(path)}: expected a file that ends in {', '.join(sorted(FORMATS))}"
+        )
+    data = read_input(path, "mesh file", bound, GeometryError)
+    file = shown(path)
+    if not data.strip():
+        raise GeometryError(f"{file}: the file is empty")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        # NumPy before 2.3 only warns of text it can't read to the end, and goes on without it.
+        warnings.filterwarnings("error", message="string or file could not be read")
+        try:
+            parts = parse(data)
+        except MemoryError as error:
+            raise GeometryError(f"{file}: too large for this computer's memory") from error
+        except Exception as error:
+            raise GeometryError(
+                f"{file}: not a {path.suffix[1:].upper()} file that can be read: {_reason(error)}"
+            ) from error
+    if not parts:
+        raise GeometryError(f"{file}: no triangles")
+    meshes = []
+    for number, part in enumerate(parts):
+        name = file if len(parts) == 1 else f"{file}: geometry {number}"
+        mesh = _checked(name, part, weights)
+        try:
+            meshes.append(apply(mesh, part.transform))
+        except ValueError as error:
+            raise GeometryError(f"{name}: its node's {error}") from error
+    mesh = join(meshes)
+    return _merged(mesh) if path.suffix.lower() == ".stl" else mesh
+
+
+def ply_bytes(mesh: Mesh) -> bytes:
+    """`mesh` as binary PLY: vertices, normals and uv (as s and t) where it has them, every bit of their float64."""
+    columns = {"x y z": mesh.vertices, "nx ny nz": mesh.normals, "s t": mesh.uv}
+    given = {names: rows for names, rows in columns.items() if rows is not None}
+    header = "\n".join(
+        [
+            "ply",
+            "format binary_little_endian 1.0",
+            f"element vertex {len(mesh.vertices)}",
+            *(f"property double {name}" for names in given for name in names.split()),
+            f"element face {len(mesh.triangles)}",
+            "property list uchar int vertex_indices",
+            "end_header\n",
+        ]
+    )
+    faces = np.empty(len(mesh.triangles), np.dtype([("count", "u1"), ("corners", "<i4", 3)]))
+    faces["count"], faces["corners"] = 3, mesh.triangles
+    vertices = np.concatenate(list(given.values()), axis=1).astype("<f8")
+    return header.encode("ascii") + vertices.tobytes() + faces.tobytes()
+
+
+def save_ply(mesh: Mesh, path: Path) -> None:
+    """Write `ply_bytes`; OutputError where the file can't be written."""
+    try:
+        Path(path).write_bytes(ply_bytes(mesh))
+    except OSError as error:
+        raise OutputError(f"{path}: can't be written: {error.strerror or error}") from error
+
+
+def _reason(error: Exception) -> str:
+    """Return an exception as one line; a KeyError's message alone is only the key."""
+    text = " ".join(str(error).split())
+    if type(error) in (ValueError, IndexError, NotImplementedError) and text:
+        return text
+    return f"{type(error).__name__} {text}".rstrip()
+
+
+def _checked(name: str, part: Part, weights: Weights) -> Mesh:
+    """Return the mesh of `part`, in its own frame; GeometryError for what can't be used."""
+    vertices = np.array(part.vertices, np.float64)
+    if vertices.ndim != 2 or vertices.shape[1] != 3:
+        raise GeometryError(f"{name}: vertices have shape {vertices.shape}: expected (V, 3)")
+    _check_finite(name, "vertex", vertices)
+    far = np.abs(vertices).max(axis=1, initial=0.0) > FARTHEST
+    if far.any():
+        k = int(np.argmax(far))
+        raise GeometryError(f"{name}: vertex {k} is {_row(vertices, k)}: beyond {FARTHEST:g}")
+    triangles = part.triangles
+    outside = (triangles < 0) | (triangles >= len(vertices))
+    if outside.any():
+        t, corner = np.argwhere(outside)[0]
+        raise GeometryError(
+            f"{name}: triangle {t} refers to vertex {triangles[t, corner]}: "
+            f"out of range, there are {len(vertices)}, from 0"
+        )
+    if len(vertices) <= np.iinfo(np.int32).max:
+        triangles = triangles.astype(np.int32)
+    normals, given = _normals(name, part, len(vertices))
+    if given.any():
+        stored = np.asarray(part.vertices).dtype
+        precision = float(np.finfo(stored).eps) if stored.kind == "f" else 0.0
+        triangles = _outwards(name, vertices, triangles, normals, precision)
+    if not given.all():
+        compute = area_normals if weights == "area" else smooth_normals
+        normals = np.where(given, normals, compute(vertices, triangles))
+    return Mesh(vertices, triangles, normals, _uv(name, part, len(vertices)))
+
+
+def _normals(name: str, part: Part, count: int) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
+    """Return the file's normals (V, 3), made unit or 0, and (V, 1) which vertices have one."""
+    if part.normals is None:
+        return np.zeros((count, 3)), np.zeros((count, 1), bool)
+    normals = np.array(part.normals, np.float64)
+    if normals.shape != (count, 3):
+        raise GeometryError(f"{name}: {len(normals)} normals for {count} vertices")
+    _check_finite(name, "normal", normals)
+    return unit(normals), np.asarray(normals.any(axis=1, keepdims=True))
+
+
+def _outwards(
+    name: str,
+    vertices: NDArray[np.float64],
+    triangles: NDArray[np.integer],
+    normals: NDArray[np.float64],
+    precision: float,
+) -> NDArray[np.integer]:
+    """Return triangles that look where the sum of their corners' normals does; warn of those that were turned."""
+    _, faces, lengths = edges_and_faces(vertices, triangles)
+    ahead = np.sum(faces * normals[triangles].sum(axis=1), axis=1)
+    # A sliver that rounding alone gives an area looks nowhere: a coordinate as the file holds it is right to
+    # ``precision`` times its distance from 0.
+    far = np.abs(vertices[triangles]).max(axis=(1, 2), initial=0.0)
+    wrong = ahead < -(SLIVER + 16 * precision * far / lengths)
+    if not wrong.any():
+        return triangles
+    warnings.warn(
+        f"{name}: {np.count_nonzero(wrong):,} of {len(wrong):,} triangles are wound against their "
+        "normals; they were turned, so that the normals' side is the outside",
+        CourseWarning,
+        stacklevel=2,
+    )
+    return np.where(wrong[:, None], triangles[:, [0, 2, 1]], triangles)
+
+
+def _uv(name: str, part: Part, count: int) -> NDArray[np.float64] | None:
+    if part.uv is None:
+        return None
+    uv = np.array(part.uv, np.float64)
+    # Some files carry a third texture coordinate, always 0.
+    if uv.ndim != 2 or len(uv) != count or uv.shape[1] < 2:
+        raise GeometryError(f"{name}: uv have shape {uv.shape}: expected ({count}, 2)")
+    uv = uv[:, :2].copy()
+    _check_finite(name, "uv", uv)
+    return uv
+
+
+def _merged(mesh: Mesh) -> Mesh:
+    """Return `mesh` with vertices equal in place and normal as one."""
+    assert mesh.normals is not None
+    first, vertex = same(*mesh.vertices.T, *mesh.normals.T)
+    triangles = vertex[mesh.triangles].astype(mesh.triangles.dtype)
+    return Mesh(mesh.vertices[first], triangles, mesh.normals[first])
+
+
+def _check_finite(name: str, noun: str, rows: NDArray[np.float64]) -> None:
+    bad = ~np.isfinite(rows).all(axis=1)
+    if bad.any():
+        k = int(np.argmax(bad))
+        raise GeometryError(f"{name}: {noun} {k} is {_row(rows, k)}: expected finite numbers")
+
+
+def _row(rows: NDArray[np.float64], k: int) -> str:
+    return "(" + ", ".join(f"{x:g}" for x in rows[k]) + ")"

@@ -1,0 +1,158 @@
+"""One element of a METU scene file, read from XML or from JSON, that knows which of its parts have been asked for."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from course.core.types import Floats64
+from course.errors import SceneError
+from course.formats.yaml.document import show
+from course.formats.yaml.scalars import LARGEST, SMALLEST
+
+
+@dataclass
+class Element:
+    """A tag with attributes, text and children; what nobody has asked for is left over at the end.
+
+    Attributes
+    ----------
+    tag : its name
+    path : of tags from the root, such as Scene/Cameras/Camera[2]
+    where : file and line, or the file alone
+    plain : in JSON, whether it is a value of its own, not a map
+    """
+
+    tag: str
+    path: str
+    where: str
+    attributes: dict[str, str] = field(default_factory=dict)
+    children: list[Element] = field(default_factory=list)
+    text: str = ""
+    plain: bool = False
+    _asked: set[str] = field(default_factory=set)
+    _text_asked: bool = False
+
+    def error(self, message: str) -> SceneError:
+        """An error about this element: `box.xml:7: Scene/Lights/PointLight[1]: MESSAGE`."""
+        return SceneError(f"{self.where}: {self.path}: {message}")
+
+    def unexpected(self, expected: str) -> SceneError:
+        """An error about its text."""
+        text = " ".join(self.text[:200].split())
+        return SceneError(f"{self.where}: {self.path} is {show(text)}: expected {expected}")
+
+    def attribute(self, name: str) -> str | None:
+        """An attribute's value, None where it isn't given."""
+        self._asked.add(name)
+        value = self.attributes.get(name)
+        return None if value is None else value.strip()
+
+    def id(self) -> str:
+        """The attribute `id`; SceneError where it is missing."""
+        name = self.attribute("id")
+        if not name:
+            self._check_map()
+            raise self.error('id is missing: expected an attribute such as id="1"')
+        return name
+
+    def flag(self, name: str) -> bool:
+        """An attribute that is true or false, false where it isn't given."""
+        value = (self.attribute(name) or "false").lower()
+        if value not in {"true", "false", "1", "0"}:
+            raise self.error(f"{name} is {show(value)}: expected true or false")
+        return value in {"true", "1"}
+
+    def all(self, tag: str) -> list[Element]:
+        """The children of that name; SceneError for a number or a text in JSON where children could be."""
+        self._asked.add(tag)
+        if self.text.strip():
+            self._check_map()
+        return [child for child in self.children if child.tag == tag]
+
+    def maybe(self, tag: str) -> Element | None:
+        """The child of that name, if there is one; SceneError for several."""
+        found = self.all(tag)
+        if len(found) > 1:
+            raise found[1].error(f"there are {len(found)} of it: expected one")
+        return found[0] if found else None
+
+    def child(self, tag: str, example: str) -> Element:
+        """The child of that name; SceneError where it is missing."""
+        found = self.maybe(tag)
+        if found is None:
+            self._check_map()
+            raise self.error(f"{tag} is missing: expected {example}")
+        return found
+
+    def _check_map(self) -> None:
+        """SceneError for a value of JSON where something with parts is needed; nothing else is missing there."""
+        if self.plain:
+            raise self.unexpected("a map of its attributes and elements")
+
+    def words(self) -> list[str]:
+        """Its text, split at blanks."""
+        self._text_asked = True
+        return self.text.split()
+
+    def numbers(self, count: int, example: str) -> tuple[float, ...]:
+        """Its text as that many finite numbers."""
+        expected = f"{'1 number' if count == 1 else f'{count} numbers'}, such as {example}"
+        values = self.many(expected)
+        if len(values) != count:
+            raise self.unexpected(expected)
+        return tuple(values.tolist())
+
+    def vector(self) -> tuple[float, ...]:
+        """Its text as three numbers."""
+        return self.numbers(3, "0 1 -2.5")
+
+    def color(self, most: float = math.inf) -> tuple[float, ...]:
+        """Its text as red, green and blue, from 0 to a bound."""
+        values = self.numbers(3, "1 0.5 0")
+        if not all(0 <= value <= most for value in values):
+            bound = f" to {most:g}" if most < math.inf else ""
+            raise self.unexpected(f"3 numbers from 0{bound}")
+        return values
+
+    def number(self, least: float, above: bool = False) -> float:
+        """Its text as one number, not below (or only ``above``) a bound."""
+        (value,) = self.numbers(1, "1.5")
+        if value < least or (above and value == least):
+            raise self.unexpected(f"a number {'>' if above else '>='} {least:g}")
+        return value
+
+    def whole(self, least: int) -> int:
+        """Its text as a whole number, not below a bound."""
+        (value,) = self.numbers(1, "4")
+        if value != math.floor(value) or value < least:
+            raise self.unexpected(f"a whole number >= {least}")
+        return int(value)
+
+    def many(self, expected: str) -> Floats64:
+        """Its text as any number of finite numbers, (n,) float64."""
+        try:
+            values = np.array(self.words(), np.float64)
+        except ValueError:
+            raise self.unexpected(expected) from None
+        if not np.isfinite(values).all() or (np.abs(values) > LARGEST).any():
+            raise self.unexpected(f"{expected}, finite and up to {LARGEST:g} in size")
+        # As good as zero, and YAML would refuse it.
+        values[np.abs(values) < SMALLEST] = 0
+        return values
+
+    def left_over(self) -> Iterator[tuple[str, str]]:
+        """File and line, and the path, of every part that nobody has asked for."""
+        for name in self.attributes:
+            if name not in self._asked:
+                yield self.where, f"{self.path}, attribute {name}"
+        if self.text.strip() and not self._text_asked:
+            yield self.where, f"{self.path}, its text {show(' '.join(self.text[:200].split()))}"
+        for child in self.children:
+            if child.tag in self._asked:
+                yield from child.left_over()
+            else:
+                yield child.where, child.path

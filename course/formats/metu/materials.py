@@ -1,0 +1,94 @@
+"""`Materials`: Blinn-Phong terms, mirrors, conductors and dielectrics."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from course.formats.metu.element import Element
+from course.formats.metu.notes import Notes
+
+TYPES = ("mirror", "conductor", "dielectric")
+
+COUNTS_WITH = {
+    "MirrorReflectance": ("mirror", "conductor"),
+    "RefractionIndex": ("conductor", "dielectric"),
+    "AbsorptionIndex": ("conductor",),
+    "AbsorptionCoefficient": ("dielectric",),
+}
+"""The types that an element is read for."""
+
+
+def material_name(number: str) -> str:
+    """How a material is called in the project's own scene files."""
+    return f"material {number}"
+
+
+def read_materials(scene: Element, notes: Notes) -> dict[str, dict[str, Any]]:
+    """The materials of a scene by id."""
+    materials: dict[str, dict[str, Any]] = {}
+    for element in scene.child("Materials", "materials for the objects").all("Material"):
+        number = element.id()
+        if number in materials:
+            raise element.error(f"its id is given twice: expected another than {number}")
+        materials[number] = _material(element, notes)
+    return materials
+
+
+def _material(element: Element, notes: Notes) -> dict[str, Any]:
+    kind = element.attribute("type")
+    if kind and kind not in TYPES:
+        raise element.error(f"type is {kind!r}: expected {', '.join(TYPES)} or none")
+    ambient, diffuse = (_color(element, f"{name}Reflectance") for name in ("Ambient", "Diffuse"))
+    material = _body(ambient, diffuse)
+    specular = _color(element, "SpecularReflectance")
+    exponent = element.maybe("PhongExponent")
+    power = 1.0 if exponent is None else exponent.number(0)
+    if any(specular):
+        material |= {"specular": specular, "exponent": power, "highlight": "plain"}
+    if kind in ("mirror", "conductor"):
+        material["mirror"] = list(
+            element.child("MirrorReflectance", "such as 0.9 0.9 0.9").color(1)
+        )
+    if kind == "conductor":
+        material["conductor"] = {
+            "refraction_index": element.child("RefractionIndex", "such as 0.37").number(0),
+            "absorption_index": element.child("AbsorptionIndex", "such as 2.82").number(0),
+            "fresnel": "approximate",
+        }
+    if kind == "dielectric":
+        index = element.child("RefractionIndex", "such as 1.5").number(0, above=True)
+        material["dielectric"] = {
+            "refraction_index": index,
+            "absorption": _color(element, "AbsorptionCoefficient"),
+        }
+        if any(diffuse) or any(ambient):
+            material["dielectric"]["shaded"] = True
+    for tag, kinds in COUNTS_WITH.items():
+        idle = None if kind in kinds else element.maybe(tag)
+        if idle is not None and idle.many("numbers, such as 0.5").any():
+            notes.add(idle, f"counts only with type {' or '.join(kinds)}, and was left out")
+    roughness = element.maybe("Roughness")
+    if roughness is not None and roughness.number(0):
+        if kind:
+            edge = roughness.number(0)
+            material["gloss"] = {"lobe": "plane", "roughness": edge, "basis": "smallest"}
+            if kind == "dielectric":
+                material["dielectric"]["roughness"] = roughness.number(0)
+        else:
+            notes.add(roughness, "counts only with a type, and was left out")
+    return material
+
+
+def _body(ambient: list[float], diffuse: list[float]) -> dict[str, Any]:
+    """Colours, which end at 1, and factors where a reflectance doesn't."""
+    by, of = max(1.0, *diffuse), max(1.0, *ambient)
+    material: dict[str, Any] = {"color": [value / by for value in diffuse]}
+    if ambient != diffuse:
+        material["ambient_color"] = [value / of for value in ambient]
+    factors = {"diffuse": by, "ambient": of}
+    return material | {key: factor for key, factor in factors.items() if factor > 1}
+
+
+def _color(element: Element, tag: str, most: float = float("inf")) -> list[float]:
+    found = element.maybe(tag)
+    return [0.0, 0.0, 0.0] if found is None else list(found.color(most))

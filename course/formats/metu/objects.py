@@ -1,0 +1,279 @@
+"""`Objects`: meshes, instances of them, spheres, triangles and planes.
+
+An instance takes its mesh from another object; the engine has no instances, so each becomes an object with the same
+mesh file, which is read once.
+"""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from dataclasses import dataclass, field
+from itertools import product
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from course.core.triangles import Mesh
+from course.core.types import Floats64, Indices
+from course.formats.metu.element import Element
+from course.formats.metu.materials import material_name
+from course.formats.metu.mesh_table import MeshTable
+from course.formats.metu.meshes import (
+    check_indices,
+    corners_of,
+    has_normals,
+    inline_mesh,
+    mesh_file,
+    vertex_offset,
+)
+from course.formats.metu.notes import Notes
+from course.formats.metu.planes import corners_of_all, plane_mesh
+from course.formats.metu.transformations import matrix_of, matrix_of_steps, transform_of
+from course.formats.metu.transformations import normal as transformed_normal
+from course.formats.metu.transformations import point as moved
+from course.formats.yaml.document import show
+from course.formats.yaml.suggestions import suggest
+
+SEGMENTS = ((8, 512), (32, 256), (128, 128))
+"""Spheres a scene may have at most for so many flat pieces around each: a million triangles, or two, in all."""
+
+FEWEST_SEGMENTS = 64
+
+INHERITED = ("shape", "file", "shading", "normals", "material")
+"""What an instance has from its base; how that moves is its own affair."""
+
+
+@dataclass
+class Objects:
+    """Turns the objects of one scene into those of the project's own scene files.
+
+    Attributes
+    ----------
+    vertices : (V, 3) float64
+    materials : by id, as the converted scene has them
+    steps : of `Transformations`, by letter and id
+    source : folder of the METU scene, from which its mesh files are named
+    meshes : files of the converted scene
+    notes : what there is to say about them
+    eyes : where the cameras stand
+    """
+
+    vertices: Floats64
+    materials: dict[str, dict[str, Any]]
+    steps: dict[str, dict[str, Any]]
+    source: Path
+    meshes: MeshTable
+    notes: Notes
+    eyes: list[list[float]]
+    _bases: dict[str, dict[str, Any]] = field(default_factory=dict)
+
+    def read(self, scene: Element) -> list[dict[str, Any]]:
+        """All objects of a scene; what meshes it holds itself are written once there is no mistake in any."""
+        parent = scene.child("Objects", "one object or more")
+        things = [self._mesh(element) for element in parent.all("Mesh")]
+        things += self._instances(parent.all("MeshInstance"))
+        spheres = parent.all("Sphere")
+        segments = next((s for most, s in SEGMENTS if len(spheres) <= most), FEWEST_SEGMENTS)
+        things += [self._sphere(element, segments) for element in spheres]
+        things += self._triangles(parent.all("Triangle"))
+        for thing in things:
+            self._set_from_behind(thing)
+        things += self._planes(parent.all("Plane"), things)
+        self.meshes.write()
+        return [{key: value for key, value in thing.items() if value != []} for thing in things]
+
+    def _set_from_behind(self, thing: dict[str, Any]) -> None:
+        """Camera rays pass through backs of flat triangles, and find other normals as they are; but for glass."""
+        glass = (
+            material_name(number) for number, keys in self.materials.items() if "dielectric" in keys
+        )
+        if thing["material"] not in glass:
+            thing["from_behind"] = "unseen" if thing.get("shading") == "flat" else "kept"
+
+    def _mesh(self, element: Element) -> dict[str, Any]:
+        number = element.id()
+        if number in self._bases:
+            raise element.error(f"its id is given twice: expected another than {number}")
+        given = element.attribute("shadingMode")
+        mode = given or "flat"
+        if mode not in ("flat", "smooth"):
+            raise element.error(f"shadingMode is {show(mode)}: expected flat or smooth")
+        faces = element.child("Faces", "triples of vertex numbers, or a plyFile")
+        if faces.attributes.get("type") == "triangle":
+            faces.attribute("type")
+        file = faces.attribute("plyFile")
+        normals = {}
+        if file:
+            offset = vertex_offset(faces)
+            if offset:
+                self.notes.add(
+                    faces,
+                    f"has vertexOffset {offset}, which counts only for vertex numbers in the scene itself:"
+                    " a PLY file has its own vertices",
+                )
+            found = mesh_file(faces, file, self.source)
+            if not given and has_normals(found):
+                mode = "smooth"
+            normals = {"normals": "area"} if mode == "smooth" else {}
+            path = self.meshes.add_file(found, faces)
+        else:
+            mesh = inline_mesh(faces, self.vertices, mode == "smooth")
+            path = self.meshes.add_own(mesh, f"mesh-{len(self._bases) + 1}", faces)
+        thing = {
+            "shape": "mesh",
+            "name": f"mesh {number}",
+            "file": path,
+            "shading": mode,
+            **normals,
+            **self._common(element),
+        }
+        self._bases[number] = thing
+        return thing
+
+    def _instances(self, elements: list[Element]) -> list[dict[str, Any]]:
+        """Instances of meshes and of other instances, whatever their order in the file."""
+        left, things = dict(enumerate(elements)), dict[int, dict[str, Any]]()
+        ids = Counter(element.id() for element in elements)
+        for element in elements:
+            name = _base_of(element)
+            if ids[name] > 1 and name not in self._bases:
+                self.notes.add(
+                    element,
+                    f"has baseMeshId {name}, an id that {ids[name]} instances have: the first is taken",
+                )
+        while left:
+            ready = {
+                k: base
+                for k, element in left.items()
+                if (base := self._bases.get(_base_of(element))) is not None
+            }
+            if not ready:
+                element = next(iter(left.values()))
+                # Where an id is there twice, one of the two was probably to be another.
+                twice = [number for number, count in ids.items() if count > 1]
+                told = (
+                    f"; the id {show(twice[0])} is given to {ids[twice[0]]} instances"
+                    if twice
+                    else ""
+                )
+                raise element.error(
+                    f"baseMeshId is {show(_base_of(element))}: expected the id of a mesh, or of an instance"
+                    f" that comes from one; {suggest(_base_of(element), self._bases)}{told}"
+                )
+            for k, base in ready.items():
+                things[k] = self._instance(left.pop(k), base)
+        return [things[k] for k in sorted(things)]
+
+    def _instance(self, element: Element, base: dict[str, Any]) -> dict[str, Any]:
+        number = element.id()
+        inherited = {key: base[key] for key in INHERITED if key in base}
+        thing = inherited | {"name": f"instance {number}"}
+        thing |= self._common(element, element.maybe("Material") is None)
+        if not element.flag("resetTransform"):
+            thing["transform"] = base["transform"] + thing["transform"]
+        # Meshes and instances are counted apart in some files; then a mesh keeps its number.
+        self._bases.setdefault(number, thing)
+        return thing
+
+    def _sphere(self, element: Element, segments: int) -> dict[str, Any]:
+        element.attribute("id")
+        center = element.child("Center", "the number of a vertex")
+        middle = {"translate": self._vertex(center).tolist()}
+        thing = {
+            "shape": "sphere",
+            "radius": element.child("Radius", "such as 1").number(0, above=True),
+            "segments": segments,
+            **self._common(element),
+        }
+        return thing | {"transform": [middle, *thing["transform"]]}
+
+    def _triangles(self, elements: list[Element]) -> list[dict[str, Any]]:
+        """Single triangles; those that look and move alike make one mesh."""
+        groups: dict[str, tuple[dict[str, Any], list[Indices], Element]] = {}
+        for element in elements:
+            element.attribute("id")
+            indices = element.child("Indices", "three vertex numbers, such as 1 2 3")
+            corners = corners_of(indices, self.vertices)
+            if len(corners) != 1:
+                raise indices.unexpected("three vertex numbers, such as 1 2 3")
+            common = self._common(element)
+            groups.setdefault(json.dumps(common), (common, [], element))[1].append(corners)
+        things = []
+        for count, (common, found, first) in enumerate(groups.values(), start=1):
+            used, triangles = np.unique(np.concatenate(found), return_inverse=True)
+            mesh = Mesh(self.vertices[used], triangles.reshape(-1, 3))
+            path = self.meshes.add_own(mesh, f"triangles-{count}", first)
+            things.append({"shape": "mesh", "file": path, "shading": "flat", **common})
+        return things
+
+    def _planes(
+        self, elements: list[Element], others: list[dict[str, Any]]
+    ) -> list[dict[str, Any]]:
+        """Infinite planes; what else there is tells how large they must be."""
+        if not elements:
+            return []
+        eyes = np.array(self.eyes, np.float64).reshape(-1, 3)
+        corners = np.concatenate((self._corners(others), eyes))
+        things = []
+        for count, element in enumerate(elements, start=1):
+            element.attribute("id")
+            point = self._vertex(element.child("Point", "the number of a vertex"))
+            where = element.child("Normal", "such as 0 1 0")
+            if not any(where.vector()):
+                raise where.unexpected("a direction that is not 0 0 0")
+            matrix = matrix_of(element, self.steps)
+            mesh = plane_mesh(
+                moved(matrix, point), transformed_normal(matrix, np.array(where.vector())), corners
+            )
+            path = self.meshes.add_own(mesh, f"plane-{count}", element)
+            keys = self._common(element) | {"transform": []}
+            things.append({"shape": "mesh", "file": path, "shading": "flat", **keys})
+        return things
+
+    def _corners(self, things: list[dict[str, Any]]) -> Floats64:
+        """Corners (N, 3) of the boxes around all objects."""
+        meshes = []
+        for thing in things:
+            if thing["shape"] == "sphere":
+                box = np.array(list(product((-1, 1), repeat=3))) * thing["radius"]
+            else:
+                box = self.meshes.vertices[thing["file"]]
+            matrix = matrix_of_steps(thing["transform"])
+            meshes.append((box @ matrix[:3, :3].T + matrix[:3, 3], thing))
+        return corners_of_all(meshes)
+
+    def _vertex(self, element: Element) -> Floats64:
+        """The vertex whose number is an element's text, (3,)."""
+        number = np.array(element.numbers(1, "1"))
+        if number[0] != np.floor(number[0]):
+            raise element.unexpected("the number of a vertex, such as 1")
+        check_indices(element, number, self.vertices)
+        found: Floats64 = self.vertices[int(number[0]) - 1]
+        return found
+
+    def _common(self, element: Element, inherits_material: bool = False) -> dict[str, Any]:
+        """Material, transform and motion of an object."""
+        keys: dict[str, Any] = {}
+        if not inherits_material:
+            material = element.child("Material", "the id of a material")
+            name = " ".join(material.words())
+            if name not in self.materials:
+                raise material.unexpected(
+                    f"the id of a material; {suggest(name, sorted(self.materials))}"
+                )
+            keys["material"] = material_name(name)
+        keys["transform"] = transform_of(element, self.steps)
+        blur = element.maybe("MotionBlur")
+        if blur is not None and any(velocity := blur.vector()):
+            # The shutter of the converted scene is open from 0 to 1.
+            keys["motion"] = {"velocity": list(velocity)}
+        return keys
+
+
+def _base_of(element: Element) -> str:
+    base = element.attribute("baseMeshId")
+    if not base:
+        raise element.error("baseMeshId is missing: expected the id of a mesh")
+    return base

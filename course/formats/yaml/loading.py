@@ -1,0 +1,58 @@
+"""A scene file, read and checked: YAML -> Document -> SceneDescription."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from course.formats.yaml.checking import convert
+from course.formats.yaml.consistency import check_consistency
+from course.formats.yaml.description.scene import SceneDescription
+from course.formats.yaml.document import Document
+from course.formats.yaml.overriding import Overrides, override
+from course.formats.yaml.tree import read_document
+
+
+@dataclass(frozen=True)
+class Loaded:
+    """A checked scene file.
+
+    Attributes
+    ----------
+    description : SceneDescription
+        What the file says, with defaults filled in.
+    document : Document
+        The file's own values and their lines, for the errors of later stages.
+    path : pathlib.Path
+        Where the file lies; the paths in it are relative to its folder.
+    """
+
+    description: SceneDescription
+    document: Document
+    path: Path
+
+
+def load_description(path: Path, overrides: Overrides | None = None) -> Loaded:
+    """Read a scene file and check all that can be checked without its meshes.
+
+    Parameters
+    ----------
+    path : pathlib.Path
+        A YAML file in the scene format (see `course.formats.yaml.schema`).
+    overrides : mapping from key path to value, optional
+        What stands there instead of what the file says, such as
+        ``{("lights", 0, "samples"): "ball"}``; checked like the rest (`course.formats.yaml.overriding`).
+
+    Raises
+    ------
+    SceneError
+        For the first mistake, in one line that names the file, the line, the key path, the value
+        and what was expected.
+    """
+    path = Path(path)
+    document = read_document(path)
+    if overrides:
+        document = override(document, overrides)
+    description = convert(document, SceneDescription)
+    check_consistency(description, document)
+    return Loaded(description, document, path)

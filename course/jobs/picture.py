@@ -1,0 +1,64 @@
+"""A rendered picture."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from course.core.film import AnyFilm
+from course.core.types import Floats32
+from course.jobs.receipt import Receipt
+from course.scene.settings import Settings
+
+
+@dataclass(frozen=True)
+class Picture:
+    """Linear radiance, and what it took to get it.
+
+    A picture shows itself in a notebook, and can be handed back to ``render`` to be continued.
+
+    Attributes
+    ----------
+    film : the sums behind the picture
+    settings : what it was rendered with; ``settings.samples`` is what was asked for
+    receipt : what it has cost
+    complete : every pixel has all the samples that were asked for
+    interrupted : Ctrl-C ended it
+    """
+
+    film: AnyFilm
+    settings: Settings
+    receipt: Receipt
+    complete: bool
+    interrupted: bool = False
+
+    @property
+    def linear(self) -> Floats32:
+        """(H, W, 3) float32 linear RGB radiance, row 0 the top row."""
+        return np.moveaxis(self.film.linear, 0, 2)
+
+    def save(self, path: str | Path) -> None:
+        """Write the picture: ``.png`` (8 bit, sRGB unless the scene's film says otherwise) or ``.exr`` (linear).
+
+        Raises
+        ------
+        OutputError
+            When the file can't be written; then there is no such file.
+        """
+        from course.formats.pictures.files import save
+
+        save(Path(path), self.film.linear, self.settings.display)
+
+    def save_heat_map(self, path: str | Path) -> None:
+        """Write where the samples went: black the fewest, white the most, logarithmic between; see ``save``."""
+        from course.formats.pictures.files import save
+        from course.formats.pictures.heat_map import heat_map
+
+        save(Path(path), heat_map(np.maximum(self.film.samples, 1)))
+
+    def _repr_png_(self) -> bytes:
+        from course.formats.pictures.files import encode_png
+
+        return encode_png(self.film.linear, self.settings.display)

@@ -1,0 +1,198 @@
+"""Render a scene to a picture: choose a film, a schedule and an executor for what was asked for."""
+
+from __future__ import annotations
+
+import sys
+from contextlib import closing
+from time import monotonic
+
+from course import __version__
+from course.compiled.packets import available as packets_available
+from course.core.film import AnyFilm
+from course.core.render import Progress, Schedule
+from course.core.render import render as render_film
+from course.core.threads import Executor, Pool, default_threads
+from course.core.tracer import Tracer
+from course.effects import Bound
+from course.errors import CourseError
+from course.jobs.job import Job, Mode, check_memory, chosen_settings
+from course.jobs.picture import Picture
+from course.jobs.receipt import Receipt
+from course.rendering.binding import bind
+from course.rendering.continued import TIMED, UNIFORM
+from course.rendering.memory import keep_freed_memory
+from course.rendering.not_written import lines_named
+from course.scene.scene import Scene
+from course.scene.settings import Settings
+from course.scene.skipped_modules import skipped_modules
+
+WORTH_COMPILED = 8_000_000
+"""Camera rays from which on compiled loops save more than the second that Numba takes to get ready."""
+
+
+def render(
+    scene: Scene,
+    *,
+    spp: int | None = None,
+    size: tuple[int, int] | None = None,
+    sampler: str | None = None,
+    seed: int | None = None,
+    threads: int | None = None,
+    time_limit: float | None = None,
+    since: float | None = None,
+    error: float | None = None,
+    progress: Progress | None = None,
+    start: Picture | None = None,
+    compiled: bool | None = None,
+    address: str | None = None,
+) -> Picture:
+    """Render a scene; what isn't given is as the scene file says.
+
+    Parameters
+    ----------
+    spp : samples a pixel
+    size : (width, height) [pixels]
+    sampler : "sobol", "random", "jittered", "regular", "halton", "hammersley", "chained" or "xorshift"
+    seed : chooses the random numbers
+    threads : how many; the picture doesn't depend on it
+    time_limit : seconds; the best picture in that time, with as many samples as fit (at most ``spp`` if that is given);
+        building the scene's hierarchy counts, but a tenth of the limit is left for rays in any case. On a cluster it
+        counts from when the workers have the scene
+    since : ``time.monotonic()`` from which a time limit counts; None for now
+    error : root-mean-square error of the whole picture [radiance] at which sampling ends: samples go where the
+        estimated error is, with ``spp`` a pixel on average at most
+    progress : called from this thread with the share done, and whether the whole picture has been covered once
+    compiled : whether Numba's loops are used (``pip install .[fast]``), which give the same picture sooner; None means
+        where that pays
+    start : a picture of the same scene and settings with fewer samples, to be continued
+    address : of the scheduler of a Dask cluster, such as tcp://127.0.0.1:8786, whose workers render (``pip install
+        .[dask]``) and decide how many threads; None means this machine
+
+    Returns
+    -------
+    Picture
+
+    Raises
+    ------
+    SceneError, EffectError, OutputError
+        For settings that don't fit together, functions that are not written yet, and pictures larger than memory.
+    CourseError
+        For a cluster that can't be reached or is lost.
+
+    Notes
+    -----
+    Ctrl-C ends the render with a picture whose ``interrupted`` is true. A picture is a function of scene, settings
+    and seed alone: the same bits for any number of threads or workers.
+    """
+    since = monotonic() if since is None else since
+    keep_freed_memory()
+    width, height = size or (None, None)
+    settings = chosen_settings(
+        scene.settings,
+        time_limit is not None or error is not None,
+        samples=spp,
+        width=width,
+        height=height,
+        sampler=sampler,
+        seed=seed,
+        error=error,
+    )
+    job = Job(scene, settings, time_limit, start)
+    mode = _mode(settings, time_limit)
+    mode.check(job)
+    if start is not None:
+        _check_start(settings, start.settings)
+    check_memory(settings, mode.bytes_a_pixel)
+    packets = _use_compiled(settings, compiled)
+    if address is not None and threads is not None:
+        raise CourseError(
+            "threads are for renders on this machine; the workers of a cluster have their own"
+        )
+    bound = Bound(scene.effects, scene.compiled.needs)
+    began = monotonic()
+    with lines_named(scene, bound):
+        tracer = bind(scene, settings, bound, packets and address is None)
+        film, schedule = mode.make(job, tracer, bound)
+        executor: Executor
+        if address is None:
+            executor = Pool(tracer, threads or default_threads())
+        else:
+            from course.cluster.executor import Cluster
+
+            executor = Cluster(address, scene, settings, packets)
+        with closing(executor):
+            if time_limit is not None:
+                executor.limit_time(time_limit, since)
+            complete = render_film(film, schedule, executor, progress)
+    receipt = _receipt(job, bound, tracer, film, schedule, executor, monotonic() - began)
+    return Picture(film, settings, receipt, complete, executor.interrupted)
+
+
+def _mode(settings: Settings, time_limit: float | None) -> Mode:
+    """The mode that settings ask for; its module is imported then."""
+    if settings.subdivision is not None:
+        from course.adaptive.subdivision import SUBDIVISION
+
+        return SUBDIVISION
+    if settings.error is not None:
+        from course.adaptive.schedule import ADAPTIVE
+
+        return ADAPTIVE
+    return UNIFORM if time_limit is None else TIMED
+
+
+def _check_start(*settings: Settings) -> None:
+    """Raise CourseError if one of two renders, the earlier or the one to continue it, is in a mode that can't go on."""
+    for each in settings:
+        if (picture := _mode(each, None).final) is not None:
+            raise CourseError(f"{picture} can't be continued; start afresh")
+
+
+def _use_compiled(settings: Settings, wanted: bool | None) -> bool:
+    if wanted and not packets_available():
+        raise CourseError("compiled loops need Numba: pip install .[fast]")
+    if wanted is not None:
+        return wanted
+    rays = settings.width * settings.height * settings.samples
+    return packets_available() and ("numba" in sys.modules or rays >= WORTH_COMPILED)
+
+
+def _receipt(
+    job: Job,
+    bound: Bound,
+    tracer: Tracer,
+    film: AnyFilm,
+    schedule: Schedule,
+    executor: Executor,
+    wall: float,
+) -> Receipt:
+    """Collect the entries that world, film, schedule and executor have for the receipt."""
+    rays, counters = tracer.integrator, executor.counters
+    integrator = job.scene.loaded.description.integrator
+    skipped = {
+        **skipped_modules(bound.needs, integrator),
+        **job.scene.compiled.world.skipped_lights,
+    }
+    if rays.scatter is None or not rays.scatter.mirrors:
+        skipped["reflection"] = "no material mirrors, or the depth is 0"
+    if rays.scatter is None or rays.scatter.index is None:
+        skipped["refraction"] = "no material refracts, or the depth is 0"
+    if rays.environment_depth < 0:
+        skipped["environment"] = "it is black"
+    tests = {"boxes": counters.embree.box_tests, "triangles": counters.embree.triangle_tests}
+    samples = float(film.samples.mean())
+    return Receipt(
+        rays=dict(counters.rays),
+        numbers=dict(counters.numbers),
+        effects={"called": [need.function for need in bound.needs], "skipped": skipped},
+        seconds=dict(counters.seconds),
+        embree_seconds=counters.embree.seconds,
+        wall_seconds=wall,
+        threads=executor.threads,
+        samples=int(samples) if samples.is_integer() else samples,
+        pixels=film.samples.size,
+        seed=job.settings.seed,
+        version=__version__,
+        tests=None if "bounding_volumes" in skipped else tests,
+        **schedule.receipt(),
+    )

@@ -1,0 +1,113 @@
+"""Flat shapes: the quad, the disk, and the box of six quads. Every face has its own vertices."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from course.core.triangles import Mesh
+from course.shapes.checks import count, length
+from course.shapes.grid import circle, lattice_triangles, lattice_uv
+from course.shapes.joining import join
+
+
+def quad(width: float = 1.0, depth: float = 1.0) -> Mesh:
+    """Return a rectangle in the xz plane, centred, facing +y; u along +x, v along -z.
+
+    Parameters
+    ----------
+    width, depth : float
+        Extent along x and along z [m], > 0.
+
+    Raises
+    ------
+    ValueError
+        For an extent out of range.
+    """
+    x, z = 0.5 * length("width", width), 0.5 * length("depth", depth)
+    return Mesh(
+        vertices=np.array([[-x, 0.0, z], [x, 0.0, z], [x, 0.0, -z], [-x, 0.0, -z]]),
+        triangles=np.array([[0, 1, 2], [0, 2, 3]], np.int32),
+        normals=np.tile([0.0, 1.0, 0.0], (4, 1)),
+        uv=np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]),
+    )
+
+
+SLENDER = 16.0
+"""A box whose length is more than this many times its other extents is cut into pieces of that many at most.
+
+Rays leave long thin triangles from further above them, see ``course.core.triangles``.
+"""
+
+
+def box(size: Sequence[float] = (1.0, 1.0, 1.0)) -> Mesh:
+    """Return a box centred at the origin, six faces with 0..1 uv each and hard edges.
+
+    Parameters
+    ----------
+    size : three floats
+        Extent along x, y and z [m], each > 0. Long sides of a slender box are strips of quads, at most 256.
+
+    Raises
+    ------
+    ValueError
+        For an extent out of range, or not three of them.
+    """
+    if len(size) != 3:
+        raise ValueError(f"size has {len(size)} numbers: expected 3")
+    extent = np.array([length(f"size[{i}]", s) for i, s in enumerate(size)])
+    # All faces are cut at the same places, so no corner of one lies on an edge of another.
+    _, second, longest = np.argsort(extent, kind="stable")
+    cuts = np.ones(3, int)
+    cuts[longest] = np.clip(np.ceil(extent[longest] / (SLENDER * extent[second])), 1, 256)
+    faces = []
+    for face in range(6):
+        axis, sign = face // 2, 1.0 - 2.0 * (face % 2)
+        # The u axis turns with the sign, so that u cross v points out of either face.
+        u, v = (axis + 1) % 3, (axis + 2) % 3
+        uv = lattice_uv(int(cuts[u]), int(cuts[v]))
+        vertices, normals = np.empty((len(uv), 3)), np.zeros((len(uv), 3))
+        vertices[:, axis] = sign * 0.5 * extent[axis]
+        vertices[:, u] = sign * (uv[:, 0] - 0.5) * extent[u]
+        vertices[:, v] = (uv[:, 1] - 0.5) * extent[v]
+        normals[:, axis] = sign
+        triangles = lattice_triangles(int(cuts[u]), int(cuts[v]))
+        faces.append(Mesh(vertices, triangles, normals, uv))
+    return join(faces)
+
+
+def disk(radius: float = 1.0, segments: int = 64) -> Mesh:
+    """Return a regular polygon in the xz plane, centred, facing +y; uv as seen from above.
+
+    Parameters
+    ----------
+    radius : float
+        Of the circle through the corners [m], > 0.
+    segments : int
+        Corners, 3 to 4096.
+
+    Raises
+    ------
+    ValueError
+        For a parameter out of range.
+    """
+    return fan(length("radius", radius), 0.0, count("segments", segments, 3, 4096), upwards=True)
+
+
+def fan(radius: float, y: float, segments: int, *, upwards: bool) -> Mesh:
+    """Return a disk at height y, about a vertex in its middle, facing up or down."""
+    cosine, sine = (values[:-1] for values in circle(segments))
+    facing = 1.0 if upwards else -1.0
+    rim = np.stack([radius * cosine, np.full(segments, y), -(radius * sine)], axis=1)
+    i = np.arange(segments, dtype=np.int32)
+    following = (i + 1) % segments
+    ends = (i, following) if upwards else (following, i)
+    uv = np.stack([0.5 + 0.5 * cosine, 0.5 + 0.5 * facing * sine], axis=1)
+    return Mesh(
+        vertices=np.concatenate([rim, [[0.0, y, 0.0]]]),
+        triangles=np.stack([np.full_like(i, segments), *ends], axis=1),
+        normals=np.tile([0.0, facing, 0.0], (segments + 1, 1)),
+        # Rounding may carry 1/2 + cos/2 one bit beyond the unit square.
+        uv=np.clip(np.concatenate([uv, [[0.5, 0.5]]]), 0.0, 1.0),
+    )

@@ -1,0 +1,92 @@
+"""The core can be read: its size, whom it imports, and where it calls the functions of the course."""
+
+from __future__ import annotations
+
+import ast
+import json
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from course.modules import MODULES
+
+ROOT = Path(__file__).parents[1]
+COURSE = ROOT / "course"
+CORE = COURSE / "core"
+
+FILES = sorted(path for path in CORE.rglob("*.py") if path.read_text(encoding="utf-8"))
+MOST_FILES, MOST_LINES, LONGEST_FUNCTION = 38, 4250, 60
+
+UNUSED = {
+    "glossy.orthonormal_basis",
+    "thin_lens.image_distance",
+    "thin_lens.circle_of_confusion",
+    "cube_map.face_and_uv",
+}
+"""What the other functions of a module call, or nobody but the checks."""
+
+RUN = """
+import json, sys, threading
+files = set()
+def note(frame, event, argument):
+    if event == "call" and frame.f_code.co_name != "<module>":
+        files.add(frame.f_code.co_filename)
+from course import load_scene, render
+scene = load_scene("scenes/soft_shadows.yaml")
+sys.setprofile(note)
+threading.setprofile(note)
+render(scene, spp=4, size=(60, 40), threads=1, compiled=False)
+sys.setprofile(None)
+print(json.dumps(sorted(files)))
+"""
+
+
+def _lines(path: Path) -> list[str]:
+    return path.read_text(encoding="utf-8").splitlines()
+
+
+def test_the_core_is_small_enough_to_be_read() -> None:
+    assert len(FILES) <= MOST_FILES
+    assert sum(len(_lines(path)) for path in FILES) <= MOST_LINES
+
+
+def test_the_readme_says_how_long_the_core_is() -> None:
+    lines = sum(len(_lines(path)) for path in FILES)
+    told = re.search(r"`course/core`, ([\d,]+) lines", (ROOT / "README.md").read_text("utf-8"))
+    assert told is not None
+    assert abs(int(told[1].replace(",", "")) - lines) <= 50
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.relative_to(CORE).as_posix())
+def test_functions_of_the_core_are_short(path: Path) -> None:
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.FunctionDef):
+            assert node.end_lineno is not None
+            assert node.end_lineno - node.lineno < LONGEST_FUNCTION, node.name
+
+
+@pytest.mark.parametrize(
+    "function",
+    sorted({f"{module}.{name}" for module in MODULES for name in MODULES[module]} - UNUSED),
+)
+def test_a_function_of_the_course_is_called_by_its_own_name_on_one_line(function: str) -> None:
+    called = [
+        path
+        for path in COURSE.rglob("*.py")
+        if "grading" not in path.parts
+        for line in _lines(path)
+        if re.search(rf"(?<![a-z]){re.escape(function)}\(", line)
+    ]
+    assert len(called) == 1
+
+
+def test_one_picture_runs_few_files() -> None:
+    done = subprocess.run(
+        [sys.executable, "-c", RUN], cwd=ROOT, capture_output=True, text=True, check=True
+    )
+    files = [file for file in json.loads(done.stdout) if Path(file).is_relative_to(COURSE)]
+    assert CORE / "lights" / "sphere.py" in map(Path, files)
+    assert len(files) <= 42
