@@ -219,7 +219,10 @@ def _right(array: Any, kind: str) -> bool:
         return bool(low >= SHORTEST and high <= LONGEST)
     if kind == "infinite":
         return bool(array.min() > -np.inf)
-    return bool(array.min() > -np.inf and array.max() < np.inf)
+    with np.errstate(over="ignore", invalid="ignore"):
+        # One pass takes two thirds of the time of two. The sum of finite numbers may overflow: then each is looked at.
+        total = np.einsum("i->", array.reshape(-1))
+    return bool(np.isfinite(total)) or bool(array.min() > -np.inf and array.max() < np.inf)
 
 
 def _wrong(array: Any, kind: str) -> str:
