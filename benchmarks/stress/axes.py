@@ -5,7 +5,7 @@ well-conditioned twin, which looks the same; ``shift`` says how far apart [half 
 the smallest change of the scene that explains every difference between their pictures (a backward error). Thin
 triangles add a ``thin_shift``, but only where they are, on a share of the surfaces.
 
-Symbols: U = 2^-24, the rounding of float32; OFFSET, SLIVER, TILT, MOST as in ``course.core.triangles``.
+Symbols: U = 2^-24, the rounding of float32; OFFSET, SLIVER, TILT, MOST as in ``course.core.ray_offset``.
 """
 
 from __future__ import annotations

@@ -176,7 +176,7 @@ def test_where_most_rays_enter_all_are_asked(
     intersect, unoccluded = scene.intersect, scene.unoccluded
 
     def nearest(self: Any, *arguments: Any) -> Any:
-        which = arguments[4]
+        which = arguments[4] if len(arguments) > 4 else None
         asked.append(arguments[1].shape[1] if which is None else len(which))
         return intersect(self, *arguments)
 

@@ -58,8 +58,8 @@ def test_the_module_of_the_page_is_built_and_graded(tmp_path: Path) -> None:
             PROJECT / name, tmp_path / name, ignore=shutil.ignore_patterns("__pycache__", "out")
         )
     blocks = shown()
-    names = blocks.pop("course/effects.py")
-    effects = tmp_path / "course" / "effects.py"
+    names = blocks.pop("course/modules.py")
+    effects = tmp_path / "course" / "modules.py"
     further = "FURTHER: dict[str, tuple[str, ...]] = {\n"
     assert further in effects.read_text()
     effects.write_text(effects.read_text().replace(further, further + names))
