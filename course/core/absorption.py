@@ -66,10 +66,10 @@ class Absorption:
 
 
 def _lengths(rays: Rays, hits: Hits, which: Indices) -> Floats32:
-    """Distances (m,) to the given hits from the hit points that the rays left, not from the origins next to these.
+    """Distances (m,) to the given hits from the points that the rays left: the previous hits, not the offset origins.
 
-    The difference is measured to the plane of the triangle that is hit. It is clamped to the ray's length: a ray nearly
-    parallel to the plane would make it arbitrarily large. ``rays`` are all of the batch, hit or not.
+    Both distances end at the plane of the triangle that is hit. Their difference is clamped to the ray's length: a ray
+    nearly parallel to the plane would make it arbitrarily large. ``rays`` are all of the batch, hit or not.
     """
     length: Floats32 = hits.t.take(which)
     if rays.start is None:

@@ -1,4 +1,4 @@
-"""Blinn-Phong: the highlight of a surface between a diffuse one and a mirror."""
+"""Blinn-Phong highlights, for surfaces that are neither diffuse nor mirrors."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def blinn_phong_highlight(
     cosine = dot(half, normal)
     cosine /= np.sqrt(np.maximum(squared, np.float32(1e-12)))
     # NumPy's exp and log are ten times faster than `power`. Below the clamp the power is
-    # negligible, and exponent 0 gives 1 for every cosine.
+    # negligible for exponents from 1 up; exponent 0 gives 1 for every cosine.
     np.clip(cosine, np.float32(1e-6), 1, out=cosine)
     np.log(cosine, out=cosine)
     cosine *= exponent

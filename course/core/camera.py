@@ -1,7 +1,7 @@
 """The camera: rays through points of the picture, from a pinhole or a thin lens.
 
-Picture coordinates are in pixels, x to the right and y down from the upper left corner. With a field of view, the axis
-goes through the middle of the picture and pixels are square. A window may lie anywhere and have oblong pixels.
+Picture coordinates are in pixels, x to the right and y down from the upper left corner. With a field of view, the
+axis goes through the middle and pixels are square. With a window, the axis may go elsewhere and pixels may be oblong.
 """
 
 from __future__ import annotations
@@ -47,8 +47,8 @@ class Lens:
 def point_on_polygon(u: Floats32, corners: int) -> Floats32:
     """Uniform points (2, N) on the regular polygon inscribed in the unit circle, from u (2, N) in [0, 1).
 
-    The integer part of u[0] * corners chooses a triangle around the centre, its fraction a point on the outer edge.
-    sqrt(u[1]) scales that point towards the centre.
+    The integer part of u[0] * corners chooses one of the triangles around the centre. The fraction chooses a point on
+    the triangle's outer edge, and sqrt(u[1]) scales that point towards the centre.
     """
     scaled = u[0] * np.float32(corners)
     number = np.minimum(np.floor(scaled), np.float32(corners - 1))

@@ -23,8 +23,8 @@ from course.core.types import Floats32, Indices, Mask
 from course.core.vectors import dot
 
 NEARLY_ALL = 0.5
-"""If at least this share of the hits are candidates, arrays hold all hits: copying the candidates takes longer than
-computing the rest, too. Median time relative to copying, in paired renders on one thread without Embree's time: .95
+"""If at least this share of the hits are candidates, arrays have a column for every hit: computing all is faster
+than copying the candidates. Median time relative to copying, in paired renders on one thread without Embree's time: .95
 with direct light, .96 with gloss, .97 with soft shadows, .98 with path tracing. Any share from .2 to .8 will do."""
 
 ROUNDING = 1e-4
@@ -35,7 +35,7 @@ _Scalar = TypeVar("_Scalar", bound=np.generic)
 
 @dataclass(frozen=True)
 class Candidates:
-    """Hits that face a light and are faced by it: lit unless a shadow ray is blocked.
+    """Hits that a light illuminates unless their shadow rays are blocked: hit and light face each other.
 
     Arrays have k columns: one for each of the m candidates, or one for each of all n hits.
 
@@ -61,7 +61,7 @@ class Candidates:
     inverse_length: Floats32
 
     def of(self, values: NDArray[_Scalar]) -> NDArray[_Scalar]:
-        """The arrays' columns of values (n,) or (3, n) of all hits."""
+        """Select from values (n,) or (3, n) of all hits the columns of these arrays: (k,) or (3, k)."""
         return values if self.columns is None else values.take(self.columns, axis=-1)
 
     def hit(self, column: Indices) -> Indices:
@@ -165,8 +165,8 @@ class DirectLight:
     def _visible(self, light: Light, hits: Hits, candidates: Candidates, draws: Draws) -> Mask:
         """Visibility of the light, (k,); undefined for hits that are no candidates.
 
-        A facet of a smooth mesh may face away from a light that its shading normal faces. The shadow ray then starts
-        on the round surface above the facet, and a second one up to that point must be free too.
+        A facet of a smooth mesh may face away from a light that its shading normal faces. The shadow ray then starts at
+        a point of the round surface above the facet. A second ray, from the facet to that point, must be unblocked too.
         """
         triangles, unoccluded = self.surface.triangles, self.surface.accelerator.unoccluded
         clock, mask = draws.counters.embree, candidates.mask
@@ -175,8 +175,8 @@ class DirectLight:
         to_light = self._to_light(light, hits, candidates)
         if triangles.bulge is None:
             return unoccluded(origin, to_light, light.limit, clock, time, asked=mask)
-        # `bend` bounds the sine of the angle between shading and geometric normal. With a larger
-        # cosine to the light, the facet faces the light too.
+        # `bend` bounds the sine of the angle between shading and geometric normal. Where the cosine
+        # to the light is larger than that, the facet faces the light, as its shading normal does.
         most = np.float32(triangles.bend + ROUNDING)
         column = self._turned_away(hits, candidates, to_light, most)
         height = bulge(triangles, hits, candidates.hit(column))
@@ -209,7 +209,7 @@ class DirectLight:
     def _turned_away(
         self, hits: Hits, candidates: Candidates, to_light: Floats32, most: np.float32
     ) -> Indices:
-        """Columns (t,) of the candidates whose facets face away from the light; none has a cosine above ``most``."""
+        """Columns (t,) of the candidates whose facets face away from the light; their cosines are at most ``most``."""
         near = candidates.cosine <= most
         if candidates.mask is not None:
             near &= candidates.mask
@@ -236,7 +236,7 @@ class DirectLight:
         depth: int,
         draws: Draws,
     ) -> Floats32 | None:
-        """Irradiance over pi (3, n) with that of further sources; there are none here."""
+        """Add irradiance / pi (3, n) from other sources; the core has none."""
         return irradiance
 
     def _accumulated(
@@ -265,7 +265,7 @@ class DirectLight:
 def direct_light(
     surface: Surface, lights: tuple[Light, ...], motion: Motion | None, materials: MaterialTable
 ) -> DirectLight:
-    """The direct light of a scene, without what its materials don't need."""
+    """Direct light of a scene; attributes that its materials don't need are None."""
     return DirectLight(
         surface,
         lights,

@@ -55,7 +55,7 @@ class Intersections:
 
 
 class Accelerator(Protocol):
-    """Intersects batches of rays with triangles: by Embree, with moving ones, or by another BVH."""
+    """Interface of Embree, of the accelerator of moving triangles, and of another BVH."""
 
     def intersect(
         self,

@@ -89,7 +89,7 @@ class Surface:
 
     @property
     def eye(self) -> Any:
-        """Intersects camera rays, by ``Accelerator.intersect``."""
+        """The accelerator of camera rays; its ``intersect`` is that of ``Accelerator``."""
         return self.accelerator
 
     def seen(
@@ -102,7 +102,7 @@ class Surface:
     ) -> Intersections:
         """Nearest hits of camera rays; see ``Accelerator.intersect``."""
         found: Intersections = self.eye.intersect(origin, direction, clock, time, coherent=coherent)
-        # Rays of a camera exactly on a surface would hit only that; they start one offset further.
+        # If the camera lies exactly on a surface, rays hit it at once. They start again, one offset on.
         stuck = np.flatnonzero((found.t <= 0) & (found.triangle >= 0))
         if len(stuck) == 0:
             return found
@@ -161,7 +161,7 @@ class Surface:
         return ray, triangle, u, v, t, material, direction, places
 
     def leaving(self, hits: Hits, which: Indices, direction: Floats32) -> Any:
-        """``left`` of ``Accelerator.intersect`` for rays (3, m) that leave hits ``which`` (m,); None here."""
+        """The ``left`` of ``Accelerator.intersect`` for rays (3, m) from hits ``which`` (m,); Embree needs none."""
         return None
 
 

@@ -38,9 +38,9 @@ class Integrator:
     ----------
     environment : radiance of the rays that hit nothing; None for none
     environment_depth : largest depth at which such rays add radiance, -1 for none
-    direct : direct light; None if no material reflects any
+    direct : direct light; None if there is none
     ambient : (3, M) reflected ambient radiance; None if all 0
-    dark_inside : (M,) bool, dielectrics, whose inside reflects no ambient or diffuse light; None if no side does
+    dark_inside : (M,) bool, dielectrics: only their fronts reflect ambient or diffuse light; None if none reflects any
     glow : (3, M) emission of surfaces that are no lights, from both sides; None if all 0
     emission : (3, M) emission of the surfaces of lights, from their fronts; None if all 0
     absorption : along rays in dielectrics; None if nothing absorbs
@@ -124,7 +124,7 @@ class Integrator:
     ) -> tuple[Hits, Floats32 | None, Indices | None, Media | None]:
         """Hits of the rays, with throughput, path and medium of the rays that hit.
 
-        The rays that hit nothing add the environment's radiance to the film if ``sees`` is true, for each or for all.
+        A ray that hits nothing adds the environment's radiance to the film if ``sees``, of that ray or of all, is true.
         """
         counters, of_camera = draws.counters, depth == 0
         arrays = rays.origin, rays.direction, counters.embree, rays.time
@@ -202,7 +202,7 @@ class Integrator:
             film += radiance
             return
         for channel, values in zip(film, radiance, strict=True):
-            # In the order of the rays, so that a sum doesn't depend on the rest of the batch.
+            # Adds in the order of the rays, so that no sum depends on the rest of the batch.
             np.add.at(channel, path, values)
 
 
@@ -218,7 +218,7 @@ def _of_hits(rays: Rays, hits: Hits) -> tuple[Floats32 | None, Indices | None, M
 
 
 def _sum(radiance: Floats32 | None, term: Floats32) -> Floats32:
-    """Add (3, n) or (3, 1), in place only if radiance is (3, n): a single column may be shared."""
+    """Add a term, (3, n) or (3, 1). Radiance (3, 1) is not changed in place, for it may belong to a table."""
     if radiance is None:
         return term
     return np.add(radiance, term, out=radiance if radiance.shape[1] > 1 else None)

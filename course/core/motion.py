@@ -1,8 +1,8 @@
 """Moving triangles: each velocity has its own Embree scene, and ray origins are shifted into its frame.
 
-embreex has no motion blur. A ray meets an object moved by d where a ray with its origin moved by -d meets the static
-object; translation keeps directions (the `motion_blur` module). Triangle numbers count first the static triangles,
-then those of each mover.
+embreex has no motion blur. Instead of moving an object by d, the ray's origin is moved by -d: the ray hits the same
+point of the object. A translation keeps directions (the `motion_blur` module). Static triangles have the first numbers;
+those of each mover follow.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from course.core.functions import Functions
 from course.core.types import Floats32, Mask, Numbers
 
 NEARLY_ALL = 0.9
-"""Share of unblocked rays above which testing all is cheaper than copying those."""
+"""If at least this share of the rays is unblocked, testing all rays is cheaper than copying the unblocked ones."""
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,7 @@ class Motion:
     camera_velocity: Floats32 | None
 
     def moved(self, velocity: Floats32, time: Floats32) -> Floats32:
-        """Displacement at times (N,), (3, N) float32."""
+        """Displacement (3, N) float32 at times (N,)."""
         return moved(self.motion_blur, velocity, time)
 
 
@@ -103,7 +103,7 @@ class MovingAccelerator:
             free &= asked
         origin = _each_its_own(origin, direction.shape[1])
         for mover in self.movers:
-            # Only rays that are still unblocked are tested again; if they are nearly all, copies cost more.
+            # Only rays that are still unblocked need this test; see NEARLY_ALL.
             left = np.flatnonzero(free)
             if len(left) == 0:
                 break
@@ -131,7 +131,7 @@ class MovingAccelerator:
 
 
 def moved(motion_blur: Functions, velocity: Floats32, time: Floats32) -> Floats32:
-    """Displacement at times (N,), (3, N) float32."""
+    """Displacement (3, N) float32 at times (N,)."""
     displacement: Floats32 = motion_blur.displacement(velocity, time)
     return displacement
 

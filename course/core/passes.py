@@ -1,7 +1,7 @@
 """Passes: ranges of a pixel's samples, each rendered over all tiles.
 
-Every pass but the last has PASS samples. So the film's sums grow in the same steps for every total, and memory doesn't
-depend on it. A sampler that isn't extensible has one pass.
+Every pass but the last has PASS samples. So the film's sums grow in the same steps, and memory stays the same, however
+many samples there are in all. A sampler that isn't extensible has one pass.
 """
 
 from __future__ import annotations
@@ -45,8 +45,8 @@ class Work:
     order : number of the pass; the film adds the passes of a tile in order
     first, samples : first sample and number of samples of each pixel
     whole : true if the pass enters the film's sums
-    parts : number of means into which each pixel's samples are divided
-    pixels : number in the whole tile; None if ``tile`` is all of it
+    parts : number of equal parts of each pixel's samples, each with its own mean
+    pixels : number of pixels in the whole tile; None if this work is the whole tile
     """
 
     tile: Area

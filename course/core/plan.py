@@ -26,8 +26,8 @@ def plan_dimensions(
 ) -> Dimensions:
     """Dimensions of the sampler for all that is drawn.
 
-    Without lens and time, gloss gets the pair that is joined to the pixel's. Lights come later: mirror images are
-    sharper than soft shadows, so worth more. before_lights and after_lights are what else a bounce draws.
+    Without lens and time, gloss gets the second pair, which forms a net with the pixel's. Lights come later: mirror
+    images are sharper than soft shadows, so worth more. before_lights, after_lights: other numbers that a bounce draws.
     """
     of_path = [PIXEL, ("lens", 2 if camera.lens else 0), ("time", 1 if world.motion else 0)]
     gloss = ("gloss", max((lobe.width for lobe in world.lobes), default=0))

@@ -1,4 +1,4 @@
-"""How far from a triangle rays that leave it begin, so that rounding never lets it hide its own light."""
+"""The distance from a triangle at which rays leave it, so that rounding never lets a triangle block its own rays."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ SLIVER = 8.0
 """A triangle is long and thin if its length / height exceeds this.
 
 Embree's plane of such a triangle is tilted: it rounds a cross product of nearly parallel edges, taken relative to the
-ray's origin. The error in height is about 2^-24 length / height, times the length.
+ray's origin. The hit's error in height is about 2^-24 length^2 / height.
 """
 
 TILT = 0.5
 """The offset of a thin triangle is at least OFFSET * TILT * (length / height - SLIVER) lengths."""
 
 MOST = 1024.0
-"""This lower bound is clamped to OFFSET * MOST lengths."""
+"""The lower bound that TILT gives is clamped to OFFSET * MOST lengths."""
 
 INSET = 2.0
 """Rays leave at least this many offsets inside the triangle's edges.
@@ -49,5 +49,5 @@ def offset_and_inset(
     thinness = longest * longest / twice_area
     tilt = longest * np.clip(TILT * (thinness - SLIVER), 0, MOST)
     offset = OFFSET * np.maximum(np.abs(p).max(axis=(0, 1), initial=0), tilt)
-    # A barycentric is the distance from its edge / the height on it; the height is twice the area / the edge's length.
+    # Barycentric = distance from the edge / height of the triangle; height = twice the area / edge length.
     return offset, np.minimum(INSET * offset * lengths / twice_area, 1 / 3)

@@ -64,7 +64,7 @@ class Rays:
 
 
 def joined(batches: Sequence[Rays]) -> Rays:
-    """Batches as one, which costs less than several small ones; an attribute is None in all of them or in none."""
+    """Join batches: one costs less than several small ones. An attribute must be None in all batches or in none."""
 
     def columns(name: str) -> Any:
         arrays = [getattr(rays, name) for rays in batches]
@@ -74,10 +74,10 @@ def joined(batches: Sequence[Rays]) -> Rays:
 
 
 class Dimensions:
-    """The plan of the random numbers: which dimensions of the sampler each name has, and how many (``width``).
+    """Assigns dimensions of the sampler to names, such as "lens" or a light's; ``width`` says how many each has.
 
-    A name of width 0 has no dimensions. Others have whole pairs: the sampler's pairs (0, 1), (2, 3), ... are its best.
-    A path draws ``of_path`` once and ``of_bounce`` at each depth; both are pairs of name and width.
+    A name of width 0 has no dimensions. Others have whole pairs (0, 1), (2, 3), ..., in which the sampler is best.
+    A path draws numbers for ``of_path`` once, and for ``of_bounce`` at each depth. Both hold pairs (name, width).
     """
 
     def __init__(
@@ -129,9 +129,9 @@ class Draws:
         ----------
         name : one in ``dimensions``
         path : (n,) the paths; None for all of the block, in order
-        depth : number of bounces before
+        depth : number of bounces so far
         width : None for the name's width
-        skip : how many of the name's first numbers to skip
+        skip : number of the name's first dimensions to skip
         """
         width = self.dimensions.width[name] if width is None else width
         dimension = self.dimensions.first(name, depth) + skip
@@ -164,5 +164,5 @@ class Draws:
         """Hook of ``course.adaptive.costs``: hits of the paths (n,) are shaded."""
 
     def part(self, block: Block, paths: slice) -> Draws:
-        """The same for a block of some of the pixels, which has some of the paths."""
+        """Draws for a block of some of the pixels; ``paths`` are its paths in this block."""
         return replace(self, block=block)

@@ -107,7 +107,7 @@ class Scatter:
         return joined([reflected, refracted])
 
     def reflectance(self, hits: Hits, which: Indices | None) -> Floats32:
-        """Mirror reflectance at the given hits (None: all), (3, m) or (3, 1), without Fresnel's (``boundary``)."""
+        """Mirror reflectance (3, m) or (3, 1) at the given hits (None: all); ``boundary`` has Fresnel's."""
         return self.mirror(hits.material if which is None else hits.material.take(which))
 
     def boundary(self, hits: Hits, which: Indices | None, depth: int) -> Boundary:
@@ -149,7 +149,7 @@ class Scatter:
         depth: int,
         draws: Draws,
     ) -> Floats32:
-        """Refracted directions (3, m) at the given hits, to which boundary and path (m,) belong."""
+        """Refracted directions (3, m) at the given hits; boundary and path are those of the m hits."""
         direction, ns = hits.direction.take(which, axis=1), hits.ns.take(which, axis=1)
         way = refract(direction, ns, boundary.cos_i, boundary.cos_t, boundary.eta)
         return kept_above(way, -hits.ng.take(which, axis=1))
@@ -168,8 +168,8 @@ class Scatter:
         Parameters
         ----------
         which : (m,) the hits
-        above : number of rays that leave on the incoming side, the first of them; the others leave on the far side
-        after : (3, n) throughput of such a ray at each of all hits
+        above : the first ``above`` rays leave on the incoming side, the others on the far side
+        after : (3, n) throughput after the bounce, at all hits
         """
         origin = hits.above.take(which[:above], axis=1)
         if above < len(which):
@@ -249,7 +249,7 @@ class Scatter:
 
 
 def kept_above(direction: Floats32, ng: Floats32) -> Floats32:
-    """Mirror directions that an interpolated normal has sent below the surface back above it."""
+    """Directions, reflected at the surface where an interpolated normal has sent them below it."""
     below = np.minimum(dot(direction, ng), 0)
     if not below.any():
         return direction

@@ -23,7 +23,7 @@ TICK = 0.05
 """Seconds between two checks of progress and Ctrl-C in the main thread."""
 
 HURRIED = 4
-"""Most batches of rays in a tile under a time limit, because a tile that has begun is finished."""
+"""Most batches of rays in a tile under a time limit. A tile that has begun is finished, so tiles are kept small."""
 
 LEAST_FOR_RAYS = 0.1
 """Least share of a time limit that is kept for rays, however long reading and building took."""
@@ -69,7 +69,7 @@ class Executor(ABC):
 
     Parameters
     ----------
-    servers : threads of this process that do work or hand it to workers elsewhere
+    servers : number of threads of this process that render tiles, or hand them to workers elsewhere
     grace : longest wait for each thread to end [s]; None for no limit
 
     Attributes
@@ -153,7 +153,7 @@ class Executor(ABC):
         return -inf
 
     def limit_time(self, seconds: float, since: float) -> None:
-        """Set the deadline to ``seconds`` after ``since`` [``time.monotonic()``] or after ``prepare``, or later."""
+        """Set the deadline, at least ``seconds`` after ``since`` and after ``prepare()`` [``time.monotonic()``]."""
         self._time_limit = seconds
         self.deadline = max(since, self.prepare()) + seconds
         self.deadline = max(self.deadline, monotonic() + LEAST_FOR_RAYS * seconds)
@@ -212,7 +212,7 @@ _Rendered = tuple[Work, Floats32, Floats32 | float]
 
 
 class InOrder:
-    """Adds work to a film, the passes of each tile in order, even if a later pass is finished first.
+    """Adds work to a film. The passes of each tile are added in order; one that is finished early waits.
 
     A pass of a tile is complete when all its pieces have been added, in any order.
     Any number of threads may add at once; they add different tiles concurrently.

@@ -18,8 +18,8 @@ RAYS = 65536
 """Most camera rays in a batch."""
 
 _PAGE, _APART = 1024, 64
-"""Period of the first-level cache's addresses, and least distance of an array's row length from a multiple of it
-[numbers of four bytes]."""
+"""Both in numbers of four bytes. Addresses that differ by _PAGE share a place in the first-level cache. A good row
+length differs from every multiple of _PAGE by at least _APART."""
 
 
 class Area(Protocol):
@@ -85,14 +85,14 @@ class Tile:
 def spread_over_cache(rays: int) -> bool:
     """True if the rows of a (3, rays) array start at different addresses of the cache.
 
-    A loop over hits reads thirty rows in parallel. With 65536 rays all start at the same address of the cache, which
-    holds eight: finding hits took twice the time, a whole render up to a tenth more.
+    A loop over hits reads thirty rows in parallel. With 65536 rays, all rows start at the same place in the cache,
+    which holds only eight of them. Finding hits took twice the time, a whole render up to a tenth more.
     """
     return bool(_APART <= rays % _PAGE <= _PAGE - _APART)
 
 
 def spread_pixels(pixels: int, samples: int, more: bool = False) -> int:
-    """Nearest number <= ``pixels`` (>= if ``more``) whose rays spread over the cache; ``pixels`` if there is none."""
+    """Nearest number of pixels <= ``pixels`` (>= if ``more``) whose rays spread over the cache; else ``pixels``."""
     numbers = range(pixels, pixels + _PAGE) if more else range(pixels, max(pixels - _PAGE, 0), -1)
     return next((n for n in numbers if spread_over_cache(n * samples)), pixels)
 

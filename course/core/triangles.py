@@ -14,7 +14,7 @@ from the round surface, higher by
 
     h(u, v) = 1/2 (w u k01 + w v k02 + u v k12),    k_ij = (p_j - p_i) . (n_j - n_i)
 
-Along an edge, h is the parabola that has the normals of both ends. An edge of length L on a sphere of radius R has
+Along an edge, h is a parabola with the corner normals at its ends. An edge of length L on a sphere of radius R has
 k = L^2 / R, and h at its middle is the sagitta L^2 / (8 R). (Hanika, "Hacking the shadow terminator", Ray Tracing
 Gems II, ch. 4, moves the point to the tangent planes instead, twice as high.)
 """
@@ -58,7 +58,7 @@ class Part:
     ----------
     material : material number
     velocity : [units of the compiled scene / exposure]
-    convex : closed, with triangles that face outwards; no straight line that leaves it meets it again
+    convex : true if the mesh is closed, its triangles face outwards, and no ray that leaves it hits it again
     """
 
     mesh: Mesh
@@ -122,8 +122,8 @@ class Triangles:
 def make_tables(parts: Sequence[Part], least_offset: float = 0.0) -> list[Tables]:
     """Tables of all parts, static ones first, then moving ones sorted by velocity. Coordinates lie in about [-1, 1].
 
-    Triangles without area in float32 are left out: no ray can hit them. Rays leave a surface by at least
-    ``least_offset``.
+    Triangles without area in float32 are left out: no ray can hit them. ``least_offset`` is the least distance from a
+    surface at which rays leave it.
     """
     ordered = sorted(parts, key=lambda part: (part.velocity != STILL, part.velocity))
     smooth = any(part.mesh.normals is not None for part in ordered)
@@ -155,7 +155,7 @@ def join_tables(tables: Sequence[Tables], bulges: bool = True) -> Triangles:
 
 
 def accelerate(tables: Sequence[Tables], motion_blur: Functions | None = None) -> Accelerator:
-    """One BVH for all parts; if some move, one per velocity, which needs ``motion_blur``."""
+    """One BVH for all static parts, and one for each velocity of moving parts, which need ``motion_blur``."""
     groups: dict[Velocity, list[Tables]] = {STILL: []}
     for table in tables:
         groups.setdefault(table.part.velocity, []).append(table)

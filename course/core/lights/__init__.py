@@ -23,7 +23,7 @@ class Light(Protocol):
 
     @property
     def color(self) -> Floats32:
-        """(3,) float32, irradiance per unit of a sample's ``factor``, over pi for the reflected radiance."""
+        """(3,) float32, irradiance / pi where a sample's ``factor`` is 1. The BRDF contributes the 1 / pi."""
         ...
 
     @property

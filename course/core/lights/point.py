@@ -18,13 +18,13 @@ from course.core.types import Floats32
 
 @dataclass(frozen=True)
 class PointLight:
-    """Intensity I [W/sr] at a point: E = I cos / d^2.
+    """Intensity I [W/sr] at a point: E = I cos / d^2. ``color`` is I / pi.
 
     Attributes
     ----------
-    normal : (3,) float32 unit, of a cell of a Lambertian emitter, whose I falls with the cosine to it; else None
+    normal : (3,) float32 unit, if the light is a cell of a Lambertian emitter: I falls with its cosine; else None
     two_sided, visible : of that emitter, see ``RectangleLight``
-    whole : whether a surface through the light hides it
+    whole : whether a surface on which the light lies blocks it
     """
 
     name: str

@@ -11,7 +11,7 @@ from course.core.types import Floats32
 
 @dataclass(frozen=True)
 class RectangleLight:
-    """Sampled uniformly by area.
+    """A parallelogram, sampled uniformly by area.
 
     Attributes
     ----------

@@ -18,13 +18,13 @@ TO_A_SURFACE = 1 - 1e-4
 
 
 TO_THE_LIGHT = 1 + 2.0**-15
-"""... to a point light that a surface through it hides. The excess is for rounding: at a distance of 1/50 of the
+"""... to a point light on a surface that shall block it. The excess is for rounding: at a distance of 1/50 of the
 scene's size and at 60 degrees, the distance to a surface is wrong by about half of the excess."""
 
 
 @dataclass(frozen=True)
 class Sample:
-    """Points on a light as shading points need them.
+    """Points on a light, relative to the shading points.
 
     Attributes
     ----------
@@ -52,7 +52,7 @@ def towards(
     normal: Floats32 | None = None,
     two_sided: bool = False,
 ) -> Sample:
-    """Make the sample of points (3, n) from points on a light, (3, n) or (3, 1).
+    """Make the sample for shading points (3, n) from points on a light, (3, n) or (3, 1).
 
     normal and two_sided are those of a Lambertian emitter (``RectangleLight``); a light by intensity has no normal.
     """

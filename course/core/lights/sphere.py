@@ -28,7 +28,7 @@ class SphereLight:
     radius : float > 0; a sphere of radius 0 is built as a point light
     emitter : whether it is a Lambertian emitter: points lie on its surface and emit outwards only
     color : (3,) float32, I / pi, or radiance times area / pi
-    samples : where its points lie: on the "sphere", in the "ball", or on the "facing disk" of each shading point
+    samples : where its points lie: on the "sphere", in the "ball", or on a "facing disk" for each shading point
     soft_shadows : functions of that module
     """
 
@@ -68,7 +68,7 @@ class SphereLight:
         return on_light
 
     def _sample_emitter(self, points: Floats32, u: Floats32) -> Sample:
-        # Sampled about the origin: a radius of a few float32 steps of the centre keeps its normals.
+        # Sampled about the origin: normals stay exact if the radius is a few float32 steps of the centre.
         from_center = self._on_light(np.zeros(3, np.float32), points, u)
         to_light = from_center + self.center[:, None]
         to_light -= points

@@ -39,7 +39,7 @@ class Block:
         return len(self.pixels) * self.samples
 
     def places(self, path: Indices) -> tuple[Indices, Indices]:
-        """Index into ``pixels`` and sample number after ``first`` of paths (m,), (m,) each."""
+        """Indices into ``pixels`` and sample numbers, counted from ``first``, (m,) each, of paths (m,)."""
         bits = self.samples.bit_length() - 1
         if self.samples == 1 << bits:
             return path >> bits, path & (self.samples - 1)

@@ -1,7 +1,7 @@
 """The default sampler: a shuffled and scrambled (0, 2)-sequence for each pair of dimensions of a path.
 
-The first two pairs, the pixel's and the path's next, form one net in four dimensions. The first n points don't depend
-on the number of samples, so a picture can be continued.
+The first two pairs of a path, of which the pixel's is the first, form one net in four dimensions. The first n points
+don't depend on the number of samples, so a picture can be continued.
 """
 
 from __future__ import annotations
@@ -17,14 +17,14 @@ from course.core.types import Floats32, Indices, Words
 TO_UNIT = np.float32(2.0**-24)
 
 ORDERS = 1024
-"""Number of orders of the points, each with a scramble; two pairs of a pixel share one with probability 1 / ORDERS."""
+"""Number of orders of the points, each with a scramble. Two pairs of a pixel share one with probability 1 / ORDERS."""
 
 _JOINED_PAIRS = 2
 """Number of first pairs of dimensions, which share one order."""
 
 
 class SobolSampler(Sampler):
-    """u = a point of the shuffled and scrambled sequence that a hash of (seed, pair, pixel) chooses.
+    """A hash of (seed, pair, pixel) chooses one of the shuffled and scrambled sequences, whose points are the numbers.
 
     All pixels share the tables of sequences. The exclusive-or with another hash gives each pixel its own points, which
     are still a (0, 2)-sequence (Kollig & Keller, "Efficient multidimensional sampling", 2002). They are as even as with
@@ -106,7 +106,7 @@ def _salts(seed: int, pairs: range) -> tuple[int, ...]:
 
 @lru_cache(maxsize=64)
 def _points(first: int, samples: int) -> Words:
-    """(4, orders, samples) uint32: a range of the sequence in every order, each with its own scramble.
+    """(4, orders, samples) uint32: a range of the sequence in every order; each order has its own scramble.
 
     Rows 2 and 3 are the second pair's, rows 0 and 1 every other pair's.
     """
@@ -145,12 +145,12 @@ def sobol_words(index: Words) -> Words:
 
 
 _JOINED_COLUMNS = (1, 2, 5, 11, 16, 33, 67, 236, 303, 565, 1744, 2769, 5363, 11408)
-"""Images of the powers of two under ``joined``: bit k is the highest of column k. Found by a beam search; its cost was
-the sum of t^2 over m = 1 to 14 and over all nets in two, three and four of the four dimensions."""
+"""Column k is the image of 2^k under ``joined``; its highest bit is k. Found by a beam search. The cost was the sum of
+t^2 (see ``joined``) over m = 1 to 14 and over all nets in two, three and four of the four dimensions."""
 
 
 def joined(index: Words) -> Words:
-    """Indices whose points, as dimensions 3 and 4 beside those at ``index``, form a net in four dimensions.
+    """Indices of the points for dimensions 3 and 4: with the points at ``index``, they form a net in four dimensions.
 
     The map is linear over bits and triangular, so it permutes every aligned block of 2^m indices. So the points at the
     new indices are a (0, 2)-sequence, too. Among the first 2^m points, every dyadic box of volume 2^(t - m) in the four
@@ -165,8 +165,8 @@ def joined(index: Words) -> Words:
 def shuffled(index: Words, orders: int) -> Words:
     """Nested random permutations of indices (n,), (orders, n) uint32.
 
-    Bit j of an index is flipped at random, alike for all indices that agree in the bits above it. If those are all 0,
-    it stays. So indices below 2^m stay below 2^m, for every m.
+    Bit j of an index is flipped at random, alike for all indices that agree in the bits above it. If all bits above are
+    0, bit j is not flipped. So indices below 2^m stay below 2^m, for every m.
     """
     order = np.arange(orders, dtype=np.uint32)
     result = np.repeat(index[None], orders, axis=0)
@@ -181,8 +181,8 @@ def shuffled(index: Words, orders: int) -> Words:
 def owen_scrambled(words: Words, seeds: Words) -> Words:
     """Nested uniform scramble: each digit is flipped at random, alike for words with equal digits before it.
 
-    In reversed words, additions and multiplications carry only from earlier digits to later ones: the hash of Laine &
-    Karras (2011), with Burley's constants (2020).
+    The hash of Laine & Karras (2011), with Burley's constants (2020). It reverses the words, so that additions and
+    multiplications carry only from earlier digits to later ones.
 
     Parameters
     ----------

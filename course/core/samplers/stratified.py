@@ -91,7 +91,7 @@ class RegularSampler(Sampler):
             return centers.reshape(2, block.size)
         strata = np.arange(block.samples)
         if block.samples > 1:
-            # One order for the whole picture: what the grid misses, it misses in every pixel.
+            # All pixels have the same order, so that what one misses, all miss.
             rng = generator(self._seed, dimension, Block(block.pixels, 0, block.samples, 0))
             strata = rng.permuted(np.broadcast_to(strata, (width, block.samples)), axis=1)
         else:
