@@ -18,7 +18,7 @@ from benchmarks.figures import Figure, summary
 from benchmarks.report import report
 from course.benchmarking.plot_data import Plot, Series
 from course.benchmarking.tables import Columns, Table, table_of
-from course.core.embree import EmbreeAccelerator, QueryTime
+from course.core.embree import EmbreeAccelerator, QueryStats
 from course.core.types import Floats32
 from course.effects import PROJECT, Effects
 from course.shapes import torus_knot
@@ -127,7 +127,7 @@ def _times(o: Floats32, d: Floats32) -> list[Figure]:
     def ask_embree(part: slice) -> None:
         origins, directions = (np.ascontiguousarray(v[:, part]) for v in (o, d))
         for _ in range(EMBREE_ROUNDS):
-            embree.intersect(origins, directions, QueryTime())
+            embree.intersect(origins, directions, QueryStats())
 
     ratios, speedups, embree_speedups = [], [], []
     for _ in range(REPETITIONS):

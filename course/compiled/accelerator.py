@@ -16,7 +16,7 @@ from course.core.embree import (
     Accelerator,
     EmbreeAccelerator,
     Intersections,
-    QueryTime,
+    QueryStats,
     nothing_met,
 )
 from course.core.motion import MovingAccelerator
@@ -51,7 +51,7 @@ class PacketAccelerator(EmbreeAccelerator):
         self,
         origin: Floats32,
         direction: Floats32,
-        clock: QueryTime,
+        stats: QueryStats,
         time: Floats32 | None = None,
         *,
         coherent: bool = False,
@@ -72,10 +72,10 @@ class PacketAccelerator(EmbreeAccelerator):
             and len(some := self.packets.entering(origin, direction, far)) < WORTH_CHOOSING * n
         ):
             hits = self._some(some, origin, direction, far, coherent)
-            clock.seconds += perf_counter() - start
+            stats.seconds += perf_counter() - start
             return hits
         hits = Intersections(*self.packets.intersect(origin, direction, far, coherent, which))
-        clock.seconds += perf_counter() - start
+        stats.seconds += perf_counter() - start
         return hits
 
     def _some(
@@ -101,7 +101,7 @@ class PacketAccelerator(EmbreeAccelerator):
         origin: Floats32,
         direction: Floats32,
         limit: float,
-        clock: QueryTime,
+        stats: QueryStats,
         time: Floats32 | None = None,
         *,
         asked: Mask | None = None,
@@ -120,7 +120,7 @@ class PacketAccelerator(EmbreeAccelerator):
             free = np.ones(n, np.bool_)
             some = origin.take(which, axis=1), direction.take(which, axis=1)
             free[which] = self.packets.unoccluded(*some, limit)
-        clock.seconds += perf_counter() - start
+        stats.seconds += perf_counter() - start
         return free
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from time import perf_counter
 
-from course.core.embree import QueryTime
+from course.core.embree import QueryStats
 
 RAY_KINDS = ("camera", "shadow", "reflection", "refraction")
 
@@ -25,11 +25,11 @@ class Counters:
     rays: dict[str, int] = field(default_factory=lambda: dict.fromkeys(RAY_KINDS, 0))
     numbers: dict[str, int] = field(default_factory=dict)
     seconds: dict[str, float] = field(default_factory=dict)
-    embree: QueryTime = field(default_factory=QueryTime)
+    embree: QueryStats = field(default_factory=QueryStats)
     _since: float = field(default_factory=perf_counter)
 
     def start(self) -> None:
-        """Start the clock for the next ``lap``."""
+        """Start the stats for the next ``lap``."""
         self._since = perf_counter()
 
     def lap(self, stage: str) -> None:

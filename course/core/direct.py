@@ -169,12 +169,12 @@ class DirectLight:
         a point of the round surface above the facet. A second ray, from the facet to that point, must be unblocked too.
         """
         triangles, unoccluded = self.surface.triangles, self.surface.accelerator.unoccluded
-        clock, mask = draws.counters.embree, candidates.mask
+        stats, mask = draws.counters.embree, candidates.mask
         time = None if hits.time is None else candidates.of(hits.time)
         origin = candidates.origin
         to_light = self._to_light(light, hits, candidates)
         if triangles.bulge is None:
-            return unoccluded(origin, to_light, light.limit, clock, time, asked=mask)
+            return unoccluded(origin, to_light, light.limit, stats, time, asked=mask)
         # `bend` bounds the sine of the angle between shading and geometric normal. Where the cosine
         # to the light is larger than that, the facet faces the light, as its shading normal does.
         most = np.float32(triangles.bend + ROUNDING)
@@ -182,19 +182,19 @@ class DirectLight:
         height = bulge(triangles, hits, candidates.hit(column))
         raised = np.flatnonzero(height)
         if len(raised) == 0:
-            return unoccluded(origin, to_light, light.limit, clock, time, asked=mask)
+            return unoccluded(origin, to_light, light.limit, stats, time, asked=mask)
         column = column.take(raised)
         up = hits.ns.take(candidates.hit(column), axis=1) * height.take(raised)
         foot = origin.take(column, axis=1)
         draws.counters.rays["shadow"] += len(column)
         when = None if time is None else time.take(column)
-        free_above = unoccluded(foot, up, 1.0, clock, when)
+        free_above = unoccluded(foot, up, 1.0, stats, when)
         # Changed in place and restored: few hits are raised, so copying all would cost more.
         way = to_light.take(column, axis=1)
         origin[:, column] = foot + up
         if light.limit <= TO_THE_LIGHT:
             to_light[:, column] -= up
-        free = unoccluded(origin, to_light, light.limit, clock, time, asked=mask)
+        free = unoccluded(origin, to_light, light.limit, stats, time, asked=mask)
         origin[:, column] = foot
         to_light[:, column] = way
         free[column] &= free_above

@@ -29,7 +29,7 @@ NO_HIT = 1e37
 
 
 @dataclass
-class QueryTime:
+class QueryStats:
     """Seconds spent inside Embree, or the tests that another BVH made; one object per thread."""
 
     seconds: float = 0.0
@@ -61,7 +61,7 @@ class Accelerator(Protocol):
         self,
         origin: Floats32,
         direction: Floats32,
-        clock: QueryTime,
+        stats: QueryStats,
         time: Floats32 | None = None,
         *,
         coherent: bool = False,
@@ -73,7 +73,7 @@ class Accelerator(Protocol):
         ----------
         origin : (3, N) or (3, 1) float32
         direction : (3, N) float32, any length but 0
-        clock : the query adds its time, or its tests
+        stats : the query adds its time, or its tests
         time : (N,) float32 of each ray, as a share of the exposure; None if nothing moves
         coherent : true if neighbouring rays have similar directions
         left : ``Surface.leaving`` of the hits that the rays start from
@@ -85,7 +85,7 @@ class Accelerator(Protocol):
         origin: Floats32,
         direction: Floats32,
         limit: float,
-        clock: QueryTime,
+        stats: QueryStats,
         time: Floats32 | None = None,
         *,
         asked: Mask | None = None,
@@ -94,7 +94,7 @@ class Accelerator(Protocol):
 
         Parameters
         ----------
-        origin, direction, clock, time : see ``intersect``
+        origin, direction, stats, time : see ``intersect``
         limit : [lengths of the direction]
         asked : (N,) the rays to test, None for all; results of the others are undefined
         """
@@ -127,7 +127,7 @@ class EmbreeAccelerator:
         self,
         origin: Floats32,
         direction: Floats32,
-        clock: QueryTime,
+        stats: QueryStats,
         time: Floats32 | None = None,
         *,
         coherent: bool = False,
@@ -143,7 +143,7 @@ class EmbreeAccelerator:
         scene = self._built()
         start = perf_counter()
         found = scene.run(_rows(origin, n), direction.T, limits, query="INTERSECT", output=True)
-        clock.seconds += perf_counter() - start
+        stats.seconds += perf_counter() - start
         return Intersections(found["primID"], found["u"], found["v"], found["tfar"])
 
     def unoccluded(
@@ -151,7 +151,7 @@ class EmbreeAccelerator:
         origin: Floats32,
         direction: Floats32,
         limit: float,
-        clock: QueryTime,
+        stats: QueryStats,
         time: Floats32 | None = None,
         *,
         asked: Mask | None = None,
@@ -165,7 +165,7 @@ class EmbreeAccelerator:
         scene = self._built()
         start = perf_counter()
         blocked = scene.run(_rows(origin, n), direction.T, limits, query="OCCLUDED")
-        clock.seconds += perf_counter() - start
+        stats.seconds += perf_counter() - start
         return blocked < 0  # type: ignore[no-any-return]
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from course.core.embree import Accelerator, Intersections, QueryTime
+from course.core.embree import Accelerator, Intersections, QueryStats
 from course.core.motion import MovingAccelerator
 from course.core.ray_offset import OFFSET
 from course.core.triangles import Triangles
@@ -96,12 +96,12 @@ class Surface:
         self,
         origin: Floats32,
         direction: Floats32,
-        clock: QueryTime,
+        stats: QueryStats,
         time: Floats32 | None,
         coherent: bool,
     ) -> Intersections:
         """Nearest hits of camera rays; see ``Accelerator.intersect``."""
-        found: Intersections = self.eye.intersect(origin, direction, clock, time, coherent=coherent)
+        found: Intersections = self.eye.intersect(origin, direction, stats, time, coherent=coherent)
         # If the camera lies exactly on a surface, rays hit it at once. They start again, one offset on.
         stuck = np.flatnonzero((found.t <= 0) & (found.triangle >= 0))
         if len(stuck) == 0:
@@ -111,7 +111,7 @@ class Surface:
         when = None if time is None else time.take(stuck)
         step = self.triangles.planes[found.triangle.take(stuck), 6]
         start = start + way * np.maximum(step, np.float32(OFFSET))
-        again = self.eye.intersect(start, way, clock, when)
+        again = self.eye.intersect(start, way, stats, when)
         for mine, theirs in (
             (found.triangle, again.triangle),
             (found.u, again.u),

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from course.core.embree import EmbreeAccelerator, Intersections, QueryTime
+from course.core.embree import EmbreeAccelerator, Intersections, QueryStats
 from course.core.functions import Functions
 from course.core.types import Floats32, Mask, Numbers
 
@@ -60,7 +60,7 @@ class MovingAccelerator:
         self,
         origin: Floats32,
         direction: Floats32,
-        clock: QueryTime,
+        stats: QueryStats,
         time: Floats32 | None = None,
         *,
         coherent: bool = False,
@@ -68,13 +68,13 @@ class MovingAccelerator:
     ) -> Intersections:
         """See ``Accelerator.intersect``."""
         assert time is not None
-        found = self.static.intersect(origin, direction, clock, coherent=coherent)
+        found = self.static.intersect(origin, direction, stats, coherent=coherent)
         origin = _each_its_own(origin, direction.shape[1])
         for mover in self.movers:
             other = mover.accelerator.intersect(
                 self._shifted(origin, mover, time),
                 direction,
-                clock,
+                stats,
                 limit=found.t,
                 coherent=coherent,
             )
@@ -91,14 +91,14 @@ class MovingAccelerator:
         origin: Floats32,
         direction: Floats32,
         limit: float,
-        clock: QueryTime,
+        stats: QueryStats,
         time: Floats32 | None = None,
         *,
         asked: Mask | None = None,
     ) -> Mask:
         """See ``Accelerator.unoccluded``."""
         assert time is not None
-        free = self.static.unoccluded(origin, direction, limit, clock, asked=asked)
+        free = self.static.unoccluded(origin, direction, limit, stats, asked=asked)
         if asked is not None:
             free &= asked
         origin = _each_its_own(origin, direction.shape[1])
@@ -114,7 +114,7 @@ class MovingAccelerator:
             else:
                 left = np.arange(len(free))
             shifted = self._shifted(start, mover, when)
-            free[left] &= mover.accelerator.unoccluded(shifted, toward, limit, clock)
+            free[left] &= mover.accelerator.unoccluded(shifted, toward, limit, stats)
         return free
 
     def _shifted(self, origin: Floats32, mover: Mover, time: Floats32) -> Floats32:

@@ -10,7 +10,7 @@ from typing import Literal, TypeAlias
 
 import numpy as np
 
-from course.core.embree import Accelerator, Intersections, QueryTime
+from course.core.embree import Accelerator, Intersections, QueryStats
 from course.core.hits import Hits
 from course.core.types import Floats32, Indices, Mask, Numbers
 from course.core.vectors import dot
@@ -40,7 +40,7 @@ class SeenThrough:
         self,
         origin: Floats32,
         direction: Floats32,
-        clock: QueryTime,
+        stats: QueryStats,
         time: Floats32 | None = None,
         *,
         coherent: bool = False,
@@ -48,7 +48,7 @@ class SeenThrough:
     ) -> Intersections:
         """Nearest hits that are seen; see ``Accelerator.intersect``."""
         found = self.accelerator.intersect(
-            origin, direction, clock, time, coherent=coherent, left=left
+            origin, direction, stats, time, coherent=coherent, left=left
         )
         through = self._from_behind(found.triangle, direction)
         while len(through):
@@ -57,7 +57,7 @@ class SeenThrough:
             start += STEP * (1 + start)
             begin = origin if origin.shape[1] == 1 else origin.take(through, axis=1)
             again = self.accelerator.intersect(
-                begin + start * way, way, clock, None if time is None else time.take(through)
+                begin + start * way, way, stats, None if time is None else time.take(through)
             )
             found.triangle[through], found.u[through], found.v[through] = (
                 again.triangle,

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from course.core.embree import NO_HIT, Intersections, QueryTime
+from course.core.embree import NO_HIT, Intersections, QueryStats
 from course.core.functions import Functions
 from course.core.types import Floats32, Floats64, Mask, Numbers
 from course.core.vectors import cross, dot
@@ -21,7 +21,7 @@ TRAVERSE = "bounding_volumes.traverse"
 
 
 class HierarchyAccelerator:
-    """Triangles that stand still; tests are added to the clock.
+    """Triangles that stand still; tests are added to the stats.
 
     Parameters
     ----------
@@ -52,7 +52,7 @@ class HierarchyAccelerator:
         self,
         origin: Floats32,
         direction: Floats32,
-        clock: QueryTime,
+        stats: QueryStats,
         time: Floats32 | None = None,
         *,
         coherent: bool = False,
@@ -67,7 +67,7 @@ class HierarchyAccelerator:
         """
         n = direction.shape[1]
         u, v = np.zeros((2, n), np.float32)
-        triangle, t, *_ = self._nearest(origin, direction, clock)
+        triangle, t, *_ = self._nearest(origin, direction, stats)
         t = np.where(triangle < 0, np.float32(NO_HIT), t).astype(np.float32)
         hit = np.flatnonzero(triangle >= 0)
         u[hit], v[hit] = self._places(
@@ -80,7 +80,7 @@ class HierarchyAccelerator:
         origin: Floats32,
         direction: Floats32,
         limit: float,
-        clock: QueryTime,
+        stats: QueryStats,
         time: Floats32 | None = None,
         *,
         asked: Mask | None = None,
@@ -96,18 +96,18 @@ class HierarchyAccelerator:
             which = np.flatnonzero(asked)
             free = np.ones(len(asked), np.bool_)
             rays = _columns(origin, len(asked)).take(which, axis=1), direction.take(which, axis=1)
-            free[which] = self.unoccluded(*rays, limit, clock)
+            free[which] = self.unoccluded(*rays, limit, stats)
             return free
-        triangle, t, *_ = self._nearest(origin, direction, clock)
+        triangle, t, *_ = self._nearest(origin, direction, stats)
         return (triangle < 0) | (t > limit)
 
     def box_tests(self, origin: Floats32, direction: Floats32) -> Numbers:
         """How many boxes each ray is tested with, (N,); arguments are those of ``intersect``."""
-        *_, boxes, _ = self._nearest(origin, direction, QueryTime())
+        *_, boxes, _ = self._nearest(origin, direction, QueryStats())
         return boxes
 
     def _nearest(
-        self, origin: Floats32, direction: Floats32, clock: QueryTime
+        self, origin: Floats32, direction: Floats32, stats: QueryStats
     ) -> tuple[Numbers, Floats32, Numbers, Numbers]:
         """What ``traverse`` finds, (n,) each; its tests are counted."""
         n = direction.shape[1]
@@ -122,8 +122,8 @@ class HierarchyAccelerator:
                 f"{TRAVERSE} returned triangles from {triangle.min()} to {triangle.max()}:"
                 f" expected -1, or one of 0 to {self._size - 1}"
             )
-        clock.box_tests += int(boxes.sum())
-        clock.triangle_tests += int(triangles.sum())
+        stats.box_tests += int(boxes.sum())
+        stats.triangle_tests += int(triangles.sum())
         return triangle, t, boxes, triangles
 
     def _built(self) -> Any:

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from course.core.embree import EmbreeAccelerator, QueryTime
+from course.core.embree import EmbreeAccelerator, QueryStats
 from course.core.types import Floats32, Floats64, Indices
 from course.radiosity.functions import Functions
 from course.radiosity.patches import Patches
@@ -125,7 +125,7 @@ class Views:
         basis[2] *= side  # turned round, and still orthonormal
         origin = self._centre[triangle] + side * self._above[triangle]
         start = origin.astype(np.float32)
-        hit = self._accelerator.intersect(start[:, None], basis.T @ local, QueryTime()).triangle
+        hit = self._accelerator.intersect(start[:, None], basis.T @ local, QueryStats()).triangle
         # All hits of a triangle are on the side on which the hemicube is; for -1, nothing, there is a last one.
         number = self._number + self._size * (self._normal @ start < self._plane)
         number[-1] = -1

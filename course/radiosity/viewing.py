@@ -10,7 +10,7 @@ import numpy as np
 
 from course.building.cameras import make_camera
 from course.core.camera import Camera
-from course.core.embree import QueryTime
+from course.core.embree import QueryStats
 from course.core.types import Floats32, Floats64, Numbers
 from course.errors import CourseError
 from course.radiosity.solution import Solution
@@ -135,7 +135,7 @@ def _light(solution: Solution, camera: Camera, x: Floats32, y: Floats32) -> Floa
     """(3, N) radiance that comes from points of the picture."""
     direction = camera.directions(x, y)
     found = solution.accelerator.intersect(
-        camera.origin[:, None], direction, QueryTime(), coherent=True
+        camera.origin[:, None], direction, QueryStats(), coherent=True
     )
     hit = np.flatnonzero(found.triangle >= 0)
     light = np.zeros_like(direction)

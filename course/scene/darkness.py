@@ -14,7 +14,7 @@ import numpy as np
 
 from course.building.world import compile_camera
 from course.core.camera import Camera
-from course.core.embree import EmbreeAccelerator, QueryTime
+from course.core.embree import EmbreeAccelerator, QueryStats
 from course.core.hits import Hits
 from course.core.lights import (
     DirectionalLight,
@@ -90,7 +90,7 @@ def why_dark(scene: Scene) -> str:
 
 
 def _met(world: FullWorld, origin: Floats32, direction: Floats32) -> Hits:
-    found = world.surface.accelerator.intersect(origin, direction, QueryTime())
+    found = world.surface.accelerator.intersect(origin, direction, QueryStats())
     return world.surface.hits(found, direction)
 
 

@@ -10,7 +10,7 @@ import pytest
 
 from course.compiled import packets
 from course.compiled.accelerator import PacketAccelerator, in_packets
-from course.core.embree import Accelerator, EmbreeAccelerator, QueryTime
+from course.core.embree import Accelerator, EmbreeAccelerator, QueryStats
 from course.core.functions import Functions
 from course.core.motion import MovingAccelerator
 from course.extras.hierarchy import HierarchyAccelerator
@@ -61,12 +61,12 @@ def test_who_knows_the_interface_alone_gets_the_same_answers(kind: type) -> None
     origin = np.array([[0.25, 0.9], [0.25, 0.9], [2, 2]], np.float32)
     direction = np.repeat(np.array([[0], [0], [-1]], np.float32), 2, axis=1)
     time = np.zeros(2, np.float32)
-    clock = QueryTime()
-    found = accelerator.intersect(origin, direction, clock, time, coherent=True, left=None)
+    stats = QueryStats()
+    found = accelerator.intersect(origin, direction, stats, time, coherent=True, left=None)
     assert found.triangle.tolist() == [0, -1]
     np.testing.assert_allclose([found.t[0], found.u[0], found.v[0]], [2, 0.25, 0.25], rtol=1e-6)
-    assert accelerator.unoccluded(origin, direction, 3.0, clock, time).tolist() == [False, True]
-    assert accelerator.unoccluded(origin, direction, 1.5, clock, time).tolist() == [True, True]
+    assert accelerator.unoccluded(origin, direction, 3.0, stats, time).tolist() == [False, True]
+    assert accelerator.unoccluded(origin, direction, 1.5, stats, time).tolist() == [True, True]
 
 
 @pytest.mark.skipif(not packets.available(), reason="Numba is not installed (pip install .[fast])")
@@ -94,13 +94,13 @@ def test_rays_whose_answers_do_not_matter_change_no_other(kind: type) -> None:
     origin = np.concatenate((rng.random((2, 300)), np.full((1, 300), 2))).astype(np.float32)
     direction = np.repeat(np.array([[0], [0], [-1]], np.float32), 300, axis=1)
     time, asked = rng.random(300, np.float32), rng.random(300) < 0.6
-    clock = QueryTime()
-    free = accelerator.unoccluded(origin, direction, 3.0, clock, time)
-    some = accelerator.unoccluded(origin, direction, 3.0, clock, time, asked=asked)
+    stats = QueryStats()
+    free = accelerator.unoccluded(origin, direction, 3.0, stats, time)
+    some = accelerator.unoccluded(origin, direction, 3.0, stats, time, asked=asked)
     assert 50 < free.sum() < 250
     assert (some.shape, some.dtype) == (free.shape, free.dtype)
     assert (some == free)[asked].all()
     # One origin for all rays, none of which is asked.
     assert accelerator.unoccluded(
-        origin[:, :1], direction, 3.0, clock, time, asked=asked & False
+        origin[:, :1], direction, 3.0, stats, time, asked=asked & False
     ).shape == (300,)

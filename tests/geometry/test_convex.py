@@ -11,7 +11,7 @@ from course import shapes
 from course.building.objects import CONVEX
 from course.compiled import packets
 from course.compiled.convex import ConvexObjects, convex_objects
-from course.core.embree import NO_HIT, EmbreeAccelerator, Intersections, QueryTime
+from course.core.embree import NO_HIT, EmbreeAccelerator, Intersections, QueryStats
 from course.core.functions import Functions
 from course.core.hits import Hits, Surface
 from course.core.triangles import Mesh
@@ -181,9 +181,9 @@ def test_hits_are_the_same_as_if_all_had_been_asked() -> None:
     assert convex is not None
     asked = convex.remaining(hits.above, way, np.full(1, NO_HIT, np.float32), left).tolist()
     assert len(asked) < 0.9 * len(which)
-    clock = QueryTime()
-    some = surface.accelerator.intersect(hits.above, way, clock, left=left)
-    every = surface.accelerator.intersect(hits.above, way, clock)
+    stats = QueryStats()
+    some = surface.accelerator.intersect(hits.above, way, stats, left=left)
+    every = surface.accelerator.intersect(hits.above, way, stats)
     assert 0.1 < (every.triangle < 0).mean() < 0.9
     for name in ("triangle", "u", "v", "t"):
         assert getattr(some, name).tobytes() == getattr(every, name).tobytes(), name
@@ -197,9 +197,9 @@ def test_limits_hold_for_rays_that_are_not_asked() -> None:
     hits, which, way = left_behind(surface, 2)
     limit = np.random.default_rng(0).random(len(which)).astype(np.float32)
     left = surface.leaving(hits, which, way)
-    clock = QueryTime()
-    some = surface.accelerator.intersect(hits.above, way, clock, limit=limit, left=left)
-    every = surface.accelerator.intersect(hits.above, way, clock, limit=limit)
+    stats = QueryStats()
+    some = surface.accelerator.intersect(hits.above, way, stats, limit=limit, left=left)
+    every = surface.accelerator.intersect(hits.above, way, stats, limit=limit)
     for name in ("triangle", "u", "v", "t"):
         assert getattr(some, name).tobytes() == getattr(every, name).tobytes(), name
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from course import shapes
 from course.building import cutting
 from course.building.cutting import NEAR, SmallThings, cut
-from course.core.embree import QueryTime
+from course.core.embree import QueryStats
 from course.core.ray_offset import OFFSET
 from course.core.triangles import Mesh
 from course.core.types import Floats32
@@ -239,7 +239,7 @@ def test_no_ray_slips_through_the_cuts(size: float, turn: bool) -> None:
         # The corners of a plane that is askew are rounded out of it: seen so flatly it is in front of itself.
         direction = direction[:, np.abs((up * direction).sum(axis=0)) > 1e-5]
     assert direction.shape[1] > 10_000
-    hits = surface.accelerator.intersect(origin, direction.astype(np.float32), QueryTime(), None)
+    hits = surface.accelerator.intersect(origin, direction.astype(np.float32), QueryStats(), None)
     assert (hits.triangle >= 0).all()
 
 

@@ -12,7 +12,7 @@ import pytest
 from numpy.typing import NDArray
 
 from course import shapes
-from course.core.embree import NO_HIT, EmbreeAccelerator, QueryTime
+from course.core.embree import NO_HIT, EmbreeAccelerator, QueryStats
 from course.core.functions import Functions
 from course.core.vectors import dot
 from course.effects import Effects
@@ -60,7 +60,7 @@ def rays(seed: int) -> tuple[Array, Array]:
 
 def test_hits_are_those_of_embree(pair: Pair) -> None:
     origin, direction = rays(1)
-    mine, theirs = (each.intersect(origin, direction, QueryTime()) for each in pair)
+    mine, theirs = (each.intersect(origin, direction, QueryStats()) for each in pair)
     same = mine.triangle == theirs.triangle
     assert (theirs.triangle >= 0).mean() > 0.3
     assert (~same).sum() <= 3
@@ -78,7 +78,7 @@ def test_hits_are_those_of_embree(pair: Pair) -> None:
 def test_places_are_in_the_triangle_and_on_the_ray(pair: Pair) -> None:
     origin, direction = rays(2)
     hierarchy, _ = pair
-    found = hierarchy.intersect(origin, direction, QueryTime())
+    found = hierarchy.intersect(origin, direction, QueryStats())
     hit = np.flatnonzero(found.triangle >= 0)
     u, v = found.u[hit].astype(np.float64), found.v[hit].astype(np.float64)
     assert min(u.min(), v.min()) >= 0
@@ -95,7 +95,7 @@ def test_places_are_in_the_triangle_and_on_the_ray(pair: Pair) -> None:
 @pytest.mark.parametrize("limit", [0.6, 1.0, 1e30])
 def test_what_hides_a_light_is_what_embree_says(pair: Pair, limit: float) -> None:
     origin, direction = rays(3)
-    free, expected = (each.unoccluded(origin, direction, limit, QueryTime()) for each in pair)
+    free, expected = (each.unoccluded(origin, direction, limit, QueryStats()) for each in pair)
     assert 0.05 < expected.mean() < 0.95
     assert (free != expected).sum() <= 3
 
@@ -103,13 +103,13 @@ def test_what_hides_a_light_is_what_embree_says(pair: Pair, limit: float) -> Non
 def test_a_limit_is_as_far_as_the_hit_may_be(pair: Pair) -> None:
     origin, direction = rays(4)
     hierarchy, _ = pair
-    found = hierarchy.intersect(origin, direction, QueryTime())
+    found = hierarchy.intersect(origin, direction, QueryStats())
     some = np.concatenate([np.flatnonzero((found.triangle >= 0) == met)[:50] for met in (0, 1)])
     for share, beyond in ((1 + 1e-6, False), (1 - 1e-6, True)):
         for number in some:
             ray = origin[:, number, None], direction[:, number, None]
             limit = min(float(found.t[number]), 1e30) * share
-            free = hierarchy.unoccluded(*ray, limit, QueryTime())
+            free = hierarchy.unoccluded(*ray, limit, QueryStats())
             assert free.tolist() == [found.triangle[number] < 0 or beyond]
 
 
@@ -118,7 +118,7 @@ def test_one_origin_serves_all_rays(pair: Pair) -> None:
     eye = np.array([[0.1], [0.2], [2]], np.float32)
     hierarchy, _ = pair
     one, each = (
-        hierarchy.intersect(origin, direction, QueryTime())
+        hierarchy.intersect(origin, direction, QueryStats())
         for origin in (eye, np.repeat(eye, N, axis=1))
     )
     np.testing.assert_array_equal(one.triangle, each.triangle)
@@ -132,22 +132,22 @@ def test_tests_are_counted_for_both_kinds_of_query() -> None:
     x = np.array([0.9, -5.0], np.float32)
     origin = np.stack((x, np.full(2, -0.5, np.float32), np.ones(2, np.float32)))
     down = np.repeat(np.array([[0], [0], [-1]], np.float32), 2, axis=1)
-    clock = QueryTime()
-    hierarchy.intersect(origin, down, clock)
+    stats = QueryStats()
+    hierarchy.intersect(origin, down, stats)
     # The first ray: the root, both children, and the triangle of the one whose box it meets. The second: the root.
-    assert (clock.box_tests, clock.triangle_tests) == (4, 1)
-    hierarchy.unoccluded(origin, down, 1e30, clock)
-    assert (clock.box_tests, clock.triangle_tests) == (8, 2)
-    assert clock.seconds == 0
+    assert (stats.box_tests, stats.triangle_tests) == (4, 1)
+    hierarchy.unoccluded(origin, down, 1e30, stats)
+    assert (stats.box_tests, stats.triangle_tests) == (8, 2)
+    assert stats.seconds == 0
 
 
 def test_nothing_is_asked_where_there_is_nothing() -> None:
     hierarchy, _ = both(np.zeros((0, 3)), np.zeros((0, 3), int))
     origin, direction = rays(6)
-    assert (hierarchy.intersect(origin, direction, QueryTime()).triangle == -1).all()
-    assert hierarchy.unoccluded(origin, direction, 1.0, QueryTime()).all()
+    assert (hierarchy.intersect(origin, direction, QueryStats()).triangle == -1).all()
+    assert hierarchy.unoccluded(origin, direction, 1.0, QueryStats()).all()
     none = np.zeros((3, 0), np.float32)
-    assert hierarchy.intersect(none, none, QueryTime()).triangle.shape == (0,)
+    assert hierarchy.intersect(none, none, QueryStats()).triangle.shape == (0,)
 
 
 def _returning(**replaced: object) -> HierarchyAccelerator:
@@ -170,4 +170,4 @@ def _returning(**replaced: object) -> HierarchyAccelerator:
 )
 def test_what_breaks_the_contract_is_said(replaced: dict[str, object], said: str) -> None:
     with pytest.raises(EffectError, match=said):
-        _returning(**replaced).intersect(*rays(7), QueryTime())
+        _returning(**replaced).intersect(*rays(7), QueryStats())

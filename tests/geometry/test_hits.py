@@ -10,7 +10,7 @@ import pytest
 from numpy.typing import NDArray
 
 from course import Scene, render, shapes
-from course.core.embree import QueryTime
+from course.core.embree import QueryStats
 from course.core.hits import Hits, bulge
 from course.core.triangles import Mesh, Triangles
 from course.extras.surface import FullPart, FullSurface, build_surface
@@ -46,7 +46,7 @@ def aimed(mesh: Mesh, n: int, distance: float = 2.0) -> tuple[NDArray[np.float32
 
 
 def cast(surface: FullSurface, origin: Any, direction: Any) -> Hits:
-    found = surface.accelerator.intersect(origin, direction, QueryTime())
+    found = surface.accelerator.intersect(origin, direction, QueryStats())
     return surface.hits(found, direction)
 
 

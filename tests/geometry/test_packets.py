@@ -13,7 +13,7 @@ from course.compiled import accelerator as compiled_accelerator
 from course.compiled import packets
 from course.compiled.accelerator import PacketAccelerator, in_packets
 from course.core import embree
-from course.core.embree import NO_HIT, Accelerator, EmbreeAccelerator, QueryTime
+from course.core.embree import NO_HIT, Accelerator, EmbreeAccelerator, QueryStats
 
 if not packets.available():
     pytest.skip("Numba is not installed (pip install .[fast])", allow_module_level=True)
@@ -55,9 +55,9 @@ def test_nearest_hits_are_the_same_bit_for_bit(
     accelerator: EmbreeAccelerator, n: int, coherent: bool
 ) -> None:
     origin, direction = rays(n, n)
-    clock = QueryTime()
-    single = accelerator.intersect(origin, direction, clock)
-    packet = packed(accelerator).intersect(origin, direction, clock, coherent=coherent)
+    stats = QueryStats()
+    single = accelerator.intersect(origin, direction, stats)
+    packet = packed(accelerator).intersect(origin, direction, stats, coherent=coherent)
     for name in ("triangle", "u", "v", "t"):
         assert getattr(single, name).tobytes() == getattr(packet, name).tobytes(), name
     if n > 1000:
@@ -70,9 +70,9 @@ def test_limits_hold_and_rays_may_share_an_origin(accelerator: EmbreeAccelerator
     _, direction = rays(5000, 3)
     limit = np.random.default_rng(4).uniform(0, 1, 5000).astype(np.float32)
     origin = np.zeros((3, 1), np.float32)
-    single = accelerator.intersect(origin, direction, QueryTime(), limit=limit)
+    single = accelerator.intersect(origin, direction, QueryStats(), limit=limit)
     kept = limit.copy()
-    packet = packed(accelerator).intersect(origin, direction, QueryTime(), limit=limit)
+    packet = packed(accelerator).intersect(origin, direction, QueryStats(), limit=limit)
     assert (limit == kept).all()
     assert (single.triangle == packet.triangle).all()
     hit = packet.triangle >= 0
@@ -84,8 +84,8 @@ def test_limits_hold_and_rays_may_share_an_origin(accelerator: EmbreeAccelerator
 @pytest.mark.parametrize("limit", [0.3, 1.0, 1e30])
 def test_free_ways_are_the_same(accelerator: EmbreeAccelerator, n: int, limit: float) -> None:
     origin, direction = rays(n, n + 1)
-    single = accelerator.unoccluded(origin, direction, limit, QueryTime())
-    packet = packed(accelerator).unoccluded(origin, direction, limit, QueryTime())
+    single = accelerator.unoccluded(origin, direction, limit, QueryStats())
+    packet = packed(accelerator).unoccluded(origin, direction, limit, QueryStats())
     assert packet.dtype == np.bool_
     assert (single == packet).all()
     if n > 1000:
@@ -94,20 +94,20 @@ def test_free_ways_are_the_same(accelerator: EmbreeAccelerator, n: int, limit: f
 
 def test_columns_need_not_lie_next_to_each_other(accelerator: EmbreeAccelerator) -> None:
     origin, direction = rays(999, 7)
-    clock = QueryTime()
-    expected = packed(accelerator).intersect(origin, direction, clock)
-    strided = packed(accelerator).intersect(origin.T.copy().T, direction[:, ::-1][:, ::-1], clock)
+    stats = QueryStats()
+    expected = packed(accelerator).intersect(origin, direction, stats)
+    strided = packed(accelerator).intersect(origin.T.copy().T, direction[:, ::-1][:, ::-1], stats)
     assert (expected.triangle == strided.triangle).all()
 
 
 def test_nothing_and_a_single_triangle() -> None:
     none = EmbreeAccelerator(np.zeros((0, 3), np.float32), np.zeros((0, 3), np.int32))
     nothing = packed(none)
-    assert (nothing.intersect(*rays(5, 1), QueryTime()).triangle == -1).all()
+    assert (nothing.intersect(*rays(5, 1), QueryStats()).triangle == -1).all()
     corners = np.array([[-1, -1, 0], [1, -1, 0], [0, 1, 0]], np.float32)
     one = packed(EmbreeAccelerator(corners, np.array([[0, 1, 2]], np.int32)))
     origin = np.array([[0], [0], [-2]], np.float32)
-    found = one.intersect(origin, np.array([[0.0], [0.0], [1.0]], np.float32), QueryTime())
+    found = one.intersect(origin, np.array([[0.0], [0.0], [1.0]], np.float32), QueryStats())
     assert found.triangle[0] == 0
     assert found.t[0] == 2
 
@@ -138,7 +138,7 @@ def test_rays_that_do_not_enter_the_box_hit_nothing(accelerator: EmbreeAccelerat
     direction[:, ::7] = np.eye(3, dtype=np.float32)[:, np.arange(n)[::7] % 3]
     origin[:, ::14] = np.float32(1.2)
     limit = np.random.default_rng(6).uniform(0, 6, n).astype(np.float32)
-    found = packed(accelerator).intersect(origin, direction, QueryTime(), limit=limit)
+    found = packed(accelerator).intersect(origin, direction, QueryStats(), limit=limit)
     packets = packed(accelerator).packets
     assert packets is not None
     which = packets.entering(origin, direction, limit)
@@ -147,11 +147,11 @@ def test_rays_that_do_not_enter_the_box_hit_nothing(accelerator: EmbreeAccelerat
     assert np.isin(hit, which).all()
     # Where they are looked at first, the answers are the same.
     apart = replace(packed(accelerator), apart=True)
-    chosen = apart.intersect(origin, direction, QueryTime(), limit=limit)
+    chosen = apart.intersect(origin, direction, QueryStats(), limit=limit)
     assert (chosen.triangle == found.triangle).all()
     assert (
-        apart.unoccluded(origin, direction, 1.5, QueryTime())
-        == packed(accelerator).unoccluded(origin, direction, 1.5, QueryTime())
+        apart.unoccluded(origin, direction, 1.5, QueryStats())
+        == packed(accelerator).unoccluded(origin, direction, 1.5, QueryStats())
     ).all()
     if n > 1000:
         # By slabs of its own: the box has room to spare, and nothing else is let through.
@@ -186,12 +186,12 @@ def test_where_most_rays_enter_all_are_asked(
 
     monkeypatch.setattr(scene, "intersect", nearest)
     monkeypatch.setattr(scene, "unoccluded", free)
-    mine, clock = replace(packed(accelerator), apart=apart), QueryTime()
+    mine, stats = replace(packed(accelerator), apart=apart), QueryStats()
     origin, direction = rays(1000, 8)
     for times, some in ((1, False), (9, apart)):
         asked.clear()
-        mine.intersect(times * origin, direction, clock)
-        mine.unoccluded(times * origin, direction, 1e30, clock)
+        mine.intersect(times * origin, direction, stats)
+        mine.unoccluded(times * origin, direction, 1e30, stats)
         assert len(asked) == 2
         for count in asked:
             assert 0 < count < 500 if some else count == 1000
@@ -215,6 +215,6 @@ def test_only_the_hierarchy_that_is_asked_is_built(monkeypatch: pytest.MonkeyPat
         assert built == []
         for _ in range(2):
             asked: Accelerator = packed(mine) if wanted else mine
-            asked.intersect(*rays(5, 1), QueryTime())
-            asked.unoccluded(*rays(5, 1), 1.0, QueryTime())
+            asked.intersect(*rays(5, 1), QueryStats())
+            asked.unoccluded(*rays(5, 1), 1.0, QueryStats())
         assert built == [name]

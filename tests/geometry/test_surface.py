@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 from course import Scene, render, shapes
 from course.core import ray_offset
-from course.core.embree import QueryTime
+from course.core.embree import QueryStats
 from course.core.hits import Hits
 from course.core.triangles import Mesh
 from course.extras.surface import FullPart, FullSurface, build_surface
@@ -31,7 +31,7 @@ from course.formats.meshes import transforms
 
 MakeScene = Callable[..., Scene]
 Array = NDArray[np.float64]
-CLOCK = QueryTime()
+STATS = QueryStats()
 
 TURN = transforms.rotate(np.array([1.0, 2.0, 3.0]), 33.0)
 
@@ -101,7 +101,7 @@ def cast(built: FullSurface, origin: Array, target: Array) -> Hits:
     start = origin.astype(np.float32)
     direction = target - start
     direction = (direction / np.linalg.norm(direction, axis=0)).astype(np.float32)
-    return built.hits(built.accelerator.intersect(start, direction, CLOCK), direction)
+    return built.hits(built.accelerator.intersect(start, direction, STATS), direction)
 
 
 def front_hits(mesh: Mesh, built: FullSurface, rng: np.random.Generator, n: int) -> Hits:
@@ -135,7 +135,7 @@ def self_hits(mesh: Mesh, grazing: bool, n: int = 40000) -> tuple[int, int]:
     d = hemisphere(hits, rng, grazing)
     # A grazing direction rounded to float32 may point below the surface, which it then rightly meets.
     fair = hits.entering & ((d.astype(float) * hits.ng).sum(axis=0) > 3e-7)
-    free = built.accelerator.unoccluded(hits.above, d, 1e30, CLOCK)
+    free = built.accelerator.unoccluded(hits.above, d, 1e30, STATS)
     return int((~free & fair).sum()), int(fair.sum())
 
 
@@ -189,8 +189,8 @@ def test_nothing_at_all_is_missed_by_every_ray() -> None:
     built = build_surface([])
     direction = np.array([[0.0], [0.0], [1.0]], np.float32)
     assert built.triangles.size == 0
-    assert built.accelerator.intersect(direction, direction, CLOCK).triangle.tolist() == [-1]
-    assert built.accelerator.unoccluded(direction, direction, 1e30, CLOCK).all()
+    assert built.accelerator.intersect(direction, direction, STATS).triangle.tolist() == [-1]
+    assert built.accelerator.unoccluded(direction, direction, 1e30, STATS).all()
 
 
 # Closed meshes, and a point inside each.
@@ -233,7 +233,7 @@ def test_no_ray_from_inside_gets_out_along_an_edge(name: str, rotate: bool) -> N
     # edge that the ray is aimed at, at the same distance to the last bit.
     assert hits.entering.mean() < (1e-3 if name == "torus knot" else 1e-9)
     # From there, light from outside is out of sight in whichever direction.
-    free = built.accelerator.unoccluded(hits.above, hemisphere(hits, rng, False), 1e30, CLOCK)
+    free = built.accelerator.unoccluded(hits.above, hemisphere(hits, rng, False), 1e30, STATS)
     assert not (free & ~hits.entering).any()
 
 

@@ -12,7 +12,7 @@ import pytest
 
 from course import load_scene, render
 from course.building.cameras import make_camera
-from course.core.embree import QueryTime
+from course.core.embree import QueryStats
 from course.effects import PROJECT
 from course.errors import CourseError
 from course.radiosity.radiosity import solve
@@ -40,7 +40,7 @@ def seen(picture_of: View, points: np.ndarray) -> np.ndarray:
     far = places - eye[:, None]
     distance = np.linalg.norm(far, axis=0)
     direction = (far / distance).astype(np.float32)
-    found = solution.accelerator.intersect(eye.astype(np.float32)[:, None], direction, QueryTime())
+    found = solution.accelerator.intersect(eye.astype(np.float32)[:, None], direction, QueryStats())
     light = radiance(solution, found.triangle, found.u, found.v, direction)
     return np.where(np.abs(found.t - distance) < 1e-4, light, np.nan)
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from course.core.embree import EmbreeAccelerator, QueryTime
+from course.core.embree import EmbreeAccelerator, QueryStats
 from course.grading.checks.conventions import scattered
 from course.grading.checks.laws import DTYPES
 from course.shapes import torus_knot
@@ -351,7 +351,7 @@ def hits(leaf_size: int) -> tuple[Any, tuple[Array, ...], Array, Array]:
     d = rng.uniform(-1, 1, o.shape) - o
     o, d = (np.ascontiguousarray(v, np.float32) for v in (o, d / np.linalg.norm(d, axis=0)))
     found = traverse(build(*boxes_around(p), leaf_size), *p, o, d)
-    return embree.intersect(o, d, QueryTime()), found, o, d
+    return embree.intersect(o, d, QueryStats()), found, o, d
 
 
 def barycentric(triangle: Array, o: Array, d: Array) -> Array:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from course import Scene, render
 from course.core.counters import Counters
-from course.core.embree import QueryTime
+from course.core.embree import QueryStats
 from course.core.samplers import Block
 from course.core.tracer import never
 from course.rendering.binding import bind
@@ -315,7 +315,7 @@ def test_rays_leave_a_smooth_mesh_on_the_side_they_are_meant_to(
     direction /= np.linalg.norm(direction, axis=0)
     surface, scatter = tracer.integrator.surface, tracer.integrator.scatter
     assert scatter is not None
-    hits = surface.hits(surface.accelerator.intersect(origin, direction, QueryTime()), direction)
+    hits = surface.hits(surface.accelerator.intersect(origin, direction, QueryStats()), direction)
     assert hits.size > 5000
     draws = tracer.draws(Block(np.empty(0, np.uint32), 0, 1, 0), Counters(), never)
     found = scatter(hits, None, None, None, 0, draws)

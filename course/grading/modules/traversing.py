@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from course.core.embree import EmbreeAccelerator, QueryTime
+from course.core.embree import EmbreeAccelerator, QueryStats
 from course.grading.checks.check import Array, Failure, Trial
 from course.grading.checks.declare import Argument, Arguments, Case, Function, Law, Result
 from course.grading.checks.examples import example, where
@@ -136,7 +136,7 @@ def _embree(function: Function, trial: Trial) -> None:
         a = Arguments(ray_scenes.scene(p, balanced(*boxes_around(p), levels), rays[0], rays[1]))
         try:
             r = function.call(trial, a)
-            embree = EmbreeAccelerator(vertices, faces).intersect(rays[0], rays[1], QueryTime())
+            embree = EmbreeAccelerator(vertices, faces).intersect(rays[0], rays[1], QueryStats())
             if step == 1:
                 trial.show(
                     "pictures",
