@@ -33,7 +33,7 @@ class AdaptiveSchedule(Schedule):
     def render(self, run: Run, executor: Executor) -> bool:
         """See ``Schedule``; under a deadline a preview comes first, so that every pixel has something."""
         settings = self._tracer.settings
-        if executor.left < inf:
+        if executor.seconds_left < inf:
             run(preview(settings, 1), 0.0, 0.0)
             if executor.interrupted:
                 return False

@@ -133,7 +133,7 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
         motion.motion_blur if motion else None,
         bulges=scene.integrator.terminator == "round",
         # Refraction is not defined by a normal that looks away.
-        bent=None if scene.integrator.shading_normals == "bent" else materials.refracts,
+        turned=None if scene.integrator.shading_normals == "bent" else materials.refracts,
         hierarchy=compile_acceleration(loaded, shutter, bound),
         least_offset=offset,
         eye=_still_eye(loaded, frame),

@@ -107,18 +107,18 @@ class Cluster(Executor):
         try:
             while not run.stop:
                 most = AHEAD * max(self._connection.threads, 1)
-                while more and self.left >= 0 and len(pending) < most:
+                while more and self.seconds_left >= 0 and len(pending) < most:
                     piece = next_piece(run.work, self._seconds_a_ray)
                     if more := bool(piece):
                         future = self._submit(piece)
                         pending[future.key] = future, piece
                         future.add_done_callback(ended.put)
-                if not pending or self.left < -GRACE:
+                if not pending or self.seconds_left < -GRACE:
                     run.whole = not more and not pending
                     break
                 ready = [pending.pop(future.key) for future in arrived(ended)]
                 found = self._connection.gather(
-                    [future for future, _ in ready], lambda: run.stop or self.left < -GRACE
+                    [future for future, _ in ready], lambda: run.stop or self.seconds_left < -GRACE
                 )
                 if len(found) < len(ready):
                     break

@@ -55,18 +55,18 @@ class PacketAccelerator(EmbreeAccelerator):
         time: Floats32 | None = None,
         *,
         coherent: bool = False,
-        left: Any = None,
+        excluded: Any = None,
         limit: Floats32 | None = None,
     ) -> Intersections:
-        """See ``EmbreeAccelerator``; ``left`` (N,) is the convex object that each ray leaves."""
+        """See ``EmbreeAccelerator``; ``excluded`` (N,) is the convex object that each ray leaves."""
         n = direction.shape[1]
         if self.packets is None or n == 0:
             return nothing_met(n)
         start = perf_counter()
         far = _FAR if limit is None else limit
         which = None
-        if left is not None and self.convex is not None:
-            which = self.convex.remaining(origin, direction, far, left)
+        if excluded is not None and self.convex is not None:
+            which = self.convex.remaining(origin, direction, far, excluded)
         elif (
             self.apart
             and len(some := self.packets.entering(origin, direction, far)) < WORTH_CHOOSING * n

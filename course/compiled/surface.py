@@ -45,19 +45,19 @@ class CompiledSurface(FullSurface):
         hit_kernels.find(
             *(_ALL_RAYS if ray is None else hit, *rays),
             *(triangles.planes, triangles.edges, triangles.inset, corner_normals),
-            *(triangles.material, self.bends, met, uvt, arriving),
+            *(triangles.material, self.turns_normals, met, uvt, arriving),
             *(material, p, ng, ns, offset, above, side),
         )
         places = p, ng, ng if triangles.corner_normals is None else ns, offset, above, side
         return ray, triangle, u, v, t, material, direction, places
 
-    def leaving(self, hits: Hits, which: Indices, direction: Floats32) -> Objects | None:
+    def excluded_objects(self, hits: Hits, which: Indices, direction: Floats32) -> Objects | None:
         """The convex object that each of some rays leaves for good, (m,), -1 for none; None where nobody asks."""
         accelerator = self.accelerator
         if not isinstance(accelerator, PacketAccelerator) or accelerator.convex is None:
             return None
-        left = np.empty(len(which), np.int8)
+        excluded = np.empty(len(which), np.int8)
         arrays = which, hits.triangle, hits.side, hits.ng, direction
         table = accelerator.convex.first, accelerator.convex.worth
-        hit_kernels.leave(*map(np.ascontiguousarray, arrays), *table, left)
-        return left
+        hit_kernels.leave(*map(np.ascontiguousarray, arrays), *table, excluded)
+        return excluded

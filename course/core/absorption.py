@@ -59,9 +59,9 @@ class Absorption:
         length = _lengths(rays, hits, which)
         if of_camera and self.camera.near:
             length = length + self.camera.way_to_near_plane(hits.direction).take(which)
-        left = np.exp(-self.coefficient(through.take(which)) * length)
+        transmittance = np.exp(-self.coefficient(through.take(which)) * length)
         result = np.ones((3, hits.size), np.float32) if throughput is None else throughput.copy()
-        result[:, which] *= left
+        result[:, which] *= transmittance
         return result
 
 

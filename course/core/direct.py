@@ -175,9 +175,9 @@ class DirectLight:
         to_light = self._to_light(light, hits, candidates)
         if triangles.bulge is None:
             return unoccluded(origin, to_light, light.limit, stats, time, asked=mask)
-        # `bend` bounds the sine of the angle between shading and geometric normal. Where the cosine
+        # `largest_sine` bounds the sine of the angle between shading and geometric normal. Where the cosine
         # to the light is larger than that, the facet faces the light, as its shading normal does.
-        most = np.float32(triangles.bend + ROUNDING)
+        most = np.float32(triangles.largest_sine + ROUNDING)
         column = self._turned_away(hits, candidates, to_light, most)
         height = bulge(triangles, hits, candidates.hit(column))
         raised = np.flatnonzero(height)

@@ -65,7 +65,7 @@ class Accelerator(Protocol):
         time: Floats32 | None = None,
         *,
         coherent: bool = False,
-        left: Any = None,
+        excluded: Any = None,
     ) -> Intersections:
         """Nearest hit of each ray.
 
@@ -76,9 +76,8 @@ class Accelerator(Protocol):
         stats : the query adds its time, or its tests
         time : (N,) float32 of each ray, as a share of the exposure; None if nothing moves
         coherent : true if neighbouring rays have similar directions
-        left : ``Surface.leaving`` of the hits that the rays start from
+        excluded : the rays' ``Surface.excluded_objects``
         """
-        ...
 
     def unoccluded(
         self,
@@ -98,7 +97,6 @@ class Accelerator(Protocol):
         limit : [lengths of the direction]
         asked : (N,) the rays to test, None for all; results of the others are undefined
         """
-        ...
 
 
 class EmbreeAccelerator:
@@ -131,7 +129,7 @@ class EmbreeAccelerator:
         time: Floats32 | None = None,
         *,
         coherent: bool = False,
-        left: Any = None,
+        excluded: Any = None,
         limit: Floats32 | None = None,
     ) -> Intersections:
         """See ``Accelerator.intersect``; hits beyond ``limit`` (N,) float32 don't count."""

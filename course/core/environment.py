@@ -15,11 +15,9 @@ class Environment(Protocol):
     @property
     def black(self) -> bool:
         """True if the radiance is 0 in all directions."""
-        ...
 
     def radiance(self, direction: Floats32) -> Floats32:
         """(3, n) or (3, 1) radiance [W/(m^2 sr)] from directions (3, n)."""
-        ...
 
 
 @dataclass(frozen=True)

@@ -34,7 +34,6 @@ class AnyFilm(Protocol):
         self, tile: Any, mean: Floats32, weight: Floats32 | float, samples: int, whole: bool
     ) -> None:
         """Add one piece; see ``Film.add``."""
-        ...
 
 
 class Film:

@@ -25,9 +25,9 @@ def fresnel_and_cos_t(cos_i: Floats32, eta: Floats32) -> tuple[Floats32, Floats3
     cos_t : (n,) float32, 0 for total internal reflection
     """
     # 1 - sin_t^2 loses digits at the critical angle; (1 - eta sin_i)(1 + eta sin_i) keeps them.
-    bent_sine = np.sqrt((1 - cos_i) * (1 + cos_i))
-    bent_sine *= eta
-    squared = (1 - bent_sine) * (1 + bent_sine)
+    sin_t = np.sqrt((1 - cos_i) * (1 + cos_i))
+    sin_t *= eta
+    squared = (1 - sin_t) * (1 + sin_t)
     total = squared <= 0
     cos_t = np.sqrt(np.maximum(squared, 0))
     # Amplitudes of both polarisations; numerators and sums are divided by n_to. If both cosines are 0, the limit is 1.
@@ -43,6 +43,6 @@ def refract(
     direction: Floats32, normal: Floats32, cos_i: Floats32, cos_t: Floats32, eta: Floats32
 ) -> Floats32:
     """Refracted directions eta d + (eta cos_i - cos_t) n, (3, n) float32, unit length."""
-    bent: Floats32 = direction * eta
-    bent += normal * (eta * cos_i - cos_t)
-    return bent
+    refracted: Floats32 = direction * eta
+    refracted += normal * (eta * cos_i - cos_t)
+    return refracted

@@ -83,7 +83,7 @@ class Surface:
     accelerator: Accelerator
 
     @property
-    def bends(self) -> bool:
+    def turns_normals(self) -> bool:
         """True if interpolated shading normals that face away from the ray are turned; see ``turn_to_viewer``."""
         return True
 
@@ -156,12 +156,12 @@ class Surface:
             ray = hit
             triangle, u, v, t = triangle.take(hit), u.take(hit), v.take(hit), t.take(hit)
             direction = direction.take(hit, axis=1)
-        places = _places(self.triangles, triangle, u, v, direction, self.bends)
+        places = _places(self.triangles, triangle, u, v, direction, self.turns_normals)
         material = self.triangles.material.take(triangle)
         return ray, triangle, u, v, t, material, direction, places
 
-    def leaving(self, hits: Hits, which: Indices, direction: Floats32) -> Any:
-        """The ``left`` of ``Accelerator.intersect`` for rays (3, m) from hits ``which`` (m,); Embree needs none."""
+    def excluded_objects(self, hits: Hits, which: Indices, direction: Floats32) -> Any:
+        """Objects that rays (3, m) from hits ``which`` (m,) can't hit again; None if nobody asks."""
         return None
 
 
@@ -171,7 +171,7 @@ def _places(
     u: Floats32,
     v: Floats32,
     direction: Floats32,
-    bends: bool,
+    turns_normals: bool,
 ) -> Places:
     """Points and normals of the hits at time 0."""
     plane = gather(triangles.planes, triangle)
@@ -194,7 +194,7 @@ def _places(
         # Most triangles of a room are flat.
         some = np.flatnonzero(flat == 0)
         if len(some) == len(side):
-            ns = _interpolated(triangles, triangle, u, v, side, direction, bends)
+            ns = _interpolated(triangles, triangle, u, v, side, direction, turns_normals)
         else:
             ns = ng.copy()
             if len(some):
@@ -202,7 +202,7 @@ def _places(
                     triangles,
                     *(triangle.take(some), u.take(some), v.take(some), side.take(some)),
                     direction.take(some, axis=1),
-                    bends,
+                    turns_normals,
                 )
     above = ng * offset
     above += p
@@ -256,7 +256,7 @@ def _interpolated(
     v: Floats32,
     side: Floats32,
     direction: Floats32,
-    bends: bool,
+    turns_normals: bool,
 ) -> Floats32:
     """Shading normals (3, n) on the incoming side."""
     assert triangles.corner_normals is not None
@@ -271,7 +271,7 @@ def _interpolated(
     np.maximum(squared, np.float32(1e-20), out=squared)
     normal *= 1 / np.sqrt(squared)
     normal *= side
-    if bends:
+    if turns_normals:
         turn_to_viewer(normal, direction)
     return normal
 
@@ -282,9 +282,9 @@ def turn_to_viewer(ns: Floats32, direction: Floats32) -> None:
     wrong = np.flatnonzero(away > 0)
     if len(wrong):
         d = direction.take(wrong, axis=1)
-        bent = ns.take(wrong, axis=1)
-        bent -= away.take(wrong) * d
-        squared = dot(bent, bent)
+        turned = ns.take(wrong, axis=1)
+        turned -= away.take(wrong) * d
+        squared = dot(turned, turned)
         np.maximum(squared, np.float32(1e-20), out=squared)
-        bent *= 1 / np.sqrt(squared)
-        ns[:, wrong] = bent
+        turned *= 1 / np.sqrt(squared)
+        ns[:, wrong] = turned

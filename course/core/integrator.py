@@ -133,7 +133,7 @@ class Integrator:
             found = self.surface.seen(*arrays, coherent)
         else:
             accelerator = self.surface.accelerator
-            found = accelerator.intersect(*arrays, coherent=coherent, left=rays.left)
+            found = accelerator.intersect(*arrays, coherent=coherent, excluded=rays.excluded)
         counters.lap("trace")
         if depth <= self.environment_depth and sees is not False:
             self._add_environment(film, rays, (found.triangle < 0) & sees)

@@ -64,7 +64,7 @@ class MovingAccelerator:
         time: Floats32 | None = None,
         *,
         coherent: bool = False,
-        left: Any = None,
+        excluded: Any = None,
     ) -> Intersections:
         """See ``Accelerator.intersect``."""
         assert time is not None
@@ -104,17 +104,17 @@ class MovingAccelerator:
         origin = _each_its_own(origin, direction.shape[1])
         for mover in self.movers:
             # Only rays that are still unblocked need this test; see NEARLY_ALL.
-            left = np.flatnonzero(free)
-            if len(left) == 0:
+            unblocked = np.flatnonzero(free)
+            if len(unblocked) == 0:
                 break
             start, toward, when = origin, direction, time
-            if len(left) < NEARLY_ALL * len(free):
-                start, toward = origin.take(left, axis=1), direction.take(left, axis=1)
-                when = time.take(left)
+            if len(unblocked) < NEARLY_ALL * len(free):
+                start, toward = origin.take(unblocked, axis=1), direction.take(unblocked, axis=1)
+                when = time.take(unblocked)
             else:
-                left = np.arange(len(free))
+                unblocked = np.arange(len(free))
             shifted = self._shifted(start, mover, when)
-            free[left] &= mover.accelerator.unoccluded(shifted, toward, limit, stats)
+            free[unblocked] &= mover.accelerator.unoccluded(shifted, toward, limit, stats)
         return free
 
     def _shifted(self, origin: Floats32, mover: Mover, time: Floats32) -> Floats32:

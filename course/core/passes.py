@@ -17,7 +17,7 @@ PASS = 16
 """Samples per pixel in a whole pass of an extensible sampler."""
 
 SHARES = 2
-"""A piece of work is at most 1 / SHARES of a thread's share of the work left to do."""
+"""A piece of work is at most 1 / SHARES of a thread's share of the remaining work."""
 
 
 class Sampling(Protocol):
@@ -58,9 +58,9 @@ class Work:
     pixels: int | None = None
 
 
-def fair_share(left: int, threads: int) -> int:
-    """Largest piece of work that a thread may take, in the unit of ``left``: pixels or rays."""
-    return left // (SHARES * max(threads, 1))
+def fair_share(remaining: int, threads: int) -> int:
+    """Largest piece of work that a thread may take, in the unit of ``remaining``: pixels or rays."""
+    return remaining // (SHARES * max(threads, 1))
 
 
 def pass_size(settings: Sampling, sampler: Sampler) -> int:
@@ -73,7 +73,7 @@ def passes(
 ) -> Iterator[Work]:
     """The work of a render, pass by pass.
 
-    When little is left to do, tiles of several batches are split, so that no thread waits long for another.
+    When little work remains, tiles of several batches are split, so that no thread waits long for another.
 
     Parameters
     ----------
@@ -85,7 +85,7 @@ def passes(
     tiles = tile_picture(settings.width, settings.height, size, batches)
     one = max(RAYS // size, 1)
     starts = range(done, settings.samples, size)
-    left = settings.width * settings.height * len(starts)
+    remaining = settings.width * settings.height * len(starts)
     for order, first in enumerate(starts):
         samples = min(size, settings.samples - first)
         whole = samples == PASS or not sampler.extensible
@@ -93,10 +93,10 @@ def passes(
             waiting: list[Tile] = [tile]
             while waiting:
                 part = waiting.pop()
-                if batches > 1 and part.size > max(fair_share(left, threads), one):
+                if batches > 1 and part.size > max(fair_share(remaining, threads), one):
                     waiting += halves(part)[::-1]
                     continue
-                left -= part.size
+                remaining -= part.size
                 yield Work(part, order, first, samples, whole, pixels=tile.size)
 
 

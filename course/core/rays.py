@@ -28,7 +28,7 @@ class Rays:
     path : (n,) number of the path in the block; None for one ray per path, in order
     medium : (n,) int16, material that the ray is in, or OPEN; None if nothing absorbs, and for camera rays
     time : (n,) float32 since the shutter opened, in exposures; None if nothing moves
-    left : result of ``Surface.leaving`` for these rays, passed to the accelerator
+    excluded : ``Surface.excluded_objects``, for the accelerator
     start : (3, n) float32, hit point that the ray leaves, next to its origin; None if ``medium`` is
     """
 
@@ -38,7 +38,7 @@ class Rays:
     path: Indices | None
     medium: Media | None = None
     time: Floats32 | None = None
-    left: Any = None
+    excluded: Any = None
     start: Floats32 | None = None
 
     @property

@@ -21,7 +21,6 @@ class Run(Protocol):
 
     def __call__(self, work: Iterable[Work], done: float = 0.0, after: float = 1.0) -> bool:
         """``done``, ``after``: approximate share of the whole render before and after this round."""
-        ...
 
 
 class Schedule(ABC):

@@ -24,7 +24,7 @@ class Boundary:
     reflected, refracted : (n,) Fresnel reflectance and transmittance, 0 for opaque materials
     cos_i, cos_t : (n,) cosines of incidence and refraction
     eta : (n,) n_from / n_to
-    bent : (3, n) directions refracted by rough glass, undefined at other hits; None if there is no rough glass
+    rough_direction : (3, n) directions refracted by rough glass, undefined at other hits; None for no rough glass
     """
 
     reflected: Floats32
@@ -32,7 +32,7 @@ class Boundary:
     cos_i: Floats32
     cos_t: Floats32
     eta: Floats32
-    bent: Floats32 | None = None
+    rough_direction: Floats32 | None = None
 
     def of(self, which: Indices) -> Boundary:
         """The boundary at some of the hits."""
@@ -42,7 +42,7 @@ class Boundary:
             self.cos_i.take(which),
             self.cos_t.take(which),
             self.eta.take(which),
-            None if self.bent is None else self.bent.take(which, axis=1),
+            None if self.rough_direction is None else self.rough_direction.take(which, axis=1),
         )
 
 
@@ -243,7 +243,7 @@ class Scatter:
             path,
             medium,
             None if hits.time is None else hits.time.take(which),
-            self.surface.leaving(hits, which, direction),
+            self.surface.excluded_objects(hits, which, direction),
             None if medium is None else hits.p.take(which, axis=1),
         )
 

@@ -159,18 +159,20 @@ class Executor(ABC):
         self.deadline = max(self.deadline, monotonic() + LEAST_FOR_RAYS * seconds)
 
     @property
-    def left(self) -> float:
+    def seconds_left(self) -> float:
         """Seconds until the deadline; infinite if there is none."""
         return self.deadline - monotonic()
 
     @property
     def elapsed(self) -> float:
         """Share of the time limit that has passed; 0 if there is none."""
-        return min(1.0 - self.left / self._time_limit, 1.0) if self.left < inf else 0.0
+        return (
+            min(1.0 - self.seconds_left / self._time_limit, 1.0) if self.seconds_left < inf else 0.0
+        )
 
     def batches(self, most: int) -> int:
         """Batches of rays in a tile, at most ``most``."""
-        return min(most, HURRIED) if self.left < inf else most
+        return min(most, HURRIED) if self.seconds_left < inf else most
 
 
 class Pool(Executor):
@@ -200,7 +202,7 @@ class Pool(Executor):
                 self.counters.add(counters)
 
     def _take(self, run: Execution) -> Work | None:
-        if run.stop or self.left < 0:
+        if run.stop or self.seconds_left < 0:
             return None
         with run.lock:
             work = next(run.work, None)

@@ -28,20 +28,16 @@ class Area(Protocol):
     @property
     def number(self) -> int:
         """Number of the area."""
-        ...
 
     @property
     def size(self) -> int:
         """Number of pixels."""
-        ...
 
     def pixel_numbers(self, picture_width: int) -> Words:
         """(size,) number of each pixel in the picture, row by row."""
-        ...
 
     def corners(self) -> tuple[Floats32, Floats32]:
         """Column and row of each pixel's upper left corner, (size,) float32 each [pixels]."""
-        ...
 
 
 @dataclass(frozen=True)

@@ -83,7 +83,7 @@ class Tables:
     inset: Floats32
     corner_normals: Floats32
     bulge: Floats32
-    bend: float
+    largest_sine: float
 
 
 @dataclass(frozen=True)
@@ -99,7 +99,7 @@ class Triangles:
     corner_normals : (T, 9) float32, n0, n1 - n0, n2 - n0, where the longest of n0, n1, n2 has length 1; None if no part
         has normals
     bulge : (T, 3) float32, k01 / 2, k02 / 2, k12 / 2; None if no part has normals or shadow rays ignore the bulge
-    bend : sine of the largest angle between ng and a corner normal, 0 if every triangle is flat
+    largest_sine : sine of the largest angle between ng and a corner normal, 0 if every triangle is flat
     material : (T,) uint16 material numbers
     parts : (vertices, triangles, convex) of each object: two counts and a bool, in the order of the triangles
     """
@@ -109,7 +109,7 @@ class Triangles:
     inset: Floats32
     corner_normals: Floats32 | None
     bulge: Floats32 | None
-    bend: float
+    largest_sine: float
     material: Materials
     parts: tuple[tuple[int, int, bool], ...] = ()
 
@@ -146,7 +146,7 @@ def join_tables(tables: Sequence[Tables], bulges: bool = True) -> Triangles:
         inset=joined(lambda table: table.inset),
         corner_normals=joined(lambda table: table.corner_normals) if smooth else None,
         bulge=joined(lambda table: table.bulge) if smooth and bulges else None,
-        bend=max(table.bend for table in tables),
+        largest_sine=max(table.largest_sine for table in tables),
         material=np.concatenate(
             [np.full(len(table.triangles), table.part.material, np.uint16) for table in tables]
         ),
@@ -202,7 +202,7 @@ def _tables(part: Part, smooth: bool, least_offset: float) -> Tables:
     lengths = np.sqrt(np.stack([dot(e, e) for e in (e2 - e1, e2, e1)]))
     offset, inset = offset_and_inset(p, lengths, twice_area)
     corner_normals, bulge = np.zeros((2, 0, 0), np.float32)
-    bend = 0.0
+    largest_sine = 0.0
     flat = np.ones(len(triangles))
     if smooth:
         n = unit = np.repeat(ng[None], 3, axis=0)
@@ -212,7 +212,7 @@ def _tables(part: Part, smooth: bool, least_offset: float) -> Tables:
             flat = (np.abs(n - ng) < FLAT).all(axis=(0, 1)) & (n == n[0]).all(axis=(0, 1))
             ng = np.where(flat, n[0], ng)
             cosine = min((float(dot(ng, corner).min(initial=1)) for corner in unit), default=1.0)
-            bend = math.sqrt(max(1 - cosine * cosine, 0)) if cosine > 0 else 1.0
+            largest_sine = math.sqrt(max(1 - cosine * cosine, 0)) if cosine > 0 else 1.0
         corner_normals = _table(n[0], n[1] - n[0], n[2] - n[0])
         d1, d2 = unit[1] - unit[0], unit[2] - unit[0]
         bulge = _table(np.stack((dot(e1, d1), dot(e2, d2), dot(e2 - e1, d2 - d1))) / 2)
@@ -226,7 +226,7 @@ def _tables(part: Part, smooth: bool, least_offset: float) -> Tables:
         inset=_table(inset),
         corner_normals=corner_normals,
         bulge=bulge,
-        bend=bend,
+        largest_sine=largest_sine,
     )
 
 

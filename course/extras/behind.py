@@ -44,11 +44,11 @@ class SeenThrough:
         time: Floats32 | None = None,
         *,
         coherent: bool = False,
-        left: object = None,
+        excluded: object = None,
     ) -> Intersections:
         """Nearest hits that are seen; see ``Accelerator.intersect``."""
         found = self.accelerator.intersect(
-            origin, direction, stats, time, coherent=coherent, left=left
+            origin, direction, stats, time, coherent=coherent, excluded=excluded
         )
         through = self._from_behind(found.triangle, direction)
         while len(through):

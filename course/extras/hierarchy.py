@@ -56,7 +56,7 @@ class HierarchyAccelerator:
         time: Floats32 | None = None,
         *,
         coherent: bool = False,
-        left: object = None,
+        excluded: object = None,
     ) -> Intersections:
         """Nearest hit of each ray; see ``Accelerator.intersect``.
 

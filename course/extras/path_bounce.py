@@ -106,8 +106,8 @@ class PathBounce:
         draws.cast("path", len(which), path)
         if kind is None or self.scatter is None:
             direction = self._diffuse(hits, None if whole else which, path, depth, draws)
-            left = self.surface.leaving(hits, which, direction)
-            return Rays(origin, direction, after, path, medium, time, left, start), None
+            excluded = self.surface.excluded_objects(hits, which, direction)
+            return Rays(origin, direction, after, path, medium, time, excluded, start), None
         scattered, back, through = which[:optical], which[optical:crossing], which[crossing:]
         directions = []
         if optical:
@@ -126,8 +126,8 @@ class PathBounce:
             if medium is not None:
                 medium[crossing:] = self.scatter.beyond(hits, through)
         direction = np.concatenate(directions, axis=1)
-        left = self.surface.leaving(hits, which, direction)
-        rays = Rays(origin, direction, after, path, medium, time, left, start)
+        excluded = self.surface.excluded_objects(hits, which, direction)
+        rays = Rays(origin, direction, after, path, medium, time, excluded, start)
         return rays, np.arange(len(which)) >= optical
 
     def _origins(

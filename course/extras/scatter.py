@@ -101,7 +101,7 @@ class FullScatter(Scatter):
         way = refract(direction, ns, boundary.cos_i, boundary.cos_t, boundary.eta)
         if not self.keeps:
             way = kept_above(way, -ng)
-        if boundary.bent is not None:
-            arrays = hits.material.take(which), boundary.bent, ng, path
+        if boundary.rough_direction is not None:
+            arrays = hits.material.take(which), boundary.rough_direction, ng, path
             rough_glass.scatter(self.rough, self.keeps, *arrays, depth, draws, direction=way)
         return way

@@ -41,21 +41,20 @@ class FullSurface(Surface):
     Attributes
     ----------
     painting : the textures, None where there are none
-    bent : (M,) bool, of which materials shading normals that look away from the viewer are bent until they no longer
-        do; None for all
+    turned : (M,) bool, materials whose shading normals are turned to the viewer (``turn_to_viewer``); None for all
     kept : (T,) bool, whose normals camera rays see as they are from behind; None for none
     through : what camera rays meet where they see through backs; None where they meet what all rays do
     """
 
     painting: Painting | None = None
-    bent: Mask | None = None
+    turned: Mask | None = None
     kept: Mask | None = None
     through: SeenThrough | None = None
 
     @property
-    def bends(self) -> bool:
+    def turns_normals(self) -> bool:
         """See ``Surface``."""
-        return self.bent is None
+        return self.turned is None
 
     @property
     def eye(self) -> Any:
@@ -71,11 +70,11 @@ class FullSurface(Surface):
     ) -> Hits:
         """See ``Surface``."""
         hits = super().hits(found, direction, time, of_camera)
-        if self.bent is not None and hits.ns is not hits.ng:
-            some = np.flatnonzero(self.bent.take(hits.material))
-            turned = hits.ns.take(some, axis=1)
-            turn_to_viewer(turned, hits.direction.take(some, axis=1))
-            hits.ns[:, some] = turned
+        if self.turned is not None and hits.ns is not hits.ng:
+            some = np.flatnonzero(self.turned.take(hits.material))
+            normals = hits.ns.take(some, axis=1)
+            turn_to_viewer(normals, hits.direction.take(some, axis=1))
+            hits.ns[:, some] = normals
         if of_camera and self.kept is not None:
             keep_normals(self.kept, hits)
         if self.painting is None:
@@ -88,7 +87,7 @@ def build_surface(
     motion_blur: Functions | None = None,
     bulges: bool = True,
     hierarchy: tuple[Functions, int] | None = None,
-    bent: Mask | None = None,
+    turned: Mask | None = None,
     least_offset: float = 0.0,
     eye: Floats64 | None = None,
 ) -> FullSurface:
@@ -99,7 +98,7 @@ def build_surface(
     motion_blur : functions of the module; needed where a part has a velocity
     bulges : whether shadow rays start from the round surfaces that meshes stand for
     hierarchy : functions of the bounding_volumes module and the size of a leaf, in Embree's place; nothing moves then
-    bent : as ``FullSurface`` has it
+    turned : as ``FullSurface`` has it
     least_offset : rays leave surfaces at this distance or farther
     eye : (3,) where all camera rays begin, None where they don't begin in one place
     """
@@ -124,7 +123,7 @@ def build_surface(
         triangles=triangles,
         accelerator=accelerator,
         painting=make_painting([(len(table.triangles), _paint(table)) for table in tables]),
-        bent=bent,
+        turned=turned,
         kept=_seen(tables, "kept"),
         through=through,
     )

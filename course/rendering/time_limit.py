@@ -18,11 +18,11 @@ class TimedSchedule(UniformSchedule):
             # Where a whole pass surely fits, a preview only costs.
             if size <= quick or self._done:
                 break
-            before = executor.left
+            before = executor.seconds_left
             run(preview(settings, quick), 0.0, 0.0)
             if executor.interrupted:
                 return False
-            seconds = before - executor.left
-            if seconds * size / quick < 0.5 * executor.left:
+            seconds = before - executor.seconds_left
+            if seconds * size / quick < 0.5 * executor.seconds_left:
                 break
         return run(self._passes(executor))

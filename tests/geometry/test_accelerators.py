@@ -62,7 +62,7 @@ def test_who_knows_the_interface_alone_gets_the_same_answers(kind: type) -> None
     direction = np.repeat(np.array([[0], [0], [-1]], np.float32), 2, axis=1)
     time = np.zeros(2, np.float32)
     stats = QueryStats()
-    found = accelerator.intersect(origin, direction, stats, time, coherent=True, left=None)
+    found = accelerator.intersect(origin, direction, stats, time, coherent=True, excluded=None)
     assert found.triangle.tolist() == [0, -1]
     np.testing.assert_allclose([found.t[0], found.u[0], found.v[0]], [2, 0.25, 0.25], rtol=1e-6)
     assert accelerator.unoccluded(origin, direction, 3.0, stats, time).tolist() == [False, True]

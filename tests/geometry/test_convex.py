@@ -151,7 +151,7 @@ def test_where_things_move_nothing_is_left_out() -> None:
     assert still.accelerator.convex is not None
     assert moving.accelerator.static.convex is None
     assert moving.accelerator.movers[0].accelerator.convex is None
-    assert moving.leaving(*left_behind(moving, 6)) is None
+    assert moving.excluded_objects(*left_behind(moving, 6)) is None
 
 
 def left_behind(surface: Surface, seed: int) -> tuple[Hits, Any, Any]:
@@ -175,14 +175,14 @@ def left_behind(surface: Surface, seed: int) -> tuple[Hits, Any, Any]:
 def test_hits_are_the_same_as_if_all_had_been_asked() -> None:
     surface = in_loops(apart())
     hits, which, way = left_behind(surface, 1)
-    left = surface.leaving(hits, which, way)
+    left = surface.excluded_objects(hits, which, way)
     assert left is not None
     convex = surface.accelerator.convex
     assert convex is not None
     asked = convex.remaining(hits.above, way, np.full(1, NO_HIT, np.float32), left).tolist()
     assert len(asked) < 0.9 * len(which)
     stats = QueryStats()
-    some = surface.accelerator.intersect(hits.above, way, stats, left=left)
+    some = surface.accelerator.intersect(hits.above, way, stats, excluded=left)
     every = surface.accelerator.intersect(hits.above, way, stats)
     assert 0.1 < (every.triangle < 0).mean() < 0.9
     for name in ("triangle", "u", "v", "t"):
@@ -196,9 +196,9 @@ def test_limits_hold_for_rays_that_are_not_asked() -> None:
     surface = in_loops(apart())
     hits, which, way = left_behind(surface, 2)
     limit = np.random.default_rng(0).random(len(which)).astype(np.float32)
-    left = surface.leaving(hits, which, way)
+    left = surface.excluded_objects(hits, which, way)
     stats = QueryStats()
-    some = surface.accelerator.intersect(hits.above, way, stats, limit=limit, left=left)
+    some = surface.accelerator.intersect(hits.above, way, stats, limit=limit, excluded=left)
     every = surface.accelerator.intersect(hits.above, way, stats, limit=limit)
     for name in ("triangle", "u", "v", "t"):
         assert getattr(some, name).tobytes() == getattr(every, name).tobytes(), name
@@ -211,7 +211,7 @@ def test_only_what_leaves_a_ball_outwards_leaves_it() -> None:
     # Half of the rays go through the surface instead.
     way = np.where(which % 2 == 0, way, -way)
     some = which[::3]
-    left = surface.leaving(hits, some, np.ascontiguousarray(way[:, some]))
+    left = surface.excluded_objects(hits, some, np.ascontiguousarray(way[:, some]))
     convex = surface.accelerator.convex
     assert left is not None
     assert convex is not None
@@ -227,14 +227,14 @@ def test_only_what_leaves_a_ball_outwards_leaves_it() -> None:
 def test_without_convex_objects_nobody_asks_what_a_ray_leaves() -> None:
     surface = in_loops(scene((BALL, False), (KNOT, False)))
     hits, which, way = left_behind(surface, 4)
-    assert surface.leaving(hits, which, way) is None
+    assert surface.excluded_objects(hits, which, way) is None
 
 
 def test_without_compiled_loops_nobody_asks_either() -> None:
     surface = apart()
     hits, which, way = left_behind(surface, 5)
-    assert surface.leaving(hits, which, way) is None
+    assert surface.excluded_objects(hits, which, way) is None
     # Nor once they have been used for the same triangles.
     if packets.available():
-        assert in_loops(surface).leaving(hits, which, way) is not None
-    assert surface.leaving(hits, which, way) is None
+        assert in_loops(surface).excluded_objects(hits, which, way) is not None
+    assert surface.excluded_objects(hits, which, way) is None

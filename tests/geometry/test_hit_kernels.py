@@ -37,7 +37,7 @@ MESHES = {
 
 def met(mesh: Mesh, share: float, bends: bool = True) -> tuple[FullSurface, Intersections, Any]:
     """A surface, hits of a share of the rays, and directions; a third of the points lie at edges or corners."""
-    surface = build_surface([FullPart(mesh, 3)], bent=None if bends else np.zeros(4, np.bool_))
+    surface = build_surface([FullPart(mesh, 3)], turned=None if bends else np.zeros(4, np.bool_))
     n = 4800
     rng = np.random.default_rng(3)
     triangle = rng.integers(surface.triangles.size, size=n).astype(np.int32)

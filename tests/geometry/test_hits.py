@@ -150,7 +150,7 @@ def test_shading_normals_may_look_away_from_the_ray() -> None:
     origin, direction = aimed(mesh, 20000)
     glass = np.array([False, True])
     plain, bent = (
-        cast(build_surface([FullPart(mesh, material)], bent=glass), origin, direction)
+        cast(build_surface([FullPart(mesh, material)], turned=glass), origin, direction)
         for material in (0, 1)
     )
     assert np.abs(plain.ns - interpolated(mesh, plain)).max() < 1e-6

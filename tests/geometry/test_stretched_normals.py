@@ -30,7 +30,7 @@ STRETCHES = {
 
 def hits_of(mesh: Mesh, compiled: bool = False) -> tuple[FullSurface, Hits]:
     """Hits all over a mesh, their normals as they are interpolated, wherever the viewer is."""
-    surface = build_surface([FullPart(mesh, 0)], bent=np.zeros(1, np.bool_))
+    surface = build_surface([FullPart(mesh, 0)], turned=np.zeros(1, np.bool_))
     if compiled:
         from course.compiled.stages import compiled_surface
 
@@ -97,7 +97,7 @@ def test_lengths_of_normals_are_the_same_for_the_round_surface_above_the_facets(
     assert surface.bulge is not None
     assert by_direction.bulge is not None
     np.testing.assert_allclose(surface.bulge, by_direction.bulge, rtol=1e-5, atol=1e-9)
-    assert surface.bend == pytest.approx(by_direction.bend, rel=1e-12)
+    assert surface.largest_sine == pytest.approx(by_direction.largest_sine, rel=1e-12)
 
 
 def test_a_box_has_the_same_tables_however_it_is_stretched() -> None:

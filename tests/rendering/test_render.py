@@ -31,7 +31,7 @@ class Steps(Executor):
         return 1
 
     @property
-    def left(self) -> float:
+    def seconds_left(self) -> float:
         return self.deadline - self.now
 
     def _serve(self, run: Execution) -> None:
@@ -40,7 +40,7 @@ class Steps(Executor):
     def run(self, work: Iterable[Work], film: Any, tick: Any = None) -> bool:
         first = 0
         for count, item in enumerate(work):
-            if self.left <= 0:
+            if self.seconds_left <= 0:
                 return False
             mean = np.full((3, item.tile.size), np.float32(1 + item.order))
             film.add(item.tile, mean, 1.0, item.first + item.samples, item.whole)

@@ -19,27 +19,22 @@ class Light(Protocol):
     @property
     def name(self) -> str:
         """For receipts and error messages."""
-        ...
 
     @property
     def color(self) -> Floats32:
         """(3,) float32, irradiance / pi where a sample's ``factor`` is 1. The BRDF contributes the 1 / pi."""
-        ...
 
     @property
     def width(self) -> int:
         """Random numbers per sample, 0 for lights without extent."""
-        ...
 
     @property
     def velocity(self) -> Floats32 | None:
         """(3,) float32, displacement while the shutter is open; None at rest."""
-        ...
 
     @property
     def limit(self) -> float:
         """Length of the shadow rays, in lengths of ``to_light``."""
-        ...
 
     def sample(self, points: Floats32, u: Floats32 | None, towards: Towards) -> Sample:
         """One point on the light for each shading point.
@@ -50,4 +45,3 @@ class Light(Protocol):
         u : (width, n) float32 in [0, 1), None where the width is 0
         towards : makes the sample from points on the light
         """
-        ...
