@@ -136,7 +136,7 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
         turned=None if scene.integrator.shading_normals == "bent" else materials.refracts,
         hierarchy=compile_acceleration(loaded, shutter, bound),
         least_offset=offset,
-        eye=_still_eye(loaded, frame),
+        camera_position=_still_eye(loaded, frame),
     )
     objects = Lit(surface.triangles, columns.of_lights)
     lights, skipped = compile_lights(loaded, frame, shutter, bound, materials, objects)

@@ -71,7 +71,7 @@ class CompiledDirectLight(FullDirectLight):
         )
         if found == 0:
             return None
-        origin = hits.above
+        origin = hits.near_origin
         if found == n:
             return Candidates(
                 index, None, None, irradiance, cosine, origin, to_light, inverse_length
@@ -82,7 +82,13 @@ class CompiledDirectLight(FullDirectLight):
         if to_light.shape[1] > 1:
             there, near = np.empty((3, found), np.float32), np.empty(found, np.float32)
         direct_kernels.gather(
-            index, np.ascontiguousarray(hits.above), to_light, inverse_length, origin, there, near
+            index,
+            np.ascontiguousarray(hits.near_origin),
+            to_light,
+            inverse_length,
+            origin,
+            there,
+            near,
         )
         if to_light.shape[1] > 1:
             to_light, inverse_length = there, near

@@ -18,11 +18,11 @@ from course.extras.scatter import FullScatter
 _ALL, _NONE = np.ones((3, 1), np.float32), np.empty(0, np.float32)
 
 
-def origins(hits: Hits, which: Indices, above: int, after: Floats32) -> tuple[Floats32, Floats32]:
+def origins(hits: Hits, which: Indices, near: int, after: Floats32) -> tuple[Floats32, Floats32]:
     """See ``Scatter.origins``."""
     origin, throughput = np.empty((2, 3, len(which)), np.float32)
-    arrays = hits.above, hits.p, hits.ng, hits.offset, after
-    scatter_kernels.leave(which, above, *map(np.ascontiguousarray, arrays), origin, throughput)
+    arrays = hits.near_origin, hits.p, hits.ng, hits.offset, after
+    scatter_kernels.leave(which, near, *map(np.ascontiguousarray, arrays), origin, throughput)
     return origin, throughput
 
 
@@ -69,10 +69,10 @@ class CompiledScatter(FullScatter):
         return way
 
     def origins(
-        self, hits: Hits, which: Indices, above: int, after: Floats32
+        self, hits: Hits, which: Indices, near: int, after: Floats32
     ) -> tuple[Floats32, Floats32]:
         """See ``Scatter``."""
-        return origins(hits, which, above, after)
+        return origins(hits, which, near, after)
 
 
 @dataclass(frozen=True)
@@ -80,9 +80,9 @@ class CompiledPathBounce(PathBounce):
     """Sends the paths of one depth on."""
 
     def _origins(
-        self, hits: Hits, which: Indices, above: int, after: Floats32
+        self, hits: Hits, which: Indices, near: int, after: Floats32
     ) -> tuple[Floats32, Floats32]:
-        return origins(hits, which, above, after)
+        return origins(hits, which, near, after)
 
     def _chosen(
         self,

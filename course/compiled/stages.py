@@ -105,16 +105,18 @@ class _Adding(Integrator):
 
     def add_radiance(
         self,
-        film: Floats32,
+        path_radiance: Floats32,
         path: Indices | None,
         radiance: Floats32,
         throughput: Floats32 | None,
     ) -> None:
         """See ``Integrator``."""
         if path is None or throughput is None:
-            super().add_radiance(film, path, radiance, throughput)
+            super().add_radiance(path_radiance, path, radiance, throughput)
         else:
-            direct_kernels.add(film, *map(np.ascontiguousarray, (path, radiance, throughput)))
+            direct_kernels.add(
+                path_radiance, *map(np.ascontiguousarray, (path, radiance, throughput))
+            )
 
 
 class CompiledIntegrator(_Adding):

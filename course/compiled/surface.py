@@ -37,7 +37,7 @@ class CompiledSurface(FullSurface):
             u, v, t = uvt = np.empty((3, n), np.float32)
             direction = arriving = np.empty((3, n), np.float32)
         material = np.empty(n, np.uint16)
-        p, ng, above = np.empty((3, 3, n), np.float32)
+        p, ng, near_origin = np.empty((3, 3, n), np.float32)
         offset, side = np.empty((2, n), np.float32)
         ns, corner_normals = _NO_NORMALS
         if triangles.corner_normals is not None:
@@ -46,9 +46,9 @@ class CompiledSurface(FullSurface):
             *(_ALL_RAYS if ray is None else hit, *rays),
             *(triangles.planes, triangles.edges, triangles.inset, corner_normals),
             *(triangles.material, self.turns_normals, met, uvt, arriving),
-            *(material, p, ng, ns, offset, above, side),
+            *(material, p, ng, ns, offset, near_origin, side),
         )
-        places = p, ng, ng if triangles.corner_normals is None else ns, offset, above, side
+        places = p, ng, ng if triangles.corner_normals is None else ns, offset, near_origin, side
         return ray, triangle, u, v, t, material, direction, places
 
     def excluded_objects(self, hits: Hits, which: Indices, direction: Floats32) -> Objects | None:

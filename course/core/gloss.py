@@ -45,7 +45,7 @@ class Lobe:
                 scattered = self.glossy.sample_phong_lobe(direction, self.parameter, u)
         return scattered
 
-    def above(self, direction: Floats32, ng: Floats32) -> Floats32:
+    def keep_above(self, direction: Floats32, ng: Floats32) -> Floats32:
         """Directions (3, N), moved to the side of the geometric normals ng (3, N) if they are below."""
         kept: Floats32 = self.glossy.keep_above(direction, ng)
         return kept
@@ -80,7 +80,7 @@ class Gloss:
                 continue
             u = draws("gloss", path.take(which), depth, lobe.width)
             if len(which) == len(material):
-                return lobe.above(lobe.jitter(mirrored, u), ng)
+                return lobe.keep_above(lobe.jitter(mirrored, u), ng)
             scattered = lobe.jitter(mirrored.take(which, axis=1), u)
-            mirrored[:, which] = lobe.above(scattered, ng.take(which, axis=1))
+            mirrored[:, which] = lobe.keep_above(scattered, ng.take(which, axis=1))
         return mirrored

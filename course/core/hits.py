@@ -15,7 +15,7 @@ from course.core.types import Floats32, Indices, Mask, Materials, Numbers
 from course.core.vectors import cross, dot, gather
 
 Places = tuple[Floats32, Floats32, Floats32, Floats32, Floats32, Floats32]
-"""p, ng, ns, offset, above, side; see ``Hits``."""
+"""p, ng, ns, offset, near_origin, side; see ``Hits``."""
 
 Found = tuple[Indices | None, Numbers, Floats32, Floats32, Floats32, Materials, Floats32, Places]
 """ray, triangle, u, v, t, material, direction; see ``Hits``."""
@@ -36,7 +36,7 @@ class Hits:
     p : (3, n) float32, the point
     ng, ns : (3, n) float32, unit geometric and shading normals, on the incoming side
     offset : (n,) float32, distance from p at which rays leave
-    above : (3, n) float32, p + offset ng: origin of rays that leave on the incoming side
+    near_origin : (3, n) float32, p + offset ng: where rays begin that leave on the incoming side
     side : (n,) float32, 1 at the front of the triangle, -1 at the back
     time : (n,) float32, share of the exposure; None if nothing moves
     tint : (3, n) float32, colour factor from textures, 1 where there is none; None if no hit has one
@@ -53,7 +53,7 @@ class Hits:
     ng: Floats32
     ns: Floats32
     offset: Floats32
-    above: Floats32
+    near_origin: Floats32
     side: Floats32
     time: Floats32 | None = None
     tint: Floats32 | None = None
@@ -68,11 +68,11 @@ class Hits:
         """(n,) bool, true where the ray meets the triangle's front and so comes from outside."""
         return np.asarray(self.side > 0)
 
-    def below(self, which: Indices) -> Floats32:
-        """Origin p - offset ng, (3, m), of rays that leave hits ``which`` (m,) on the far side."""
-        below: Floats32 = self.p.take(which, axis=1)
-        below -= self.ng.take(which, axis=1) * self.offset.take(which)
-        return below
+    def far_origin(self, which: Indices) -> Floats32:
+        """Points p - offset ng, (3, m), where rays begin that leave hits ``which`` (m,) on the far side."""
+        origin: Floats32 = self.p.take(which, axis=1)
+        origin -= self.ng.take(which, axis=1) * self.offset.take(which)
+        return origin
 
 
 @dataclass(frozen=True)
@@ -88,11 +88,11 @@ class Surface:
         return True
 
     @property
-    def eye(self) -> Any:
+    def camera_accelerator(self) -> Any:
         """The accelerator of camera rays; its ``intersect`` is that of ``Accelerator``."""
         return self.accelerator
 
-    def seen(
+    def intersect_camera(
         self,
         origin: Floats32,
         direction: Floats32,
@@ -101,7 +101,9 @@ class Surface:
         coherent: bool,
     ) -> Intersections:
         """Nearest hits of camera rays; see ``Accelerator.intersect``."""
-        found: Intersections = self.eye.intersect(origin, direction, stats, time, coherent=coherent)
+        found: Intersections = self.camera_accelerator.intersect(
+            origin, direction, stats, time, coherent=coherent
+        )
         # If the camera lies exactly on a surface, rays hit it at once. They start again, one offset on.
         stuck = np.flatnonzero((found.t <= 0) & (found.triangle >= 0))
         if len(stuck) == 0:
@@ -111,7 +113,7 @@ class Surface:
         when = None if time is None else time.take(stuck)
         step = self.triangles.planes[found.triangle.take(stuck), 6]
         start = start + way * np.maximum(step, np.float32(OFFSET))
-        again = self.eye.intersect(start, way, stats, when)
+        again = self.camera_accelerator.intersect(start, way, stats, when)
         for mine, theirs in (
             (found.triangle, again.triangle),
             (found.u, again.u),
@@ -137,14 +139,29 @@ class Surface:
         of_camera : true for camera rays
         """
         ray, triangle, u, v, t, material, direction, places = self._find(found, direction)
-        p, ng, ns, offset, above, side = places
+        p, ng, ns, offset, near_origin, side = places
         if time is not None and ray is not None:
             time = time.take(ray)
         if isinstance(self.accelerator, MovingAccelerator) and time is not None:
             self.accelerator.follow(p, triangle, time)
-            np.add(p, ng * offset, out=above)
+            np.add(p, ng * offset, out=near_origin)
         return Hits(
-            *(ray, triangle, u, v, t, material, direction, p, ng, ns, offset, above, side, time)
+            *(
+                ray,
+                triangle,
+                u,
+                v,
+                t,
+                material,
+                direction,
+                p,
+                ng,
+                ns,
+                offset,
+                near_origin,
+                side,
+                time,
+            )
         )
 
     def _find(self, found: Intersections, direction: Floats32) -> Found:
@@ -204,9 +221,9 @@ def _places(
                     direction.take(some, axis=1),
                     turns_normals,
                 )
-    above = ng * offset
-    above += p
-    return p, ng, ns, offset, above, side
+    near_origin = ng * offset
+    near_origin += p
+    return p, ng, ns, offset, near_origin, side
 
 
 def bulge(triangles: Triangles, hits: Hits, which: Indices) -> Floats32:

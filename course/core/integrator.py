@@ -1,4 +1,4 @@
-"""Distribution ray tracing: follow a batch of camera rays from depth to depth and add their radiance to the film.
+"""Distribution ray tracing: follow a batch of camera rays from depth to depth and add up their radiance.
 
 Whitted's ray tree (1980) with Cook's random sampling of lens, time, gloss and lights (1984). Each hit casts at most
 one shadow ray per light, one reflected ray and one refracted ray. A stage that the scene doesn't need is None.
@@ -21,6 +21,7 @@ from course.core.rays import Draws, Rays
 from course.core.scatter import Scatter
 from course.core.tiles import RAYS
 from course.core.types import Floats32, Indices, Mask, Media
+from course.core.vectors import repeated
 
 LARGEST_BATCH = 4 * RAYS
 """Largest number of rays followed at once."""
@@ -84,7 +85,7 @@ class Integrator:
         CancelledError
             Soon after ``draws.cancelled()`` becomes true.
         """
-        film = np.zeros((3, draws.block.size), np.float32)
+        path_radiance = np.zeros((3, draws.block.size), np.float32)
         # Glass may double the rays at each depth, so batches that outgrow the cache are split. The
         # last batch is followed to its end first: memory grows with the depth, not with 2^depth.
         pile = [(0, camera_rays)]
@@ -95,22 +96,22 @@ class Integrator:
             if rays.size > LARGEST_BATCH:
                 pile += [(depth, part) for part in rays.halves()]
                 continue
-            following = self._follow(rays, depth, film, draws)
+            following = self._follow(rays, depth, path_radiance, draws)
             if following is not None:
                 pile.append((depth + 1, following))
-        return film
+        return path_radiance
 
-    def _follow(self, rays: Rays, depth: int, film: Floats32, draws: Draws) -> Rays | None:
-        """Follow rays by one depth: add radiance to the film, return the rays of the next depth."""
+    def _follow(self, rays: Rays, depth: int, path_radiance: Floats32, draws: Draws) -> Rays | None:
+        """Follow rays by one depth: add up radiance, return the rays of the next depth."""
         counters = draws.counters
         # ---- intersection, environment, absorption
-        hits, throughput, path, medium = self._met(rays, True, depth, film, draws)
+        hits, throughput, path, medium = self._intersect(rays, True, depth, path_radiance, draws)
         if hits.size == 0:
             return None
         # ---- radiance from the hits towards the viewer
         radiance = self._shade(hits, path, depth, draws)
         if radiance is not None:
-            self.add_radiance(film, path, radiance, throughput)
+            self.add_radiance(path_radiance, path, radiance, throughput)
         counters.lap("shade")
         # ---- reflection, gloss, refraction
         if self.scatter is None or depth == self.max_depth:
@@ -119,24 +120,29 @@ class Integrator:
         counters.lap("bounce")
         return following
 
-    def _met(
-        self, rays: Rays, sees: Mask | bool, depth: int, film: Floats32, draws: Draws
+    def _intersect(
+        self,
+        rays: Rays,
+        adds_lights: Mask | bool,
+        depth: int,
+        path_radiance: Floats32,
+        draws: Draws,
     ) -> tuple[Hits, Floats32 | None, Indices | None, Media | None]:
         """Hits of the rays, with throughput, path and medium of the rays that hit.
 
-        A ray that hits nothing adds the environment's radiance to the film if ``sees``, of that ray or of all, is true.
+        Rays that hit nothing add the environment's radiance, if ``adds_lights`` is true of the ray, or of all.
         """
         counters, of_camera = draws.counters, depth == 0
         arrays = rays.origin, rays.direction, counters.embree, rays.time
         coherent = depth <= self.coherent_depth
         if of_camera:
-            found = self.surface.seen(*arrays, coherent)
+            found = self.surface.intersect_camera(*arrays, coherent)
         else:
             accelerator = self.surface.accelerator
             found = accelerator.intersect(*arrays, coherent=coherent, excluded=rays.excluded)
         counters.lap("trace")
-        if depth <= self.environment_depth and sees is not False:
-            self._add_environment(film, rays, (found.triangle < 0) & sees)
+        if depth <= self.environment_depth and adds_lights is not False:
+            self._add_environment(path_radiance, rays, (found.triangle < 0) & adds_lights)
         hits = self.surface.hits(found, rays.direction, rays.time, of_camera)
         throughput, path, medium = _of_hits(rays, hits)
         draws.hit(path)
@@ -156,9 +162,7 @@ class Integrator:
             radiance = _sum(radiance, self.glow(hits.material))
         if self.emission is not None:
             radiance = _sum(radiance, self.emission(hits.material) * hits.entering)
-        if radiance is not None and radiance.shape[1] == 1:
-            radiance = np.repeat(radiance, hits.size, axis=1)
-        return radiance
+        return None if radiance is None else repeated(radiance, hits.size)
 
     def _ambient_light(self, hits: Hits, ambient: Lookup) -> Floats32:
         """Reflected ambient radiance, (3, n) or (3, 1)."""
@@ -177,31 +181,30 @@ class Integrator:
             return np.empty(0, np.intp)
         return np.flatnonzero(~hits.entering & self.dark_inside.take(hits.material))
 
-    def _add_environment(self, film: Floats32, rays: Rays, missed: Mask) -> None:
+    def _add_environment(self, path_radiance: Floats32, rays: Rays, missed: Mask) -> None:
         which = np.flatnonzero(missed)
         if len(which) == 0 or self.environment is None:
             return
         radiance = self.environment.radiance(rays.direction.take(which, axis=1))
-        if radiance.shape[1] == 1:
-            radiance = np.repeat(radiance, len(which), axis=1)
+        radiance = repeated(radiance, len(which))
         throughput = None if rays.throughput is None else rays.throughput.take(which, axis=1)
         path = which if rays.path is None else rays.path.take(which)
-        self.add_radiance(film, path, radiance, throughput)
+        self.add_radiance(path_radiance, path, radiance, throughput)
 
     def add_radiance(
         self,
-        film: Floats32,
+        path_radiance: Floats32,
         path: Indices | None,
         radiance: Floats32,
         throughput: Floats32 | None,
     ) -> None:
-        """Add radiance (3, n) times throughput (3, n) (None: 1) to the film. Several rays may share a path."""
+        """Add radiance (3, n) times throughput (3, n) (None: 1) to the sums (3, paths). Rays may share a path."""
         if throughput is not None:
             radiance = radiance * throughput
         if path is None:
-            film += radiance
+            path_radiance += radiance
             return
-        for channel, values in zip(film, radiance, strict=True):
+        for channel, values in zip(path_radiance, radiance, strict=True):
             # Adds in the order of the rays, so that no sum depends on the rest of the batch.
             np.add.at(channel, path, values)
 

@@ -161,19 +161,19 @@ class Scatter:
         return np.where(hits.entering.take(which), material, outside)
 
     def origins(
-        self, hits: Hits, which: Indices, above: int, after: Floats32
+        self, hits: Hits, which: Indices, near: int, after: Floats32
     ) -> tuple[Floats32, Floats32]:
         """Origins and throughput, (3, m) each, of rays that leave the given hits.
 
         Parameters
         ----------
         which : (m,) the hits
-        above : the first ``above`` rays leave on the incoming side, the others on the far side
+        near : the first ``near`` rays leave on the incoming side, the others on the far side
         after : (3, n) throughput after the bounce, at all hits
         """
-        origin = hits.above.take(which[:above], axis=1)
-        if above < len(which):
-            origin = np.concatenate((origin, hits.below(which[above:])), axis=1)
+        origin = hits.near_origin.take(which[:near], axis=1)
+        if near < len(which):
+            origin = np.concatenate((origin, hits.far_origin(which[near:])), axis=1)
         return origin, after.take(which, axis=1)
 
     def _reflected(
@@ -185,7 +185,7 @@ class Scatter:
         depth: int,
         draws: Draws,
     ) -> Rays | None:
-        which = _above(weight, hits.size, self.cutoff)
+        which = _above_cutoff(weight, hits.size, self.cutoff)
         if len(which) == 0:
             return None
         path = which if path is None else path.take(which)
@@ -205,7 +205,7 @@ class Scatter:
         depth: int,
         draws: Draws,
     ) -> Rays | None:
-        which = _above(weight, hits.size, self.cutoff)
+        which = _above_cutoff(weight, hits.size, self.cutoff)
         if len(which) == 0:
             return None
         path = which if path is None else path.take(which)
@@ -216,12 +216,12 @@ class Scatter:
         return self._rays(hits, which, origin, direction, rest, path, medium)
 
     def _origins_and_weights(
-        self, hits: Hits, which: Indices, above: int, weight: Floats32
+        self, hits: Hits, which: Indices, near: int, weight: Floats32
     ) -> tuple[Floats32, Floats32]:
         """As ``origins``, for weights (3, n), (3, 1) or (n,)."""
         if weight.ndim == 2 and weight.shape[1] == hits.size:
-            return self.origins(hits, which, above, weight)
-        origin = hits.above.take(which, axis=1) if above else hits.below(which)
+            return self.origins(hits, which, near, weight)
+        origin = hits.near_origin.take(which, axis=1) if near else hits.far_origin(which)
         if weight.ndim == 1:
             return origin, np.repeat(weight.take(which)[None], 3, axis=0)
         return origin, np.repeat(weight, len(which), axis=1)
@@ -257,7 +257,7 @@ def kept_above(direction: Floats32, ng: Floats32) -> Floats32:
     return np.subtract(direction, below * ng)
 
 
-def _above(weight: Floats32, size: int, cutoff: float) -> Indices:
+def _above_cutoff(weight: Floats32, size: int, cutoff: float) -> Indices:
     """Columns of (3, size), (3, 1) or (size,) whose largest channel is above the cutoff."""
     largest = weight.max(axis=0) if weight.ndim == 2 else weight
     if len(largest) < size:

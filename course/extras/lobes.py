@@ -28,6 +28,6 @@ class ForeignLobe(Lobe):
             return jitter_on_turned_square(direction, self.parameter, u)
         return super().jitter(direction, u)
 
-    def above(self, direction: Floats32, ng: Floats32) -> Floats32:
+    def keep_above(self, direction: Floats32, ng: Floats32) -> Floats32:
         """See ``Lobe``."""
-        return direction if self.keeps else super().above(direction, ng)
+        return direction if self.keeps else super().keep_above(direction, ng)

@@ -95,7 +95,7 @@ class PathBounce:
         start = None
         if medium is not None:
             start = hits.p if whole else hits.p.take(which, axis=1)
-        origin = hits.above
+        origin = hits.near_origin
         if not whole:
             origin, after = self._origins(hits, which, crossing, after)
             path = which if path is None else path.take(which)
@@ -131,12 +131,12 @@ class PathBounce:
         return rays, np.arange(len(which)) >= optical
 
     def _origins(
-        self, hits: Hits, which: Indices, above: int, after: Floats32
+        self, hits: Hits, which: Indices, near: int, after: Floats32
     ) -> tuple[Floats32, Floats32]:
         """See ``Scatter.origins``."""
         if self.scatter is not None:
-            return self.scatter.origins(hits, which, above, after)
-        return hits.above.take(which, axis=1), after.take(which, axis=1)
+            return self.scatter.origins(hits, which, near, after)
+        return hits.near_origin.take(which, axis=1), after.take(which, axis=1)
 
     def _scattered(self, hits: Hits, beta: Floats32 | None, inside: Indices) -> Floats32:
         """Throughput (3, n) of diffuse reflection."""

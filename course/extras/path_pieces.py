@@ -22,17 +22,17 @@ class Piece:
 
     Attributes
     ----------
-    sees : (n,) which rays bring light from lamps and the environment; None for none of them
+    adds_lights : (n,) which rays bring light from lamps and the environment; None for none of them
     pixels : of the block, in whose paths theirs are numbered
     draws : of these pixels
-    film : (3, paths of these pixels) float32
+    path_radiance : (3, paths of these pixels) float32
     """
 
     rays: Rays
-    sees: Mask | None
+    adds_lights: Mask | None
     pixels: slice
     draws: Draws
-    film: Floats32
+    path_radiance: Floats32
 
 
 class Pieces:
@@ -40,12 +40,12 @@ class Pieces:
 
     Parameters
     ----------
-    draws, film : of the whole block
+    draws, path_radiance : of the whole block
     """
 
-    def __init__(self, draws: Draws, film: Floats32) -> None:
+    def __init__(self, draws: Draws, path_radiance: Floats32) -> None:
         self._draws = draws
-        self._film = film
+        self._path_radiance = path_radiance
         self._waiting: dict[int, Piece] = {}
 
     def cut(self, rays: Rays, most: int) -> Iterator[Piece]:
@@ -85,21 +85,25 @@ class Pieces:
             assert piece.rays.path is not None
             before = (piece.pixels.start - pixels.start) * self._draws.block.samples
             numbered.append(replace(piece.rays, path=piece.rays.path + before))
-        sees = None
-        if any(piece.sees is not None for piece in pieces):
-            sees = np.concatenate(
+        adds_lights = None
+        if any(piece.adds_lights is not None for piece in pieces):
+            adds_lights = np.concatenate(
                 [
-                    np.zeros(piece.rays.size, np.bool_) if piece.sees is None else piece.sees
+                    np.zeros(piece.rays.size, np.bool_)
+                    if piece.adds_lights is None
+                    else piece.adds_lights
                     for piece in pieces
                 ]
             )
-        return self._piece(joined(numbered), sees, pixels)
+        return self._piece(joined(numbered), adds_lights, pixels)
 
-    def _piece(self, rays: Rays, sees: Mask | None, pixels: slice) -> Piece:
+    def _piece(self, rays: Rays, adds_lights: Mask | None, pixels: slice) -> Piece:
         block = self._draws.block
         paths = self._paths(pixels)
         part = replace(block, pixels=block.pixels[pixels])
-        return Piece(rays, sees, pixels, self._draws.part(part, paths), self._film[:, paths])
+        return Piece(
+            rays, adds_lights, pixels, self._draws.part(part, paths), self._path_radiance[:, paths]
+        )
 
     def _paths(self, pixels: slice) -> slice:
         """Of the block's paths those of some pixels."""

@@ -70,51 +70,53 @@ class PathIntegrator(Integrator):
 
     def radiance(self, camera_rays: Rays, draws: Draws) -> Floats32:
         """Radiance (3, paths) that the paths bring back; see ``Integrator``."""
-        film = np.zeros((3, draws.block.size), np.float32)
-        pieces = Pieces(draws, film)
+        path_radiance = np.zeros((3, draws.block.size), np.float32)
+        pieces = Pieces(draws, path_radiance)
         for piece in pieces.cut(camera_rays, self.pieces):
             self._advance(piece, 0, pieces, RAYS // 2)
         while (rest := pieces.shallowest()) is not None:
             self._advance(*rest, pieces, 0)
-        return film
+        return path_radiance
 
     def _advance(self, piece: Piece | None, depth: int, pieces: Pieces, least: int) -> None:
         """Follow paths to their ends, or until fewer than ``least`` are left, which wait for others."""
         while piece is not None:
             if piece.draws.cancelled():
                 raise CancelledError
-            rest = self._step(piece.rays, piece.sees, depth, piece.film, piece.draws)
+            rest = self._step(
+                piece.rays, piece.adds_lights, depth, piece.path_radiance, piece.draws
+            )
             if rest is None:
                 return
             depth += 1
-            piece = pieces.joined(replace(piece, rays=rest[0], sees=rest[1]), depth, least)
+            piece = pieces.joined(replace(piece, rays=rest[0], adds_lights=rest[1]), depth, least)
 
     def _step(
         self,
         rays: Rays,
-        sees: Mask | None,
+        adds_lights: Mask | None,
         depth: int,
-        film: Floats32,
+        path_radiance: Floats32,
         draws: Draws,
     ) -> tuple[Rays, Mask | None] | None:
-        """One depth: what the rays bring is added to the film, and the rays that go on are returned.
+        """One depth: what the rays bring is added up, and the rays that go on are returned.
 
         Parameters
         ----------
-        sees : (n,) which rays bring light from lamps and the environment; None for none of them
+        adds_lights : (n,) which rays bring light from lamps and the environment; None for none of them
         """
         counters = draws.counters
-        hits, throughput, path, medium = self._met(
-            rays, False if sees is None else sees, depth, film, draws
+        hits, throughput, path, medium = self._intersect(
+            rays, False if adds_lights is None else adds_lights, depth, path_radiance, draws
         )
-        if sees is not None and hits.ray is not None:
-            sees = sees.take(hits.ray)
+        if adds_lights is not None and hits.ray is not None:
+            adds_lights = adds_lights.take(hits.ray)
         if hits.size == 0:
             return None
         inside = self.insides(hits)
-        radiance = self._light(hits, sees, inside, path, depth, draws)
+        radiance = self._light(hits, adds_lights, inside, path, depth, draws)
         if radiance is not None:
-            self.add_radiance(film, path, radiance, throughput)
+            self.add_radiance(path_radiance, path, radiance, throughput)
         counters.lap("shade")
         if depth == self.max_depth:
             return None
@@ -125,7 +127,7 @@ class PathIntegrator(Integrator):
     def _light(
         self,
         hits: Hits,
-        sees: Mask | None,
+        adds_lights: Mask | None,
         inside: Indices,
         path: Indices | None,
         depth: int,
@@ -149,10 +151,10 @@ class PathIntegrator(Integrator):
             if outside is not None:
                 change *= outside
             radiance = change if radiance is None else np.add(radiance, change, out=radiance)
-        if self.lamps is not None and sees is not None:
-            radiance = self.lamps.added(radiance, hits, sees & hits.entering)
-        if self.objects is not None and sees is not None:
-            radiance = self.objects.added(radiance, hits, sees)
+        if self.lamps is not None and adds_lights is not None:
+            radiance = self.lamps.added(radiance, hits, adds_lights & hits.entering)
+        if self.objects is not None and adds_lights is not None:
+            radiance = self.objects.added(radiance, hits, adds_lights)
         return radiance
 
 

@@ -100,7 +100,7 @@ class Sky:
         direction, which = direction.take(chosen, axis=1), which.take(chosen)
         draws.cast("shadow", len(which), path, chosen, COST)
         free = self.surface.accelerator.unoccluded(
-            hits.above.take(which, axis=1),
+            hits.near_origin.take(which, axis=1),
             direction,
             FAR,
             draws.counters.embree,

@@ -57,7 +57,7 @@ class FullSurface(Surface):
         return self.turned is None
 
     @property
-    def eye(self) -> Any:
+    def camera_accelerator(self) -> Any:
         """See ``Surface``."""
         return self.accelerator if self.through is None else self.through
 
@@ -89,7 +89,7 @@ def build_surface(
     hierarchy: tuple[Functions, int] | None = None,
     turned: Mask | None = None,
     least_offset: float = 0.0,
-    eye: Floats64 | None = None,
+    camera_position: Floats64 | None = None,
 ) -> FullSurface:
     """Gather the triangles of all parts, whose coordinates lie in about [-1, 1].
 
@@ -100,7 +100,7 @@ def build_surface(
     hierarchy : functions of the bounding_volumes module and the size of a leaf, in Embree's place; nothing moves then
     turned : as ``FullSurface`` has it
     least_offset : rays leave surfaces at this distance or farther
-    eye : (3,) where all camera rays begin, None where they don't begin in one place
+    camera_position : (3,) where all camera rays begin, None where they don't begin in one place
     """
     tables = make_tables(parts, least_offset)
     triangles = join_tables(tables, bulges)
@@ -111,7 +111,7 @@ def build_surface(
         accelerator = accelerate(tables, motion_blur)
     unseen, through = _seen(tables, "unseen"), None
     if unseen is not None:
-        hidden = np.concatenate([_hidden(table, eye) for table in tables])
+        hidden = np.concatenate([_hidden(table, camera_position) for table in tables])
         front = accelerator
         if isinstance(accelerator, EmbreeAccelerator) and hidden.any():
             # Triangles that are a point: no ray meets them.
@@ -147,9 +147,9 @@ def _seen(tables: Sequence[Tables], behind: Behind) -> Mask | None:
     return np.concatenate(kinds) if any(kind.any() for kind in kinds) else None
 
 
-def _hidden(table: Tables, eye: Floats64 | None) -> Mask:
-    """(T,) which triangles are seen through by an eye (3,), None for an eye of which that is not known."""
-    if eye is None or _behind(table) != "unseen":
+def _hidden(table: Tables, camera_position: Floats64 | None) -> Mask:
+    """(T,) which triangles are seen through from a camera's position (3,), None for one that is not known."""
+    if camera_position is None or _behind(table) != "unseen":
         return np.zeros(len(table.triangles), np.bool_)
     corner, normal = table.planes[:, :3].T.astype(np.float64), table.planes[:, 3:6].T
-    return np.asarray(dot(eye[:, None] - corner, normal.astype(np.float64)) <= 0)
+    return np.asarray(dot(camera_position[:, None] - corner, normal.astype(np.float64)) <= 0)

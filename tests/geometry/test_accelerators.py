@@ -12,7 +12,7 @@ from course.compiled import packets
 from course.compiled.accelerator import PacketAccelerator, in_packets
 from course.core.embree import Accelerator, EmbreeAccelerator, QueryStats
 from course.core.functions import Functions
-from course.core.motion import MovingAccelerator
+from course.core.motion import Motion, MovingAccelerator
 from course.extras.hierarchy import HierarchyAccelerator
 from solutions import bounding_volumes, motion_blur
 
@@ -39,7 +39,7 @@ def made(kind: type) -> Accelerator:
         return HierarchyAccelerator(VERTICES, TRIANGLES, Functions(vars(bounding_volumes)), 4)
     still = EmbreeAccelerator(VERTICES, TRIANGLES)
     if kind is MovingAccelerator:
-        return MovingAccelerator(still, (), Functions(vars(motion_blur)))
+        return MovingAccelerator(still, (), Motion(Functions(vars(motion_blur))))
     return in_packets(still) if kind is PacketAccelerator else still
 
 

@@ -179,11 +179,11 @@ def test_hits_are_the_same_as_if_all_had_been_asked() -> None:
     assert left is not None
     convex = surface.accelerator.convex
     assert convex is not None
-    asked = convex.remaining(hits.above, way, np.full(1, NO_HIT, np.float32), left).tolist()
+    asked = convex.remaining(hits.near_origin, way, np.full(1, NO_HIT, np.float32), left).tolist()
     assert len(asked) < 0.9 * len(which)
     stats = QueryStats()
-    some = surface.accelerator.intersect(hits.above, way, stats, excluded=left)
-    every = surface.accelerator.intersect(hits.above, way, stats)
+    some = surface.accelerator.intersect(hits.near_origin, way, stats, excluded=left)
+    every = surface.accelerator.intersect(hits.near_origin, way, stats)
     assert 0.1 < (every.triangle < 0).mean() < 0.9
     for name in ("triangle", "u", "v", "t"):
         assert getattr(some, name).tobytes() == getattr(every, name).tobytes(), name
@@ -198,8 +198,8 @@ def test_limits_hold_for_rays_that_are_not_asked() -> None:
     limit = np.random.default_rng(0).random(len(which)).astype(np.float32)
     left = surface.excluded_objects(hits, which, way)
     stats = QueryStats()
-    some = surface.accelerator.intersect(hits.above, way, stats, limit=limit, excluded=left)
-    every = surface.accelerator.intersect(hits.above, way, stats, limit=limit)
+    some = surface.accelerator.intersect(hits.near_origin, way, stats, limit=limit, excluded=left)
+    every = surface.accelerator.intersect(hits.near_origin, way, stats, limit=limit)
     for name in ("triangle", "u", "v", "t"):
         assert getattr(some, name).tobytes() == getattr(every, name).tobytes(), name
 

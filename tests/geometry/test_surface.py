@@ -135,7 +135,7 @@ def self_hits(mesh: Mesh, grazing: bool, n: int = 40000) -> tuple[int, int]:
     d = hemisphere(hits, rng, grazing)
     # A grazing direction rounded to float32 may point below the surface, which it then rightly meets.
     fair = hits.entering & ((d.astype(float) * hits.ng).sum(axis=0) > 3e-7)
-    free = built.accelerator.unoccluded(hits.above, d, 1e30, STATS)
+    free = built.accelerator.unoccluded(hits.near_origin, d, 1e30, STATS)
     return int((~free & fair).sum()), int(fair.sum())
 
 
@@ -233,7 +233,7 @@ def test_no_ray_from_inside_gets_out_along_an_edge(name: str, rotate: bool) -> N
     # edge that the ray is aimed at, at the same distance to the last bit.
     assert hits.entering.mean() < (1e-3 if name == "torus knot" else 1e-9)
     # From there, light from outside is out of sight in whichever direction.
-    free = built.accelerator.unoccluded(hits.above, hemisphere(hits, rng, False), 1e30, STATS)
+    free = built.accelerator.unoccluded(hits.near_origin, hemisphere(hits, rng, False), 1e30, STATS)
     assert not (free & ~hits.entering).any()
 
 

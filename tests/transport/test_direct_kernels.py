@@ -48,10 +48,10 @@ def test_what_arrives(hits: Hits, of_its_own: bool, normal: Any, two_sided: bool
     on_light = rng.normal(size=(3, N if of_its_own else 1)).astype(np.float32)
     if of_its_own:
         # As close as can be: no light is infinitely bright.
-        on_light[:, :20] = np.nextafter(hits.above[:, :20], np.float32(9))
+        on_light[:, :20] = np.nextafter(hits.near_origin[:, :20], np.float32(9))
     normal = None if normal is None else np.array(normal, np.float32)
     passes, loop = (
-        form(on_light, hits.above, normal, two_sided) for form in (towards, compiled_towards)
+        form(on_light, hits.near_origin, normal, two_sided) for form in (towards, compiled_towards)
     )
     for name in ("to_light", "inverse_length", "factor"):
         same(getattr(passes, name), getattr(loop, name))
@@ -136,7 +136,7 @@ def test_all_hits_face_the_light(hits: Hits) -> None:
         assert len(each.index) == N
         assert each.columns is None
         assert each.mask is None
-        assert each.origin is hits.above
+        assert each.origin is hits.near_origin
 
 
 def test_a_light_that_is_no_number_lights_nothing(hits: Hits) -> None:

@@ -7,17 +7,16 @@ for each of the 9 such numbers).
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numpy as np
 import pytest
 
-from course import Picture, render
+from course import render
 from tests.conftest import MakeScene
-from tests.effects import skies
+from tests.transport.over_a_floor import PATHS, RECTANGLE, assert_mean, over_a_floor, share
+from tests.transport.over_a_floor import WALL as MIRROR
 
-PATHS = {"type": "path", "max_depth": 20, "roulette": None}
 METAL = {"refraction_index": [0.37, 2.5, 0.0], "absorption_index": [2.82, 0.0, 1.0]}
 N, K = (np.array(METAL[key]) for key in ("refraction_index", "absorption_index"))
 HEAD_ON = ((N - 1) ** 2 + K * K) / ((N + 1) ** 2 + K * K)
@@ -26,15 +25,6 @@ HEAD_ON = ((N - 1) ** 2 + K * K) / ((N + 1) ** 2 + K * K)
 AHEAD = {"eye": [0, 0, 4], "look_at": [0, 0, 0], "vertical_fov": 0.01}
 FACING = [{"rotate": {"axis": [1, 0, 0], "degrees": 90}}]
 WALL = {"shape": "quad", "material": "m", "width": 9, "depth": 9, "transform": FACING}
-
-
-def assert_mean(picture: Picture, expected: Any) -> None:
-    pixels = picture.linear.reshape(-1, 3).astype(np.float64)
-    error = pixels.std(axis=0, ddof=1) / math.sqrt(len(pixels))
-    expected = np.broadcast_to(expected, 3)
-    assert (np.abs(pixels.mean(axis=0) - expected) <= 5.33 * error + 1e-4 * expected).all()
-    # A test that anything would pass is none.
-    assert (error < 0.02 * expected).all()
 
 
 # ---------------------------------------------------------------- metals
@@ -105,31 +95,15 @@ def test_only_the_camera_sees_a_backdrop(make_scene: MakeScene, kind: str) -> No
 # ---------------------------------------------------------------- lights that nobody sees
 
 
-CORNERS = np.array([[0.2, 1, -0.5], [1.2, 1, -0.5], [1.2, 1, 0.5], [0.2, 1, 0.5]])
-LAMP = {"type": "rectangle", "corner": [0.2, 1, -0.5], "edge_u": [1, 0, 0], "edge_v": [0, 0, 1]}
-
-
 @pytest.mark.parametrize("two_sided", [False, True])
 def test_a_light_that_is_not_visible_lights_once_and_is_in_no_mirror(
     make_scene: MakeScene, two_sided: bool
 ) -> None:
     """Were it there for the paths over the mirror beside it, they would add its image's light."""
-    point = np.array([0.6, 0, 0.1])
-    scene = make_scene(
-        camera={"eye": [2.5, 0.8, 0.1], "look_at": point.tolist(), "vertical_fov": 0.01},
-        materials={"floor": {"color": 0.5}, "mirror": {"color": 0, "mirror": 0.8}},
-        objects=[
-            {"shape": "quad", "material": "floor", "width": 60, "depth": 60},
-            {"shape": "quad", "material": "mirror", "width": 60, "depth": 60}
-            | {"transform": [{"rotate": {"axis": [0, 0, 1], "degrees": -90}}]},
-        ],
-        lights=[LAMP | {"radiance": 3, "visible": False, "two_sided": two_sided}],
-        sampler={"type": "random", "samples": 64},
-        integrator=PATHS | {"max_depth": 3},
-    )
-    share = skies.form_factor(CORNERS - point, np.array([0.0, 1.0, 0.0]))
+    lamp = RECTANGLE | {"radiance": 3, "visible": False, "two_sided": two_sided}
+    scene = over_a_floor(make_scene, [MIRROR], [lamp], PATHS | {"max_depth": 3})
     # The camera looks through where it is: nothing stands there.
-    assert_mean(render(scene, size=(64, 64)), 0.5 * 3 * share)
+    assert_mean(render(scene, spp=64), 0.5 * 3 * share())
 
 
 def test_a_light_that_is_not_visible_is_not_seen(make_scene: MakeScene) -> None:
@@ -139,7 +113,7 @@ def test_a_light_that_is_not_visible_is_not_seen(make_scene: MakeScene) -> None:
             camera=camera,
             materials={"m": {}},
             objects=[WALL | {"transform": [{"translate": [0, -5, 0]}]}],
-            lights=[LAMP | {"radiance": 3, "visible": visible}],
+            lights=[RECTANGLE | {"radiance": 3, "visible": visible}],
             integrator=PATHS,
         )
         assert (render(scene).linear == (3 if visible else 0)).all()
