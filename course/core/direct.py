@@ -20,7 +20,7 @@ from course.core.materials import Lookup, MaterialTable
 from course.core.motion import Motion
 from course.core.rays import Draws
 from course.core.types import Floats32, Indices, Mask
-from course.core.vectors import dot
+from course.core.vectors import dot, repeated
 
 NEARLY_ALL = 0.5
 """If at least this share of the hits are candidates, arrays have a column for every hit: computing all is faster
@@ -122,7 +122,7 @@ class DirectLight:
 
     def _points(self, hits: Hits, light: Light) -> Floats32:
         """Points (3, n) for which the light is sampled: origins of the shadow rays."""
-        return self._as_if_still(hits.above, hits, light)
+        return self._as_if_still(hits.near_origin, hits, light)
 
     def _as_if_still(self, points: Floats32, hits: Hits, light: Light) -> Floats32:
         """Points (3, n) in the frame of a moving light: shifted back by its displacement."""
@@ -145,7 +145,7 @@ class DirectLight:
         index = np.flatnonzero(mask)
         if len(index) == 0:
             return None
-        origin, to_light, inverse_length = hits.above, sample.to_light, sample.inverse_length
+        origin, to_light, inverse_length = hits.near_origin, sample.to_light, sample.inverse_length
         if len(index) == hits.size:
             return Candidates(
                 index, None, None, irradiance, cosine, origin, to_light, inverse_length
@@ -202,9 +202,7 @@ class DirectLight:
 
     def _to_light(self, light: Light, hits: Hits, candidates: Candidates) -> Floats32:
         """Vectors (3, k) of the shadow rays to the light."""
-        n = candidates.origin.shape[1]
-        to_light = candidates.to_light
-        return to_light if to_light.shape[1] == n else np.repeat(to_light, n, axis=1)
+        return repeated(candidates.to_light, candidates.origin.shape[1])
 
     def _turned_away(
         self, hits: Hits, candidates: Candidates, to_light: Floats32, most: np.float32

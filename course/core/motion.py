@@ -15,6 +15,7 @@ import numpy as np
 from course.core.embree import EmbreeAccelerator, Intersections, QueryStats
 from course.core.functions import Functions
 from course.core.types import Floats32, Mask, Numbers
+from course.core.vectors import repeated
 
 NEARLY_ALL = 0.9
 """If at least this share of the rays is unblocked, testing all rays is cheaper than copying the unblocked ones."""
@@ -31,11 +32,12 @@ class Motion:
     """
 
     motion_blur: Functions
-    camera_velocity: Floats32 | None
+    camera_velocity: Floats32 | None = None
 
     def moved(self, velocity: Floats32, time: Floats32) -> Floats32:
         """Displacement (3, N) float32 at times (N,)."""
-        return moved(self.motion_blur, velocity, time)
+        displacement: Floats32 = self.motion_blur.displacement(velocity, time)
+        return displacement
 
 
 @dataclass(frozen=True)
@@ -54,7 +56,7 @@ class MovingAccelerator:
 
     static: EmbreeAccelerator
     movers: tuple[Mover, ...]
-    motion_blur: Functions
+    motion: Motion
 
     def intersect(
         self,
@@ -69,7 +71,7 @@ class MovingAccelerator:
         """See ``Accelerator.intersect``."""
         assert time is not None
         found = self.static.intersect(origin, direction, stats, coherent=coherent)
-        origin = _each_its_own(origin, direction.shape[1])
+        origin = repeated(origin, direction.shape[1])
         for mover in self.movers:
             other = mover.accelerator.intersect(
                 self._shifted(origin, mover, time),
@@ -101,7 +103,7 @@ class MovingAccelerator:
         free = self.static.unoccluded(origin, direction, limit, stats, asked=asked)
         if asked is not None:
             free &= asked
-        origin = _each_its_own(origin, direction.shape[1])
+        origin = repeated(origin, direction.shape[1])
         for mover in self.movers:
             # Only rays that are still unblocked need this test; see NEARLY_ALL.
             unblocked = np.flatnonzero(free)
@@ -119,7 +121,7 @@ class MovingAccelerator:
 
     def _shifted(self, origin: Floats32, mover: Mover, time: Floats32) -> Floats32:
         """Origins (3, N) in the mover's frame."""
-        shifted: Floats32 = self.motion_blur.to_object_space(origin, mover.velocity, time)
+        shifted: Floats32 = self.motion.motion_blur.to_object_space(origin, mover.velocity, time)
         return shifted
 
     def follow(self, points: Floats32, triangle: Numbers, time: Floats32) -> None:
@@ -127,14 +129,4 @@ class MovingAccelerator:
         for mover in self.movers:
             which = np.flatnonzero((triangle >= mover.first) & (triangle < mover.last))
             if len(which):
-                points[:, which] += moved(self.motion_blur, mover.velocity, time.take(which))
-
-
-def moved(motion_blur: Functions, velocity: Floats32, time: Floats32) -> Floats32:
-    """Displacement (3, N) float32 at times (N,)."""
-    displacement: Floats32 = motion_blur.displacement(velocity, time)
-    return displacement
-
-
-def _each_its_own(origin: Floats32, n: int) -> Floats32:
-    return origin if origin.shape[1] == n else np.repeat(origin, n, axis=1)
+                points[:, which] += self.motion.moved(mover.velocity, time.take(which))

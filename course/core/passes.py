@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Protocol
 
 from course.core.samplers import Sampler
+from course.core.scene import Settings
 from course.core.tiles import RAYS, Area, Tile, halves, tile_picture
 
 PASS = 16
@@ -18,22 +18,6 @@ PASS = 16
 
 SHARES = 2
 """A piece of work is at most 1 / SHARES of a thread's share of the remaining work."""
-
-
-class Sampling(Protocol):
-    """Size of a picture [pixels], and samples per pixel."""
-
-    @property
-    def width(self) -> int:
-        """Pixels in a row."""
-
-    @property
-    def height(self) -> int:
-        """Pixels in a column."""
-
-    @property
-    def samples(self) -> int:
-        """Samples per pixel."""
 
 
 @dataclass(frozen=True)
@@ -63,13 +47,13 @@ def fair_share(remaining: int, threads: int) -> int:
     return remaining // (SHARES * max(threads, 1))
 
 
-def pass_size(settings: Sampling, sampler: Sampler) -> int:
+def pass_size(settings: Settings, sampler: Sampler) -> int:
     """Samples per pixel in one pass."""
     return min(settings.samples, PASS) if sampler.extensible else settings.samples
 
 
 def passes(
-    settings: Sampling, sampler: Sampler, done: int = 0, batches: int = 1, threads: int = 1
+    settings: Settings, sampler: Sampler, done: int = 0, batches: int = 1, threads: int = 1
 ) -> Iterator[Work]:
     """The work of a render, pass by pass.
 
@@ -100,7 +84,7 @@ def passes(
                 yield Work(part, order, first, samples, whole, pixels=tile.size)
 
 
-def preview(settings: Sampling, samples: int) -> list[Work]:
+def preview(settings: Settings, samples: int) -> list[Work]:
     """A quick pass over the whole picture, which later passes replace."""
     return [
         Work(tile, 0, 0, samples, False)

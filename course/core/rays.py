@@ -24,7 +24,7 @@ class Rays:
     ----------
     origin : (3, n) float32, or (3, 1) if shared
     direction : (3, n) float32, unit length
-    throughput : (3, n) float32, share of a ray's radiance that reaches the film; None for 1
+    throughput : (3, n) float32, share of a ray's radiance that reaches the picture; None for 1
     path : (n,) number of the path in the block; None for one ray per path, in order
     medium : (n,) int16, material that the ray is in, or OPEN; None if nothing absorbs, and for camera rays
     time : (n,) float32 since the shutter opened, in exposures; None if nothing moves
@@ -96,9 +96,6 @@ class Dimensions:
             if width:
                 self.width[name], self._first[name] = width, self._next
                 self._next += width + width % 2
-
-    def __contains__(self, name: str) -> bool:
-        return name in self.width
 
     def first(self, name: str, depth: int) -> int:
         """First dimension of a name at a depth."""

@@ -22,7 +22,7 @@ Gems II, ch. 4, moves the point to the tangent planes instead, twice as high.)
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -30,7 +30,7 @@ from numpy.typing import NDArray
 
 from course.core.embree import Accelerator, EmbreeAccelerator
 from course.core.functions import Functions
-from course.core.motion import Mover, MovingAccelerator
+from course.core.motion import Motion, Mover, MovingAccelerator
 from course.core.ray_offset import offset_and_inset
 from course.core.types import Floats, Floats32, Floats64, Materials, Numbers
 from course.core.vectors import cross, dot
@@ -48,6 +48,25 @@ FAINTEST = 2.0**-24
 Velocity = tuple[float, float, float]
 
 STILL: Velocity = (0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """Triangles over shared vertices.
+
+    Attributes
+    ----------
+    vertices : (V, 3) float64 [m]
+    triangles : (T, 3) integer, counter-clockwise seen from outside: cross(p1 - p0, p2 - p0) points outwards
+    normals : (V, 3) float64 shading normals, not 0; None for flat shading. Unit vectors, unless the mesh has been
+        stretched unevenly: longer ones then weigh more (`course.formats.meshes.transforms.apply`)
+    uv : (V, 2) float64 texture coordinates or None
+    """
+
+    vertices: NDArray[np.float64]
+    triangles: NDArray[np.integer]
+    normals: NDArray[np.float64] | None = None
+    uv: NDArray[np.float64] | None = None
 
 
 @dataclass(frozen=True)
@@ -133,23 +152,16 @@ def make_tables(parts: Sequence[Part], least_offset: float = 0.0) -> list[Tables
 
 def join_tables(tables: Sequence[Tables], bulges: bool = True) -> Triangles:
     """The triangles of all parts; without ``bulges``, shadow rays start from the flat triangles."""
-    smooth = tables[0].corner_normals.size > 0 or any(
-        t.part.mesh.normals is not None for t in tables
-    )
-
-    def joined(rows: Callable[[Tables], Floats32]) -> Floats32:
-        return np.concatenate([rows(table) for table in tables])
-
+    smooth = any(t.part.mesh.normals is not None for t in tables)
+    materials = [np.full(len(t.triangles), t.part.material, np.uint16) for t in tables]
     return Triangles(
-        planes=joined(lambda table: table.planes),
-        edges=joined(lambda table: table.edges),
-        inset=joined(lambda table: table.inset),
-        corner_normals=joined(lambda table: table.corner_normals) if smooth else None,
-        bulge=joined(lambda table: table.bulge) if smooth and bulges else None,
-        largest_sine=max(table.largest_sine for table in tables),
-        material=np.concatenate(
-            [np.full(len(table.triangles), table.part.material, np.uint16) for table in tables]
-        ),
+        planes=np.concatenate([t.planes for t in tables]),
+        edges=np.concatenate([t.edges for t in tables]),
+        inset=np.concatenate([t.inset for t in tables]),
+        corner_normals=np.concatenate([t.corner_normals for t in tables]) if smooth else None,
+        bulge=np.concatenate([t.bulge for t in tables]) if smooth and bulges else None,
+        largest_sine=max(t.largest_sine for t in tables),
+        material=np.concatenate(materials),
         parts=tuple((len(t.vertices), len(t.triangles), t.part.convex) for t in tables),
     )
 
@@ -163,7 +175,7 @@ def accelerate(tables: Sequence[Tables], motion_blur: Functions | None = None) -
     if not groups:
         return static
     assert motion_blur is not None
-    return MovingAccelerator(static, tuple(_movers(groups, tables)), motion_blur)
+    return MovingAccelerator(static, tuple(_movers(groups, tables)), Motion(motion_blur))
 
 
 def vertices_and_triangles(tables: Sequence[Tables]) -> tuple[Floats32, Numbers]:
@@ -244,22 +256,3 @@ def _at_corners(normals: Floats64, triangles: NDArray[np.integer]) -> tuple[Floa
 def _table(*rows: Floats) -> Floats32:
     """Float64 rows, together (k, T), as a float32 table (T, k)."""
     return np.ascontiguousarray(np.concatenate(rows).T, np.float32)
-
-
-@dataclass(frozen=True)
-class Mesh:
-    """Triangles over shared vertices.
-
-    Attributes
-    ----------
-    vertices : (V, 3) float64 [m]
-    triangles : (T, 3) integer, counter-clockwise seen from outside: cross(p1 - p0, p2 - p0) points outwards
-    normals : (V, 3) float64 shading normals, not 0; None for flat shading. Unit vectors, unless the mesh has been
-        stretched unevenly: longer ones then weigh more (`course.formats.meshes.transforms.apply`)
-    uv : (V, 2) float64 texture coordinates or None
-    """
-
-    vertices: NDArray[np.float64]
-    triangles: NDArray[np.integer]
-    normals: NDArray[np.float64] | None = None
-    uv: NDArray[np.float64] | None = None

@@ -31,6 +31,11 @@ def reflect(direction: Floats, normal: Floats) -> Floats:
     return direction - twice * normal
 
 
+def repeated(values: Floats32, n: int) -> Floats32:
+    """Values (k, n) as they are, or the one column (k, 1) n times."""
+    return values if values.shape[1] == n else np.repeat(values, n, axis=1)
+
+
 def gather(table: Floats32, number: NDArray[np.integer[Any]]) -> Floats32:
     """Rows ``number`` (N,) of a table (T, k) float32 as columns (k, N): a C-contiguous copy."""
     return np.ascontiguousarray(table.take(number, axis=0).T)

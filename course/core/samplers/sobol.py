@@ -171,10 +171,10 @@ def shuffled(index: Words, orders: int) -> Words:
     order = np.arange(orders, dtype=np.uint32)
     result = np.repeat(index[None], orders, axis=0)
     for bit in range(int(index.max(initial=0)).bit_length()):
-        above = index >> np.uint32(bit + 1)
-        keys = hash_words(order, combine(bit))[0][:, None] ^ above
+        higher_bits = index >> np.uint32(bit + 1)
+        keys = hash_words(order, combine(bit))[0][:, None] ^ higher_bits
         chance = hash_words(keys.ravel(), combine(bit, 1)).reshape(keys.shape)
-        result ^= (chance & np.uint32(1)) * (above > 0) << np.uint32(bit)
+        result ^= (chance & np.uint32(1)) * (higher_bits > 0) << np.uint32(bit)
     return result
 
 

@@ -19,15 +19,17 @@ PIXEL = 0
 """First of the pixel's two dimensions."""
 
 
-class RandomSampler(Sampler):
+class _ClassicSampler(Sampler):
+    def __init__(self, seed: int, supersampling: Functions) -> None:
+        self._seed = seed
+        self._supersampling = supersampling
+
+
+class RandomSampler(_ClassicSampler):
     """Independent uniform numbers."""
 
     name = "random"
     extensible = True
-
-    def __init__(self, seed: int, supersampling: Functions) -> None:
-        self._seed = seed
-        self._supersampling = supersampling
 
     def draw(self, block: Block, dimension: int, width: int) -> Floats32:
         """See Sampler.draw."""
@@ -39,15 +41,11 @@ class RandomSampler(Sampler):
         return rng.random((width, block.size), np.float32)
 
 
-class JitteredSampler(Sampler):
+class JitteredSampler(_ClassicSampler):
     """Stratified numbers: one sample of a pixel per stratum."""
 
     name = "jittered"
     extensible = False
-
-    def __init__(self, seed: int, supersampling: Functions) -> None:
-        self._seed = seed
-        self._supersampling = supersampling
 
     def draw(self, block: Block, dimension: int, width: int) -> Floats32:
         """See Sampler.draw; block.samples is a square number."""
@@ -72,15 +70,11 @@ class JitteredSampler(Sampler):
         return u.reshape(width, block.size)
 
 
-class RegularSampler(Sampler):
+class RegularSampler(_ClassicSampler):
     """Centres of equal strata, the same in every pixel: pure aliasing."""
 
     name = "regular"
     extensible = False
-
-    def __init__(self, seed: int, supersampling: Functions) -> None:
-        self._seed = seed
-        self._supersampling = supersampling
 
     def draw(self, block: Block, dimension: int, width: int) -> Floats32:
         """See Sampler.draw; block.samples is a square number."""
