@@ -123,7 +123,12 @@ class CornerFilm:
         return work
 
     def add(
-        self, tile: CornerGroup, mean: Floats32, weight: Floats32 | float, samples: int, whole: bool
+        self,
+        tile: CornerGroup,
+        mean: Floats32,
+        weight: Floats32 | float,
+        samples: int,
+        summed: bool,
     ) -> None:
         """Take in the radiance (3, n) of a group's corners."""
         self._arrived[:, tile.start : tile.start + tile.size] = mean

@@ -61,7 +61,7 @@ class AdaptiveFilm:
         self._twins: dict[int, tuple[Indices, Floats64, Floats32]] = {}
 
     def add(
-        self, group: Area, mean: Floats32, weight: Floats32 | float, samples: int, whole: bool
+        self, group: Area, mean: Floats32, weight: Floats32 | float, samples: int, summed: bool
     ) -> None:
         """Add one stretch of samples of some pixels.
 
@@ -73,13 +73,13 @@ class AdaptiveFilm:
             pixel cost
         weight : (n * PARTS,) float32 or one number
         samples : how many samples of each pixel the picture holds with this stretch
-        whole : false for a preview without parts, (3, n), which later stretches replace
+        summed : false for a preview without parts, (3, n), which later stretches replace
         """
         if isinstance(group, TwinGroup):
             self._add_twins(group, mean, weight, samples)
             return
         which, n = group.pixel_numbers(self.width).astype(np.intp), group.size
-        if not whole:
+        if not summed:
             self.linear.reshape(3, -1)[:, which] = mean
             return
         compared = _Compared(mean, weight, n)

@@ -93,7 +93,7 @@ class _Compiler:
                 color = self._color(power)
                 whole = light.shadow_rays == "whole"
                 velocity = self._velocity(light)
-                return [PointLight(self.name, position, color, velocity=velocity, whole=whole)]
+                return [PointLight(self.name, position, color, velocity=velocity, blockable=whole)]
             case d.DirectionalLight():
                 direction = np.array(light.direction) / np.abs(light.direction).max()
                 towards = -direction / np.linalg.norm(direction)

@@ -114,7 +114,7 @@ class Cluster(Executor):
                         pending[future.key] = future, piece
                         future.add_done_callback(ended.put)
                 if not pending or self.seconds_left < -GRACE:
-                    run.whole = not more and not pending
+                    run.complete = not more and not pending
                     break
                 ready = [pending.pop(future.key) for future in arrived(ended)]
                 found = self._connection.gather(

@@ -17,7 +17,7 @@ from course.core.embree import (
     EmbreeAccelerator,
     Intersections,
     QueryStats,
-    nothing_met,
+    no_hits,
 )
 from course.core.motion import MovingAccelerator
 from course.core.types import Floats32, Indices, Mask
@@ -61,7 +61,7 @@ class PacketAccelerator(EmbreeAccelerator):
         """See ``EmbreeAccelerator``; ``excluded`` (N,) is the convex object that each ray leaves."""
         n = direction.shape[1]
         if self.packets is None or n == 0:
-            return nothing_met(n)
+            return no_hits(n)
         start = perf_counter()
         far = _FAR if limit is None else limit
         which = None
@@ -88,7 +88,7 @@ class PacketAccelerator(EmbreeAccelerator):
     ) -> Intersections:
         """Nearest hits of some rays (m,) of (3, N): copies in one piece are faster than to pick them out."""
         assert self.packets is not None
-        found = nothing_met(direction.shape[1])
+        found = no_hits(direction.shape[1])
         start = origin if origin.shape[1] == 1 else origin.take(which, axis=1)
         far = limit if len(limit) == 1 else limit.take(which)
         arrays = self.packets.intersect(start, direction.take(which, axis=1), far, coherent)
@@ -104,7 +104,7 @@ class PacketAccelerator(EmbreeAccelerator):
         stats: QueryStats,
         time: Floats32 | None = None,
         *,
-        asked: Mask | None = None,
+        active: Mask | None = None,
     ) -> Mask:
         """See ``EmbreeAccelerator``."""
         n = direction.shape[1]

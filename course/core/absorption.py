@@ -58,7 +58,7 @@ class Absorption:
             return throughput
         length = _lengths(rays, hits, which)
         if of_camera and self.camera.near:
-            length = length + self.camera.way_to_near_plane(hits.direction).take(which)
+            length = length + self.camera.distance_to_near_plane(hits.direction).take(which)
         transmittance = np.exp(-self.coefficient(through.take(which)) * length)
         result = np.ones((3, hits.size), np.float32) if throughput is None else throughput.copy()
         result[:, which] *= transmittance

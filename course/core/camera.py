@@ -108,7 +108,7 @@ class Camera:
         if moved is not None:
             origin = origin + moved
         if self.near:
-            origin = origin + direction * self.way_to_near_plane(direction)
+            origin = origin + direction * self.distance_to_near_plane(direction)
         return origin, direction
 
     def directions(self, x: Floats32, y: Floats32) -> Floats32:
@@ -120,9 +120,9 @@ class Camera:
         direction *= np.divide(np.float32(1), length, out=length)
         return direction
 
-    def way_to_near_plane(self, direction: Floats32) -> Floats32:
+    def distance_to_near_plane(self, direction: Floats32) -> Floats32:
         """Distance from depth 0 to depth ``near`` along unit directions (3, N), (N,) float32."""
         # In the widest fields of view the forward component can round to 0.
         forwards = np.maximum(dot(self.forward[:, None], direction), np.float32(1e-12))
-        way: Floats32 = np.divide(np.float32(self.near), forwards)
-        return way
+        distance: Floats32 = np.divide(np.float32(self.near), forwards)
+        return distance

@@ -22,7 +22,7 @@ from course.core.rays import Draws
 from course.core.types import Floats32, Indices, Mask
 from course.core.vectors import dot, repeated
 
-NEARLY_ALL = 0.5
+DENSE = 0.5
 """If at least this share of the hits are candidates, arrays have a column for every hit: computing all is faster
 than copying the candidates. Median time relative to copying, in paired renders on one thread without Embree's time: .95
 with direct light, .96 with gloss, .97 with soft shadows, .98 with path tracing. Any share from .2 to .8 will do."""
@@ -151,7 +151,7 @@ class DirectLight:
                 index, None, None, irradiance, cosine, origin, to_light, inverse_length
             )
         # A NaN would survive the clamp, and the multiplication by a visibility of 0.
-        if len(index) >= NEARLY_ALL * hits.size and np.isfinite(irradiance.min()):
+        if len(index) >= DENSE * hits.size and np.isfinite(irradiance.min()):
             np.maximum(irradiance, 0, out=irradiance)
             return Candidates(
                 index, None, mask, irradiance, cosine, origin, to_light, inverse_length
@@ -174,7 +174,7 @@ class DirectLight:
         origin = candidates.origin
         to_light = self._to_light(light, hits, candidates)
         if triangles.bulge is None:
-            return unoccluded(origin, to_light, light.limit, stats, time, asked=mask)
+            return unoccluded(origin, to_light, light.limit, stats, time, active=mask)
         # `largest_sine` bounds the sine of the angle between shading and geometric normal. Where the cosine
         # to the light is larger than that, the facet faces the light, as its shading normal does.
         most = np.float32(triangles.largest_sine + ROUNDING)
@@ -182,7 +182,7 @@ class DirectLight:
         height = bulge(triangles, hits, candidates.hit(column))
         raised = np.flatnonzero(height)
         if len(raised) == 0:
-            return unoccluded(origin, to_light, light.limit, stats, time, asked=mask)
+            return unoccluded(origin, to_light, light.limit, stats, time, active=mask)
         column = column.take(raised)
         up = hits.ns.take(candidates.hit(column), axis=1) * height.take(raised)
         foot = origin.take(column, axis=1)
@@ -190,13 +190,13 @@ class DirectLight:
         when = None if time is None else time.take(column)
         free_above = unoccluded(foot, up, 1.0, stats, when)
         # Changed in place and restored: few hits are raised, so copying all would cost more.
-        way = to_light.take(column, axis=1)
+        unraised = to_light.take(column, axis=1)
         origin[:, column] = foot + up
         if light.limit <= TO_THE_LIGHT:
             to_light[:, column] -= up
-        free = unoccluded(origin, to_light, light.limit, stats, time, asked=mask)
+        free = unoccluded(origin, to_light, light.limit, stats, time, active=mask)
         origin[:, column] = foot
-        to_light[:, column] = way
+        to_light[:, column] = unraised
         free[column] &= free_above
         return free
 

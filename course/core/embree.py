@@ -87,7 +87,7 @@ class Accelerator(Protocol):
         stats: QueryStats,
         time: Floats32 | None = None,
         *,
-        asked: Mask | None = None,
+        active: Mask | None = None,
     ) -> Mask:
         """(N,) bool, true where nothing lies between origin and origin + limit * direction.
 
@@ -95,7 +95,7 @@ class Accelerator(Protocol):
         ----------
         origin, direction, stats, time : see ``intersect``
         limit : [lengths of the direction]
-        asked : (N,) the rays to test, None for all; results of the others are undefined
+        active : (N,) the rays to test, None for all; results of the others are undefined
         """
 
 
@@ -135,7 +135,7 @@ class EmbreeAccelerator:
         """See ``Accelerator.intersect``; hits beyond ``limit`` (N,) float32 don't count."""
         n = direction.shape[1]
         if len(self.triangles) == 0 or n == 0:
-            return nothing_met(n)
+            return no_hits(n)
         # Embree overwrites the limits.
         limits = None if limit is None else limit.copy()
         scene = self._built()
@@ -152,14 +152,14 @@ class EmbreeAccelerator:
         stats: QueryStats,
         time: Floats32 | None = None,
         *,
-        asked: Mask | None = None,
+        active: Mask | None = None,
     ) -> Mask:
         """See ``Accelerator.unoccluded``."""
         n = direction.shape[1]
         if len(self.triangles) == 0 or n == 0:
             return np.ones(n, np.bool_)
         # Embree skips rays with a negative limit.
-        limits = limit if asked is None else np.where(asked, np.float32(limit), np.float32(-1))
+        limits = limit if active is None else np.where(active, np.float32(limit), np.float32(-1))
         scene = self._built()
         start = perf_counter()
         blocked = scene.run(_rows(origin, n), direction.T, limits, query="OCCLUDED")
@@ -167,7 +167,7 @@ class EmbreeAccelerator:
         return blocked < 0  # type: ignore[no-any-return]
 
 
-def nothing_met(n: int) -> Intersections:
+def no_hits(n: int) -> Intersections:
     """Intersections of n rays that hit nothing."""
     u, v = np.zeros((2, n), np.float32)
     return Intersections(np.full(n, -1, np.int32), u, v, np.full(n, NO_HIT, np.float32))

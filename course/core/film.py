@@ -31,7 +31,7 @@ class AnyFilm(Protocol):
     samples: Numbers
 
     def add(
-        self, tile: Any, mean: Floats32, weight: Floats32 | float, samples: int, whole: bool
+        self, tile: Any, mean: Floats32, weight: Floats32 | float, samples: int, summed: bool
     ) -> None:
         """Add one piece; see ``Film.add``."""
 
@@ -50,7 +50,7 @@ class Film:
         self._weight = np.zeros((height, width))
 
     def add(
-        self, tile: Tile, mean: Floats32, weight: Floats32 | float, samples: int, whole: bool
+        self, tile: Tile, mean: Floats32, weight: Floats32 | float, samples: int, summed: bool
     ) -> None:
         """Add one pass of a tile.
 
@@ -59,7 +59,7 @@ class Film:
         mean : (3, n) float32, radiance of the tile's n pixels, row by row
         weight : (n,) float32 or one number
         samples : of each pixel, this pass included
-        whole : true if the pass enters the sums; a partial pass is the last
+        summed : true if the pass enters the sums; a partial pass, which is the last, doesn't
         """
         rows, columns = tile.rows, tile.columns
         shape = (tile.height, tile.width)
@@ -67,7 +67,7 @@ class Film:
         w = np.maximum(w, _NEARLY_NOTHING)
         total = self._sum[:, rows, columns] + mean.reshape(3, *shape) * w
         total_weight = self._weight[rows, columns] + w
-        if whole:
+        if summed:
             self._sum[:, rows, columns] = total
             self._weight[rows, columns] = total_weight
         self.linear[:, rows, columns] = total / total_weight

@@ -108,12 +108,12 @@ class Surface:
         stuck = np.flatnonzero((found.t <= 0) & (found.triangle >= 0))
         if len(stuck) == 0:
             return found
-        way = direction.take(stuck, axis=1)
+        onward = direction.take(stuck, axis=1)
         start = origin if origin.shape[1] == 1 else origin.take(stuck, axis=1)
         when = None if time is None else time.take(stuck)
         step = self.triangles.planes[found.triangle.take(stuck), 6]
-        start = start + way * np.maximum(step, np.float32(OFFSET))
-        again = self.camera_accelerator.intersect(start, way, stats, when)
+        start = start + onward * np.maximum(step, np.float32(OFFSET))
+        again = self.camera_accelerator.intersect(start, onward, stats, when)
         for mine, theirs in (
             (found.triangle, again.triangle),
             (found.u, again.u),

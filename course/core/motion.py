@@ -17,7 +17,7 @@ from course.core.functions import Functions
 from course.core.types import Floats32, Mask, Numbers
 from course.core.vectors import repeated
 
-NEARLY_ALL = 0.9
+MOSTLY_UNBLOCKED = 0.9
 """If at least this share of the rays is unblocked, testing all rays is cheaper than copying the unblocked ones."""
 
 
@@ -96,21 +96,21 @@ class MovingAccelerator:
         stats: QueryStats,
         time: Floats32 | None = None,
         *,
-        asked: Mask | None = None,
+        active: Mask | None = None,
     ) -> Mask:
         """See ``Accelerator.unoccluded``."""
         assert time is not None
-        free = self.static.unoccluded(origin, direction, limit, stats, asked=asked)
-        if asked is not None:
-            free &= asked
+        free = self.static.unoccluded(origin, direction, limit, stats, active=active)
+        if active is not None:
+            free &= active
         origin = repeated(origin, direction.shape[1])
         for mover in self.movers:
-            # Only rays that are still unblocked need this test; see NEARLY_ALL.
+            # Only rays that are still unblocked need this test; see MOSTLY_UNBLOCKED.
             unblocked = np.flatnonzero(free)
             if len(unblocked) == 0:
                 break
             start, toward, when = origin, direction, time
-            if len(unblocked) < NEARLY_ALL * len(free):
+            if len(unblocked) < MOSTLY_UNBLOCKED * len(free):
                 start, toward = origin.take(unblocked, axis=1), direction.take(unblocked, axis=1)
                 when = time.take(unblocked)
             else:

@@ -28,7 +28,7 @@ class Work:
     ----------
     order : number of the pass; the film adds the passes of a tile in order
     first, samples : first sample and number of samples of each pixel
-    whole : true if the pass enters the film's sums
+    summed : true if the pass enters the film's sums
     parts : number of equal parts of each pixel's samples, each with its own mean
     pixels : number of pixels in the whole tile; None if this work is the whole tile
     """
@@ -37,7 +37,7 @@ class Work:
     order: int
     first: int
     samples: int
-    whole: bool
+    summed: bool
     parts: int = 1
     pixels: int | None = None
 
@@ -72,7 +72,7 @@ def passes(
     remaining = settings.width * settings.height * len(starts)
     for order, first in enumerate(starts):
         samples = min(size, settings.samples - first)
-        whole = samples == PASS or not sampler.extensible
+        summed = samples == PASS or not sampler.extensible
         for tile in tiles:
             waiting: list[Tile] = [tile]
             while waiting:
@@ -81,7 +81,7 @@ def passes(
                     waiting += halves(part)[::-1]
                     continue
                 remaining -= part.size
-                yield Work(part, order, first, samples, whole, pixels=tile.size)
+                yield Work(part, order, first, samples, summed, pixels=tile.size)
 
 
 def preview(settings: Settings, samples: int) -> list[Work]:

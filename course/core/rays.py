@@ -63,7 +63,7 @@ class Rays:
         return Rays(**kept)
 
 
-def joined(batches: Sequence[Rays]) -> Rays:
+def join_rays(batches: Sequence[Rays]) -> Rays:
     """Join batches: one costs less than several small ones. An attribute must be None in all batches or in none."""
 
     def columns(name: str) -> Any:

@@ -53,9 +53,9 @@ def render(
                 share = done + (after - done) * count / pieces
                 progress(max(share, executor.elapsed), covered or count_first >= first_pass)
 
-        whole = executor.run(work, film, tick)
-        covered = covered or whole
-        return whole
+        complete = executor.run(work, film, tick)
+        covered = covered or complete
+        return complete
 
     return schedule.render(run, executor)
 

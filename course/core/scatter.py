@@ -10,7 +10,7 @@ from course.core.fresnel import fresnel_and_cos_t, refract
 from course.core.gloss import Gloss
 from course.core.hits import Hits, Surface
 from course.core.materials import Lookup
-from course.core.rays import OPEN, Draws, Rays, joined
+from course.core.rays import OPEN, Draws, Rays, join_rays
 from course.core.types import Floats32, Indices, Media
 from course.core.vectors import dot, reflect
 
@@ -104,7 +104,7 @@ class Scatter:
         refracted = self._refracted(hits, through, boundary, path, medium, depth, draws)
         if reflected is None or refracted is None:
             return reflected or refracted
-        return joined([reflected, refracted])
+        return join_rays([reflected, refracted])
 
     def reflectance(self, hits: Hits, which: Indices | None) -> Floats32:
         """Mirror reflectance (3, m) or (3, 1) at the given hits (None: all); ``boundary`` has Fresnel's."""
@@ -131,14 +131,14 @@ class Scatter:
     ) -> Floats32:
         """Reflected directions (3, m) at the given hits (path: (m,)), never into the surface."""
         ng = hits.ng.take(which, axis=1)
-        way = self._mirror_images(hits, which, ng)
+        mirrored = self._mirror_images(hits, which, ng)
         if self.gloss is None:
-            return way
-        return self.gloss(hits.material.take(which), way, ng, path, depth, draws)
+            return mirrored
+        return self.gloss(hits.material.take(which), mirrored, ng, path, depth, draws)
 
     def _mirror_images(self, hits: Hits, which: Indices, ng: Floats32) -> Floats32:
-        way = reflect(hits.direction.take(which, axis=1), hits.ns.take(which, axis=1))
-        return kept_above(way, ng)
+        mirrored = reflect(hits.direction.take(which, axis=1), hits.ns.take(which, axis=1))
+        return kept_above(mirrored, ng)
 
     def refracted(
         self,
@@ -151,8 +151,8 @@ class Scatter:
     ) -> Floats32:
         """Refracted directions (3, m) at the given hits; boundary and path are those of the m hits."""
         direction, ns = hits.direction.take(which, axis=1), hits.ns.take(which, axis=1)
-        way = refract(direction, ns, boundary.cos_i, boundary.cos_t, boundary.eta)
-        return kept_above(way, -hits.ng.take(which, axis=1))
+        refracted = refract(direction, ns, boundary.cos_i, boundary.cos_t, boundary.eta)
+        return kept_above(refracted, -hits.ng.take(which, axis=1))
 
     def beyond(self, hits: Hits, which: Indices) -> Media:
         """Medium (m,) of rays refracted at the given hits."""

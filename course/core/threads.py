@@ -50,7 +50,7 @@ class Execution:
     working : number of threads that haven't ended
     finished : set when all threads have ended
     stop : true if threads shall stop
-    whole : true if all work was done
+    complete : true if all work was done
     error : raised by a thread
     """
 
@@ -60,7 +60,7 @@ class Execution:
         self.lock = threading.Lock()
         self.working = threads
         self.finished = threading.Event()
-        self.stop = self.whole = False
+        self.stop = self.complete = False
         self.error: BaseException | None = None
 
 
@@ -130,7 +130,7 @@ class Executor(ABC):
         if run.error is not None:
             raise run.error
         tick(run.film.done, run.film.done_first)
-        return run.whole
+        return run.complete
 
     def _worker(self, run: Execution) -> None:
         try:
@@ -206,7 +206,7 @@ class Pool(Executor):
             return None
         with run.lock:
             work = next(run.work, None)
-            run.whole = run.whole or work is None
+            run.complete = run.complete or work is None
             return work
 
 
@@ -251,7 +251,7 @@ class InOrder:
                     self._adding.discard(tile)
                     return
                 item, pixels, weight = ready.pop()
-            self._film.add(item.tile, pixels, weight, item.first + item.samples, item.whole)
+            self._film.add(item.tile, pixels, weight, item.first + item.samples, item.summed)
             size = item.tile.size
             with self._lock:
                 self.done += 1

@@ -83,7 +83,7 @@ class HierarchyAccelerator:
         stats: QueryStats,
         time: Floats32 | None = None,
         *,
-        asked: Mask | None = None,
+        active: Mask | None = None,
     ) -> Mask:
         """Whether nothing lies between origin and origin + limit * direction; see ``Accelerator.unoccluded``.
 
@@ -92,10 +92,10 @@ class HierarchyAccelerator:
         EffectError
             A function returned something else than its contract says.
         """
-        if asked is not None:
-            which = np.flatnonzero(asked)
-            free = np.ones(len(asked), np.bool_)
-            rays = _columns(origin, len(asked)).take(which, axis=1), direction.take(which, axis=1)
+        if active is not None:
+            which = np.flatnonzero(active)
+            free = np.ones(len(active), np.bool_)
+            rays = _columns(origin, len(active)).take(which, axis=1), direction.take(which, axis=1)
             free[which] = self.unoccluded(*rays, limit, stats)
             return free
         triangle, t, *_ = self._nearest(origin, direction, stats)

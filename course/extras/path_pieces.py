@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from course.core.rays import Draws, Rays, joined
+from course.core.rays import Draws, Rays, join_rays
 from course.core.tiles import RAYS, spread_pixels
 from course.core.types import Floats32, Mask
 
@@ -95,7 +95,7 @@ class Pieces:
                     for piece in pieces
                 ]
             )
-        return self._piece(joined(numbered), adds_lights, pixels)
+        return self._piece(join_rays(numbered), adds_lights, pixels)
 
     def _piece(self, rays: Rays, adds_lights: Mask | None, pixels: slice) -> Piece:
         block = self._draws.block

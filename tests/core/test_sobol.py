@@ -8,7 +8,13 @@ import numpy as np
 import pytest
 from scipy.stats import qmc
 
-from course.core.samplers.sobol import joined, owen_scrambled, reversed_bits, shuffled, sobol_words
+from course.core.samplers.sobol import (
+    net_indices,
+    owen_scrambled,
+    reversed_bits,
+    shuffled,
+    sobol_words,
+)
 from course.core.types import Words
 
 
@@ -114,10 +120,10 @@ def test_scrambling_halves_the_error_of_plain_points_on_a_peak_in_the_middle() -
 
 
 @pytest.mark.parametrize("m", range(1, 15))
-def test_joined_indices_permute_every_block(m: int) -> None:
+def test_net_indices_permute_every_block(m: int) -> None:
     n = 2**m
     for block in (0, 1, 2, 5):
-        order = np.sort(joined(indices(block * n, n)))
+        order = np.sort(net_indices(indices(block * n, n)))
         assert order[0] % n == 0
         assert np.array_equal(order, indices(int(order[0]), n))
 
@@ -125,7 +131,7 @@ def test_joined_indices_permute_every_block(m: int) -> None:
 @pytest.mark.parametrize(("m", "t"), [(1, 0), (2, 1), (4, 1), (6, 1), (8, 3), (9, 2), (10, 3)])
 def test_the_first_four_dimensions_are_a_net(m: int, t: int) -> None:
     index = shuffled(indices(0, 2**m), 1)[0]
-    words = np.concatenate([sobol_words(index), sobol_words(joined(index))]).astype(np.uint64)
+    words = np.concatenate([sobol_words(index), sobol_words(net_indices(index))]).astype(np.uint64)
     for digits in product(range(m - t + 1), repeat=4):
         if sum(digits) == m - t:
             box = np.zeros(2**m, np.uint64)

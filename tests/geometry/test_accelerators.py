@@ -80,7 +80,7 @@ def test_packets_take_the_place_of_embree_alone() -> None:
         packed: Any = in_packets(accelerator)
         assert type(packed) is other
         assert (packed is accelerator) == (kind is HierarchyAccelerator)
-        # Nothing has happened to who is asked for single rays.
+        # Nothing has happened to who is active for single rays.
         assert type(accelerator) is kind
         if kind is MovingAccelerator:
             assert type(accelerator.static) is EmbreeAccelerator
@@ -93,14 +93,14 @@ def test_rays_whose_answers_do_not_matter_change_no_other(kind: type) -> None:
     rng = np.random.default_rng(3)
     origin = np.concatenate((rng.random((2, 300)), np.full((1, 300), 2))).astype(np.float32)
     direction = np.repeat(np.array([[0], [0], [-1]], np.float32), 300, axis=1)
-    time, asked = rng.random(300, np.float32), rng.random(300) < 0.6
+    time, active = rng.random(300, np.float32), rng.random(300) < 0.6
     stats = QueryStats()
     free = accelerator.unoccluded(origin, direction, 3.0, stats, time)
-    some = accelerator.unoccluded(origin, direction, 3.0, stats, time, asked=asked)
+    some = accelerator.unoccluded(origin, direction, 3.0, stats, time, active=active)
     assert 50 < free.sum() < 250
     assert (some.shape, some.dtype) == (free.shape, free.dtype)
-    assert (some == free)[asked].all()
-    # One origin for all rays, none of which is asked.
+    assert (some == free)[active].all()
+    # One origin for all rays, none of which is active.
     assert accelerator.unoccluded(
-        origin[:, :1], direction, 3.0, stats, time, asked=asked & False
+        origin[:, :1], direction, 3.0, stats, time, active=active & False
     ).shape == (300,)

@@ -188,7 +188,7 @@ class Noise:
             assert item.parts == PARTS
             assert item.samples <= LONGEST
             assert item.samples * item.tile.size <= adaptive.LARGEST
-            assert item.whole
+            assert item.summed
             assert item.order == 0
             assert item.tile.number not in self._numbers, "numbers choose what is drawn at random"
             self._numbers.add(item.tile.number)

@@ -115,7 +115,7 @@ def test_a_tile_does_not_know_which_tiles_came_before(every_stage: EveryStage) -
     film = Film(scene.settings.width, scene.settings.height)
     for item in work[::-1]:
         pixels, weight = tracer.render_tile(item.tile, item.first, item.samples, Counters())
-        film.add(item.tile, pixels, weight, item.samples, item.whole)
+        film.add(item.tile, pixels, weight, item.samples, item.summed)
     assert np.moveaxis(film.linear, 0, 2).tobytes() == render(scene).linear.tobytes()
 
 

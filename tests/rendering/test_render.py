@@ -43,7 +43,7 @@ class Steps(Executor):
             if self.seconds_left <= 0:
                 return False
             mean = np.full((3, item.tile.size), np.float32(1 + item.order))
-            film.add(item.tile, mean, 1.0, item.first + item.samples, item.whole)
+            film.add(item.tile, mean, 1.0, item.first + item.samples, item.summed)
             first += item.order == 0
             self.now += 1
             tick(count + 1, first)

@@ -13,7 +13,7 @@ from course.compiled.direct import CompiledDirectLight
 from course.compiled.direct import towards as compiled_towards
 from course.compiled.stages import CompiledIntegrator, CompiledSobolSampler
 from course.core.counters import Counters
-from course.core.direct import NEARLY_ALL, Candidates, DirectLight
+from course.core.direct import DENSE, Candidates, DirectLight
 from course.core.hits import Hits
 from course.core.integrator import Integrator
 from course.core.lights.sample import Sample, towards
@@ -121,7 +121,7 @@ def test_which_hits_face_the_light(hits: Hits, shape: int, front: float, shaded:
     assert passes is not None
     assert 500 < len(passes.index) < N
     # Copies are made where few face it, and only there.
-    assert (passes.columns is None) == (len(passes.index) >= NEARLY_ALL * N)
+    assert (passes.columns is None) == (len(passes.index) >= DENSE * N)
     if shaded is None and shape > 1:
         assert (passes.columns is None) == (front > 0)
 
@@ -161,7 +161,7 @@ def test_which_facets_turn_away(hits: Hits, share: float) -> None:
     assert_same_light(hits, passes, loop)
     assert passes is not None
     assert loop is not None
-    assert (passes.columns is None) == (share > NEARLY_ALL)
+    assert (passes.columns is None) == (share > DENSE)
     found = [
         each.hit(form._turned_away(hits, each, each.to_light, np.float32(0.3)))
         for form, each in ((PASSES, passes), (LOOPS, loop))

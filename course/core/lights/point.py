@@ -24,7 +24,7 @@ class PointLight:
     ----------
     normal : (3,) float32 unit, if the light is a cell of a Lambertian emitter: I falls with its cosine; else None
     two_sided, visible : of that emitter, see ``RectangleLight``
-    whole : whether a surface on which the light lies blocks it
+    blockable : whether a surface on which the light lies blocks it
     """
 
     name: str
@@ -35,12 +35,12 @@ class PointLight:
     velocity: Floats32 | None = None
     two_sided: bool = False
     visible: bool = True
-    whole: bool = False
+    blockable: bool = False
 
     @property
     def limit(self) -> float:
         """See ``Light``."""
-        if self.whole:
+        if self.blockable:
             return TO_THE_LIGHT
         return TO_A_SURFACE if self.normal is not None and self.visible else TO_A_POINT
 

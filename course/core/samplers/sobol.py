@@ -19,7 +19,7 @@ TO_UNIT = np.float32(2.0**-24)
 ORDERS = 1024
 """Number of orders of the points, each with a scramble. Two pairs of a pixel share one with probability 1 / ORDERS."""
 
-_JOINED_PAIRS = 2
+_NET_PAIRS = 2
 """Number of first pairs of dimensions, which share one order."""
 
 
@@ -46,7 +46,7 @@ class SobolSampler(Sampler):
         mixed = np.empty((2 * len(pairs), len(block.pixels), block.samples), np.uint32)
         for number, (order, *scramble) in enumerate(hashes):
             order %= table.shape[1]
-            first_row = 2 * pairs[number] if pairs[number] < _JOINED_PAIRS else 0
+            first_row = 2 * pairs[number] if pairs[number] < _NET_PAIRS else 0
             for row in range(2):
                 words = mixed[2 * number + row]
                 table[first_row + row].take(order, axis=0, out=words, mode="clip")
@@ -86,7 +86,7 @@ class SobolSampler(Sampler):
         points : (2 or more, orders, samples) uint32; the first two rows are the pair's
         salts : hash a pixel's number into its order and its two scrambles
         """
-        rows = _points(block.first, block.samples)[2 * pair if pair < _JOINED_PAIRS else 0 :]
+        rows = _points(block.first, block.samples)[2 * pair if pair < _NET_PAIRS else 0 :]
         return rows, _salts(self._seed, range(pair, pair + 1))
 
 
@@ -98,7 +98,7 @@ def _pairs(dimension: int, width: int) -> range:
 def _salts(seed: int, pairs: range) -> tuple[int, ...]:
     """Three salts per pair: for the order and the two scrambles."""
     return tuple(
-        combine(seed, 0 if word == 0 and pair < _JOINED_PAIRS else pair, word)
+        combine(seed, 0 if word == 0 and pair < _NET_PAIRS else pair, word)
         for pair in pairs
         for word in range(3)
     )
@@ -114,7 +114,7 @@ def _points(first: int, samples: int) -> Words:
     # The renderer uses 16 samples per call; fewer orders bound the memory of long ranges.
     orders = min(ORDERS, max(2**20 // samples, 1))
     order = shuffled(index, orders)
-    words = np.concatenate([sobol_words(order), sobol_words(joined(order))])
+    words = np.concatenate([sobol_words(order), sobol_words(net_indices(order))])
     seeds = hash_words(np.arange(orders, dtype=np.uint32), *(combine(row) for row in range(1, 5)))
     return owen_scrambled(words, seeds[:, :, None])
 
@@ -144,12 +144,12 @@ def sobol_words(index: Words) -> Words:
     return words
 
 
-_JOINED_COLUMNS = (1, 2, 5, 11, 16, 33, 67, 236, 303, 565, 1744, 2769, 5363, 11408)
-"""Column k is the image of 2^k under ``joined``; its highest bit is k. Found by a beam search. The cost was the sum of
-t^2 (see ``joined``) over m = 1 to 14 and over all nets in two, three and four of the four dimensions."""
+_NET_COLUMNS = (1, 2, 5, 11, 16, 33, 67, 236, 303, 565, 1744, 2769, 5363, 11408)
+"""Column k is the image of 2^k under ``net_indices``; its highest bit is k. Found by a beam search. The cost was the
+sum of t^2 (see ``net_indices``) over m = 1 to 14 and over all nets in two, three and four of the four dimensions."""
 
 
-def joined(index: Words) -> Words:
+def net_indices(index: Words) -> Words:
     """Indices of the points for dimensions 3 and 4: with the points at ``index``, they form a net in four dimensions.
 
     The map is linear over bits and triangular, so it permutes every aligned block of 2^m indices. So the points at the
@@ -157,7 +157,7 @@ def joined(index: Words) -> Words:
     dimensions has 2^t points, with t = 1 for m = 4 and 6, and at most 3 for m up to 10.
     """
     words = index.copy()
-    for k, column in enumerate(_JOINED_COLUMNS):
+    for k, column in enumerate(_NET_COLUMNS):
         words ^= ((index >> np.uint32(k)) & np.uint32(1)) * np.uint32(column ^ 1 << k)
     return words
 

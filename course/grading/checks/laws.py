@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from course.core.samplers.sobol import joined, owen_scrambled, shuffled, sobol_words
+from course.core.samplers.sobol import net_indices, owen_scrambled, shuffled, sobol_words
 from course.core.types import Words
 from course.grading.checks.check import Array, Failure, Kind, Role, Trial
 from course.grading.checks.declare import Arguments, Case, Function, Law
@@ -482,7 +482,9 @@ def fitted(errors: list[float]) -> float:
 def _sobol(rng: np.random.Generator, number_of: int, rows: int) -> Array:
     """(rows, REPEATS * number_of): so many numbers after each other, each time scrambled anew."""
     index = shuffled(np.arange(number_of, dtype=np.uint32), 1)[0]
-    words: Words = np.concatenate([sobol_words(index), sobol_words(joined(index))])[:rows, None]
+    words: Words = np.concatenate([sobol_words(index), sobol_words(net_indices(index))])[
+        :rows, None
+    ]
     seeds = rng.integers(1 << 32, size=(rows, REPEATS, 1), dtype=np.uint32)
     found: Array = (owen_scrambled(words, seeds) >> np.uint32(8)) * np.float32(2.0**-24)
     return found.reshape(rows, -1)
