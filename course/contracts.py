@@ -1,84 +1,99 @@
-"""The kind of value that each function the renderer calls must return.
+"""What each function that the renderer calls takes and returns: said here, for the renderer and for the checks.
 
 A contract is written "arguments -> results", separated by commas. An argument is its name and its shape, as in
-``u: 2 N``; the shape of a number is empty. A word in a shape that is no number is a size: what the arguments of a call
-don't say of it, the results may choose, and ``k*k`` and ``k/2`` are computed. ``*`` stands for a list of arrays.
+``u: 2 N``; the shape of a number is empty. A word in a shape that is no number is a size, ``N`` that of the columns:
+what the arguments of a call don't say of it, the results may choose, and ``k*k`` and ``k/2`` are computed. ``*`` stands
+for a list of arrays.
 
-A result is its shape, after what its numbers are: floating and finite where nothing is said, ``unit`` for directions of
-length 1, ``infinite`` where infinity is a legal value, ``whole`` or ``bool``.
+A result is what it is called, and its shape, after what its numbers are: floating, of the batch arguments' dtype, and
+finite where nothing is said; ``unit`` for directions of length 1, ``infinite`` where infinity is legal, ``whole``
+or ``bool``, or the very dtype that the checks ask for. To the renderer a dtype is floating, or whole.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, cached_property
 from math import prod
 from typing import Any
 
 import numpy as np
 
 CONTRACTS = {
-    "supersampling.regular": "k, n -> 2 n k*k",
-    "supersampling.random": "k, n, rng -> 2 n k*k",
-    "supersampling.jittered": "k, n, rng -> 2 n k*k",
-    "supersampling.gaussian_weights": "offsets: 2 n s, sigma -> n s",
-    "supersampling.resolve": "radiance: 3 n s, weights: n s -> 3 n",
-    "soft_shadows.light_grid": "corner: 3, edge_u: 3, edge_v: 3, k -> 3 k*k",
-    "soft_shadows.point_on_rectangle": "corner: 3, edge_u: 3, edge_v: 3, u: 2 N -> 3 N",
-    "soft_shadows.point_on_sphere": "center: 3, radius, u: 2 N -> 3 N",
-    "soft_shadows.point_in_ball": "center: 3, radius, u: 3 N -> 3 N",
-    "soft_shadows.point_on_facing_disk": "center: 3, radius, point: 3 N, u: 2 N -> 3 N",
-    "glossy.jitter_on_plane": "direction: 3 N, roughness, u: 2 N -> unit 3 N",
-    "glossy.jitter_in_ball": "direction: 3 N, glossiness, u: 3 N -> unit 3 N",
-    "glossy.sample_phong_lobe": "direction: 3 N, exponent, u: 2 N -> unit 3 N",
-    "glossy.keep_above": "direction: 3 N, normal: 3 N -> unit 3 N",
-    "thin_lens.point_on_disk": "u: 2 N -> 2 N",
+    "supersampling.regular": "k, n -> the points: float32 2 n k*k",
+    "supersampling.random": "k, n, rng -> the points: float32 2 n k*k",
+    "supersampling.jittered": "k, n, rng -> the points: float32 2 n k*k",
+    "supersampling.gaussian_weights": "offsets: 2 N s, sigma -> the weights: N s",
+    "supersampling.resolve": "radiance: 3 N s, weights: N s -> the colours: 3 N",
+    "soft_shadows.light_grid": "corner: 3, edge_u: 3, edge_v: 3, k -> the grid: 3 k*k",
+    "soft_shadows.point_on_rectangle": "corner: 3, edge_u: 3, edge_v: 3, u: 2 N -> the points: 3 N",
+    "soft_shadows.point_on_sphere": "center: 3, radius, u: 2 N -> the points: 3 N",
+    "soft_shadows.point_in_ball": "center: 3, radius, u: 3 N -> the points: 3 N",
+    "soft_shadows.point_on_facing_disk": "center: 3, radius, point: 3 N, u: 2 N -> the points: 3 N",
+    "glossy.jitter_on_plane": "direction: 3 N, roughness, u: 2 N -> the directions: unit 3 N",
+    "glossy.jitter_in_ball": "direction: 3 N, glossiness, u: 3 N -> the directions: unit 3 N",
+    "glossy.sample_phong_lobe": "direction: 3 N, exponent, u: 2 N -> the directions: unit 3 N",
+    "glossy.keep_above": "direction: 3 N, normal: 3 N -> the directions: unit 3 N",
+    "thin_lens.point_on_disk": "u: 2 N -> the points: 2 N",
     "thin_lens.lens_rays": "origin: 3, right: 3, up: 3, forward: 3, directions: 3 N, lens_points: 2 N, focus_distance"
-    " -> 3 N, unit 3 N",
-    "motion_blur.shutter_times": "open, close, u: N -> N",
-    "motion_blur.displacement": "velocity: 3, time: N -> 3 N",
-    "motion_blur.to_object_space": "origins: 3 N, velocity: 3, time: N -> 3 N",
-    "cube_map.lookup": "faces, direction: 3 N -> 3 N",
-    "cube_map.lookup_seamless": "faces, direction: 3 N -> 3 N",
-    "sampling.disk_by_rejection": "n, rng -> 2 n",
-    "sampling.disk_by_polar": "u: 2 N -> 2 N",
-    "sampling.ball_by_rejection": "n, rng -> 3 n",
-    "sampling.ball_by_polar": "u: 3 N -> 3 N",
-    "sampling.sphere_by_polar": "u: 2 N -> 3 N",
-    "sampling.xorshift32": "state: N -> whole N, N",
-    "importance_sampling.uniform_hemisphere": "u: 2 N -> unit 3 N",
-    "importance_sampling.cosine_hemisphere": "u: 2 N -> unit 3 N",
-    "importance_sampling.cosine_hemisphere_pdf": "cos: N -> N",
-    "importance_sampling.phong_lobe_pdf": "cos: N, exponent -> N",
-    "importance_sampling.power_heuristic": "a: N, b: N -> N",
-    "blurred_transparency.refract": "direction: 3 N, normal: 3 N, eta: N -> unit 3 N, bool N",
-    "blurred_transparency.jitter_refraction": "direction: 3 N, normal: 3 N, roughness, u: 2 N -> unit 3 N",
-    "blurred_transparency.fresnel": "cos_i: N, eta: N -> N",
-    "adaptive_sampling.needs_subdivision": "corners: 3 4 n, threshold -> bool n",
-    "adaptive_sampling.subdivide": "x0: n, y0: n, x1: n, y1: n -> 4 n, 4 n, 4 n, 4 n",
-    "textures.rectangle_uv": "p: 3 N, p1: 3, p2: 3, p3: 3 -> 2 N",
-    "textures.sphere_uv": "p: 3 N, center: 3 -> 2 N",
-    "textures.triangle_uv": "barycentric: 3 N, uv0: 2 N, uv1: 2 N, uv2: 2 N -> 2 N",
-    "textures.texture_lookup": "image, uv: 2 N -> 3 N",
-    "bounding_volumes.build": "lo: 3 T, hi: 3 T, leaf_size -> 3 M, 3 M, whole M, whole M, whole T",
+    " -> origins: 3 N, directions: unit 3 N",
+    "motion_blur.shutter_times": "open, close, u: N -> the times: N",
+    "motion_blur.displacement": "velocity: 3, time: N -> the ways: 3 N",
+    "motion_blur.to_object_space": "origins: 3 N, velocity: 3, time: N -> the origins: 3 N",
+    "cube_map.lookup": "faces: 6 S S 3, direction: 3 N -> the colours: 3 N",
+    "cube_map.lookup_seamless": "faces: 6 S S 3, direction: 3 N -> the colours: 3 N",
+    "sampling.disk_by_rejection": "n, rng -> the points: 2 n",
+    "sampling.disk_by_polar": "u: 2 N -> the points: 2 N",
+    "sampling.ball_by_rejection": "n, rng -> the points: 3 n",
+    "sampling.ball_by_polar": "u: 3 N -> the points: 3 N",
+    "sampling.sphere_by_polar": "u: 2 N -> the points: 3 N",
+    "sampling.xorshift32": "state: N -> the new state: uint32 N, the random numbers: float32 N",
+    "importance_sampling.uniform_hemisphere": "u: 2 N -> the directions: unit 3 N",
+    "importance_sampling.cosine_hemisphere": "u: 2 N -> the directions: unit 3 N",
+    "importance_sampling.cosine_hemisphere_pdf": "cos: N -> the density: N",
+    "importance_sampling.phong_lobe_pdf": "cos: N, exponent -> the density: N",
+    "importance_sampling.power_heuristic": "a: N, b: N -> the weights: N",
+    "blurred_transparency.refract": "direction: 3 N, normal: 3 N, eta: N"
+    " -> directions: unit 3 N, total: bool N",
+    "blurred_transparency.jitter_refraction": "direction: 3 N, normal: 3 N, roughness, u: 2 N"
+    " -> the directions: unit 3 N",
+    "blurred_transparency.fresnel": "cos_i: N, eta: N -> the reflectance: N",
+    "adaptive_sampling.needs_subdivision": "corners: 3 4 N, threshold -> the decisions: bool N",
+    "adaptive_sampling.subdivide": "x0: N, y0: N, x1: N, y1: N -> x0: 4 N, y0: 4 N, x1: 4 N, y1: 4 N",
+    "textures.rectangle_uv": "p: 3 N, p1: 3, p2: 3, p3: 3 -> u and v: 2 N",
+    "textures.sphere_uv": "p: 3 N, center: 3 -> u and v: 2 N",
+    "textures.triangle_uv": "barycentric: 3 N, uv0: 2 N, uv1: 2 N, uv2: 2 N -> u and v: 2 N",
+    "textures.texture_lookup": "image: H W 3, uv: 2 N -> the colours: 3 N",
+    "bounding_volumes.build": "lo: 3 T, hi: 3 T, leaf_size"
+    " -> lo: 3 M, hi: 3 M, first: whole M, count: whole M, order: whole T",
     "bounding_volumes.traverse": "hierarchy, p0: 3 T, p1: 3 T, p2: 3 T, origins: 3 N, directions: 3 N"
-    " -> whole N, infinite N, whole N, whole N",
-    "quasi_monte_carlo.halton": "i: S, dims -> dims S",
-    "quasi_monte_carlo.hammersley": "n, dims -> dims n",
-    "quasi_monte_carlo.chain": "patterns: *, ids: S, rng -> * D S",
-    "path_tracing.diffuse_bounce": "normal: 3 N, u: 2 N -> unit 3 N",
-    "path_tracing.throughput": "beta: 3 N, albedo: 3 N -> 3 N",
-    "path_tracing.russian_roulette": "beta: 3 N, u: N -> bool N, 3 N",
-    "radiosity.hemicube_form_factors": "k -> k k, k/2 k",
-    "radiosity.gather": "radiosity: 3 P, emission: 3 P, reflectance: 3 P, form_factors: P P -> 3 P",
-    "radiosity.shoot": "radiosity: 3 P, unshot: 3 P, reflectance: 3 P, areas: P, form_factors: P, shooter -> 3 P, 3 P",
-    "radiosity.needs_split": "patch_radiosity: 3 4 n, threshold -> bool n",
+    " -> triangle: int32 N, t: infinite N, box_tests: whole N, triangle_tests: whole N",
+    "quasi_monte_carlo.halton": "i: N, dims -> the points: float32 dims N",
+    "quasi_monte_carlo.hammersley": "n, dims -> the points: float32 dims n",
+    "quasi_monte_carlo.chain": "patterns: *, ids: N, rng -> the samples: * D N",
+    "path_tracing.diffuse_bounce": "normal: 3 N, u: 2 N -> the directions: unit 3 N",
+    "path_tracing.throughput": "beta: 3 N, albedo: 3 N -> the throughput: 3 N",
+    "path_tracing.russian_roulette": "beta: 3 N, u: N -> survives: bool N, the throughput: 3 N",
+    "radiosity.hemicube_form_factors": "k -> top: float32 k k, side: float32 k/2 k",
+    "radiosity.gather": "radiosity: 3 P, emission: 3 P, reflectance: 3 P, form_factors: P P"
+    " -> the radiosity: 3 P",
+    "radiosity.shoot": "radiosity: 3 P, unshot: 3 P, reflectance: 3 P, areas: P, form_factors: P, shooter"
+    " -> the radiosity: 3 P, the unshot radiosity: 3 P",
+    "radiosity.needs_split": "patch_radiosity: 3 K N, threshold -> the decisions: bool N",
 }
 """Every function that the renderer calls, "module.function", and its contract."""
 
-KINDS = {"unit", "infinite", "whole", "bool"}
-
+DTYPES: dict[str, Any] = {
+    "whole": "int",
+    "floating": "floating",
+    "bool": np.bool_,
+    "float32": np.float32,
+    "float64": np.float64,
+    "int32": np.int32,
+    "uint32": np.uint32,
+}
+"""What the numbers of a result are, by the word that says so: a dtype, or a kind that any dtype of it will do for."""
 
 Size = int | str | tuple[tuple[str, ...], int]
 """A number, a word, or words whose sizes are multiplied and then divided by a number."""
@@ -90,15 +105,36 @@ class Result:
 
     Attributes
     ----------
-    kind : "" (floating and finite), "unit", "infinite", "whole" or "bool"
-    sizes : of each axis
+    name, shape : as the contract has them
+    dtype : None for that of the batch arguments; a kind ("int", "floating") where any of it does
+    finite : whether it is, for every legal argument
+    unit : whether it is directions of length 1
     """
 
-    kind: str
-    sizes: tuple[Size, ...]
+    name: str
+    shape: str
+    dtype: Any = None
+    finite: bool = True
+    unit: bool = False
 
-    def shape(self, known: dict[str, int]) -> tuple[int | str, ...]:
-        """Its shape; sizes that nobody knows stay words."""
+    @cached_property
+    def kind(self) -> str:
+        """What the renderer goes on with: "" (floating and finite), "unit", "infinite", "whole" or "bool"."""
+        if self.unit:
+            return "unit"
+        if self.dtype is np.bool_:
+            return "bool"
+        if self.dtype in ("int", np.int32, np.uint32):
+            return "whole"
+        return "" if self.finite else "infinite"
+
+    @cached_property
+    def sizes(self) -> tuple[Size, ...]:
+        """Of each axis."""
+        return tuple(map(_size, self.shape.split()))
+
+    def sized(self, known: dict[str, int]) -> tuple[int | str, ...]:
+        """Its shape in a call; sizes that nobody knows stay words."""
         return tuple([_known(size, known) for size in self.sizes])
 
 
@@ -108,47 +144,59 @@ class Contract:
 
     Attributes
     ----------
-    arguments : names, and words for their axes; numbers have none
+    arguments : names and shapes; numbers have none
     several : whether the one result is a list of arrays, as many as the argument's with a ``*``
     """
 
-    arguments: tuple[tuple[str, tuple[str, ...]], ...]
+    arguments: tuple[tuple[str, str], ...]
     results: tuple[Result, ...]
     several: bool
 
     def sizes(self, values: Iterable[Any]) -> dict[str, int]:
         """The sizes that the arguments of a call say, by their words."""
         known: dict[str, int] = {}
-        for (name, words), value in zip(self.arguments, values, strict=False):
-            if not words:
+        for (name, shape), value in zip(self.arguments, values, strict=False):
+            if not shape:
                 if isinstance(value, (int, np.integer)):
                     known[name] = int(value)
-            elif words == ("*",):
+            elif shape == "*":
                 known["*"] = len(value)
             else:
-                for word, size in zip(words, np.shape(value), strict=False):
+                for word, size in zip(shape.split(), np.shape(value), strict=False):
                     # A single column stands for as many as there are.
                     if known.get(word, 1) == 1:
                         known[word] = size
         return known
 
 
-@cache
 def contract(function: str) -> Contract:
-    """The contract of a function, "module.function"."""
-    before, _, after = CONTRACTS[function].partition("->")
-    arguments = []
-    for part in before.split(","):
-        name, _, shape = part.partition(":")
-        arguments.append((name.strip(), tuple(shape.split())))
+    """The contract of a function that the renderer calls, "module.function"."""
+    return parsed(CONTRACTS[function])
+
+
+@cache
+def parsed(text: str) -> Contract:
+    """A contract as it is written."""
+    before, _, after = text.partition("->")
+    pairs = [part.partition(":") for part in before.split(",")]
+    arguments = tuple((name.strip(), shape.strip()) for name, _, shape in pairs)
     results = []
     several = False
     for part in after.split(","):
-        words = part.split()
-        several = words[0] == "*"
-        kind = words[0] if words[0] in KINDS else ""
-        results.append(Result(kind, tuple(map(_size, words[bool(kind) or several :]))))
-    return Contract(tuple(arguments), tuple(results), several)
+        name, _, rest = part.partition(":")
+        words = rest.split()
+        several = words[:1] == ["*"]
+        said = {word for word in words if word in DTYPES or word in ("unit", "infinite", "*")}
+        results.append(
+            Result(
+                name.strip(),
+                " ".join(word for word in words if word not in said),
+                next((DTYPES[word] for word in words if word in DTYPES), None),
+                "infinite" not in said,
+                "unit" in said,
+            )
+        )
+    return Contract(arguments, tuple(results), several)
 
 
 def _size(word: str) -> Size:

@@ -97,7 +97,7 @@ class Guard:
         arguments: tuple[Any, ...],
         which: str = "",
     ) -> Any:
-        shape = result.shape(known)
+        shape = result.sized(known)
         called, letters = _DTYPES[result.kind]
         is_array = isinstance(value, np.ndarray)
         if is_array:

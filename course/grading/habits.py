@@ -74,7 +74,7 @@ def _draws(declared: Function) -> bool:
 def _by_columns(declared: Function, call: Call, *, at_once: int) -> Call:
     """So many columns at a time, put together in the end."""
     axes = [argument.axis for argument in declared.arguments]
-    words = [result.shape.split() for result in declared.results]
+    words = [result.sizes for result in declared.results]
     if (
         not declared.columns
         or all(axis is None for axis in axes)

@@ -34,18 +34,6 @@ def arguments(path: str, seed: int, n: int) -> list[Any]:
 
 
 @pytest.mark.parametrize("path", CONTRACTS)
-def test_are_what_the_checks_declare(path: str) -> None:
-    """Names and shapes stand twice, for the renderer knows nothing of the checks; they say the same."""
-    function, held = declared(path), contract(path)
-    assert [name for name, _ in held.arguments] == [one.name for one in function.arguments]
-    for (name, sizes), argument in zip(held.arguments, function.arguments, strict=True):
-        if sizes and sizes[0] != "*" and argument.sizes:
-            assert len(sizes) == len(argument.sizes), name
-    if not held.several:
-        assert len(held.results) == len(function.results)
-
-
-@pytest.mark.parametrize("path", CONTRACTS)
 def test_are_kept_by_the_solutions(path: str) -> None:
     """Nothing that the course's own functions return is refused, converted or changed."""
     module, name = path.split(".")

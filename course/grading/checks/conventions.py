@@ -263,8 +263,8 @@ def _columns(function: Function, trial: Trial) -> None:
     found = _parts(function.call(trial, some))
     wanted = []
     for part, result in zip(every, function.results, strict=True):
-        words = result.shape.split()
-        wanted.append(part.take(order, words.index("N")) if "N" in words else part)
+        there = COLUMNS in result.sizes
+        wanted.append(part.take(order, result.sizes.index(COLUMNS)) if there else part)
     _same(found, wanted, some, "the same column by itself, in another order:", "not-by-its-column")
 
 

@@ -4,9 +4,8 @@ A declaration is all that a module writes down. The checks of the conventions fo
 laws are run on arguments that it makes (``laws.py``), failures are cut down to the smallest input that shows them
 (``examples.py``), and a mistake is told by a known wrong submission that behaves alike (``mistakes.py``).
 
-Shapes are written as in the course's documents: "3 N" for (3, N), "3" for a single point, "" for a number. A word that
-isn't a number is a size that all arguments of a call share, "N" that of the columns; results may compute with sizes and
-with whole arguments, as in "2 n k*k".
+What arguments and results there are, and of which shape, says the function's contract (``course/contracts.py``); a
+declaration adds how arguments are made, and the laws.
 """
 
 from __future__ import annotations
@@ -19,6 +18,7 @@ from typing import Any
 
 import numpy as np
 
+from course.contracts import CONTRACTS, Result, parsed
 from course.grading.checks.check import Array, Failure, Kind, Role, Trial
 from course.grading.checks.drawing import Draw, worst_directions, worst_units
 
@@ -40,31 +40,31 @@ Case = Callable[[Draw], Mapping[str, Any]]
 
 
 @dataclass(frozen=True)
-class Argument:
-    """One argument.
+class Made:
+    """How values of an argument are made.
 
     Attributes
     ----------
-    name, shape : as the course has them
     make : a legal value
     wrong : values that raise ``ValueError``, besides those of wrong shape
     corners : of a dtype, columns at the ends of what is legal
-    batch : whether its dtype is the results'
+    batch : whether its dtype is the results'; if not given, where the argument has an axis of any size
     single : whether it may be one value for all columns as well: its shape without them, and no batch then
     """
 
-    name: str
-    shape: str
     make: Callable[[Draw], Any]
     wrong: tuple[Any, ...] = ()
     corners: Callable[[Any], Array] | None = None
-    batch: bool = True
+    batch: bool | None = None
     single: bool = False
 
-    @property
-    def sizes(self) -> tuple[str, ...]:
-        """Of each axis."""
-        return tuple(self.shape.split())
+
+@dataclass(frozen=True, kw_only=True)
+class Argument(Made):
+    """One argument; its name and shape are the contract's."""
+
+    name: str
+    sizes: tuple[str, ...]
 
     @property
     def axis(self) -> int | None:
@@ -77,79 +77,58 @@ class Argument:
         return first if first.ndim else float(first)
 
 
-def u(rows: int, name: str = "u") -> Argument:
-    """Numbers in [0, 1): (rows, N), or (N,) for one row."""
-    if rows == 1:
-        return Argument(name, "N", lambda d: d.units(1)[0], corners=lambda t: worst_units(1, t)[0])
-    return Argument(
-        name, f"{rows} N", lambda d: d.units(rows), corners=lambda t: worst_units(rows, t)
-    )
-
-
-def directions(name: str) -> Argument:
+def directions() -> Made:
     """Unit vectors (3, N), anywhere and around the axes."""
-    return Argument(name, "3 N", lambda d: d.directions(), corners=worst_directions)
+    return Made(lambda d: d.directions(), corners=worst_directions)
 
 
-def points(name: str, reach: float = 3.0) -> Argument:
+def points(reach: float = 3.0) -> Made:
     """Points (3, N) within that reach of the origin along each axis [m]."""
-    return Argument(name, "3 N", lambda d: d.lengths(-reach, reach, 3, d.n))
+    return Made(lambda d: d.lengths(-reach, reach, 3, d.n))
 
 
-def values(name: str, shape: str, low: float, high: float, wrong: tuple[Any, ...] = ()) -> Argument:
-    """An array of numbers in [low, high); sizes that are not the columns are drawn from 1 to 6."""
+def values(low: float, high: float, wrong: tuple[Any, ...] = ()) -> Made:
+    """A number in [low, high) for each column."""
 
     def make(draw: Draw) -> Array:
-        sizes = {word: int(draw.rng.integers(1, 7)) for word in shape.split()} | {COLUMNS: draw.n}
-        return draw.uniform(
-            low, high, *(int(w) if w.isdigit() else sizes[w] for w in shape.split())
-        )
+        # What is drawn after it stays as it was while other sizes were drawn here, too.
+        draw.rng.integers(1, 7)
+        return draw.uniform(low, high, draw.n)
 
-    return Argument(name, shape, make, wrong)
+    return Made(make, wrong)
 
 
-def point(name: str, reach: float = 3.0) -> Argument:
+def point(reach: float = 3.0) -> Made:
     """A single point (3,) [m]: an array of either dtype, which never counts."""
-    return Argument(name, "3", lambda d: d.lengths(-reach, reach, 3), batch=False)
+    return Made(lambda d: d.lengths(-reach, reach, 3))
 
 
-def number(name: str, low: float, high: float, wrong: tuple[float, ...] = ()) -> Argument:
+def number(low: float, high: float, wrong: tuple[float, ...] = ()) -> Made:
     """A number from low to high, both over 0, spread over its powers of ten."""
-    return Argument(name, "", lambda d: d.number(low, high), wrong, batch=False)
+    return Made(lambda d: d.number(low, high), wrong)
 
 
-def length(name: str, low: float, high: float, wrong: tuple[float, ...] = ()) -> Argument:
+def length(low: float, high: float, wrong: tuple[float, ...] = ()) -> Made:
     """A number that is a length [m]: it grows with the scene."""
-    return Argument(name, "", lambda d: d.scale * d.number(low, high), wrong, batch=False)
+    return Made(lambda d: d.scale * d.number(low, high), wrong)
 
 
-def count(name: str, low: int, high: int, wrong: tuple[Any, ...] = ()) -> Argument:
+def count(low: int, high: int, wrong: tuple[Any, ...] = ()) -> Made:
     """A whole number from low to high."""
-    return Argument(name, "", lambda d: int(d.rng.integers(low, high + 1)), wrong, batch=False)
+    return Made(lambda d: int(d.rng.integers(low, high + 1)), wrong)
 
 
-def generator(name: str = "rng") -> Argument:
-    """Numbers for one call."""
-    return Argument(
-        name, "", lambda d: np.random.default_rng(int(d.rng.integers(2**62))), batch=False
-    )
-
-
-@dataclass(frozen=True)
-class Result:
-    """One result.
-
-    Attributes
-    ----------
-    name, shape : as the course has them
-    dtype : None for that of the batch arguments; a kind of NumPy's ("int", "bool", "floating") where any of it does
-    finite : whether it is, for every legal argument
-    """
-
-    name: str
-    shape: str
-    dtype: Any = None
-    finite: bool = True
+def _usual(name: str, sizes: tuple[str, ...]) -> Made:
+    """What is made where a declaration says nothing: numbers u in [0, 1), single points, or a generator for a call."""
+    if name == "rng":
+        return Made(lambda d: np.random.default_rng(int(d.rng.integers(2**62))))
+    if sizes == ("3",):
+        return point()
+    assert name == "u", f"it isn't said how values of {name} are made"
+    if len(sizes) == 1:
+        return Made(lambda d: d.units(1)[0], corners=lambda t: worst_units(1, t)[0])
+    rows = int(sizes[0])
+    return Made(lambda d: d.units(rows), corners=lambda t: worst_units(rows, t))
 
 
 @dataclass(frozen=True)
@@ -312,13 +291,12 @@ class Function:
             if np.ndim(value) < len(argument.sizes) and not first.isdigit():
                 return None
         try:
-            sizes = self.sizes(a)
-            return tuple(
-                tuple(int(eval(word, {}, sizes)) for word in result.shape.split())
-                for result in self.results
-            )
+            shapes = [result.sized(self.sizes(a)) for result in self.results]
         except Exception:  # noqa: BLE001 - arguments of a wrong shape, for which the function has to raise
             return None
+        # What no argument says is up to the function.
+        known = all(isinstance(size, int) for shape in shapes for size in shape)
+        return tuple(shapes) if known else None  # type: ignore[arg-type]
 
     def promoted(self, a: Arguments) -> Any:
         """The dtype of the batch arguments, as NumPy promotes them; None if there are none."""
@@ -337,6 +315,33 @@ class Function:
         if batch and isinstance(value, np.ndarray) and value.dtype.kind == "f":
             return np.ascontiguousarray(value, dtype)
         return value
+
+
+def function(
+    path: str,
+    made: Mapping[str, Made],
+    laws: tuple[Law, ...],
+    *,
+    contract: str = "",
+    **how: Any,
+) -> Function:
+    """A function, with the arguments and results of its contract.
+
+    Parameters
+    ----------
+    path : "module.function"
+    made : how arguments are made; of what isn't there, as usual
+    contract : as in ``course.contracts``, which has those of all functions that the renderer calls
+    how : ``case`` and what follows it in ``Function``
+    """
+    held = parsed(contract or CONTRACTS[path])
+    arguments = []
+    for name, shape in held.arguments:
+        sizes = tuple(shape.split())
+        own = made.get(name) or _usual(name, sizes)
+        batch = not all(map(str.isdigit, sizes)) if own.batch is None else own.batch
+        arguments.append(Argument(**{**vars(own), "batch": batch}, name=name, sizes=sizes))
+    return Function(path.partition(".")[2], tuple(arguments), held.results, laws, **how)
 
 
 @dataclass(frozen=True)
@@ -363,20 +368,19 @@ def described(value: Any) -> str:
     return f"a {type(value).__name__}"
 
 
-_NUMBERS = {"bool": "b", "int": "iu", "floating": "f", "number": "fiu"}
+_NUMBERS = {"int": "iu", "floating": "f"}
 
 
 def _looked(value: Any, result: Result, sizes: dict[str, int], dtype: Any) -> Array:
-    words = result.shape.split()
-    if not words and not isinstance(value, np.ndarray):
+    if not result.sizes and not isinstance(value, np.ndarray):
         value = _number(value, result)
     if type(value) is not np.ndarray:
         raise Failure(f"{result.name} to be an ndarray", described(value))
-    for axis, word in enumerate(words):
-        if word.isidentifier():
+    for axis, size in enumerate(result.sizes):
+        if isinstance(size, str):
             # A size that no argument has is up to the function; its other results have to agree.
-            sizes.setdefault(word, value.shape[axis] if axis < value.ndim else 1)
-    shape = tuple(int(eval(word, {}, sizes)) for word in words)
+            sizes.setdefault(size, value.shape[axis] if axis < value.ndim else 1)
+    shape = result.sized(sizes)
     if value.shape != shape:
         raise Failure(f"{result.name} of shape {shape}", f"shape {value.shape}")
     wanted = dtype if result.dtype is None else result.dtype
@@ -398,7 +402,7 @@ def _looked(value: Any, result: Result, sizes: dict[str, int], dtype: Any) -> Ar
     if result.finite and not np.isfinite(value).all():
         index = tuple(int(i) for i in np.argwhere(~np.isfinite(value))[0])
         raise Failure(f"{result.name} to be finite", f"{value[index]}", f"at index {index}")
-    if kinds == "b" or wanted is np.bool_:
+    if wanted is np.bool_:
         return value.astype(bool)
     return value.astype(np.float64) if value.dtype.kind == "f" else value
 

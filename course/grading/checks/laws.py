@@ -292,14 +292,14 @@ def _none_alike(
 def _check_told(function: Function, trial: Trial, a: Arguments, r: Any) -> None:
     """The numbers u decide, each column's by themselves: the columns in reverse give the same, in reverse."""
     back = Arguments(a)
-    words = function.results[0].shape.split()
-    turned = function.columns and "N" in words
+    sizes = function.results[0].sizes
+    turned = function.columns and "N" in sizes
     for argument in function.arguments if turned else ():
         if argument.axis is not None:
             back[argument.name] = np.ascontiguousarray(np.flip(a[argument.name], argument.axis))
     again = np.asarray(_first(function.call(trial, back)))
     first = np.asarray(_first(r))
-    again = np.flip(again, words.index("N")) if turned else again
+    again = np.flip(again, sizes.index("N")) if turned else again
     slack = 1e-5 * float(np.abs(first).max(initial=0))
     same = np.isclose(first, again, rtol=1e-4, atol=slack, equal_nan=True)
     if not same.all():

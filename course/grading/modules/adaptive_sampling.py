@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from course.grading.checks.check import Array, Failure
-from course.grading.checks.declare import Argument, Arguments, Case, Function, Law, Module, Result
+from course.grading.checks.declare import Arguments, Case, Law, Made, Module, function
 from course.grading.checks.drawing import Draw
 from course.grading.checks.examples import where
 from course.grading.checks.laws import close, holds, law
@@ -112,13 +112,12 @@ def _decisions(
     return law(name, title, look, case=case, scales=scales, **how)
 
 
-NEEDS_SUBDIVISION = Function(
-    "needs_subdivision",
-    (
-        Argument("corners", "3 4 N", lambda d: d.uniform(0, 1, 3, 4, d.n)),
-        Argument("threshold", "", lambda d: d.scale / 2, (-0.5, -1e-9, nan), batch=False),
-    ),
-    (Result("the decisions", "N", np.bool_),),
+NEEDS_SUBDIVISION = function(
+    "adaptive_sampling.needs_subdivision",
+    {
+        "corners": Made(lambda d: d.uniform(0, 1, 3, 4, d.n)),
+        "threshold": Made(lambda d: d.scale / 2, (-0.5, -1e-9, nan)),
+    },
     (
         _decisions(
             "plain",
@@ -240,10 +239,9 @@ def _in_order(a: Arguments, r: Any) -> None:
         )
 
 
-SUBDIVIDE = Function(
-    "subdivide",
-    tuple(Argument(name, "N", lambda d: d.lengths(0, 1, d.n)) for name in NAMES),
-    tuple(Result(name, "4 N") for name in NAMES),
+SUBDIVIDE = function(
+    "adaptive_sampling.subdivide",
+    dict.fromkeys(NAMES, Made(lambda d: d.lengths(0, 1, d.n))),
     (
         close(
             "outside",

@@ -13,7 +13,7 @@ import numpy as np
 
 from course.grading.checks import declare
 from course.grading.checks.check import Array, Trial
-from course.grading.checks.declare import Argument, Arguments, Case, Function, Module, Result
+from course.grading.checks.declare import Arguments, Case, Made, Module, function
 from course.grading.checks.drawing import Draw, worst_directions, worst_units
 from course.grading.checks.laws import close, holds, unit_length, within
 from course.grading.checks.vectors import cross, dot
@@ -24,9 +24,13 @@ MARGIN = 1e-3
 """How near to 1 the sines of refracted rays come."""
 
 
-def _eta() -> Argument:
-    wrong = (0.0, -1.5, 11.0, nan, inf, np.array((1.0, 1.5, -1.0, 1.0), np.float32))
-    return Argument("eta", "N", lambda d: d.uniform(0.3, 3, d.n), wrong, single=True)
+ETA = Made(
+    lambda d: d.uniform(0.3, 3, d.n),
+    (0.0, -1.5, 11.0, nan, inf, np.array((1.0, 1.5, -1.0, 1.0), np.float32)),
+    single=True,
+)
+
+VECTORS = Made(lambda d: d.directions())
 
 
 def _one_eta(draw: Draw, total: bool = False) -> tuple[float, Array]:
@@ -58,10 +62,6 @@ def _facing(roughness: float = 0.0) -> Callable[[Any], Mapping[str, Any]]:
         }
 
     return corner
-
-
-def _vectors(name: str) -> Argument:
-    return Argument(name, "3 N", lambda d: d.directions())
 
 
 def _each_eta(draw: Draw) -> tuple[Array, Array]:
@@ -131,10 +131,9 @@ def _bent(name: str, title: str, hint: str, case: Case | None, **how: Any) -> An
     return close(name, title, _beyond, hint, **(usual | how))
 
 
-REFRACT = Function(
-    "refract",
-    (_vectors("direction"), _vectors("normal"), _eta()),
-    (Result("directions", "3 N"), Result("total", "N", np.bool_)),
+REFRACT = function(
+    "blurred_transparency.refract",
+    {"direction": VECTORS, "normal": VECTORS, "eta": ETA},
     (
         unit_length(lambda _, r: r[0]),
         holds(
@@ -233,15 +232,13 @@ def _features(a: Arguments, r: Array) -> Array:
     return np.stack((size, dot(r, a.direction), dot(r, a.normal), np.linalg.norm(r, axis=0)))
 
 
-JITTER_REFRACTION = Function(
-    "jitter_refraction",
-    (
-        _vectors("direction"),
-        _vectors("normal"),
-        declare.number("roughness", 0.05, 2, (-1.0, -1e-6, nan)),
-        declare.u(2),
-    ),
-    (Result("the directions", "3 N"),),
+JITTER_REFRACTION = function(
+    "blurred_transparency.jitter_refraction",
+    {
+        "direction": VECTORS,
+        "normal": VECTORS,
+        "roughness": declare.number(0.05, 2, (-1.0, -1e-6, nan)),
+    },
     (
         unit_length(),
         holds(
@@ -321,10 +318,9 @@ def _reflected(name: str, title: str, hint: str, case: Case, **how: Any) -> Any:
     return close(name, title, _amplitudes, hint, **(usual | how))
 
 
-FRESNEL = Function(
-    "fresnel",
-    (Argument("cos_i", "N", lambda d: d.units(1)[0], corners=_worst_cosines), _eta()),
-    (Result("the reflectance", "N"),),
+FRESNEL = function(
+    "blurred_transparency.fresnel",
+    {"cos_i": Made(lambda d: d.units(1)[0], corners=_worst_cosines), "eta": ETA},
     (
         within(
             "range",

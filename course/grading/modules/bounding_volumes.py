@@ -8,8 +8,9 @@ from typing import Any
 
 import numpy as np
 
+from course.grading.checks import declare
 from course.grading.checks.check import Array, Failure
-from course.grading.checks.declare import Argument, Arguments, Case, Function, Law, Module, Result
+from course.grading.checks.declare import Arguments, Case, Law, Made, Module, function
 from course.grading.checks.drawing import Draw
 from course.grading.checks.laws import Look, close, holds, law
 from course.grading.checks.vectors import unit_vectors
@@ -103,19 +104,18 @@ def _between(a: Arguments, r: Any) -> Any:
     return np.where(within.all(axis=0), r[0] <= r[1], r[0] > r[1])
 
 
-def _corner(name: str, low: float) -> Argument:
-    return Argument(name, "3 N", lambda d: d.lengths(low, low + 1, 3, d.n), single=True)
+def _corner(low: float) -> Made:
+    return Made(lambda d: d.lengths(low, low + 1, 3, d.n), single=True)
 
 
-SLAB_TEST = Function(
-    "slab_test",
-    (
-        Argument("origins", "3 N", lambda d: d.lengths(-3, 3, 3, d.n)),
-        Argument("directions", "3 N", lambda d: d.directions()),
-        _corner("lo", -1.5),
-        _corner("hi", 0.5),
-    ),
-    (Result("t_near", "N", finite=False), Result("t_far", "N", finite=False)),
+SLAB_TEST = function(
+    "bounding_volumes.slab_test",
+    {
+        "origins": declare.points(),
+        "directions": Made(lambda d: d.directions()),
+        "lo": _corner(-1.5),
+        "hi": _corner(0.5),
+    },
     (
         holds(
             "misses",
@@ -155,6 +155,7 @@ SLAB_TEST = Function(
             scales=SCALES,
         ),
     ),
+    contract="origins: 3 N, directions: 3 N, lo: 3 N, hi: 3 N -> t_near: infinite N, t_far: infinite N",
     case=_through(),
 )
 
@@ -271,20 +272,13 @@ def _sorts(name: str, title: str, look: Look) -> Law:
     return law(name, title, look, case=_any_boxes, n=101, scales=(1.0,) * 8, role="corner")
 
 
-BUILD = Function(
-    "build",
-    (
-        Argument("lo", "3 T", lambda d: d.lengths(-1, 0, 3, d.n), (EMPTY,)),
-        Argument("hi", "3 T", lambda d: d.lengths(0, 1, 3, d.n)),
-        Argument(
-            "leaf_size", "", lambda d: int(d.rng.integers(1, 6)), (0, -1, 1.5, nan), batch=False
-        ),
-    ),
-    (
-        *(Result(name, "3 M") for name in ("lo", "hi")),
-        *(Result(name, "M", "int") for name in ("first", "count")),
-        Result("order", "T", "int"),
-    ),
+BUILD = function(
+    "bounding_volumes.build",
+    {
+        "lo": Made(lambda d: d.lengths(-1, 0, 3, d.n), (EMPTY,)),
+        "hi": Made(lambda d: d.lengths(0, 1, 3, d.n)),
+        "leaf_size": Made(lambda d: int(d.rng.integers(1, 6)), (0, -1, 1.5, nan)),
+    },
     (
         _sorts("once", "Every box is in exactly one leaf", _held),
         _sorts("leaves", "No leaf holds more than leaf_size", _leaves),

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from course.grading.checks.check import Array, Failure, Trial
-from course.grading.checks.declare import Argument, Arguments, Function, Law, Result, generator
+from course.grading.checks.declare import Arguments, Function, Law, Made, function
 from course.grading.checks.drawing import Draw
 from course.grading.checks.laws import from_generator, holds
 from course.grading.checks.statistics import FALSE_FAIL, chi_squared
@@ -23,6 +23,12 @@ ROWS = (2, 2, 1, 3)
 
 MIXED = (np.float32, np.float64, np.float32, np.float64)
 """Each has a dtype of its own."""
+
+FOUR = ", ".join(
+    f"samples of pattern {k}: {np.dtype(dtype)} {rows} N"
+    for k, (rows, dtype) in enumerate(zip(ROWS, MIXED, strict=True))
+)
+"""Of the contract what holds for four patterns."""
 
 
 def _patterns(draw: Draw, s: int) -> tuple[Array, ...]:
@@ -129,12 +135,10 @@ def _ways(a: Arguments, r: Any) -> Array:
     return np.repeat(ways[:, None], 100, axis=1)
 
 
-CHAIN = Function(
-    "chain",
-    (
-        Argument(
-            "patterns",
-            "",
+CHAIN = function(
+    "quasi_monte_carlo.chain",
+    {
+        "patterns": Made(
             lambda d: _patterns(d, 9),
             wrong=tuple(
                 {
@@ -143,20 +147,12 @@ CHAIN = Function(
                 }
                 for shapes in (((3,),), ((2, 3), (1, 2)), ((1, 2, 3),))
             ),
-            batch=False,
         ),
-        Argument(
-            "ids",
-            "N",
+        "ids": Made(
             lambda d: d.rng.integers(0, 9, d.n),
             wrong=(np.zeros(4, np.float32), np.array([0, 1, -1, 0]), np.array([0, 1, 99, 0])),
         ),
-        generator(),
-    ),
-    tuple(
-        Result(f"samples of pattern {k}", f"{rows} N", dtype)
-        for k, (rows, dtype) in enumerate(zip(ROWS, MIXED, strict=True))
-    ),
+    },
     (
         _rays_law(
             "samples",
@@ -197,6 +193,7 @@ CHAIN = Function(
             "ids": np.zeros(3, int),
         },
     ),
+    contract=f"patterns, ids: N, rng -> {FOUR}",
     # A permutation may be drawn as its samples are asked for.
     columns=False,
     features=_ways,

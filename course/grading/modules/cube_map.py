@@ -9,7 +9,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from course.grading.checks.check import Array, Role, Trial
-from course.grading.checks.declare import Argument, Arguments, Case, Function, Law, Module, Result
+from course.grading.checks.declare import Arguments, Case, Function, Law, Made, Module, function
 from course.grading.checks.drawing import Draw, worst_directions
 from course.grading.checks.laws import close, holds, within
 from course.grading.checks.weights import WHOLE
@@ -52,8 +52,7 @@ def _directions(draw: Draw) -> Array:
     return np.asarray(draw.scale * d / np.linalg.norm(d, axis=0))
 
 
-def _direction() -> Argument:
-    return Argument("direction", "3 N", _directions, corners=worst_directions)
+DIRECTION = Made(_directions, corners=worst_directions)
 
 
 # ---------------------------------------------------------------- face_and_uv
@@ -84,10 +83,9 @@ def _all_three(a: Arguments, r: Any) -> tuple[Any, ...]:
     return np.stack(r), np.stack(_place(a.direction)), 1.0
 
 
-FACE_AND_UV = Function(
-    "face_and_uv",
-    (_direction(),),
-    (Result("face", "N", "int"), Result("u", "N"), Result("v", "N")),
+FACE_AND_UV = function(
+    "cube_map.face_and_uv",
+    {"direction": DIRECTION},
     (
         close(
             "middles",
@@ -143,6 +141,7 @@ FACE_AND_UV = Function(
             role="corner",
         ),
     ),
+    contract="direction: 3 N -> face: whole N, u: N, v: N",
 )
 
 
@@ -280,13 +279,9 @@ def _lookup(name: str, seamless: bool, *more: Any) -> Function:
         how = usual | {"case": case, "role": role} | how
         return close(name, title, how.pop("compare", compare), hint, **how)
 
-    return Function(
-        name,
-        (
-            Argument("faces", "6 S S 3", _faces_of, (np.ones((6, 0, 0, 3)),), batch=False),
-            _direction(),
-        ),
-        (Result("the colours", "3 N"),),
+    return function(
+        f"cube_map.{name}",
+        {"faces": Made(_faces_of, (np.ones((6, 0, 0, 3)),), batch=False), "direction": DIRECTION},
         (
             about(
                 "centres",

@@ -14,7 +14,7 @@ import numpy as np
 
 from course.grading.checks import declare, laws
 from course.grading.checks.check import Array
-from course.grading.checks.declare import Argument, Arguments, Case, Function, Law, Module, Result
+from course.grading.checks.declare import Arguments, Case, Function, Law, Made, Module, function
 from course.grading.checks.drawing import Draw, worst_directions
 from course.grading.checks.vectors import cross, dot, normalized, turn_about
 from course.grading.checks.weights import WHOLE
@@ -98,10 +98,9 @@ def _orthonormal(name: str, title: str, hint: str, **how: Any) -> Law:
     )
 
 
-ORTHONORMAL_BASIS = Function(
-    "orthonormal_basis",
-    (declare.directions("w"),),
-    (Result("u", "3 N"), Result("v", "3 N")),
+ORTHONORMAL_BASIS = function(
+    "glossy.orthonormal_basis",
+    {"w": declare.directions()},
     (
         _orthonormal(
             "orthonormal",
@@ -126,6 +125,7 @@ ORTHONORMAL_BASIS = Function(
             role="corner",
         ),
     ),
+    contract="w: 3 N -> u: 3 N, v: 3 N",
     case=_easy,
     features=lambda a, r: np.round(_products(a, r), 3),
     scales=(),
@@ -135,12 +135,11 @@ ORTHONORMAL_BASIS = Function(
 # ---------------------------------------------------------------- the lobes
 
 
-def _lobe(name: str, rows: int, size: Argument, own: tuple[Law, ...]) -> Function:
+def _lobe(name: str, size: dict[str, Made], own: tuple[Law, ...]) -> Function:
     """A function that jitters directions: its conventions, and what every lobe keeps."""
-    return Function(
-        name,
-        (declare.directions("direction"), size, declare.u(rows)),
-        (Result("the directions", "3 N"),),
+    return function(
+        f"glossy.{name}",
+        {"direction": declare.directions(), **size},
         (laws.unit_length(), *own),
         free=True,
         features=_seen,
@@ -155,8 +154,7 @@ def _of_any_size(a: Arguments, r: Array) -> tuple[Any, ...]:
 
 JITTER_ON_PLANE = _lobe(
     "jitter_on_plane",
-    2,
-    declare.number("roughness", 0.3, 2, (-1.0, -1e-6, nan)),
+    {"roughness": declare.number(0.3, 2, (-1.0, -1e-6, nan))},
     (
         no_jitter("roughness"),
         square(
@@ -201,8 +199,7 @@ def _by_volume(a: Arguments, r: Array) -> Array:
 
 JITTER_IN_BALL = _lobe(
     "jitter_in_ball",
-    3,
-    declare.number("glossiness", 0.15, 0.95, (-1.0, -1e-6, nan, 1.0, 1.5)),
+    {"glossiness": declare.number(0.15, 0.95, (-1.0, -1e-6, nan, 1.0, 1.5))},
     (
         no_jitter("glossiness"),
         laws.holds(
@@ -266,8 +263,7 @@ def _in_disk(a: Arguments, r: Array) -> Array:
 
 SAMPLE_PHONG_LOBE = _lobe(
     "sample_phong_lobe",
-    2,
-    declare.number("exponent", 0.5, 80, (-1.0, -1e-6, nan)),
+    {"exponent": declare.number(0.5, 80, (-1.0, -1e-6, nan))},
     (
         laws.holds(
             "mirror",
@@ -330,10 +326,9 @@ def _above(name: str, title: str, hint: str, case: Case, **how: Any) -> Law:
     return laws.close(name, title, _mirrored, hint, **usual | how)
 
 
-KEEP_ABOVE = Function(
-    "keep_above",
-    (declare.directions("direction"), declare.directions("normal")),
-    (Result("the directions", "3 N"),),
+KEEP_ABOVE = function(
+    "glossy.keep_above",
+    {"direction": declare.directions(), "normal": declare.directions()},
     (
         _above(
             "unchanged",

@@ -15,7 +15,7 @@ import numpy as np
 
 from course.grading.checks import declare
 from course.grading.checks.check import Array, Failure, Trial
-from course.grading.checks.declare import Argument, Arguments, Function, Law, Module, Result, values
+from course.grading.checks.declare import Arguments, Function, Law, Made, Module, function, values
 from course.grading.checks.drawing import Draw
 from course.grading.checks.laws import (
     EPSILON,
@@ -37,6 +37,14 @@ ENDS = (2e-5, 1.0, 5e4)
 
 WRONG = tuple(np.array([1, wrong, 2, 3], np.float32) for wrong in (-1, nan))
 """Densities that none has."""
+
+DENSITIES = Made(
+    lambda d: d.lengths(0.05, 20, d.n),
+    WRONG,
+    lambda dtype: np.array([0, 1e-6, 1, 1e6], dtype),
+)
+
+NONE: Mapping[str, Made] = {}
 
 
 def _integral(n: float) -> float:
@@ -70,10 +78,9 @@ def _turn(directions: Array) -> Array:
 def _hemisphere(name: str, lobe: int, density: str) -> Function:
     """Directions distributed as a Phong lobe of that exponent about +z."""
     height = ("z", "z^2")[lobe]
-    return Function(
-        name,
-        (declare.u(2),),
-        (Result("the directions", "3 N"),),
+    return function(
+        f"importance_sampling.{name}",
+        {},
         (
             within(
                 "hemisphere",
@@ -119,16 +126,12 @@ def _density(a: Arguments, r: Array) -> tuple[Any, ...]:
     return r, np.where(a.cos < 0, 0, expected), (n + 1) * (1 + n / 8) / (2 * pi)
 
 
-def _pdf(name: str, more: tuple[Argument, ...] = (), laws: tuple[Law, ...] = ()) -> Function:
+def _pdf(name: str, more: Mapping[str, Made] = NONE, laws: tuple[Law, ...] = ()) -> Function:
     """A density about an axis."""
     ends = (-1.0, -1e-7, 0.0, 1e-30, 1e-7, 0.5, 1.0)
-    return Function(
-        name,
-        (
-            replace(values("cos", "N", 0, 1), corners=lambda dtype: np.array(ends, dtype)),
-            *more,
-        ),
-        (Result("the density", "N"),),
+    return function(
+        f"importance_sampling.{name}",
+        {"cos": replace(values(0, 1), corners=lambda dtype: np.array(ends, dtype)), **more},
         (
             close(
                 "below",
@@ -170,7 +173,7 @@ def _sharp(draw: Draw) -> Mapping[str, Any]:
 
 PHONG = _pdf(
     "phong_lobe_pdf",
-    (declare.number("exponent", 0.5, 5, (-1.0, -1e-6, nan)),),
+    {"exponent": declare.number(0.5, 5, (-1.0, -1e-6, nan))},
     (
         close(
             "flat",
@@ -266,11 +269,11 @@ def _for_counts(counts: tuple[int, ...], *how: Any, **more: Any) -> Law:
 
 
 def _one_channel(_: Function, trial: Trial) -> None:
-    of_two_numbers = Function(
-        "estimate",
-        (values("f", "N", -4, 4), values("pdf", "N", 0.2, 3)),
-        (Result("the mean", "", "floating"), Result("the variance", "", "floating")),
+    of_two_numbers = function(
+        "importance_sampling.estimate",
+        {"f": values(-4, 4), "pdf": values(0.2, 3)},
         (),
+        contract="f: N, pdf: N -> the mean: floating, the variance: floating",
         columns=False,
     )
     hint = "Channels are averaged over their samples, each by itself; one alone gives two numbers."
@@ -300,13 +303,12 @@ def _predicted(function: Function, trial: Trial) -> None:
                 )
 
 
-ESTIMATE = Function(
-    "estimate",
-    (
-        Argument("f", "C N", lambda d: np.asarray(_samples(d)["f"])),
-        values("pdf", "N", 0.2, 3, (*WRONG, np.array([2, 0, 1, 3], np.float32))),
-    ),
-    (Result("the mean", "C"), Result("the variance", "C")),
+ESTIMATE = function(
+    "importance_sampling.estimate",
+    {
+        "f": Made(lambda d: np.asarray(_samples(d)["f"])),
+        "pdf": values(0.2, 3, (*WRONG, np.array([2, 0, 1, 3], np.float32))),
+    },
     (
         close(
             "zero_density",
@@ -366,6 +368,7 @@ ESTIMATE = Function(
             scales=MAGNITUDES,
         ),
     ),
+    contract="f: C N, pdf: N -> the mean: C, the variance: C",
     case=_samples,
     columns=False,
     scales=MAGNITUDES,
@@ -393,19 +396,9 @@ def _unlike(draw: Draw) -> Mapping[str, Any]:
     return {"a": a, "b": np.clip(b * np.exp(draw.rng.uniform(-14, 14, draw.n)), 1e-6, 1e6)}
 
 
-POWER_HEURISTIC = Function(
-    "power_heuristic",
-    tuple(
-        Argument(
-            name,
-            "N",
-            lambda d: d.lengths(0.05, 20, d.n),
-            wrong=WRONG,
-            corners=lambda dtype: np.array([0, 1e-6, 1, 1e6], dtype),
-        )
-        for name in ("a", "b")
-    ),
-    (Result("the weights", "N"),),
+POWER_HEURISTIC = function(
+    "importance_sampling.power_heuristic",
+    dict.fromkeys(("a", "b"), DENSITIES),
     (
         close(
             "limits",

@@ -10,7 +10,7 @@ import numpy as np
 
 from course.grading.checks import declare
 from course.grading.checks.check import Array, Trial
-from course.grading.checks.declare import Argument, Arguments, Function, Law, Module, Result
+from course.grading.checks.declare import Arguments, Law, Made, Module, function
 from course.grading.checks.drawing import Draw
 from course.grading.checks.laws import close, evenly
 from course.grading.checks.weights import WHOLE
@@ -56,15 +56,17 @@ def _histogram(trial: Trial, a: Arguments, r: Array) -> None:
     trial.show("histogram", "Times, as a share of the exposure", yours=share)
 
 
-def _time(name: str, *wrong: Any) -> Argument:
+def _time(name: str, *wrong: Any) -> Made:
     """A time of the shutter; both are made together."""
-    return Argument(name, "", lambda d: _shutter(d)[name], wrong, batch=False)
+    return Made(lambda d: _shutter(d)[name], wrong)
 
 
-SHUTTER_TIMES = Function(
-    "shutter_times",
-    (_time("open", nan, -inf, {"open": 2.0, "close": 1.0}), _time("close", nan, inf), declare.u(1)),
-    (Result("the times", "N"),),
+SHUTTER_TIMES = function(
+    "motion_blur.shutter_times",
+    {
+        "open": _time("open", nan, -inf, {"open": 2.0, "close": 1.0}),
+        "close": _time("close", nan, inf),
+    },
     (
         close(
             "instant",
@@ -116,8 +118,8 @@ def _velocity(draw: Draw) -> Array:
     return np.asarray(draw.scale * sizes * draw.rng.choice((-1.0, 1.0), 3))
 
 
-VELOCITY = Argument("velocity", "3", _velocity, batch=False)
-TIME = declare.values("time", "N", -2.0, 3.0)
+VELOCITY = Made(_velocity)
+TIME = declare.values(-2.0, 3.0)
 
 
 def _any_time(draw: Draw) -> Mapping[str, Any]:
@@ -142,10 +144,9 @@ def _gone(name: str, title: str, hint: str, **how: Any) -> Law:
     )
 
 
-DISPLACEMENT = Function(
-    "displacement",
-    (VELOCITY, TIME),
-    (Result("the ways", "3 N"),),
+DISPLACEMENT = function(
+    "motion_blur.displacement",
+    {"velocity": VELOCITY, "time": TIME},
     (
         _gone(
             "one-second",
@@ -198,10 +199,9 @@ def _aboard(draw: Draw) -> Mapping[str, Any]:
     }
 
 
-TO_OBJECT_SPACE = Function(
-    "to_object_space",
-    (declare.points("origins"), VELOCITY, TIME),
-    (Result("the origins", "3 N"),),
+TO_OBJECT_SPACE = function(
+    "motion_blur.to_object_space",
+    {"origins": declare.points(), "velocity": VELOCITY, "time": TIME},
     (
         _seen(
             "at-rest",

@@ -15,7 +15,7 @@ import numpy as np
 
 from course.grading.checks import declare, laws
 from course.grading.checks.check import Array
-from course.grading.checks.declare import Argument, Arguments, Function, Law, Module, Result
+from course.grading.checks.declare import Arguments, Law, Made, Module, function
 from course.grading.checks.drawing import Draw, worst_directions, worst_units
 from course.grading.checks.vectors import dot, turn_about
 from course.grading.checks.weights import WHOLE
@@ -72,10 +72,9 @@ def _from_above(a: Arguments, r: Array) -> Array:
     return np.asarray(np.sqrt(1 - squared) * (np.cos(2 * pi * turn), np.sin(2 * pi * turn)))
 
 
-DIFFUSE_BOUNCE = Function(
-    "diffuse_bounce",
-    (declare.directions("normal"), declare.u(2)),
-    (Result("the directions", "3 N"),),
+DIFFUSE_BOUNCE = function(
+    "path_tracing.diffuse_bounce",
+    {"normal": declare.directions()},
     (
         laws.within(
             "hemisphere",
@@ -112,10 +111,11 @@ DIFFUSE_BOUNCE = Function(
 # ---------------------------------------------------------------- throughput
 
 
-def _colors(name: str) -> Argument:
-    """(3, N) numbers from 0 to 1, black and bright ones at the ends."""
-    ends = np.array([(0, 0, 0), (1e-6, 0, 0), (1, 1, 1), (0, 1e-3, 1e3)]).T
-    return Argument(name, "3 N", lambda d: d.uniform(0.02, 1, 3, d.n), corners=ends.astype)
+COLORS = Made(
+    lambda d: d.uniform(0.02, 1, 3, d.n),
+    corners=np.array([(0, 0, 0), (1e-6, 0, 0), (1, 1, 1), (0, 1e-3, 1e3)]).T.astype,
+)
+"""(3, N) numbers from 0 to 1, black and bright ones at the ends."""
 
 
 def _of_any_size(draw: Draw) -> Mapping[str, Any]:
@@ -132,10 +132,9 @@ def _returned(a: Arguments, r: Array) -> tuple[Any, ...]:
     return r, a.beta * a.albedo, a.beta * a.albedo
 
 
-THROUGHPUT = Function(
-    "throughput",
-    (_colors("beta"), _colors("albedo")),
-    (Result("the throughput", "3 N"),),
+THROUGHPUT = function(
+    "path_tracing.throughput",
+    {"beta": COLORS, "albedo": COLORS},
     (
         laws.close(
             "any-size",
@@ -218,10 +217,9 @@ def _averages(a: Arguments, r: Any) -> list[tuple[str, Array, float, float]]:
     ]
 
 
-RUSSIAN_ROULETTE = Function(
-    "russian_roulette",
-    (_colors("beta"), declare.u(1)),
-    (Result("survives", "N", "bool"), Result("the throughput", "3 N")),
+RUSSIAN_ROULETTE = function(
+    "path_tracing.russian_roulette",
+    {"beta": COLORS},
     (
         laws.holds(
             "survival",

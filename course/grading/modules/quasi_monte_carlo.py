@@ -14,14 +14,14 @@ import numpy as np
 
 from course.grading.checks.check import Array, Failure, Role, Trial
 from course.grading.checks.declare import (
-    Argument,
     Arguments,
     Case,
     Function,
     Law,
+    Made,
     Module,
-    Result,
     count,
+    function,
 )
 from course.grading.checks.drawing import Draw
 from course.grading.checks.laws import (
@@ -88,12 +88,7 @@ def _numbers(draw: Draw, most: int = 100_000) -> Array:
     return i
 
 
-INDICES = Argument(
-    "i",
-    "N",
-    _numbers,
-    wrong=(np.array([1.0, 2, 3, 4], np.float32), np.array([0, 1, -1, 2])),
-)
+INDICES = Made(_numbers, (np.array([1.0, 2, 3, 4], np.float32), np.array([0, 1, -1, 2])))
 
 OTHER_INDICES: Any = (
     lambda _: {"i": np.arange(40, dtype=np.int32)},
@@ -122,10 +117,9 @@ def _inverse(hint: str) -> Callable[[Arguments, Array], None]:
     return lambda a, r: _check_row(r, a.base, a.i, hint)
 
 
-RADICAL_INVERSE = Function(
-    "radical_inverse",
-    (count("base", 2, 30, (1, 0, -2, 2.5, nan)), INDICES),
-    (Result("the radical inverses", "N", np.float32),),
+RADICAL_INVERSE = function(
+    "quasi_monte_carlo.radical_inverse",
+    {"base": count(2, 30, (1, 0, -2, 2.5, nan)), "i": INDICES},
     (
         _law(
             "large",
@@ -143,6 +137,7 @@ RADICAL_INVERSE = Function(
             role="core",
         ),
     ),
+    contract="base, i: N -> the radical inverses: float32 N",
     corners=OTHER_INDICES,
 )
 
@@ -186,8 +181,6 @@ def _check_cells(points: Array, columns: int, rows: int, hint: str) -> None:
         )
 
 
-POINTS = (Result("the points", "dims N", np.float32),)
-
 # ---------------------------------------------------------------- halton
 
 
@@ -217,10 +210,9 @@ def _runs(function: Function, trial: Trial, number_of: int) -> Array:
     return np.reshape(function.call(trial, Arguments(i=i.ravel(), dims=3)), (3, *i.shape))
 
 
-HALTON = Function(
-    "halton",
-    (INDICES, count("dims", 1, 8, (0, -1))),
-    POINTS,
+HALTON = function(
+    "quasi_monte_carlo.halton",
+    {"i": INDICES, "dims": count(1, 8, (0, -1))},
     (
         _law(
             "cells", "Points fall one into each cell of 2^a by 3^b", _halton_cells, _halton_runs, 3
@@ -272,10 +264,9 @@ def _moved(function: Function, trial: Trial, number_of: int) -> Array:
     return np.asarray((points[:, None] + trial.rng.random((3, REPEATS, 1))) % 1)
 
 
-HAMMERSLEY = Function(
-    "hammersley",
-    (Argument("n", "", lambda d: d.n, (-1,), batch=False), count("dims", 1, 8, (0, -1))),
-    (Result("the points", "dims n", np.float32),),
+HAMMERSLEY = function(
+    "quasi_monte_carlo.hammersley",
+    {"n": Made(lambda d: d.n, (-1,)), "dims": count(1, 8, (0, -1))},
     (
         _law(
             "cells",

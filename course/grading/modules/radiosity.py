@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from course.grading.checks.check import Array, Failure
-from course.grading.checks.declare import Argument, Arguments, Case, Function, Law, Module, Result
+from course.grading.checks.declare import Arguments, Case, Law, Made, Module, function
 from course.grading.checks.drawing import Draw
 from course.grading.checks.examples import where
 from course.grading.checks.laws import close, holds, law
@@ -76,10 +76,9 @@ def _total(_: Arguments, r: Any) -> Array:
     return np.array([r[0].sum() + 4 * r[1].sum()])
 
 
-HEMICUBE = Function(
-    "hemicube_form_factors",
-    (Argument("k", "", lambda d: 2 * int(d.rng.integers(1, 17)), (0, 1, 3, 33, -2), batch=False),),
-    (Result("top", "k k", np.float32), Result("side", "k//2 k", np.float32)),
+HEMICUBE = function(
+    "radiosity.hemicube_form_factors",
+    {"k": Made(lambda d: 2 * int(d.rng.integers(1, 17)), (0, 1, 3, 33, -2))},
     (
         _cells(
             "top",
@@ -147,9 +146,9 @@ def _solution(room: Mapping[str, Any]) -> Array:
     )
 
 
-def _colours(*names: str) -> tuple[Argument, ...]:
+def _colours(*names: str) -> dict[str, Made]:
     """Arguments that a room has: (3, P) each."""
-    return tuple(Argument(name, "3 P", lambda d: d.uniform(0, 1, 3, d.n)) for name in names)
+    return dict.fromkeys(names, Made(lambda d: d.uniform(0, 1, 3, d.n)))
 
 
 # ---------------------------------------------------------------- gather
@@ -170,13 +169,12 @@ def _gathered(a: Arguments, r: Array) -> tuple[Array, Array]:
     return r, a.emission + a.reflectance * np.reshape(arriving, a.emission.shape)
 
 
-GATHER = Function(
-    "gather",
-    (
-        *_colours("radiosity", "emission", "reflectance"),
-        Argument("form_factors", "P P", lambda d: np.zeros((d.n, d.n))),
-    ),
-    (Result("the radiosity", "3 P"),),
+GATHER = function(
+    "radiosity.gather",
+    {
+        **_colours("radiosity", "emission", "reflectance"),
+        "form_factors": Made(lambda d: np.zeros((d.n, d.n))),
+    },
     (
         close(
             "dark",
@@ -248,15 +246,14 @@ def _left(a: Arguments) -> Array:
     return np.asarray(left + _received(a))
 
 
-SHOOT = Function(
-    "shoot",
-    (
-        *_colours("radiosity", "unshot", "reflectance"),
-        Argument("areas", "P", lambda d: np.ones(d.n)),
-        Argument("form_factors", "P", lambda d: np.zeros(d.n)),
-        Argument("shooter", "", lambda _: 0, (-1, 99), batch=False),
-    ),
-    (Result("the radiosity", "3 P"), Result("the unshot radiosity", "3 P")),
+SHOOT = function(
+    "radiosity.shoot",
+    {
+        **_colours("radiosity", "unshot", "reflectance"),
+        "areas": Made(lambda d: np.ones(d.n)),
+        "form_factors": Made(lambda d: np.zeros(d.n)),
+        "shooter": Made(lambda _: 0, (-1, 99)),
+    },
     (
         close(
             "cleared",
@@ -355,18 +352,14 @@ def _decisions(name: str, title: str, hint: str, case: Case | None = None, **how
     return law(name, title, look, case=case, **how)
 
 
-NEEDS_SPLIT = Function(
-    "needs_split",
-    (
-        Argument(
-            "patch_radiosity",
-            "3 K N",
-            lambda d: d.lengths(0, 1, 3, 4, d.n),
-            wrong=(np.ones((3, 0, 4), np.float32),),
+NEEDS_SPLIT = function(
+    "radiosity.needs_split",
+    {
+        "patch_radiosity": Made(
+            lambda d: d.lengths(0, 1, 3, 4, d.n), wrong=(np.ones((3, 0, 4), np.float32),)
         ),
-        Argument("threshold", "", lambda _: 0.3, (-0.5, -1e-9, math.nan), batch=False),
-    ),
-    (Result("the decisions", "N", np.bool_),),
+        "threshold": Made(lambda _: 0.3, (-0.5, -1e-9, math.nan)),
+    },
     (
         _decisions(
             "threshold",

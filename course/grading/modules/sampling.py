@@ -9,16 +9,7 @@ import numpy as np
 from scipy.special import ndtri
 
 from course.grading.checks.check import Array, Failure, Trial
-from course.grading.checks.declare import (
-    Argument,
-    Arguments,
-    Function,
-    Law,
-    Module,
-    Result,
-    generator,
-    u,
-)
+from course.grading.checks.declare import Arguments, Function, Law, Made, Module, function
 from course.grading.checks.drawing import Draw
 from course.grading.checks.laws import MANY, close, from_generator, holds, law
 from course.grading.checks.statistics import FALSE_FAIL
@@ -43,12 +34,11 @@ def _as_they_are(_: Arguments, points: Array) -> Array:
 # ---------------------------------------------------------------- warps
 
 
-def _by_polar(shape: Shape, rows: int, coordinates: int) -> Function:
+def _by_polar(shape: Shape) -> Function:
     """A shape's points, one for each u."""
-    return Function(
-        f"{shape.name}_by_polar",
-        (u(rows),),
-        (Result("the points", f"{coordinates} N"),),
+    return function(
+        f"sampling.{shape.name}_by_polar",
+        {},
         (edge(shape, _as_they_are), *warps(shape, _as_they_are)),
         free=True,
         symmetric=True,
@@ -119,10 +109,9 @@ def _habits(a: Arguments, points: Array) -> Array:
 
 def _by_rejection(shape: Shape, rows: int) -> Function:
     """A shape's points, as many as are asked for."""
-    return Function(
-        f"{shape.name}_by_rejection",
-        (Argument("n", "", lambda d: d.n, (-1, -100), batch=False), generator()),
-        (Result("the points", f"{rows} n"),),
+    return function(
+        f"sampling.{shape.name}_by_rejection",
+        {"n": Made(lambda d: d.n, (-1, -100))},
         (
             edge(shape, _as_they_are, dtypes=(np.float32,)),
             _acceptance(rows),
@@ -195,18 +184,15 @@ def _streams(a: Arguments, r: Any) -> None:
         )
 
 
-XORSHIFT = Function(
-    "xorshift32",
-    (
-        Argument(
-            "state",
-            "N",
+XORSHIFT = function(
+    "sampling.xorshift32",
+    {
+        "state": Made(
             _states,
             tuple(np.arange(1, 5, dtype=kind) for kind in ("i4", "i8", "u8", "f4")),
             lambda _: ENDS,
-        ),
-    ),
-    (Result("the new state", "N", np.uint32), Result("the random numbers", "N", np.float32)),
+        )
+    },
     (
         Law(
             "known",
@@ -257,10 +243,10 @@ MODULE = Module(
     "sampling",
     (
         _by_rejection(DISK, 2),
-        _by_polar(DISK, 2, 2),
+        _by_polar(DISK),
         _by_rejection(BALL, 3),
-        _by_polar(BALL, 3, 3),
-        _by_polar(SPHERE, 2, 3),
+        _by_polar(BALL),
+        _by_polar(SPHERE),
         XORSHIFT,
     ),
 )

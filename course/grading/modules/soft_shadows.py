@@ -10,7 +10,7 @@ import numpy as np
 
 from course.grading.checks import declare
 from course.grading.checks.check import Array
-from course.grading.checks.declare import Argument, Arguments, Case, Function, Law, Module, Result
+from course.grading.checks.declare import Arguments, Case, Function, Law, Made, Module, function
 from course.grading.checks.drawing import Draw
 from course.grading.checks.laws import close, evenly, uniform, within
 from course.grading.checks.vectors import dot, normalized
@@ -38,8 +38,6 @@ def _coordinates(a: Arguments, r: Array) -> Array:
     axes = np.stack((a.edge_u, a.edge_v, normal), axis=1)
     return np.asarray(np.linalg.solve(axes, r - a.corner[:, None]))
 
-
-CORNER_AND_EDGES = tuple(declare.point(name) for name in ("corner", "edge_u", "edge_v"))
 
 PLANE = close(
     "plane",
@@ -88,10 +86,9 @@ def _centres(name: str, title: str, hint: str, **how: Any) -> Law:
     )
 
 
-LIGHT_GRID = Function(
-    "light_grid",
-    (*CORNER_AND_EDGES, Argument("k", "", _lights, (0, -2), batch=False)),
-    (Result("the grid", "3 k*k"),),
+LIGHT_GRID = function(
+    "soft_shadows.light_grid",
+    {"k": Made(_lights, (0, -2))},
     (
         PLANE,
         _centres(
@@ -121,10 +118,9 @@ def _edges(a: Arguments, r: Array) -> Array:
     return _coordinates(a, r)[:2]
 
 
-POINT_ON_RECTANGLE = Function(
-    "point_on_rectangle",
-    (*CORNER_AND_EDGES, declare.u(2)),
-    (Result("the points", "3 N"),),
+POINT_ON_RECTANGLE = function(
+    "soft_shadows.point_on_rectangle",
+    {},
     (
         PLANE,
         within(
@@ -161,7 +157,7 @@ POINT_ON_RECTANGLE = Function(
 
 # ---------------------------------------------------------------- round lights
 
-CENTRE_AND_RADIUS = (declare.point("center"), declare.length("radius", 0.3, 3, (-1.0, nan, inf)))
+RADIUS = declare.length(0.3, 3, (-1.0, nan, inf))
 
 
 def _from_centre(a: Arguments, r: Array) -> Array:
@@ -185,12 +181,11 @@ RADIUS_ZERO = close(
 )
 
 
-def _light(name: str, rows: int, shape: round_shapes.Shape) -> Function:
+def _light(name: str, shape: round_shapes.Shape) -> Function:
     """A light that looks the same from everywhere."""
-    return Function(
-        name,
-        (*CENTRE_AND_RADIUS, declare.u(rows)),
-        (Result("the points", "3 N"),),
+    return function(
+        f"soft_shadows.{name}",
+        {"radius": RADIUS},
         (
             round_shapes.edge(shape, _from_centre, scales=SCALES),
             RADIUS_ZERO,
@@ -254,10 +249,9 @@ def _face_on(a: Arguments, r: Array) -> Array:
 FACING = _around(lambda draw: draw.directions())
 ONE_WAY = _around(lambda draw: np.repeat(draw.directions(1), draw.n, axis=1))
 
-POINT_ON_FACING_DISK = Function(
-    "point_on_facing_disk",
-    (*CENTRE_AND_RADIUS, declare.points("point"), declare.u(2)),
-    (Result("the points", "3 N"),),
+POINT_ON_FACING_DISK = function(
+    "soft_shadows.point_on_facing_disk",
+    {"radius": RADIUS, "point": declare.points()},
     (
         close(
             "faces",
@@ -303,8 +297,8 @@ MODULE = Module(
     (
         LIGHT_GRID,
         POINT_ON_RECTANGLE,
-        _light("point_on_sphere", 2, round_shapes.SPHERE),
-        _light("point_in_ball", 3, round_shapes.BALL),
+        _light("point_on_sphere", round_shapes.SPHERE),
+        _light("point_in_ball", round_shapes.BALL),
         POINT_ON_FACING_DISK,
     ),
 )

@@ -10,15 +10,14 @@ import numpy as np
 
 from course.grading.checks.check import Array, Failure, Trial
 from course.grading.checks.declare import (
-    Argument,
     Arguments,
     Case,
     Function,
     Law,
+    Made,
     Module,
-    Result,
     count,
-    generator,
+    function,
     number,
 )
 from course.grading.checks.drawing import Draw, worst_units
@@ -26,9 +25,7 @@ from course.grading.checks.laws import EPSILON, close, exact, from_generator, la
 
 # ---------------------------------------------------------------- cells of a pixel
 
-GRID = (count("k", 2, 6, (0, -1)), Argument("n", "", lambda d: d.n, (-1,), batch=False))
-
-POINTS = (Result("the points", "2 n k*k", np.float32),)
+GRID = {"k": count(2, 6, (0, -1)), "n": Made(lambda d: d.n, (-1,))}
 
 SMALLEST = (lambda _: {"k": 1, "n": 0}, lambda _: {"k": 1, "n": 3}, lambda _: {"k": 16, "n": 2})
 
@@ -114,10 +111,9 @@ ORDER = law(
 
 # ---------------------------------------------------------------- regular
 
-REGULAR = Function(
-    "regular",
+REGULAR = function(
+    "supersampling.regular",
     GRID,
-    POINTS,
     (
         INSIDE,
         ORDER,
@@ -215,20 +211,18 @@ def _habits(points: Array) -> Array:
     return np.stack((*rows, same_cells.ravel()))
 
 
-RANDOM = Function(
-    "random",
-    (*GRID, generator()),
-    POINTS,
+RANDOM = function(
+    "supersampling.random",
+    GRID,
     (INSIDE, *_independent(lambda _, r: r, "the pixel", "A pixel's samples are")),
     corners=SMALLEST,
     features=lambda _, r: _habits(r),
     speed=1024,
 )
 
-JITTERED = Function(
-    "jittered",
-    (*GRID, generator()),
-    POINTS,
+JITTERED = function(
+    "supersampling.jittered",
+    GRID,
     (
         INSIDE,
         law(
@@ -290,13 +284,12 @@ def _by_default(function: Function, trial: Trial) -> None:
         )
 
 
-GAUSSIAN_WEIGHTS = Function(
-    "gaussian_weights",
-    (
-        Argument("offsets", "2 N s", lambda d: d.units(2, d.n)[:, :, None]),
-        number("sigma", 0.12, 3, (0.0, -0.5, nan)),
-    ),
-    (Result("the weights", "N s"),),
+GAUSSIAN_WEIGHTS = function(
+    "supersampling.gaussian_weights",
+    {
+        "offsets": Made(lambda d: d.units(2, d.n)[:, :, None]),
+        "sigma": number(0.12, 3, (0.0, -0.5, nan)),
+    },
     (
         Law("default", "Sigma is 1/6 by default", _by_default, "corner"),
         close(
@@ -387,13 +380,12 @@ def _resolved(name: str, title: str, hint: str, case: Case | None = None, **how:
     return close(name, title, _mean, hint, case=case, what="a weighted mean of", within=32, **how)
 
 
-RESOLVE = Function(
-    "resolve",
-    (
-        Argument("radiance", "3 N s", lambda d: d.uniform(0, 1, 3, d.n, 4)),
-        Argument("weights", "N s", lambda d: d.uniform(0.5, 1, d.n, 4)),
-    ),
-    (Result("the colours", "3 N"),),
+RESOLVE = function(
+    "supersampling.resolve",
+    {
+        "radiance": Made(lambda d: d.uniform(0, 1, 3, d.n, 4)),
+        "weights": Made(lambda d: d.uniform(0.5, 1, d.n, 4)),
+    },
     (
         close(
             "no-samples",

@@ -7,8 +7,9 @@ from typing import Any
 
 import numpy as np
 
+from course.grading.checks import declare
 from course.grading.checks.check import Array, Trial
-from course.grading.checks.declare import Argument, Arguments, Case, Function, Module, Result, point
+from course.grading.checks.declare import Arguments, Case, Made, Module, function
 from course.grading.checks.drawing import Draw
 from course.grading.checks.laws import close, within
 from course.grading.checks.weights import WHOLE
@@ -47,20 +48,14 @@ def _places(a: Arguments, r: Array) -> tuple[Any, ...]:
     return r, expected, 1 + far / np.linalg.norm(edges, axis=1)[:, None]
 
 
-def _neighbour(name: str) -> Argument:
+def _neighbour(name: str) -> Made:
     same = {"p1": np.ones(3), name: np.ones(3)}
-    return Argument(name, "3", lambda d: d.lengths(-3, 3, 3), (same,), batch=False)
+    return Made(lambda d: d.lengths(-3, 3, 3), (same,))
 
 
-RECTANGLE_UV = Function(
-    "rectangle_uv",
-    (
-        Argument("p", "3 N", lambda d: d.lengths(-3, 3, 3, d.n)),
-        point("p1"),
-        _neighbour("p2"),
-        _neighbour("p3"),
-    ),
-    (Result("u and v", "2 N"),),
+RECTANGLE_UV = function(
+    "textures.rectangle_uv",
+    {"p": declare.points(), "p2": _neighbour("p2"), "p3": _neighbour("p3")},
     (
         close(
             "beyond",
@@ -155,10 +150,9 @@ def _round(a: Arguments, r: Array) -> tuple[Any, ...]:
     return found, np.stack((u, v)), 1 + rounded
 
 
-SPHERE_UV = Function(
-    "sphere_uv",
-    (Argument("p", "3 N", lambda d: d.lengths(-3, 3, 3, d.n)), point("center", 1.0)),
-    (Result("u and v", "2 N"),),
+SPHERE_UV = function(
+    "textures.sphere_uv",
+    {"p": declare.points(), "center": declare.point(1.0)},
     (
         within(
             "range",
@@ -234,14 +228,12 @@ def _mixed(a: Arguments, r: Array) -> tuple[Any, ...]:
     return r, sum(w * uv for w, uv in zip(a.barycentric, corners, strict=True)), size
 
 
-def _corner(name: str) -> Argument:
-    return Argument(name, "2 N", lambda d: d.uniform(-2, 2, 2, d.n), single=True)
+CORNER = Made(lambda d: d.uniform(-2, 2, 2, d.n), single=True)
 
 
-TRIANGLE_UV = Function(
-    "triangle_uv",
-    (Argument("barycentric", "3 N", _weights), *map(_corner, ("uv0", "uv1", "uv2"))),
-    (Result("u and v", "2 N"),),
+TRIANGLE_UV = function(
+    "textures.triangle_uv",
+    {"barycentric": Made(_weights), **dict.fromkeys(("uv0", "uv1", "uv2"), CORNER)},
     (
         close(
             "few",
@@ -359,13 +351,9 @@ def _tents(a: Arguments, r: Array) -> tuple[Any, ...]:
 
 EMPTY = (np.ones((0, 6, 3)), np.ones((4, 0, 3)), np.ones((3, 4, 6)))
 
-TEXTURE_LOOKUP = Function(
-    "texture_lookup",
-    (
-        Argument("image", "H W 3", _image, EMPTY, batch=False),
-        Argument("uv", "2 N", lambda d: d.uniform(0, 1, 2, d.n)),
-    ),
-    (Result("the colours", "3 N"),),
+TEXTURE_LOOKUP = function(
+    "textures.texture_lookup",
+    {"image": Made(_image, EMPTY, batch=False), "uv": Made(lambda d: d.uniform(0, 1, 2, d.n))},
     (
         close(
             "centers",

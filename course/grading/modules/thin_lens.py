@@ -10,7 +10,7 @@ import numpy as np
 
 from course.grading.checks import declare
 from course.grading.checks.check import Array
-from course.grading.checks.declare import Argument, Arguments, Case, Function, Law, Module, Result
+from course.grading.checks.declare import Arguments, Case, Law, Made, Module, function
 from course.grading.checks.drawing import Draw
 from course.grading.checks.laws import close, unit_length
 from course.grading.checks.vectors import dot, normalized
@@ -23,10 +23,9 @@ def _points(_: Arguments, points: Array) -> Array:
     return points
 
 
-POINT_ON_DISK = Function(
-    "point_on_disk",
-    (declare.u(2),),
-    (Result("the points", "2 N"),),
+POINT_ON_DISK = function(
+    "thin_lens.point_on_disk",
+    {},
     (edge(DISK, _points), *warps(DISK, _points)),
     free=True,
     symmetric=True,
@@ -90,16 +89,13 @@ def _scale(a: Arguments) -> float:
 
 SCALES = (1.0, 1e-3, 1e3)
 
-LENS_RAYS = Function(
-    "lens_rays",
-    (
-        declare.point("origin"),
-        *(declare.point(name) for name in ("right", "up", "forward")),
-        declare.directions("directions"),
-        Argument("lens_points", "2 N", lambda d: d.lengths(-0.2, 0.2, 2, d.n)),
-        declare.length("focus_distance", 0.7, 20, (0.0, -1.0, nan)),
-    ),
-    (Result("origins", "3 N"), Result("directions", "3 N")),
+LENS_RAYS = function(
+    "thin_lens.lens_rays",
+    {
+        "directions": declare.directions(),
+        "lens_points": Made(lambda d: d.lengths(-0.2, 0.2, 2, d.n)),
+        "focus_distance": declare.length(0.7, 20, (0.0, -1.0, nan)),
+    },
     (
         close(
             "on_lens",
@@ -180,13 +176,12 @@ def _image(name: str, title: str, hint: str, case: Case, **how: Any) -> Law:
     return close(name, title, _formula, hint, case=case, within=1e-2, scales=SCALES * 7, **how)
 
 
-IMAGE_DISTANCE = Function(
-    "image_distance",
-    (
-        declare.length("focal_length", 0.01, 10, (0.0, -1.0, nan)),
-        declare.length("object_distance", 0.1, 9, (0.0, -1.0, nan)),
-    ),
-    (Result("the distance", "", "floating", finite=False),),
+IMAGE_DISTANCE = function(
+    "thin_lens.image_distance",
+    {
+        "focal_length": declare.length(0.01, 10, (0.0, -1.0, nan)),
+        "object_distance": declare.length(0.1, 9, (0.0, -1.0, nan)),
+    },
     (
         _image(
             "real",
@@ -208,6 +203,7 @@ IMAGE_DISTANCE = Function(
             role="corner",
         ),
     ),
+    contract="focal_length, object_distance -> the distance: floating infinite",
     speed=0,
 )
 
@@ -243,12 +239,10 @@ def _spread(name: str, title: str, hint: str, case: Case, **how: Any) -> Law:
     return close(name, title, _circle, hint, **usual | how)
 
 
-CIRCLE_OF_CONFUSION = Function(
-    "circle_of_confusion",
-    (
-        Argument(
-            "depth",
-            "N",
+CIRCLE_OF_CONFUSION = function(
+    "thin_lens.circle_of_confusion",
+    {
+        "depth": Made(
             lambda d: d.lengths(0.5, 9, d.n),
             wrong=(
                 np.array([1, 0, 2, 3], np.float32),
@@ -256,10 +250,9 @@ CIRCLE_OF_CONFUSION = Function(
                 np.array([1, 2, nan, 3], np.float32),
             ),
         ),
-        declare.length("aperture_radius", 0.01, 0.5, (-1.0, nan)),
-        declare.length("focus_distance", 0.5, 20, (0.0, -1.0, nan)),
-    ),
-    (Result("the diameters", "N"),),
+        "aperture_radius": declare.length(0.01, 0.5, (-1.0, nan)),
+        "focus_distance": declare.length(0.5, 20, (0.0, -1.0, nan)),
+    },
     (
         _spread(
             "behind",
@@ -288,6 +281,7 @@ CIRCLE_OF_CONFUSION = Function(
             role="corner",
         ),
     ),
+    contract="depth: N, aperture_radius, focus_distance -> the diameters: N",
     case=_depths(0.2, 5),
 )
 

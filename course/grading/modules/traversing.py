@@ -12,8 +12,9 @@ from typing import Any
 import numpy as np
 
 from course.core.embree import EmbreeAccelerator, QueryStats
+from course.grading.checks import declare
 from course.grading.checks.check import Array, Failure, Trial
-from course.grading.checks.declare import Argument, Arguments, Case, Function, Law, Result
+from course.grading.checks.declare import Arguments, Case, Function, Law, Made, function
 from course.grading.checks.examples import example, where
 from course.grading.checks.laws import close, holds, law
 from course.grading.modules import ray_scenes
@@ -174,8 +175,7 @@ def _depth(t: Array) -> Array:
     return np.broadcast_to(near.reshape(shape), (3, *shape)).astype(np.float32)
 
 
-def _corners(name: str) -> Argument:
-    return Argument(name, "3 T", lambda d: d.lengths(-1, 1, 3, d.n), batch=False)
+CORNERS = Made(lambda d: d.lengths(-1, 1, 3, d.n), batch=False)
 
 
 def _hits(name: str, title: str, case: Case) -> Law:
@@ -184,22 +184,14 @@ def _hits(name: str, title: str, case: Case) -> Law:
 
 TREE = one_leaf(tuple(np.eye(3)[:, [k]] for k in range(3)))  # type: ignore[arg-type]
 
-TRAVERSE = Function(
-    "traverse",
-    (
-        Argument(
-            "hierarchy", "", lambda _: TREE, (TREE[:4], (TREE[0][:, 1:], *TREE[1:])), batch=False
-        ),
-        *map(_corners, ("p0", "p1", "p2")),
-        Argument("origins", "3 N", lambda d: d.lengths(-3, 3, 3, d.n)),
-        Argument("directions", "3 N", lambda d: d.directions()),
-    ),
-    (
-        Result("triangle", "N", np.int32),
-        Result("t", "N", finite=False),
-        Result("box_tests", "N", "int"),
-        Result("triangle_tests", "N", "int"),
-    ),
+TRAVERSE = function(
+    "bounding_volumes.traverse",
+    {
+        "hierarchy": Made(lambda _: TREE, (TREE[:4], (TREE[0][:, 1:], *TREE[1:]))),
+        **dict.fromkeys(("p0", "p1", "p2"), CORNERS),
+        "origins": declare.points(),
+        "directions": Made(lambda d: d.directions()),
+    },
     (
         close(
             "one",

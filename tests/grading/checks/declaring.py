@@ -9,14 +9,13 @@ from typing import Any
 import numpy as np
 
 from course.grading.checks.check import Trial
-from course.grading.checks.declare import Arguments, Function, Result, directions, length, point
+from course.grading.checks.declare import Arguments, directions, function, length
 from course.grading.checks.laws import close
 from course.grading.checks.trusted import TrustedModule
 
-SHIFTED = Function(
-    "shifted",
-    (point("center"), directions("direction"), length("radius", 0.5, 5, (-1.0, nan))),
-    (Result("the points", "3 N"),),
+SHIFTED = function(
+    "tests.shifted",
+    {"direction": directions(), "radius": length(0.5, 5, (-1.0, nan))},
     (
         close(
             "values",
@@ -25,6 +24,7 @@ SHIFTED = Function(
             "From the centre, not from the origin.",
         ),
     ),
+    contract="center: 3, direction: 3 N, radius -> the points: 3 N",
 )
 
 

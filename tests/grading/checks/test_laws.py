@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from course.grading.checks.check import Failure
-from course.grading.checks.declare import Function, Law, Result, u
+from course.grading.checks.declare import Function, Law, function
 from course.grading.checks.laws import (
     close,
     evenly,
@@ -25,7 +25,7 @@ from tests.grading.checks.declaring import SHIFTED, but, shifted, trial
 
 def declared(law: Law) -> Function:
     """A function that returns numbers as it got them."""
-    return Function("same", (u(2),), (Result("the numbers", "2 N"),), (law,))
+    return function("tests.same", {}, (law,), contract="u: 2 N -> the numbers: 2 N")
 
 
 def run(law: Law, function: Callable[..., Any], seed: int = 0) -> None:

@@ -8,15 +8,15 @@ from typing import Any
 import numpy as np
 import pytest
 
-from course.grading.checks.declare import Function, Result, u
+from course.grading.checks.declare import function
 from course.grading.checks.mistakes import Misconception, Print, matching, taken
 from course.grading.checks.trusted import TrustedModule
 
-DISK = Function(
-    "disk",
-    (u(2),),
-    (Result("the points", "2 N"),),
+DISK = function(
+    "tests.disk",
+    {},
     (),
+    contract="u: 2 N -> the points: 2 N",
     free=True,
     features=lambda _, r: np.stack((np.hypot(*r), np.arctan2(r[1], r[0]) / (2 * np.pi) % 1)),
 )
