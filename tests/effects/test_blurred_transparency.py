@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -19,14 +18,9 @@ import yaml
 
 from course import EffectError, Scene, load_scene, render
 from course.compiled import packets
-from course.core.counters import Counters
-from course.core.passes import passes
-from course.core.samplers import Block
-from course.core.samplers.sobol import SobolSampler
-from course.core.types import Indices
 from course.effects import PROJECT
 from course.modules import COURSE
-from course.rendering.binding import bind
+from tests.drawn import numbers_drawn, rows
 
 MakeScene = Callable[..., Scene]
 
@@ -359,20 +353,8 @@ def test_a_function_that_is_not_written_is_asked_for_by_the_roughness(
 
 
 def test_refraction_has_dimensions_of_its_own(make_scene: MakeScene) -> None:
-    found: set[tuple[int, int]] = set()
-
-    class Noted(SobolSampler):
-        def draw(self, block: Block, dimension: int, width: int) -> Any:
-            found.add((dimension, width))
-            return super().draw(block, dimension, width)
-
-        def draw_some(self, block: Block, dimension: int, width: int, path: Indices) -> Any:
-            found.add((dimension, width))
-            return super().draw_some(block, dimension, width, path)
-
     gloss = {"lobe": "ball", "glossiness": 0.2}
     for kind, more in (("distribution", 0), ("path", 2)):
-        found.clear()
         scene = make_scene(
             camera={"eye": [0, 1, 4], "look_at": [0, 0, 0]},
             materials=glass(0.2, gloss=gloss) | {"grey": {}},
@@ -383,11 +365,8 @@ def test_refraction_has_dimensions_of_its_own(make_scene: MakeScene) -> None:
             lights=[{"type": "sphere", "center": [0, 5, 2], "radius": 1, "intensity": 60}],
             integrator={"type": kind, "max_depth": 3, "cutoff": 0, "roulette": None},
         )
-        tracer = replace(bind(scene, scene.settings), sampler=Noted(0))
-        for work in passes(scene.settings, tracer.sampler):
-            tracer.render_tile(work.tile, work.first, work.samples, Counters())
-        rows = [dimension + k for dimension, width in found for k in range(width)]
-        assert len(rows) == len(set(rows))
+        found = numbers_drawn(scene)
+        assert len(rows(found)) == len(set(rows(found)))
         # Pixel; at each of four hits the light; of the three that go on gloss and refraction, and in path tracing
         # the way that is taken and where a diffuse hit sends the path. What is inside at the last bounce is let
         # out, so that no gloss is drawn there.

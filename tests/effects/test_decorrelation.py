@@ -13,23 +13,17 @@ no pair takes over 1.6. The false-fail rate of the whole file is below 1e-9.
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
 from course import Scene
-from course.core.counters import Counters
-from course.core.passes import passes
 from course.core.samplers import Block
-from course.core.samplers.sobol import SobolSampler
-from course.core.types import Indices
 from course.effects import Effects
 from course.extras.samplers import FUNCTIONS, make_sampler
-from course.rendering.binding import bind
+from tests.drawn import numbers_drawn, rows
 
 MakeScene = Callable[..., Scene]
 PIXELS = 512
@@ -39,17 +33,6 @@ LOCKED = 2.0
 @pytest.fixture
 def drawn(make_scene: MakeScene) -> list[tuple[int, int]]:
     """(dimension, width) of everything that the paths of a scene with every effect draw, three bounces deep."""
-    found: set[tuple[int, int]] = set()
-
-    class Noted(SobolSampler):
-        def draw(self, block: Block, dimension: int, width: int) -> Any:
-            found.add((dimension, width))
-            return super().draw(block, dimension, width)
-
-        def draw_some(self, block: Block, dimension: int, width: int, path: Indices) -> Any:
-            found.add((dimension, width))
-            return super().draw_some(block, dimension, width, path)
-
     ball = {"type": "sphere", "radius": 0.2, "intensity": 1}
     plates = [
         {"shape": "quad", "material": material, "width": 40, "depth": 40}
@@ -58,6 +41,7 @@ def drawn(make_scene: MakeScene) -> list[tuple[int, int]]:
     ]
     scene = make_scene(
         film={"width": 8, "height": 8},
+        sampler={"type": "sobol", "samples": 4},
         camera={"eye": [0, 0.5, 1], "look_at": [0, 0, 0]}
         | {"lens": {"aperture_radius": 0.1, "focus_distance": 1}},
         materials={
@@ -74,24 +58,19 @@ def drawn(make_scene: MakeScene) -> list[tuple[int, int]]:
         ],
         integrator={"max_depth": 3, "cutoff": 0},
     )
-    settings = dataclasses.replace(scene.settings, samples=4)
-    tracer = dataclasses.replace(bind(scene, settings), sampler=Noted(0))
-    for work in passes(settings, tracer.sampler):
-        tracer.render_tile(work.tile, work.first, work.samples, Counters())
     # Two lobes of one depth may share its numbers: no path meets both at the same depth.
     widest: dict[int, int] = {}
-    for dimension, width in found:
+    for dimension, width in numbers_drawn(scene):
         widest[dimension] = max(width, widest.get(dimension, 0))
     return sorted(widest.items())
 
 
 def test_every_decision_of_a_path_has_dimensions_of_its_own(drawn: list[tuple[int, int]]) -> None:
-    rows = [dimension + k for dimension, width in drawn for k in range(width)]
-    assert len(rows) == len(set(rows))
+    assert len(rows(drawn)) == len(set(rows(drawn)))
     # Pixel, lens, time; at each of four hits the four lights, and the gloss of the three that go on.
     assert len(drawn) == 3 + 4 * 4 + 3
     # Floor and ceiling, with lobes of two and three numbers, take turns.
-    assert len(rows) == 2 + 2 + 1 + 4 * (2 + 3 + 2 + 2) + (2 + 3 + 2)
+    assert len(rows(drawn)) == 2 + 2 + 1 + 4 * (2 + 3 + 2 + 2) + (2 + 3 + 2)
 
 
 def measures(

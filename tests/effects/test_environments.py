@@ -10,7 +10,6 @@ freedom), for each of the about 120 numbers below.
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from collections.abc import Callable
 from pathlib import Path
@@ -21,12 +20,8 @@ import pytest
 from numpy.typing import NDArray
 
 from course import Scene, render
-from course.core.counters import Counters
 from course.core.environment import CubeEnvironment
-from course.core.passes import passes
-from course.core.samplers import Block
-from course.core.samplers.sobol import SobolSampler
-from course.rendering.binding import bind
+from tests.drawn import numbers_drawn, rows
 from tests.effects.skies import (
     KINDS,
     TABLE,
@@ -479,13 +474,6 @@ def test_only_the_diffuse_hits_cast_rays_to_the_sky(make_scene: MakeScene) -> No
 
 
 def test_the_sky_has_numbers_of_its_own_at_every_bounce(make_scene: MakeScene) -> None:
-    found = set()
-
-    class Noted(SobolSampler):
-        def draw(self, block: Block, dimension: int, width: int) -> Any:
-            found.add((dimension, width))
-            return super().draw(block, dimension, width)
-
     plates = [
         FLOOR | {"width": 40, "depth": 40, "transform": [{"translate": [0, y, 0]}]} for y in (0, 2)
     ]
@@ -498,14 +486,10 @@ def test_the_sky_has_numbers_of_its_own_at_every_bounce(make_scene: MakeScene) -
         environment=WHITE | {"lights": True},
         integrator={"max_depth": 3, "cutoff": 0},
     )
-    tracer = bind(scene, scene.settings)
-    tracer = dataclasses.replace(tracer, sampler=Noted(0))
-    for work in passes(scene.settings, tracer.sampler):
-        tracer.render_tile(work.tile, work.first, work.samples, Counters())
+    found = numbers_drawn(scene)
     # Pixel; at four hits the light and the sky; the gloss of the three that go on.
     assert len(found) == 1 + 4 * 2 + 3
-    rows = [dimension + k for dimension, width in found for k in range(width)]
-    assert len(rows) == len(set(rows)) == 2 * len(found)
+    assert len(rows(found)) == len(set(rows(found))) == 2 * len(found)
 
 
 def black(d: Array) -> Array:

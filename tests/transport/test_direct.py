@@ -7,7 +7,6 @@ tolerance of these is 1e-4. Lights that have a size are in tests/effects/test_so
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Callable
 from typing import Any
 
@@ -16,11 +15,7 @@ import pytest
 from numpy.typing import NDArray
 
 from course import Scene, render
-from course.core.counters import Counters
-from course.core.passes import passes
-from course.core.samplers import Block
-from course.core.samplers.sobol import SobolSampler
-from course.rendering.binding import bind
+from tests.drawn import numbers_drawn, rows
 
 pytestmark = pytest.mark.usefixtures("each_form")
 
@@ -190,13 +185,6 @@ def test_a_rectangle_light_is_dark_from_behind(make_scene: MakeScene) -> None:
 
 def test_every_light_and_every_depth_has_numbers_of_its_own(make_scene: MakeScene) -> None:
     # Were they shared, a mirror image would be lit from the same points as what it mirrors.
-    drawn: list[tuple[int, int]] = []
-
-    class Noted(SobolSampler):
-        def draw(self, block: Block, dimension: int, width: int) -> Any:
-            drawn.append((dimension, width))
-            return super().draw(block, dimension, width)
-
     lamps = [
         {"type": "sphere", "center": [x, 3, 1], "radius": 0.5, "intensity": 1} for x in (-1, 1)
     ]
@@ -209,12 +197,9 @@ def test_every_light_and_every_depth_has_numbers_of_its_own(make_scene: MakeScen
         lights=[*lamps, {"type": "point", "position": [0, 1, 0], "intensity": 1}],
         integrator={"max_depth": 2},
     )
-    settings = scene.settings
-    tracer = dataclasses.replace(bind(scene, settings), sampler=Noted(0))
-    for work in passes(settings, tracer.sampler):
-        tracer.render_tile(work.tile, work.first, work.samples, Counters())
-    used = [d + row for d, width in sorted(set(drawn)) for row in range(width)]
-    assert used == list(range(2 + 3 * 4)), "the pixel, then two lamps at each of three depths"
+    assert rows(numbers_drawn(scene)) == list(range(2 + 3 * 4)), (
+        "the pixel, then two lamps at each of three depths"
+    )
 
 
 def test_a_light_in_its_own_plane_or_at_a_surface_stays_finite(floor: MakeScene) -> None:
