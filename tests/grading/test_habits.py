@@ -7,9 +7,9 @@ from itertools import islice
 import numpy as np
 import pytest
 
+from benchmarks.mutants.habits import HABITS, lost_by, written
 from course.grading.checks.declarations import declared_function
 from course.grading.checks.drawing import Draw
-from course.grading.habits import HABITS, lost_by, written
 from course.modules import COURSE
 
 MODULES = [*COURSE]

@@ -12,12 +12,12 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
+from benchmarks.mutants.judging import Verdict, judge, matrix
 from course.grading.calibration import trusted
 from course.grading.catalog import module_checks
 from course.grading.checks.check import Check
 from course.grading.checks.preparing import References
 from course.grading.known import Known, known
-from course.grading.mutants import Verdict, judge, matrix
 from course.grading.references import reference
 from course.modules import COURSE
 

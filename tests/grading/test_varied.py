@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from course.grading.varied import gaps, varied
+from benchmarks.mutants.varied import gaps, varied
 from course.modules import COURSE
 
 EXCUSED = {

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 
+from benchmarks.mutants.severity import is_right_elsewhere, is_useless
 from course.grading.catalog import module_checks
 from course.grading.checks.check import Caller, Check
 from course.grading.checks.declarations import declared_function
@@ -14,7 +15,6 @@ from course.grading.checks.running import run_checks
 from course.grading.checks.slips import SLIPS
 from course.grading.known import Known, trusted
 from course.grading.references import reference
-from course.grading.severity import is_right_elsewhere, is_useless
 from course.modules import COURSE
 
 WIDTH = max(map(len, COURSE)) + 2

@@ -21,6 +21,11 @@ from pathlib import Path
 
 import click
 
+from benchmarks.mutants.habits import HABITS, lost_by
+from benchmarks.mutants.judging import Verdict, changes, explaining, judge, marks, matrix, recorded
+from benchmarks.mutants.variants import variants
+from benchmarks.mutants.varied import gaps
+from benchmarks.mutants.varied import varied as varied_by_checks
 from course.atomic import write_text
 from course.benchmarking.tables import NONE, Table
 from course.effects import PROJECT
@@ -28,13 +33,8 @@ from course.grading.catalog import module_checks
 from course.grading.checks.preparing import prepared
 from course.grading.checks.result import Status
 from course.grading.checks.running import run_checks
-from course.grading.habits import HABITS, lost_by
 from course.grading.known import Known, known, trusted
-from course.grading.mutants import Verdict, changes, explaining, judge, marks, matrix, recorded
 from course.grading.references import make_references, read_references, reference
-from course.grading.variants import variants
-from course.grading.varied import gaps
-from course.grading.varied import varied as varied_by_checks
 from course.grading.worker.client import Worker
 from course.grading.worker.limits import Limits
 from course.modules import COURSE

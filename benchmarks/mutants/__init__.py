@@ -1,0 +1,1 @@
+"""The kill matrix: what becomes of known submissions, right and wrong, and of right functions by other habits."""
