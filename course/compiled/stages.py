@@ -18,7 +18,6 @@ from course.core.samplers import Block, Sampler
 from course.core.samplers.sobol import SobolSampler
 from course.core.tracer import Tracer
 from course.core.types import Floats32, Indices
-from course.extras.direct import FullDirectLight
 from course.extras.environment_sampling import ProductSampling
 from course.extras.path_tracing import PathIntegrator
 from course.extras.plan import same_fields
@@ -33,7 +32,7 @@ def compiled(tracer: Tracer) -> Tracer:
     changed: dict[str, Any] = {"surface": surface}
     if (direct := integrator.direct) is not None:
         known = same_fields(direct) | {"surface": surface}
-        if isinstance(direct, FullDirectLight) and direct.sky is not None:
+        if isinstance(direct.sky, Sky):
             known["sky"] = CompiledSky(**same_fields(direct.sky) | {"surface": surface})
         changed["direct"] = CompiledDirectLight(**known)
     if (scatter := integrator.scatter) is not None:

@@ -6,6 +6,7 @@ to the viewer, h the half vector between l and v.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TypeVar
 
@@ -78,6 +79,7 @@ class DirectLight:
     shaded : (1 or 2, M) bool, materials that reflect it, see ``MaterialTable.shaded_sides``; None for all
     diffuse : (3, M) reflectance
     specular, exponent : (3, M) and (M,) of the highlights; specular is None if no material has one
+    sky : irradiance / pi (3, n) from the environment, or None; None if the environment is no light
     """
 
     surface: Surface
@@ -87,6 +89,7 @@ class DirectLight:
     diffuse: Lookup
     specular: Lookup | None
     exponent: Lookup
+    sky: Callable[[Hits, Indices | None, int, Draws], Floats32 | None] | None = None
 
     def __call__(
         self, hits: Hits, path: Indices | None, depth: int, draws: Draws
@@ -109,7 +112,9 @@ class DirectLight:
             if self.specular is not None:
                 highlight = self._highlight(hits, candidates, irradiance)
                 specular = self._accumulated(specular, hits, candidates, highlight, light.color)
-        diffuse = self._further(diffuse, hits, path, depth, draws)
+        sky = None if self.sky is None else self.sky(hits, path, depth, draws)
+        if sky is not None:
+            diffuse = sky if diffuse is None else np.add(diffuse, sky, out=diffuse)
         if diffuse is None:
             return None
         self._scale(diffuse, hits, self.diffuse)
@@ -225,17 +230,6 @@ class DirectLight:
         )
         highlight *= irradiance
         return highlight
-
-    def _further(
-        self,
-        irradiance: Floats32 | None,
-        hits: Hits,
-        path: Indices | None,
-        depth: int,
-        draws: Draws,
-    ) -> Floats32 | None:
-        """Add irradiance / pi (3, n) from other sources; the core has none."""
-        return irradiance
 
     def _accumulated(
         self,

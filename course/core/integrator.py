@@ -145,7 +145,8 @@ class Integrator:
             self._add_environment(path_radiance, rays, (found.triangle < 0) & adds_lights)
         hits = self.surface.hits(found, rays.direction, rays.time, of_camera)
         throughput, path, medium = _of_hits(rays, hits)
-        draws.hit(path)
+        if draws.costs is not None:
+            draws.costs.add("hit", path)
         if self.absorption is not None:
             throughput = self.absorption(rays, hits, throughput, medium, of_camera)
         counters.lap("hits")

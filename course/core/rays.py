@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, fields, replace
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -102,15 +102,35 @@ class Dimensions:
         return self._first[name] + depth * self._stride
 
 
+class PathCosts(Protocol):
+    """What the paths of a block cost, for adaptive sampling."""
+
+    def add(self, kind: str, path: Indices | None, cost: float | None = None) -> None:
+        """Add the cost of rays of a kind, or of a "hit", to paths (n,) (None: all); ``cost`` None: that of the kind."""
+
+    def part(self, paths: slice) -> PathCosts:
+        """The costs of some of the paths."""
+
+    def below(self, mean: Floats32, parts: int) -> Floats32:
+        """Colours (3, n * parts) of n pixels, with a fourth row: the mean cost of each pixel's paths."""
+
+
 @dataclass(frozen=True)
 class Draws:
-    """Draws the random numbers of a block's paths on demand; ``cancelled()`` is true once the render is cancelled."""
+    """Draws random numbers for the paths of a block on demand, and counts them.
+
+    Attributes
+    ----------
+    cancelled : whether the render has been cancelled
+    costs : of the paths; None if nobody asks
+    """
 
     sampler: Sampler
     dimensions: Dimensions
     block: Block
     counters: Counters
     cancelled: Callable[[], bool] = lambda: False
+    costs: PathCosts | None = None
 
     def __call__(
         self,
@@ -153,13 +173,10 @@ class Draws:
         ----------
         path : of each hit; None for one hit per path, in order
         which : (n,) the hits that cast a ray; None for all
-        cost : of each ray; None for that of its kind (``course.adaptive.costs``)
+        cost : of each ray; None for that of its kind
         """
         self.counters.rays[kind] = self.counters.rays.get(kind, 0) + n
-
-    def hit(self, path: Indices | None) -> None:
-        """Hook of ``course.adaptive.costs``: hits of the paths (n,) are shaded."""
-
-    def part(self, block: Block, paths: slice) -> Draws:
-        """Draws for a block of some of the pixels; ``paths`` are its paths in this block."""
-        return replace(self, block=block)
+        if self.costs is not None:
+            if which is not None:
+                path = which if path is None else path.take(which)
+            self.costs.add(kind, path, cost)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from course.core.counters import Counters
 from course.core.integrator import Integrator
-from course.core.rays import Dimensions, Draws
+from course.core.rays import Dimensions, Draws, PathCosts
 from course.core.reconstruction import Reconstruction
 from course.core.samplers import Block, Sampler
 from course.core.scene import Settings
@@ -15,14 +15,15 @@ from course.core.tiles import Area
 from course.core.types import Floats32
 
 
-def never() -> bool:
-    """False: the default of ``cancelled``."""
-    return False
-
-
 @dataclass(frozen=True)
 class Tracer:
-    """Renders tiles of ``batches`` times RAYS camera rays, fewer in small pictures. All threads share it."""
+    """Renders tiles. All threads share it.
+
+    Attributes
+    ----------
+    batches : a tile has this times RAYS camera rays, or fewer in small pictures
+    costs : makes the costs of a number of paths; None if nobody asks
+    """
 
     settings: Settings
     sampler: Sampler
@@ -30,6 +31,7 @@ class Tracer:
     integrator: Integrator
     reconstruction: Reconstruction
     batches: int = 1
+    costs: Callable[[int], PathCosts] | None = None
 
     def render_tile(
         self,
@@ -37,10 +39,10 @@ class Tracer:
         first: int,
         samples: int,
         counters: Counters,
-        cancelled: Callable[[], bool] = never,
+        cancelled: Callable[[], bool] = lambda: False,
         parts: int = 1,
     ) -> tuple[Floats32, Floats32 | float]:
-        """Colours (3, n * parts) and weights of a tile's n pixels.
+        """Colours (3, n * parts), or (4, n * parts) with a row of costs, and weights of a tile's n pixels.
 
         Parameters
         ----------
@@ -54,7 +56,8 @@ class Tracer:
         """
         counters.start()
         block = Block(tile.pixel_numbers(self.settings.width), first, samples, tile.number)
-        draws = self.draws(block, counters, cancelled)
+        costs = self.costs(block.size) if self.costs is not None and parts > 1 else None
+        draws = Draws(self.sampler, self.dimensions, block, counters, cancelled, costs)
         offsets = draws("pixel").reshape(2, tile.size, samples)
         counters.lap("sampler")
         x, y = tile.corners()
@@ -66,8 +69,4 @@ class Tracer:
         pieces = (-1, tile.size * parts, samples // parts)
         mean, weight = self.reconstruction.pixels(radiance.reshape(pieces), offsets.reshape(pieces))
         counters.lap("film")
-        return mean, weight
-
-    def draws(self, block: Block, counters: Counters, cancelled: Callable[[], bool]) -> Draws:
-        """Random numbers for the paths of a block."""
-        return Draws(self.sampler, self.dimensions, block, counters, cancelled)
+        return mean if costs is None else costs.below(mean, parts), weight

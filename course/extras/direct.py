@@ -10,10 +10,8 @@ from course.core.direct import Candidates, DirectLight
 from course.core.hits import Hits
 from course.core.lights import Light
 from course.core.lights.sample import TO_THE_LIGHT
-from course.core.rays import Draws
-from course.core.types import Floats32, Indices, Mask
+from course.core.types import Floats32, Mask
 from course.core.vectors import dot
-from course.extras.sky import Sky
 
 
 @dataclass(frozen=True)
@@ -22,12 +20,10 @@ class FullDirectLight(DirectLight):
 
     Attributes
     ----------
-    sky : the environment as a light, None where it is none
     plain : (M,) which materials have highlights without the cosine in E, None where none has
     lifted : whether rays leave surfaces so far off that light is worked out at the surface itself
     """
 
-    sky: Sky | None = None
     plain: Mask | None = None
     lifted: bool = False
 
@@ -50,16 +46,3 @@ class FullDirectLight(DirectLight):
             plain = self.plain.take(candidates.of(hits.material))
             highlight /= np.where(plain, np.maximum(cosine, np.float32(1e-20)), np.float32(1))
         return highlight
-
-    def _further(
-        self,
-        irradiance: Floats32 | None,
-        hits: Hits,
-        path: Indices | None,
-        depth: int,
-        draws: Draws,
-    ) -> Floats32 | None:
-        arriving = None if self.sky is None else self.sky(hits, path, depth, draws)
-        if arriving is None:
-            return irradiance
-        return arriving if irradiance is None else np.add(irradiance, arriving, out=irradiance)

@@ -101,9 +101,9 @@ class Pieces:
         block = self._draws.block
         paths = self._paths(pixels)
         part = replace(block, pixels=block.pixels[pixels])
-        return Piece(
-            rays, adds_lights, pixels, self._draws.part(part, paths), self._path_radiance[:, paths]
-        )
+        costs = self._draws.costs
+        draws = replace(self._draws, block=part, costs=None if costs is None else costs.part(paths))
+        return Piece(rays, adds_lights, pixels, draws, self._path_radiance[:, paths])
 
     def _paths(self, pixels: slice) -> slice:
         """Of the block's paths those of some pixels."""

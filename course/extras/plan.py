@@ -96,7 +96,8 @@ def _direct_light(world: FullWorld, sky: Sky | None) -> DirectLight | None:
     if sky is None and (direct is None or (plain is None and not world.lifted)):
         return direct
     direct = direct or direct_light(world.surface, world.lights, world.motion, materials)
-    return FullDirectLight(**same_fields(direct), sky=sky, plain=plain, lifted=world.lifted)
+    known = same_fields(direct) | {"sky": sky}
+    return FullDirectLight(**known, plain=plain, lifted=world.lifted)
 
 
 def _path_integrator(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from course.adaptive.costs import CostlyTracer
+from course.adaptive.costs import RowOfCosts
 from course.building.world import compile_camera
 from course.core.functions import Functions
 from course.core.reconstruction import Reconstruction
@@ -45,13 +45,14 @@ def bind(
     camera = replace(camera, lens=world.lens)
     arrays = settings.max_depth, settings.cutoff, sampler
     integrator, dimensions = plan(world, camera, *arrays)
-    tracer = (Tracer if settings.error is None else CostlyTracer)(
+    tracer = Tracer(
         settings,
         sampler,
         dimensions,
         integrator,
         _reconstruction(scene, settings, bound),
         integrator.pieces if isinstance(integrator, PathIntegrator) else 1,
+        None if settings.error is None else RowOfCosts.of,
     )
     if not compiled:
         return tracer

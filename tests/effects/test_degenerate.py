@@ -15,9 +15,8 @@ from numpy.typing import NDArray
 
 from course import Scene, render
 from course.core.counters import Counters
-from course.core.rays import Rays
+from course.core.rays import Draws, Rays
 from course.core.samplers import Block
-from course.core.tracer import never
 from course.rendering.binding import bind
 
 MakeScene = Callable[..., Scene]
@@ -189,7 +188,7 @@ def test_one_regular_sample_is_the_pixels_centre(room: MakeScene) -> None:
         None,
     )
     block = Block(np.arange(1200, dtype=np.uint32), 0, 1, 0)
-    draws = tracer.draws(block, Counters(), never)
+    draws = Draws(tracer.sampler, tracer.dimensions, block, Counters())
     by_hand = tracer.integrator.radiance(rays, draws)
     assert np.array_equal(shown, by_hand.reshape(3, 30, 40).transpose(1, 2, 0))
     assert not draws.counters.numbers, "no other number is drawn"

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from course import Scene, render
 from course.core.counters import Counters
 from course.core.embree import QueryStats
+from course.core.rays import Draws
 from course.core.samplers import Block
-from course.core.tracer import never
 from course.rendering.binding import bind
 
 pytestmark = pytest.mark.usefixtures("each_form")
@@ -317,7 +317,9 @@ def test_rays_leave_a_smooth_mesh_on_the_side_they_are_meant_to(
     assert scatter is not None
     hits = surface.hits(surface.accelerator.intersect(origin, direction, QueryStats()), direction)
     assert hits.size > 5000
-    draws = tracer.draws(Block(np.empty(0, np.uint32), 0, 1, 0), Counters(), never)
+    draws = Draws(
+        tracer.sampler, tracer.dimensions, Block(np.empty(0, np.uint32), 0, 1, 0), Counters()
+    )
     found = scatter(hits, None, None, None, 0, draws)
     assert found is not None
     # Every hit mirrors, and the mirrored rays come first.
