@@ -19,11 +19,11 @@ from course.adaptive.allocation import (
     next_rung,
     one_rung_more,
     rung,
-    smoothed,
 )
 from course.adaptive.audit import draw, judge, work_for
 from course.adaptive.film import PARTS, AdaptiveFilm
 from course.adaptive.pixel_groups import PixelGroup, nearby_order
+from course.adaptive.smoothing import Guide, smoothed
 from course.core.passes import Work, fair_share
 from course.core.tiles import RAYS, spread_pixels
 from course.core.types import Floats32, Indices, Numbers
@@ -68,7 +68,7 @@ class Run(Protocol):
 
 
 def render_adaptively(
-    film: AdaptiveFilm, error: float, budget: int, groups: Groups, run: Run
+    film: AdaptiveFilm, error: float, budget: int, groups: Groups, run: Run, first: int = FIRST
 ) -> bool:
     """Add samples until the film's estimated error is at most ``error``; whether that was reached, or the budget spent.
 
@@ -76,10 +76,11 @@ def render_adaptively(
     ----------
     error : root-mean-square error of the whole picture [radiance]
     budget : samples of all pixels together
+    first : samples of each pixel in the first round, a rung of LADDER
     """
     order = nearby_order(film.width, film.height)
     have = film.samples.reshape(-1)
-    wanted = np.full(len(have), min(FIRST, max(budget // len(have), 1)), np.int32)
+    wanted = np.full(len(have), min(first, max(budget // len(have), 1)), np.int32)
     audits = 0
     # Of the film alone, like everything between the rounds.
     rng = np.random.default_rng(0)
@@ -109,8 +110,9 @@ def render_adaptively(
             if film.error <= error:
                 return True
         aim = (SAFETY * error) ** 2 / film.correction
-        variance = smoothed(film.variance, film.samples, film.order).reshape(-1)
-        cost = smoothed(film.cost, film.samples, 0).reshape(-1)
+        guide = Guide(film.linear, film.variance)
+        variance = smoothed(film.variance, film.samples, film.order, guide).reshape(-1)
+        cost = smoothed(film.cost, film.samples, 0, guide).reshape(-1)
         best = best_samples(variance, have, cost, film.order, aim)
         wanted = next_rung(have, best)
         if (wanted == have).all():

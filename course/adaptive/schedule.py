@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import inf, isfinite
 from typing import Any
 
-from course.adaptive.allocation import FIRST
+from course.adaptive.allocation import FIRST, FIRST_OF_NET
 from course.adaptive.film import AdaptiveFilm
 from course.adaptive.rounds import ADAPTABLE, Groups, render_adaptively
 from course.core.passes import preview
@@ -40,7 +40,8 @@ class AdaptiveSchedule(Schedule):
         budget = settings.samples * settings.width * settings.height
         batches = executor.batches(self._tracer.batches)
         groups = Groups(settings.width, batches, executor.threads)
-        return render_adaptively(self._film, self._target, budget, groups, run)
+        first = first_samples(settings.sampler)
+        return render_adaptively(self._film, self._target, budget, groups, run, first)
 
     def receipt(self) -> dict[str, Any]:
         """How far the target was reached, and what that took."""
@@ -60,6 +61,11 @@ class AdaptiveSchedule(Schedule):
         }
 
 
+def first_samples(sampler: str) -> int:
+    """Samples of each pixel before anything is known of it."""
+    return FIRST_OF_NET if sampler == "sobol" else FIRST
+
+
 def check(job: Job) -> None:
     """See ``Mode``: samplers must be able to go on anywhere, and tell their error."""
     error, sampler, samples = job.settings.error, job.settings.sampler, job.settings.samples
@@ -75,9 +81,9 @@ def check(job: Job) -> None:
             f"the {sampler} sampler places all its samples at once, so it can't go on where the error is; "
             "use sobol, random or xorshift"
         )
-    if samples < FIRST:
+    if samples < first_samples(sampler):
         raise CourseError(
-            f"{samples} samples a pixel: an error can be aimed at with {FIRST} or more"
+            f"{samples} samples a pixel: an error can be aimed at with {first_samples(sampler)} or more"
         )
 
 

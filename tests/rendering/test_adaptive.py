@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 from course import Picture, Scene, load_scene, render
 from course import render_scene as rendering
 from course.adaptive import rounds as adaptive
-from course.adaptive.allocation import FIRST, LADDER, LONGEST
+from course.adaptive.allocation import FIRST, FIRST_OF_NET, LADDER, LONGEST
 from course.adaptive.film import PARTS, AdaptiveFilm
 from course.adaptive.pixel_groups import TwinGroup
 from course.adaptive.rounds import Groups, render_adaptively
@@ -237,7 +237,7 @@ def test_rounds_go_on_until_the_target_is_reached(width: int, height: int, error
         over.append(math.sqrt((deviation.ravel() ** 2 / samples).mean()) / error)
     # As the estimates have seen it, the error is what it was to be; what the numbers are known to have, is near.
     if width * height > 1:
-        assert 0.7 < np.median(over) < 1.15
+        assert 0.7 < np.median(over) < (1.15 if min(width, height) > 1 else 1.3)
 
 
 def test_the_last_round_ends_where_the_target_is_reached() -> None:
@@ -287,18 +287,23 @@ def test_where_all_pixels_are_alike_no_target_is_just_missed(size: tuple[int, in
 
 
 def test_where_a_sample_costs_more_there_are_fewer() -> None:
-    """As c^(-1 / (2a + 1)): with independent samples, a half as many where each costs four times."""
+    """As c^(-1 / (2a + 1)): with independent samples, a half as many where each costs four times.
+
+    That costs (1 + 2)^2 / 4 beside 1 + 4: nine tenths. One run is off by 4%, the mean of eight by 1.5%.
+    """
     cost = np.ones((40, 60))
     cost[:, 30:] = 4
-    noise = Noise(np.full((40, 60), 1.0), seed=7, cost=cost)
-    assert noise.render(0.05)
-    cheap, dear = noise.film.samples[:, :29], noise.film.samples[:, 31:]
-    assert 1.7 < cheap.mean() / dear.mean() < 2.4
-    spent = float((noise.film.samples * cost).sum())
-    plain = Noise(np.full((40, 60), 1.0), seed=7)
-    assert plain.render(0.05)
-    # (1 + 2)^2 / 4 beside 1 + 4: nine tenths.
-    assert spent < 0.95 * float((plain.film.samples * cost).sum())
+    fewer, saved = [], []
+    for seed in range(8):
+        noise = Noise(np.full((40, 60), 1.0), seed=seed, cost=cost)
+        assert noise.render(0.05)
+        cheap, dear = noise.film.samples[:, :29], noise.film.samples[:, 31:]
+        fewer.append(cheap.mean() / dear.mean())
+        plain = Noise(np.full((40, 60), 1.0), seed=seed)
+        assert plain.render(0.05)
+        saved.append((noise.film.samples * cost).sum() / (plain.film.samples * cost).sum())
+    assert 1.7 < np.mean(fewer) < 2.4
+    assert np.mean(saved) < 0.95
 
 
 def test_more_than_a_thousand_samples_a_pixel() -> None:
@@ -478,7 +483,7 @@ def test_a_receipt_says_what_was_aimed_at_and_what_it_took(
     assert receipt.error["audited"] == film.audited > 0
     assert receipt.error["target"] == 0.006
     assert receipt.error["estimated"] == film.error <= 0.006
-    assert receipt.error["fewest"] == film.samples.min() >= FIRST
+    assert receipt.error["fewest"] == film.samples.min() >= FIRST_OF_NET
     assert receipt.error["most"] == film.samples.max() > 2 * FIRST
     uniform = receipt.error["uniform"]
     assert uniform == film.uniform_samples
@@ -531,10 +536,10 @@ def test_samples_go_to_the_edge_and_nowhere_else(make_scene: MakeScene) -> None:
     near = near[1:-1, 1:-1]
     samples = picture.film.samples
     assert cut.mean() < 0.05
-    assert (samples[~near] == FIRST).all(), "nothing was ever seen to differ there"
+    assert (samples[~near] == FIRST_OF_NET).all(), "nothing was ever seen to differ there"
     halved = (share > 0.2) & (share < 0.8)
-    assert samples[halved].min() > 10 * FIRST
-    assert samples[near].sum() - FIRST * near.sum() == samples.sum() - FIRST * samples.size
+    assert samples[halved].min() > 10 * FIRST_OF_NET
+    assert (samples[near] - FIRST_OF_NET).sum() == (samples - FIRST_OF_NET).sum()
 
 
 def test_a_heat_map_shows_where_they_went(make_scene: MakeScene, tmp_path: Path) -> None:
@@ -544,9 +549,9 @@ def test_a_heat_map_shows_where_they_went(make_scene: MakeScene, tmp_path: Path)
     found = read_picture(tmp_path / "where.exr")
     assert found.shape == (SIZE, SIZE, 3)
     samples = picture.film.samples
-    assert not found[samples == FIRST].any(), "black"
+    assert not found[samples == FIRST_OF_NET].any(), "black"
     assert (found[samples == samples.max()] > 0.75).all(), "nearly white"
-    assert (found[samples > FIRST].sum(axis=1) > 0).all()
+    assert (found[samples > FIRST_OF_NET].sum(axis=1) > 0).all()
     render(scene, spp=16).save_heat_map(tmp_path / "alike.png")
     assert not read_picture(tmp_path / "alike.png").any()
 
@@ -555,15 +560,15 @@ def test_a_black_picture_is_done_after_the_first_round(make_scene: MakeScene) ->
     picture = render(make_scene(), error=1e-12)
     assert picture.complete
     assert not picture.linear.any()
-    assert (picture.film.samples == FIRST).all()
-    assert picture.receipt.rays["camera"] == FIRST * 32 * 32
+    assert (picture.film.samples == FIRST_OF_NET).all()
+    assert picture.receipt.rays["camera"] == FIRST_OF_NET * 32 * 32
     assert picture.receipt.error == {
         "target": 1e-12,
         "estimated": 0.0,
         "audited": 0,
-        "fewest": FIRST,
-        "most": FIRST,
-        "uniform": FIRST,
+        "fewest": FIRST_OF_NET,
+        "most": FIRST_OF_NET,
+        "uniform": FIRST_OF_NET,
         "saved": 0.0,
     }
 
@@ -734,7 +739,7 @@ def test_a_time_limit_ends_the_rounds(
         assert (picture.linear.max(axis=2) > 0).all(), "the sky lights even what nothing else does"
         assert picture.film.samples.sum() <= picture.receipt.rays["camera"]
         fewest.append(int(picture.film.samples.min()))
-    assert fewest == [0, 0, FIRST, FIRST]
+    assert fewest == [0, *(FIRST_OF_NET,) * 3]
     assert picture.film.samples.max() > FIRST
 
 
@@ -768,7 +773,7 @@ def test_ctrl_c_during_a_round_keeps_a_picture_that_is_right_for_its_samples(
     assert picture.interrupted
     assert not picture.complete
     counts = np.unique(picture.film.samples)
-    assert counts[0] >= FIRST
+    assert counts[0] >= FIRST_OF_NET
     assert picture.receipt.rays["camera"] >= picture.film.samples.sum()
     for samples in counts[:3]:
         these = picture.film.samples == samples
@@ -826,9 +831,11 @@ def test_points_that_move_together_do_not_tell_their_error(make_scene: MakeScene
 
 
 def test_there_must_be_samples_for_a_first_round(make_scene: MakeScene) -> None:
+    with pytest.raises(CourseError, match=r"3 samples .* with 4 or more"):
+        render(make_scene(), error=0.1, spp=3)
+    assert render(make_scene(), error=0.1, spp=4).receipt.samples == 4
     with pytest.raises(CourseError, match=r"7 samples .* with 8 or more"):
-        render(make_scene(), error=0.1, spp=7)
-    assert render(make_scene(), error=0.1, spp=8).receipt.samples == 8
+        render(make_scene(), error=0.1, spp=7, sampler="random")
 
 
 def test_an_adaptive_picture_cannot_be_continued(make_scene: MakeScene) -> None:

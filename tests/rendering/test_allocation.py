@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numpy as np
@@ -10,15 +9,13 @@ import pytest
 from numpy.typing import NDArray
 
 from course.adaptive.allocation import (
-    BLIND,
-    FIRST,
+    FIRST_OF_NET,
     GROWTH,
     LADDER,
     LONGEST,
     best_samples,
     next_rung,
     one_rung_more,
-    smoothed,
 )
 from course.adaptive.film import PARTS
 
@@ -156,12 +153,12 @@ def test_any_range_of_variances_and_any_target_give_finite_numbers(
 
 
 def test_the_ladder_has_few_rungs_that_suit_the_points() -> None:
-    assert LADDER[0] == FIRST
+    assert LADDER[0] == FIRST_OF_NET
     assert LADDER[-1] == 65536
     steps = np.diff(LADDER)
     assert steps.min() > 0
     assert steps.max() == LONGEST
-    assert (steps <= np.maximum(LADDER[:-1] / 2, FIRST / 2)).all()
+    assert (steps <= np.maximum(LADDER[:-1] / 2, PARTS)).all()
     assert set(2 ** np.arange(3, 17)) <= set(LADDER.tolist()), "where the points are most even"
     assert not (LADDER % PARTS).any(), "each stretch can be quartered"
 
@@ -216,38 +213,3 @@ def test_nothing_goes_up_that_gains_nothing() -> None:
     assert one_rung_more(samples, variance, cost, 0.5, 1.0).tolist() == [16, LADDER[-1], 32]
     nothing = np.zeros(3, np.float32)
     assert np.array_equal(one_rung_more(samples, nothing, cost, 0.5, 1.0), samples)
-
-
-@pytest.mark.parametrize(
-    ("samples", "share"), [(8, 1), (BLIND, 1), (2 * BLIND, 0.5), (1024, 1 / 32)]
-)
-def test_smoothing_spreads_a_variance_over_its_neighbours(samples: int, share: float) -> None:
-    """All of it where samples are few, and less and less where there are enough to believe."""
-    variance = np.zeros((5, 6), np.float32)
-    variance[2, 3] = 16
-    found = smoothed(variance, np.full((5, 6), samples, np.int32), 0.6)
-    expected = np.zeros((5, 6))
-    expected[1:4, 2:5] = share * np.outer((1, 2, 1), (1, 2, 1))
-    expected[2, 3] += 16 * (1 - share)
-    assert np.allclose(found, expected, rtol=1e-6)
-
-
-@pytest.mark.parametrize("shape", [(1, 1), (1, 9), (7, 1), (6, 5)])
-@pytest.mark.parametrize("order", ORDERS)
-def test_smoothing_keeps_what_is_even_and_the_sum(shape: tuple[int, int], order: float) -> None:
-    variance = np.random.default_rng(9).random(shape, np.float32)
-    alike = np.full(shape, 96, np.int32)
-    assert smoothed(variance, alike, order).sum() == pytest.approx(variance.sum(), rel=1e-5)
-    # Pixels that are equally noisy, whatever the samples they have.
-    samples = LADDER.take(np.random.default_rng(10).integers(0, 9, shape))
-    even = (3 * samples.astype(float) ** (-2 * order)).astype(np.float32)
-    assert np.allclose(smoothed(even, samples, order), even, rtol=1e-5)
-
-
-def test_neighbours_count_as_if_they_had_as_many_samples() -> None:
-    variance = np.array([[0, 1, 0]], np.float32)
-    samples = np.array([[16, 64, 256]], np.int32)
-    # One sample has a variance of 64; a quarter of it for each neighbour, by its own number of samples, and of that
-    # a half and an eighth with 64 and 256 samples.
-    assert smoothed(variance, samples, 0.5) == pytest.approx(np.array([[1, 0.75, 1 / 128]]))
-    assert math.isclose(float(smoothed(variance, samples, 0.75)[0, 0]), 0.25 * 64**1.5 / 16**1.5)
