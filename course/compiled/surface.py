@@ -10,7 +10,7 @@ from course.compiled import hit_kernels
 from course.compiled.accelerator import PacketAccelerator
 from course.compiled.convex import Objects
 from course.core.embree import Intersections
-from course.core.hits import Found, Hits
+from course.core.hits import Hits
 from course.core.types import Floats32, Indices
 from course.extras.surface import FullSurface
 
@@ -23,7 +23,7 @@ _NO_NORMALS = np.empty((3, 0), np.float32), np.empty((0, 9), np.float32)
 class CompiledSurface(FullSurface):
     """All triangles of a scene."""
 
-    def _find(self, found: Intersections, direction: Floats32) -> Found:
+    def _find(self, found: Intersections, direction: Floats32) -> Hits:
         triangles = self.triangles
         hit = np.flatnonzero(found.triangle >= 0)
         n = len(hit)
@@ -48,8 +48,10 @@ class CompiledSurface(FullSurface):
             *(triangles.material, self.turns_normals, met, uvt, arriving),
             *(material, p, ng, ns, offset, near_origin, side),
         )
-        places = p, ng, ng if triangles.corner_normals is None else ns, offset, near_origin, side
-        return ray, triangle, u, v, t, material, direction, places
+        ns = ng if triangles.corner_normals is None else ns
+        return Hits(
+            *(ray, triangle, u, v, t, material, direction, p, ng, ns, offset, near_origin, side)
+        )
 
     def excluded_objects(self, hits: Hits, which: Indices, direction: Floats32) -> Objects | None:
         """The convex object that each of some rays leaves for good, (m,), -1 for none; None where nobody asks."""

@@ -22,7 +22,7 @@ import numpy as np
 from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
 
-from course.core.types import Floats32, Mask, Numbers
+from course.core.types import Floats32, Indices, Mask, Numbers
 
 NO_HIT = 1e37
 """Distance that embreex gives to a ray without a hit."""
@@ -52,6 +52,11 @@ class Intersections:
     u: Floats32
     v: Floats32
     t: Floats32
+
+    def put(self, which: Indices, found: Intersections) -> None:
+        """Replace the hits of rays ``which`` (m,) by those of a batch of m rays, in place."""
+        self.triangle[which], self.t[which] = found.triangle, found.t
+        self.u[which], self.v[which] = found.u, found.v
 
 
 class Accelerator(Protocol):

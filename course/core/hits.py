@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -13,12 +13,6 @@ from course.core.ray_offset import OFFSET
 from course.core.triangles import Triangles
 from course.core.types import Floats32, Indices, Mask, Materials, Numbers
 from course.core.vectors import cross, dot, gather
-
-Places = tuple[Floats32, Floats32, Floats32, Floats32, Floats32, Floats32]
-"""p, ng, ns, offset, near_origin, side; see ``Hits``."""
-
-Found = tuple[Indices | None, Numbers, Floats32, Floats32, Floats32, Materials, Floats32, Places]
-"""ray, triangle, u, v, t, material, direction; see ``Hits``."""
 
 
 @dataclass(frozen=True)
@@ -113,14 +107,7 @@ class Surface:
         when = None if time is None else time.take(stuck)
         step = self.triangles.planes[found.triangle.take(stuck), 6]
         start = start + onward * np.maximum(step, np.float32(OFFSET))
-        again = self.camera_accelerator.intersect(start, onward, stats, when)
-        for mine, theirs in (
-            (found.triangle, again.triangle),
-            (found.u, again.u),
-            (found.v, again.v),
-            (found.t, again.t),
-        ):
-            mine[stuck] = theirs
+        found.put(stuck, self.camera_accelerator.intersect(start, onward, stats, when))
         return found
 
     def hits(
@@ -138,33 +125,16 @@ class Surface:
         time : (N,) float32 of all rays; None if nothing moves
         of_camera : true for camera rays
         """
-        ray, triangle, u, v, t, material, direction, places = self._find(found, direction)
-        p, ng, ns, offset, near_origin, side = places
-        if time is not None and ray is not None:
-            time = time.take(ray)
-        if isinstance(self.accelerator, MovingAccelerator) and time is not None:
-            self.accelerator.follow(p, triangle, time)
-            np.add(p, ng * offset, out=near_origin)
-        return Hits(
-            *(
-                ray,
-                triangle,
-                u,
-                v,
-                t,
-                material,
-                direction,
-                p,
-                ng,
-                ns,
-                offset,
-                near_origin,
-                side,
-                time,
-            )
-        )
+        hits = self._find(found, direction)
+        if time is None:
+            return hits
+        time = time if hits.ray is None else time.take(hits.ray)
+        if isinstance(self.accelerator, MovingAccelerator):
+            self.accelerator.follow(hits.p, hits.triangle, time)
+            np.add(hits.p, hits.ng * hits.offset, out=hits.near_origin)
+        return replace(hits, time=time)
 
-    def _find(self, found: Intersections, direction: Floats32) -> Found:
+    def _find(self, found: Intersections, direction: Floats32) -> Hits:
         """The hits at time 0."""
         hit = np.flatnonzero(found.triangle >= 0)
         triangle, u, v, t = found.triangle, found.u, found.v, found.t
@@ -173,57 +143,70 @@ class Surface:
             ray = hit
             triangle, u, v, t = triangle.take(hit), u.take(hit), v.take(hit), t.take(hit)
             direction = direction.take(hit, axis=1)
-        places = _places(self.triangles, triangle, u, v, direction, self.turns_normals)
+        p, ng, ns, offset, side = self._places(triangle, u, v, direction)
         material = self.triangles.material.take(triangle)
-        return ray, triangle, u, v, t, material, direction, places
+        near_origin = ng * offset
+        near_origin += p
+        return Hits(
+            ray, triangle, u, v, t, material, direction, p, ng, ns, offset, near_origin, side
+        )
+
+    def _places(
+        self, triangle: Numbers, u: Floats32, v: Floats32, direction: Floats32
+    ) -> tuple[Floats32, Floats32, Floats32, Floats32, Floats32]:
+        """p, ng, ns, offset and side of the hits at time 0; see ``Hits``."""
+        triangles = self.triangles
+        plane = gather(triangles.planes, triangle)
+        corner, ng, offset, flat = plane[0:3], plane[3:6], plane[6], plane[7]
+
+        # From barycentrics, not origin + t * direction, whose error would grow with the ray's length.
+        edges = gather(triangles.edges, triangle)
+        p, along_2, widest = edges[0:3], edges[3:6], edges[6]
+        p *= u
+        along_2 *= v
+        p += along_2
+        p += corner
+        _pull_off_edges(triangles, p, triangle, u, v, widest)
+
+        facing = dot(ng, direction)
+        side = np.copysign(np.float32(1), -facing)
+        ng *= side
+        ns = ng
+        if triangles.corner_normals is not None:
+            # Most triangles of a room are flat.
+            some = np.flatnonzero(flat == 0)
+            if len(some) == len(side):
+                ns = self._interpolated(triangle, u, v, side, direction)
+            else:
+                ns = ng.copy()
+                if len(some):
+                    at = triangle.take(some), u.take(some), v.take(some), side.take(some)
+                    ns[:, some] = self._interpolated(*at, direction.take(some, axis=1))
+        return p, ng, ns, offset, side
+
+    def _interpolated(
+        self, triangle: Numbers, u: Floats32, v: Floats32, side: Floats32, direction: Floats32
+    ) -> Floats32:
+        """Shading normals (3, n) on the incoming side."""
+        assert self.triangles.corner_normals is not None
+        rows = gather(self.triangles.corner_normals, triangle)
+        normal = rows[3:6]
+        normal *= u
+        rows[6:9] *= v
+        normal += rows[6:9]
+        normal += rows[0:3]
+        squared = dot(normal, normal)
+        # Opposite corner normals may cancel. The clamp avoids a division by 0.
+        np.maximum(squared, np.float32(1e-20), out=squared)
+        normal *= 1 / np.sqrt(squared)
+        normal *= side
+        if self.turns_normals:
+            turn_to_viewer(normal, direction)
+        return normal
 
     def excluded_objects(self, hits: Hits, which: Indices, direction: Floats32) -> Any:
         """Objects that rays (3, m) from hits ``which`` (m,) can't hit again; None if nobody asks."""
         return None
-
-
-def _places(
-    triangles: Triangles,
-    triangle: Numbers,
-    u: Floats32,
-    v: Floats32,
-    direction: Floats32,
-    turns_normals: bool,
-) -> Places:
-    """Points and normals of the hits at time 0."""
-    plane = gather(triangles.planes, triangle)
-    corner, ng, offset, flat = plane[0:3], plane[3:6], plane[6], plane[7]
-
-    # From barycentrics, not origin + t * direction, whose error would grow with the ray's length.
-    edges = gather(triangles.edges, triangle)
-    p, along_2, widest = edges[0:3], edges[3:6], edges[6]
-    p *= u
-    along_2 *= v
-    p += along_2
-    p += corner
-    _pull_off_edges(triangles, p, triangle, u, v, widest)
-
-    facing = dot(ng, direction)
-    side = np.copysign(np.float32(1), -facing)
-    ng *= side
-    ns = ng
-    if triangles.corner_normals is not None:
-        # Most triangles of a room are flat.
-        some = np.flatnonzero(flat == 0)
-        if len(some) == len(side):
-            ns = _interpolated(triangles, triangle, u, v, side, direction, turns_normals)
-        else:
-            ns = ng.copy()
-            if len(some):
-                ns[:, some] = _interpolated(
-                    triangles,
-                    *(triangle.take(some), u.take(some), v.take(some), side.take(some)),
-                    direction.take(some, axis=1),
-                    turns_normals,
-                )
-    near_origin = ng * offset
-    near_origin += p
-    return p, ng, ns, offset, near_origin, side
 
 
 def bulge(triangles: Triangles, hits: Hits, which: Indices) -> Floats32:
@@ -264,33 +247,6 @@ def _pull_off_edges(
         lacking = np.maximum(least - barycentric.take(near), 0)
         moved += cross(ng, edge) * (lacking * twice_area / dot(edge, edge))
     p[:, near] = moved
-
-
-def _interpolated(
-    triangles: Triangles,
-    triangle: Numbers,
-    u: Floats32,
-    v: Floats32,
-    side: Floats32,
-    direction: Floats32,
-    turns_normals: bool,
-) -> Floats32:
-    """Shading normals (3, n) on the incoming side."""
-    assert triangles.corner_normals is not None
-    rows = gather(triangles.corner_normals, triangle)
-    normal = rows[3:6]
-    normal *= u
-    rows[6:9] *= v
-    normal += rows[6:9]
-    normal += rows[0:3]
-    squared = dot(normal, normal)
-    # Opposite corner normals may cancel. The clamp avoids a division by 0.
-    np.maximum(squared, np.float32(1e-20), out=squared)
-    normal *= 1 / np.sqrt(squared)
-    normal *= side
-    if turns_normals:
-        turn_to_viewer(normal, direction)
-    return normal
 
 
 def turn_to_viewer(ns: Floats32, direction: Floats32) -> None:

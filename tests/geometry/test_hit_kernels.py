@@ -23,7 +23,7 @@ if not packets.available():
 from course.compiled.scatter import CompiledScatter
 from course.compiled.stages import compiled_surface
 
-PLACES = ("p", "ng", "ns", "offset", "above", "side", "u", "v", "t", "triangle", "material")
+PLACES = ("p", "ng", "ns", "offset", "near_origin", "side", "u", "v", "t", "triangle", "material")
 TURN = transforms.rotate(np.array([1.0, 2.0, 3.0]), 33.0)
 BOX = transforms.apply(shapes.box((1.2, 1, 0.5)), TURN)
 MESHES = {
