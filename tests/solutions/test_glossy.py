@@ -14,7 +14,6 @@ from course.grading.checks.laws import DTYPES
 from tests.solutions.contract import (
     SOLUTIONS,
     Array,
-    assert_mean,
     assert_uniform,
     assert_unit,
     directions,
@@ -50,7 +49,6 @@ AXES = [
     (0.00038527316, 0.00038460016, -0.99999988079),
 ]
 
-LEGENDRE = np.polynomial.legendre.leggauss(100)
 
 dtypes = pytest.mark.parametrize("dtype", DTYPES)
 axes = pytest.mark.parametrize("axis", AXES)
@@ -72,13 +70,6 @@ def about(axis: tuple[float, float, float], result: Array) -> tuple[Array, Array
     return ((result - w[:, None]) ** 2).sum(axis=0) / 2, turn
 
 
-def gauss(f: Callable[[Array], Array], low: float, high: float) -> float:
-    """Integral of a smooth function."""
-    x, weight = LEGENDRE
-    half = (high - low) / 2
-    return float(half * (weight * f(low + half * (x + 1))).sum())
-
-
 # ---------------------------------------------------------------- the basis
 
 
@@ -96,15 +87,6 @@ def test_basis_is_orthonormal_and_right_handed_for_every_unit_vector(dtype: type
     for dot in (u * v, u * exact, v * exact):
         assert (np.abs(dot.sum(axis=0)) <= tolerance).all()
     assert (np.abs(np.cross(u.T, v.T).T - exact) <= 2 * tolerance).all()
-
-
-@dtypes
-@pytest.mark.parametrize("zero", [0.0, -0.0])
-def test_basis_at_the_poles_and_on_the_equator_is_exact(dtype: type, zero: float) -> None:
-    w = np.array([[zero, zero, 1], [zero, zero, -1], [1, zero, zero], [zero, -1, zero]], dtype).T
-    u, v = orthonormal_basis(w)
-    assert (w == np.cross(u.T, v.T).T).all()
-    assert (np.abs(u).sum(axis=0) == 1).all()
 
 
 # ---------------------------------------------------------------- what all lobes have in common
@@ -128,15 +110,6 @@ def test_lobes_stay_finite_where_a_number_was_rounded_to_1(name: str, dtype: typ
     u = np.array([*product([0.0, 0.5, 1.0], repeat=rows)], dtype).T
     for size in sizes:
         assert_unit(lobe(repeated(AXES[2], u.shape[1], dtype), size, u))
-
-
-@lobes
-@dtypes
-def test_lobes_stay_in_front_of_their_direction(name: str, dtype: type) -> None:
-    lobe, rows, sizes = LOBES[name]
-    d, u = directions(2000, dtype, 2), unit(rows, 2000, dtype, 3)
-    for size in sizes:
-        assert ((lobe(d, size, u) * d.astype(float)).sum(axis=0) > -1e-6).all()
 
 
 @pytest.mark.parametrize("name", ["jitter_on_plane", "jitter_in_ball"])
@@ -197,66 +170,7 @@ def test_square_is_a_square_of_that_side_about_the_direction(
     assert np.abs(offset - expected).max() <= rounding
 
 
-@pytest.mark.parametrize("roughness", [0.1, 1.0, 4.0])
-def test_square_lobe_has_the_mean_cosine_of_quadrature(roughness: float) -> None:
-    def mean(power: int) -> float:
-        def over_b(a: float) -> float:
-            return gauss(lambda b: (1 + roughness**2 * (a * a + b * b)) ** (-power / 2), -0.5, 0.5)
-
-        return gauss(np.vectorize(over_b), -0.5, 0.5)
-
-    d = directions(N, np.float32, 6)
-    cos = (d * jitter_on_plane(d, roughness, unit(2, N, seed=7)).astype(float)).sum(axis=0)
-    assert_mean(cos, mean(1), mean(2) - mean(1) ** 2)
-
-
-def test_an_endless_square_leaves_nothing_of_the_direction() -> None:
-    d, u = directions(1000, np.float32, 8), unit(2, 1000, seed=9)
-    result = jitter_on_plane(d, 1e6, u)
-    assert_unit(result)
-    # The closer to the square's middle, the less of that.
-    farthest = np.abs(u - 0.5).max(axis=0)
-    assert (np.abs((result * d).sum(axis=0)) < 2e-6 / farthest).all()
-
-
 # ---------------------------------------------------------------- the ball
-
-# A cone about the direction with cos(alpha) = c cuts the share 1 - c w^3 / g^3 out of the ball of radius g around
-# the direction's tip, with w^2 = c^2 - (1 - g^2): the integral of the ball's extent along each ray of the cone,
-# (t1^3 - t0^3) / 3 with t = c +- w, over the ball's volume.
-
-
-@dtypes
-@axes
-@pytest.mark.parametrize("glossiness", [0.05, 0.5, 0.95])
-def test_ball_lobe_is_that_of_a_uniform_ball(
-    dtype: type, axis: tuple[float, float, float], glossiness: float
-) -> None:
-    result = jitter_in_ball(repeated(axis, N, dtype), glossiness, unit(3, N, dtype, seed=10))
-    h, turn = about(axis, result)
-    # w^2 = g^2 - sin^2, and sin^2 = h (2 - h).
-    w2 = glossiness**2 - h * (2 - h)
-    assert w2.min() > -1e-6
-    share = 1 - (1 - h) * np.maximum(w2, 0) ** 1.5 / glossiness**3
-    assert_uniform(np.stack((np.clip(share, 0, 1), turn)), (24, 24))
-
-
-@pytest.mark.parametrize("glossiness", [0.05, 0.5, 0.95])
-def test_ball_lobe_has_the_mean_cosine_of_quadrature(glossiness: float) -> None:
-    edge = math.sqrt(1 - glossiness**2)
-
-    def mean(power: int) -> float:
-        # By w instead of c, for a smooth function: c dc = w dw.
-        def f(w: Array) -> Array:
-            c = np.sqrt(w * w + edge * edge)
-            return c**power * (3 * c * c * w + w**3) / glossiness**3 * w / c
-
-        return gauss(f, 0, glossiness)
-
-    assert mean(0) == pytest.approx(1, rel=1e-6)
-    d = directions(N, np.float32, 11)
-    cos = (d * jitter_in_ball(d, glossiness, unit(3, N, seed=12)).astype(float)).sum(axis=0)
-    assert_mean(cos, mean(1), mean(2) - mean(1) ** 2)
 
 
 @dtypes
@@ -278,7 +192,7 @@ def test_a_ball_that_all_but_reaches_the_origin_still_gives_directions(dtype: ty
 
 @dtypes
 @axes
-@pytest.mark.parametrize("exponent", [0, 1, 10, 1000, 1e6])
+@pytest.mark.parametrize("exponent", [10, 1e6])
 def test_phong_lobe_has_its_density(
     dtype: type, axis: tuple[float, float, float], exponent: float
 ) -> None:
@@ -288,31 +202,6 @@ def test_phong_lobe_has_its_density(
     # The share of the lobe within alpha: 1 - cos^(exponent + 1).
     share = -np.expm1((exponent + 1) * np.log1p(-np.minimum(h, 1 - 1e-9)))
     assert_uniform(np.stack((share, turn)), (24, 24))
-
-
-@pytest.mark.parametrize("exponent", [0, 1, 10, 1000, 1e6])
-def test_phong_lobe_has_the_mean_cosine_of_quadrature(exponent: float) -> None:
-    # Over c = cos(alpha) = 1 - x, at most forty times as wide as the lobe; 2 pi of the solid angle cancels.
-    def mean(power: int) -> float:
-        def f(x: Array) -> Array:
-            return (exponent + 1) * np.exp(exponent * np.log1p(-x)) * x**power
-
-        return gauss(f, 0, min(1, 40 / (exponent + 1)))
-
-    assert mean(0) == pytest.approx(1, rel=1e-9)
-    assert 1 - mean(1) == pytest.approx((exponent + 1) / (exponent + 2), rel=1e-9)
-    d = repeated(AXES[2], N, np.float32)
-    result = sample_phong_lobe(d, exponent, unit(2, N, seed=14))
-    h, _ = about(tuple(d[:, 0].astype(float)), result)
-    assert_mean(h, mean(1), mean(2) - mean(1) ** 2)
-
-
-def test_a_lobe_without_width_is_the_mirror() -> None:
-    d, u = directions(1000, np.float32, 15), unit(2, 1000, seed=16)
-    # u of 1e-3 from 1 leaves 7 / sqrt(exponent) of an angle at most.
-    for exponent in (1e6, 1e10):
-        off = np.abs(sample_phong_lobe(d, exponent, u) - d).max()
-        assert off < 7 / math.sqrt(exponent) + 1e-6
 
 
 # ---------------------------------------------------------------- keeping above
@@ -330,25 +219,3 @@ def test_directions_above_the_surface_come_back_bit_for_bit(dtype: type) -> None
     flat = d[2] == 0
     assert flat.sum() > 50
     assert (keep_above(d, plus_z)[:, flat] == d[:, flat]).all()
-
-
-@dtypes
-def test_directions_below_the_surface_are_mirrored_in_it(dtype: type) -> None:
-    d, n = directions(5000, dtype, 18), directions(5000, dtype, 19)
-    exact_d, exact_n = d.astype(float), n.astype(float)
-    dot = (exact_d * exact_n).sum(axis=0)
-    below = dot < -1e-6
-    kept = keep_above(d, n)
-    assert_unit(kept)
-    assert (np.abs(kept - (exact_d - 2 * dot * exact_n))[:, below] < 1e-6).all()
-    assert ((kept * exact_n).sum(axis=0) >= -1e-6).all()
-    # The component along the normal changes its sign, the rest nothing.
-    assert np.abs((kept * exact_n).sum(axis=0) - np.abs(dot)).max() < 1e-6
-
-
-@dtypes
-def test_keeping_above_twice_is_keeping_above_once(dtype: type) -> None:
-    d, n = every_pair(worst_directions(dtype), worst_directions(dtype)[:, ::7])
-    once = keep_above(d, n)
-    assert_unit(once, 2e-6)
-    assert np.abs(keep_above(once, n) - once).max() < 2e-6
