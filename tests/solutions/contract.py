@@ -1,7 +1,7 @@
 """What tests of student-facing functions share: where the functions are, and how they are judged.
 
-test_conventions.py holds the solutions to all laws that are declared in course/grading/modules. The files beside it test
-what no student is asked for: double precision, the worst numbers there are, and messages.
+test_conventions.py holds the solutions to all laws that are declared in course/grading/modules. The files beside it
+test what no student is asked for: double precision, the worst numbers there are, and messages.
 
 Every statistical test draws from a fixed seed, so it never fails by chance twice; FALSE_FAIL is how probable it was
 that a right function fails it with a seed that nobody has tried.
