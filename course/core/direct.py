@@ -13,11 +13,10 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from course.core.blinn_phong import blinn_phong_highlight
 from course.core.hits import Hits, Surface, bulge
 from course.core.lights import Light, Sample
 from course.core.lights.sample import TO_THE_LIGHT, towards
-from course.core.materials import Lookup, MaterialTable
+from course.core.materials import Lookup, MaterialTable, blinn_phong_highlight
 from course.core.motion import Motion
 from course.core.rays import Draws
 from course.core.types import Floats32, Indices, Mask

@@ -12,7 +12,7 @@ from course.core.hits import Hits, Surface
 from course.core.materials import Lookup
 from course.core.rays import OPEN, Draws, Rays, join_rays
 from course.core.types import Floats32, Indices, Media
-from course.core.vectors import dot, reflect
+from course.core.vectors import dot, reflect, repeated
 
 
 @dataclass(frozen=True)
@@ -92,16 +92,17 @@ class Scatter:
         """
         if self.absorbs and medium is None:
             medium = np.full(hits.size, OPEN)
-        mirror = self.reflectance(hits, None)
+        weight = repeated(self.reflectance(hits, None), hits.size)
         if self.index is None:
-            weight = mirror if throughput is None else mirror * throughput
-            return self._reflected(hits, weight, path, medium, depth, draws)
+            weight = weight if throughput is None else weight * throughput
+            return self._leaving(hits, weight, None, path, medium, depth, draws)
         boundary = self.boundary(hits, None, depth)
-        weight, through = mirror + boundary.reflected, boundary.refracted
+        weight = weight + boundary.reflected
+        through = np.repeat(boundary.refracted[None], 3, axis=0)
         if throughput is not None:
             weight, through = weight * throughput, through * throughput
-        reflected = self._reflected(hits, weight, path, medium, depth, draws)
-        refracted = self._refracted(hits, through, boundary, path, medium, depth, draws)
+        reflected = self._leaving(hits, weight, None, path, medium, depth, draws)
+        refracted = self._leaving(hits, through, boundary, path, medium, depth, draws)
         if reflected is None or refracted is None:
             return reflected or refracted
         return join_rays([reflected, refracted])
@@ -176,76 +177,35 @@ class Scatter:
             origin = np.concatenate((origin, hits.far_origin(which[near:])), axis=1)
         return origin, after.take(which, axis=1)
 
-    def _reflected(
+    def _leaving(
         self,
         hits: Hits,
-        weight: Floats32,
-        path: Indices | None,
-        medium: Media | None,
-        depth: int,
-        draws: Draws,
-    ) -> Rays | None:
-        which = _above_cutoff(weight, hits.size, self.cutoff)
-        if len(which) == 0:
-            return None
-        path = which if path is None else path.take(which)
-        origin, rest = self._origins_and_weights(hits, which, len(which), weight)
-        direction = self.mirrored(hits, which, path, depth, draws)
-        medium = None if medium is None else medium.take(which)
-        draws.cast("reflection", len(which), path)
-        return self._rays(hits, which, origin, direction, rest, path, medium)
-
-    def _refracted(
-        self,
-        hits: Hits,
-        weight: Floats32,
-        boundary: Boundary,
-        path: Indices | None,
-        medium: Media | None,
-        depth: int,
-        draws: Draws,
-    ) -> Rays | None:
-        which = _above_cutoff(weight, hits.size, self.cutoff)
-        if len(which) == 0:
-            return None
-        path = which if path is None else path.take(which)
-        origin, rest = self._origins_and_weights(hits, which, 0, weight)
-        direction = self.refracted(hits, which, boundary.of(which), path, depth, draws)
-        medium = None if medium is None else self.beyond(hits, which)
-        draws.cast("refraction", len(which), path)
-        return self._rays(hits, which, origin, direction, rest, path, medium)
-
-    def _origins_and_weights(
-        self, hits: Hits, which: Indices, near: int, weight: Floats32
-    ) -> tuple[Floats32, Floats32]:
-        """As ``origins``, for weights (3, n), (3, 1) or (n,)."""
-        if weight.ndim == 2 and weight.shape[1] == hits.size:
-            return self.origins(hits, which, near, weight)
-        origin = hits.near_origin.take(which, axis=1) if near else hits.far_origin(which)
-        if weight.ndim == 1:
-            return origin, np.repeat(weight.take(which)[None], 3, axis=0)
-        return origin, np.repeat(weight, len(which), axis=1)
-
-    def _rays(
-        self,
-        hits: Hits,
-        which: Indices,
-        origin: Floats32,
-        direction: Floats32,
         throughput: Floats32,
-        path: Indices,
+        boundary: Boundary | None,
+        path: Indices | None,
         medium: Media | None,
-    ) -> Rays:
-        return Rays(
-            origin,
-            direction,
-            throughput,
-            path,
-            medium,
-            None if hits.time is None else hits.time.take(which),
-            self.surface.excluded_objects(hits, which, direction),
-            None if medium is None else hits.p.take(which, axis=1),
-        )
+        depth: int,
+        draws: Draws,
+    ) -> Rays | None:
+        """Reflected rays, or refracted ones if there is a boundary; throughput (3, n) is that after the bounce."""
+        which = np.flatnonzero(throughput.max(axis=0) > self.cutoff)
+        if len(which) == 0:
+            return None
+        path = which if path is None else path.take(which)
+        near = len(which) if boundary is None else 0
+        origin, throughput = self.origins(hits, which, near, throughput)
+        if boundary is None:
+            direction = self.mirrored(hits, which, path, depth, draws)
+        else:
+            direction = self.refracted(hits, which, boundary.of(which), path, depth, draws)
+        draws.cast("reflection" if boundary is None else "refraction", len(which), path)
+        start = None
+        if medium is not None:
+            medium = medium.take(which) if boundary is None else self.beyond(hits, which)
+            start = hits.p.take(which, axis=1)
+        time = None if hits.time is None else hits.time.take(which)
+        excluded = self.surface.excluded_objects(hits, which, direction)
+        return Rays(origin, direction, throughput, path, medium, time, excluded, start)
 
 
 def kept_above(direction: Floats32, ng: Floats32) -> Floats32:
@@ -255,11 +215,3 @@ def kept_above(direction: Floats32, ng: Floats32) -> Floats32:
         return direction
     below += below
     return np.subtract(direction, below * ng)
-
-
-def _above_cutoff(weight: Floats32, size: int, cutoff: float) -> Indices:
-    """Columns of (3, size), (3, 1) or (size,) whose largest channel is above the cutoff."""
-    largest = weight.max(axis=0) if weight.ndim == 2 else weight
-    if len(largest) < size:
-        return np.arange(size if largest[0] > cutoff else 0)
-    return np.flatnonzero(largest > cutoff)

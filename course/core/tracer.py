@@ -6,9 +6,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from course.core.counters import Counters
+from course.core.film import Reconstruction
 from course.core.integrator import Integrator
 from course.core.rays import Dimensions, Draws, PathCosts
-from course.core.reconstruction import Reconstruction
 from course.core.samplers import Block, Sampler
 from course.core.scene import Settings
 from course.core.tiles import Area

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 from course.adaptive.costs import RowOfCosts
 from course.building.world import compile_camera
+from course.core.film import Reconstruction
 from course.core.functions import Functions
-from course.core.reconstruction import Reconstruction
 from course.core.tracer import Tracer
 from course.effects import Bound, Need
 from course.extras.path_tracing import PathIntegrator

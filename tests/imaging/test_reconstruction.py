@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from course.core.film import Reconstruction
 from course.core.functions import Functions
-from course.core.reconstruction import Reconstruction
 from course.effects import Effects
 
 EFFECTS = Effects("solutions")
