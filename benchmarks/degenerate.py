@@ -7,8 +7,8 @@ from pathlib import Path
 from benchmarks.engine import SCENES
 from benchmarks.figures import Figure, summary
 from course import Scene, render
-from course.benchmarking.variants import load_variant
 from course.formats.yaml.overriding import Overrides
+from course.scene.scene import load_variant
 
 REPETITIONS = 15
 STILL = {"velocity": [0, 0, 0]}

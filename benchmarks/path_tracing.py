@@ -28,9 +28,9 @@ from course.benchmarking.measuring import Effort as CurveEffort
 from course.benchmarking.measuring import Measured, measure
 from course.benchmarking.sources import scene_hash
 from course.benchmarking.tables import summary_table
-from course.benchmarking.variants import load_variant
 from course.compiled.packets import available
 from course.effects import PROJECT
+from course.scene.scene import load_variant
 
 SCENE = PROJECT / "scenes" / "path_tracing.yaml"
 ROUNDS = 5

@@ -50,11 +50,11 @@ from course import Scene, render
 from course.benchmarking.machine import machine
 from course.benchmarking.sources import scene_hash
 from course.benchmarking.tables import print_tables
-from course.benchmarking.variants import load_variant
 from course.effects import PROJECT
 from course.formats.yaml.description.values import rgb
 from course.formats.yaml.loading import load_description
 from course.formats.yaml.overriding import Overrides
+from course.scene.scene import load_variant
 
 SAMPLES = 64
 """A pixel, of Mitsuba's best sampler; its error is the one to reach."""

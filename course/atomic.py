@@ -61,6 +61,14 @@ def check_writable(path: Path) -> None:
     _reserve(path, _target(path)).unlink()
 
 
+def make_folder(folder: Path) -> None:
+    """Make a folder that is to be filled, and those above it; OutputError if it can't be made."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise OutputError(f"{folder}: this folder can't be made: {error.strerror}") from error
+
+
 def write_text(path: Path, text: str) -> None:
     """Write a UTF-8 text file, whole or not at all.
 

@@ -10,7 +10,7 @@ import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from course.atomic import check_writable, write_text
+from course.atomic import check_writable, make_folder, write_text
 from course.benchmarking.convergence_data import about, command, record
 from course.benchmarking.estimators import BENCHED, FURTHER_BENCHED
 from course.benchmarking.measuring import Effort, Measured
@@ -89,10 +89,7 @@ def check_documents(folder: Path) -> None:
     for name in NAMES:
         _around(folder / name, MARK)
     data = folder / DATA
-    try:
-        data.parent.mkdir(exist_ok=True)
-    except OSError as error:
-        raise OutputError(f"{data.parent}: can't be made: {error.strerror}") from error
+    make_folder(data.parent)
     check_writable(data)
     if data.is_file():
         read_records(data)

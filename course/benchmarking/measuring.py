@@ -14,13 +14,12 @@ from course.benchmarking.curves import Converged, Curve
 from course.benchmarking.errors import dissimilarity, relative_mse, rmse
 from course.benchmarking.estimators import Estimator, Module
 from course.benchmarking.references import FOLDER, Reference, reference
-from course.benchmarking.variants import load_variant
 from course.compiled.packets import available
 from course.core.types import Floats64
 from course.effects import Effects
 from course.formats.yaml.overriding import Overrides
 from course.render_scene import render
-from course.scene.scene import Scene
+from course.scene.scene import Scene, load_variant
 
 Tick = Callable[[float], None]
 """Called with the share of a module's work that is done."""

@@ -9,13 +9,13 @@ from zipfile import BadZipFile
 
 import numpy as np
 
-from course.atomic import replacing
+from course.atomic import make_folder, replacing
 from course.benchmarking.sources import scene_hash
 from course.building.world import compile_scene
 from course.core.render import Progress
 from course.core.types import Floats32
 from course.effects import Effects
-from course.errors import CourseError, OutputError
+from course.errors import CourseError
 from course.formats.yaml.loading import Loaded, load_description
 from course.formats.yaml.overriding import Overrides
 from course.render_scene import render
@@ -43,17 +43,6 @@ class Reference:
     error: float
     samples: int
     key: str
-
-
-def load_variant(
-    path: str | Path,
-    overrides: Overrides | None = None,
-    effects: str | Path | Effects | None = None,
-) -> Scene:
-    """`course.load_scene`, with other values at some key paths (`course.formats.yaml.overriding`)."""
-    bound = effects if isinstance(effects, Effects) else Effects(effects)
-    loaded = load_description(Path(path), overrides)
-    return Scene(loaded, compile_scene(loaded, bound), bound)
 
 
 def reference(
@@ -106,7 +95,7 @@ def reference(
     found = _read(path, key)
     if found is not None:
         return found
-    _make(path.parent)
+    make_folder(path.parent)
     scene = Scene(loaded, compile_scene(loaded, bound), bound)
     halves = []
     parts = [path.with_name(f"{path.stem}.half{number}.npz") for number in range(2)]
@@ -157,10 +146,3 @@ def _write(path: Path, item: Reference) -> None:
     head = json.dumps({"key": item.key, "error": item.error, "samples": item.samples})
     with replacing(path) as temporary, temporary.open("wb") as file:
         np.savez(file, head=np.array(head), linear=item.linear)
-
-
-def _make(folder: Path) -> None:
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise OutputError(f"{folder}: this folder can't be made: {error.strerror}") from error

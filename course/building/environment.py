@@ -4,20 +4,18 @@ from __future__ import annotations
 
 import numpy as np
 
-from course.building.brightness import in_range
 from course.building.materials import base_color, has_body
+from course.building.ranges import in_range
 from course.core.environment import ConstantEnvironment, CubeEnvironment, Environment
 from course.core.types import Floats32
 from course.effects import Bound
-from course.errors import SceneError
 from course.extras.cube_faces import cube_from_cross, cube_from_lat_long
 from course.extras.environment_hemispheres import WAYS, HemisphereSampling
 from course.extras.environment_sampling import product_sampling
 from course.extras.sky import CosineSampling, SkySampling
-from course.formats.pictures.reading import read_picture
 from course.formats.yaml import description as d
 from course.formats.yaml.description.values import rgb
-from course.formats.yaml.limits import bytes_of_files, pixels_of_pictures
+from course.formats.yaml.limits import read_named_picture
 from course.formats.yaml.loading import Loaded
 
 LOOKUPS = {"seamless": "lookup_seamless", "clamped": "lookup"}
@@ -54,7 +52,7 @@ def compile_environment(loaded: Loaded, bound: Bound) -> tuple[Environment, SkyS
     if isinstance(environment, d.CubeEnvironment):
         faces = _faces(environment, loaded)
     else:
-        image = _read(environment.image, ("environment", "image"), loaded)
+        image = read_named_picture(environment.image, ("environment", "image"), loaded)
         height, width = image.shape[:2]
         if width != 2 * height:
             raise loaded.document.error(
@@ -117,13 +115,13 @@ def _faces(environment: d.CubeEnvironment, loaded: Loaded) -> Floats32:
     if environment.cross is not None:
         key = ("environment", "cross")
         try:
-            return cube_from_cross(_read(environment.cross, key, loaded))
+            return cube_from_cross(read_named_picture(environment.cross, key, loaded))
         except ValueError as error:
             raise loaded.document.error(key, str(error)) from error
     pictures: list[Floats32] = []
     for number, file in enumerate(environment.faces or ()):
         path = ("environment", "faces", number)
-        picture = _read(file, path, loaded)
+        picture = read_named_picture(file, path, loaded)
         height, width = picture.shape[:2]
         if height != width or picture.shape != (pictures or [picture])[0].shape:
             raise loaded.document.error(
@@ -131,14 +129,3 @@ def _faces(environment: d.CubeEnvironment, loaded: Loaded) -> Floats32:
             )
         pictures.append(picture)
     return np.stack(pictures)
-
-
-def _read(file: str, path: tuple[str | int, ...], loaded: Loaded) -> Floats32:
-    try:
-        return read_picture(
-            loaded.path.parent / file,
-            bytes_of_files(loaded.document),
-            pixels_of_pictures(loaded.document),
-        )
-    except SceneError as error:
-        raise loaded.document.error(path, str(error)) from error

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 
-from course.building.brightness import BRIGHTEST
 from course.building.materials import handed_on, returned_share
+from course.building.ranges import BRIGHTEST
 from course.core.environment import ConstantEnvironment, CubeEnvironment
 from course.extras.world import FullWorld
 from course.formats.yaml.loading import Loaded

@@ -5,16 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from course.building.frame import Frame
-from course.building.reach import in_reach
-from course.building.rejection import DISK
+from course.building.ranges import in_reach
+from course.building.sampled_points import DISK, DISKS
 from course.core.camera import Lens
 from course.effects import Bound
 from course.extras.sampled import SampledLens
 from course.formats.yaml.loading import Loaded
-
-DISKS = {"polar": "disk_by_polar", DISK: "disk_by_rejection"}
-"""The function of the sampling module that values of ``samples`` ask for."""
-
 
 NEAREST = 1e-6
 """Least distance of the plane in focus, in sizes of the scene: the functions of the course are asked for no less."""

@@ -7,12 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from course.building.brightness import in_range
 from course.building.frame import Frame
 from course.building.light_power import given, why_dark
-from course.building.reach import in_reach
+from course.building.ranges import in_range, in_reach
+from course.building.sampled_points import NUMBERS, SPHERES
 from course.building.shutter import Shutter
-from course.building.sphere_points import NUMBERS, SPHERES
 from course.core.functions import Functions
 from course.core.lights import DirectionalLight, Light, PointLight, RectangleLight, SphereLight
 from course.core.materials import MaterialTable

@@ -6,7 +6,7 @@ import numpy as np
 
 from course.building.frame import Frame
 from course.building.light_power import why_dark
-from course.building.reach import in_reach
+from course.building.ranges import in_reach
 from course.building.shutter import Shutter
 from course.core.materials import MaterialTable
 from course.core.motion import Motion

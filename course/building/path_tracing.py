@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from course.building.rejection import takes_rejection
+from course.building.sampled_points import takes_rejection
 from course.core.materials import MaterialTable
 from course.effects import Bound
 from course.extras.world import Paths

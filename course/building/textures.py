@@ -10,14 +10,12 @@ from course.building.objects import object_mesh
 from course.core.triangles import Mesh
 from course.core.types import Floats32, Floats64
 from course.effects import Bound
-from course.errors import SceneError
 from course.extras.painting import Paint
 from course.extras.textures import OnMesh, OnRectangle, OnSphere, Texture
-from course.formats.pictures.reading import read_picture
 from course.formats.yaml import description as d
 from course.formats.yaml.description.materials import TextureDescription
 from course.formats.yaml.document import KeyPath
-from course.formats.yaml.limits import bytes_of_files, pixels_of_pictures
+from course.formats.yaml.limits import read_named_picture
 from course.formats.yaml.loading import Loaded
 
 
@@ -107,14 +105,7 @@ class Painter:
         )
 
     def _read(self, file: str, path: KeyPath) -> Floats32:
-        try:
-            image = read_picture(
-                self._loaded.path.parent / file,
-                bytes_of_files(self._loaded.document),
-                pixels_of_pictures(self._loaded.document),
-            )
-        except SceneError as error:
-            raise self._loaded.document.error(path, str(error)) from error
+        image = read_named_picture(file, path, self._loaded)
         # By its largest value, for which no array of the picture's size is made.
         if image.max(initial=0) > 1:
             y, x, channel = np.argwhere(image > 1)[0]

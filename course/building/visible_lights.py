@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from course import shapes
-from course.building.brightness import in_range
 from course.building.frame import Frame
-from course.building.reach import in_reach
+from course.building.ranges import in_range, in_reach
 from course.building.shutter import Shutter
 from course.core.triangles import Mesh
 from course.core.types import Floats64

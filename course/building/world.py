@@ -6,7 +6,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from course.building.brightness import in_range
 from course.building.cameras import make_camera, make_window_camera
 from course.building.cutting import cut
 from course.building.environment import compile_environment
@@ -20,7 +19,7 @@ from course.building.materials import compile_materials
 from course.building.motion import check_sweeps, compile_motion
 from course.building.objects import CONVEX, object_mesh
 from course.building.path_tracing import compile_paths
-from course.building.reach import in_reach
+from course.building.ranges import in_range, in_reach
 from course.building.rough_glass import compile_rough_glass, reflecting
 from course.building.shutter import shutter_of
 from course.building.small_objects import (

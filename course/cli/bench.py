@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 
 import click
 
-from course.atomic import write_text
+from course.atomic import make_folder, write_text
 from course.cli import options
-from course.cli.outputs import check_outputs, is_same_file, make_folder
+from course.cli.outputs import check_outputs, is_same_file
 from course.cli.progress import progress_bar
 from course.effects import PROJECT
 from course.errors import CourseError, OutputError

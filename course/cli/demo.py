@@ -6,10 +6,10 @@ from pathlib import Path
 
 import click
 
-from course.atomic import write_text
+from course.atomic import make_folder, write_text
 from course.cli.metu import check_not_metu
 from course.cli.options import INTERRUPTED
-from course.cli.outputs import check_distinct, check_outputs, make_folder
+from course.cli.outputs import check_distinct, check_outputs
 from course.cli.progress import progress_bar
 from course.cli.tables import print_sections, receipt_sections
 from course.errors import SceneError

@@ -81,17 +81,3 @@ def is_same_file(a: Path, b: Path) -> bool:
 
 def _spelled(path: Path) -> str:
     return os.path.normcase(path.resolve())
-
-
-def make_folder(folder: Path) -> None:
-    """Make a folder that a command is asked to fill, and those above it.
-
-    Raises
-    ------
-    OutputError
-        It can't be made.
-    """
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise OutputError(f"{folder}: this folder can't be made: {error.strerror}") from error

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from course.atomic import write_text
+from course.atomic import make_folder, write_text
 from course.cli.outputs import check_outputs
 from course.cli.tables import count
 from course.effects import PROJECT
@@ -78,10 +78,7 @@ def _write(stubs: list[Stub], force: bool) -> None:
                 f"{_shown(stub.module)} holds work that would be lost: {', '.join(written)}; "
                 "move it elsewhere, or say --force"
             )
-    try:
-        ASSIGNMENTS.mkdir(exist_ok=True)
-    except OSError as error:
-        raise OutputError(f"{ASSIGNMENTS}: can't be made: {error.strerror}") from error
+    make_folder(ASSIGNMENTS)
     for stub in stubs:
         changed = _found(stub) != stub.text
         if changed:

@@ -9,6 +9,7 @@ from course.building.world import Compiled, compile_scene
 from course.effects import Effects
 from course.formats.pictures.exposure import Display
 from course.formats.yaml.loading import Loaded, load_description
+from course.formats.yaml.overriding import Overrides
 from course.scene.settings import Settings, Subdivision
 
 
@@ -74,6 +75,21 @@ def load_scene(path: str | Path, effects: str | Path | Effects | None = None) ->
     EffectError
         The folder of functions or one of its modules is missing.
     """
-    loaded = load_description(Path(path))
+    return load_variant(path, None, effects)
+
+
+def load_variant(
+    path: str | Path,
+    overrides: Overrides | None = None,
+    effects: str | Path | Effects | None = None,
+) -> Scene:
+    """`load_scene`, with other values at some key paths, such as ``{("lights", 0, "samples"): "ball"}``.
+
+    Raises
+    ------
+    SceneError, EffectError
+        As `load_scene` does, and for an override of something that isn't there.
+    """
     bound = effects if isinstance(effects, Effects) else Effects(effects)
+    loaded = load_description(Path(path), overrides)
     return Scene(loaded, compile_scene(loaded, bound), bound)

@@ -11,11 +11,10 @@ from PIL import Image
 
 from course import render
 from course.benchmarking.sources import scene_hash
-from course.benchmarking.variants import load_variant
 from course.effects import PROJECT, Effects
 from course.formats.yaml.document import spell
 from course.formats.yaml.loading import Loaded, load_description
-from course.scene.scene import Scene
+from course.scene.scene import Scene, load_variant
 from sitebuild import pictures, webp
 from sitebuild.place import Place
 from sitebuild.series_file import PATTERN, SAMPLES, Series

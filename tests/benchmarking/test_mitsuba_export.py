@@ -192,7 +192,7 @@ def test_directions_of_the_picture_of_all_directions() -> None:
 def test_native_variants_ask_for_nothing_that_plugins_lack(effect: str) -> None:
     values, words = native_overrides(PROJECT / "scenes" / f"{effect}.yaml")
     assert "no highlights" in words
-    from course.benchmarking.variants import load_variant
+    from course.scene.scene import load_variant
 
     exported = export(load_variant(PROJECT / "scenes" / f"{effect}.yaml", values), *SIZE)
     assert not exported.materials.specular.any()

@@ -21,12 +21,12 @@ from benchmarks.path_tracing import SCENE as CORNELL_BOX
 from course import load_scene, render
 from course.benchmarking.estimators import FURTHER_BENCHED
 from course.benchmarking.plot_data import Plot, read_records
-from course.benchmarking.variants import load_variant
 from course.compiled.packets import available
 from course.effects import PROJECT
 from course.radiosity.radiosity import PATCHES
 from course.radiosity.solving import GATHERED, KEPT_BYTES
 from course.rendering.box_tests import box_tests as boxes_met
+from course.scene.scene import load_variant
 
 DOCS = PROJECT / "docs"
 DATA = DOCS / "data"

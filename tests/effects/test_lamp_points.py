@@ -17,7 +17,7 @@ import pytest
 from numpy.typing import NDArray
 
 from course import EffectError, Scene, load_scene, render
-from course.building.sphere_points import NUMBERS, SPHERES
+from course.building.sampled_points import NUMBERS, SPHERES
 from course.core.lights import SphereLight
 from course.core.lights.sample import towards
 from course.effects import PROJECT, Bound, Effects

@@ -12,8 +12,9 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from course.atomic import replacing
 from course.core.triangles import Mesh
-from course.errors import CourseWarning, GeometryError, OutputError
+from course.errors import CourseWarning, GeometryError
 from course.formats.meshes.formats import Part, parse_stl
 from course.formats.meshes.glb import parse_glb
 from course.formats.meshes.obj import parse_obj
@@ -128,10 +129,8 @@ def ply_bytes(mesh: Mesh) -> bytes:
 
 def save_ply(mesh: Mesh, path: Path) -> None:
     """Write `ply_bytes`; OutputError where the file can't be written."""
-    try:
-        Path(path).write_bytes(ply_bytes(mesh))
-    except OSError as error:
-        raise OutputError(f"{path}: can't be written: {error.strerror or error}") from error
+    with replacing(path) as temporary:
+        temporary.write_bytes(ply_bytes(mesh))
 
 
 def _reason(error: Exception) -> str:

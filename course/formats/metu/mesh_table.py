@@ -8,11 +8,11 @@ from pathlib import Path
 
 import numpy as np
 
-from course.atomic import replacing
+from course.atomic import make_folder
 from course.core.triangles import Mesh
 from course.core.types import Floats64
-from course.errors import GeometryError, OutputError
-from course.formats.meshes.files import ply_bytes, read_mesh
+from course.errors import GeometryError
+from course.formats.meshes.files import read_mesh, save_ply
 from course.formats.metu.element import Element
 from course.formats.metu.notes import Notes
 
@@ -75,14 +75,8 @@ class MeshTable:
                 )
         for name, mesh in self._own.items():
             path = self.target / name
-            try:
-                path.parent.mkdir(parents=True, exist_ok=True)
-            except OSError as error:
-                raise OutputError(
-                    f"{path.parent}: can't be made: {error.strerror or error}"
-                ) from error
-            with replacing(path) as temporary:
-                temporary.write_bytes(ply_bytes(mesh))
+            make_folder(path.parent)
+            save_ply(mesh, path)
 
     def _check_area(self, mesh: Mesh, source: Element) -> None:
         p0, p1, p2 = (mesh.vertices[mesh.triangles[:, k]] for k in range(3))

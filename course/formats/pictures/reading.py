@@ -15,6 +15,7 @@ import numpy as np
 
 from course.core.types import Floats32
 from course.errors import SceneError
+from course.formats.pictures.srgb import srgb_to_linear
 from course.inputs import LARGEST_DATA, MOST_PIXELS, Bound, opened, shown
 
 if TYPE_CHECKING:
@@ -123,7 +124,7 @@ def _opened(stream: BinaryIO) -> Image:
 
 def _from_codes(image: Image) -> Floats32:
     """Linear light (H, W, 3) of a picture of 8 bits."""
-    table = _linear_light(255)
+    table = srgb_to_linear(np.arange(256) / 255)
     picture = np.empty((image.height, image.width, 3), np.float32)
     for rows in _strips(image.height, image.width):
         codes = image.crop((0, rows.start, image.width, rows.stop)).convert("RGB")
@@ -135,7 +136,7 @@ def _from_codes(image: Image) -> Floats32:
 def _from_deep_codes(path: Path) -> Floats32:
     """Linear light (H, W, 3) of a picture of 16 bits."""
     file, spec = _open_linear(path)
-    table = _linear_light(65535)
+    table = srgb_to_linear(np.arange(65536) / 65535)
     channels = _color_channels(spec.channelnames)
     picture = np.empty((spec.height, spec.width, 3), np.float32)
     for rows in _strips(spec.height, spec.width):
@@ -164,13 +165,6 @@ def _is_deep_png(stream: BinaryIO) -> bool:
     if start[:8] == b"\x89PNG\r\n\x1a\n" and start[8:12] != b"\0\0\0\x0d":
         raise ValueError("its header is corrupt")
     return start[:8] == b"\x89PNG\r\n\x1a\n" and start[24] == 16
-
-
-def _linear_light(white: int) -> Floats32:
-    """Linear value of each sRGB code from 0 to white (IEC 61966-2-1, backwards), (white + 1,)."""
-    x = np.arange(white + 1) / white
-    linear = np.where(x <= 0.04045, x / 12.92, ((x + 0.055) / 1.055) ** 2.4)
-    return linear.astype(np.float32)
 
 
 def _read_linear(stream: BinaryIO, path: Path, most: Bound) -> Floats32:

@@ -41,7 +41,6 @@ class _Open:
     size: int = 1
     height: int = 1
     key: Any = None
-    key_line: int = 0
     merged: list[dict[str, Any]] = field(default_factory=list)
 
     def position(self) -> Key | None:

@@ -32,34 +32,15 @@ Reflectance: TypeAlias = _Fraction | _ThreeFractions
 Color: TypeAlias = _NotNegative | _ThreeNotNegative
 
 
-def about(
-    description: str,
-    unit: str | None = None,
-    *,
-    gt: float | None = None,
-    ge: float | None = None,
-    lt: float | None = None,
-    le: float | None = None,
-    min_length: int | None = None,
-    pattern: str | None = None,
-) -> msgspec.Meta:
+def about(description: str, unit: str | None = None, **bounds: Any) -> msgspec.Meta:
     """Describe a key of the scene format, for the checks and for the JSON schema.
 
     Parameters
     ----------
-    description : str
-        One line, as the reference page shows it.
-    unit : str, optional
-        Written as ``x-unit`` in the schema. "world unit" is the scene's own unit of length.
-    gt, ge, lt, le : float, optional
-        Bounds: greater than, greater or equal, less than, less or equal.
-    min_length : int, optional
-        Least length of a text or list.
-    pattern : str, optional
-        Regular expression of a text.
+    description : one line, as the reference page shows it
+    unit : written as ``x-unit`` in the schema; "world unit" is the scene's own unit of length
+    bounds : gt, ge, lt, le, min_length or pattern, as `msgspec.Meta` has them
     """
-    given = {"gt": gt, "ge": ge, "lt": lt, "le": le, "min_length": min_length, "pattern": pattern}
-    bounds: dict[str, Any] = {key: value for key, value in given.items() if value is not None}
     extra = None if unit is None else {"x-unit": unit}
     return msgspec.Meta(description=description, extra_json_schema=extra, **bounds)
 
