@@ -1,26 +1,21 @@
-"""Bounding volumes: boxes in closed form, hierarchies that hold together, and hits as Embree finds them."""
+"""Bounding volumes: lines beside boxes, and hierarchies that hold together."""
 
 from __future__ import annotations
 
 import math
-from functools import cache
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
 import pytest
 
-from course.core.embree import EmbreeAccelerator, QueryStats
 from course.grading.checks.conventions import scattered
 from course.grading.checks.laws import DTYPES
-from course.shapes import torus_knot
 from tests.solutions.contract import (
     SOLUTIONS,
     Array,
     directions,
     frozen,
     global_random_state_untouched,
-    unit,
 )
 
 slab_test = SOLUTIONS.function("bounding_volumes", "slab_test")
@@ -51,33 +46,6 @@ dtypes = pytest.mark.parametrize("dtype", DTYPES)
 
 
 # ---------------------------------------------------------------- one box
-
-
-@dtypes
-@pytest.mark.parametrize(
-    ("origin", "direction", "near", "far"),
-    [
-        ((-5, 0, 0), (1, 0, 0), 4, 6),
-        ((5, 0, 0), (-1, -0.0, 0), 4, 6),
-        ((0, 0, 0), (0, 1, 0), -2, 2),
-        ((0, 0, 9), (-0.0, 0, 1), -12, -6),
-        ((0, 0, 9), (0, 0, -3), 2, 4),
-        ((-3, -3, -3), (1, 1, 1), 2, 4),
-        ((3, -3, 3), (-1, 1, -1), 2, 4),
-        ((1, 2, -7), (0, 0, 1), 4, 10),
-        ((-1, -7, 3), (-0.0, 1, 0), 5, 9),
-    ],
-)
-def test_lines_along_axes_and_diagonals_enter_and_leave_where_they_should(
-    dtype: type,
-    origin: tuple[float, ...],
-    direction: tuple[float, ...],
-    near: float,
-    far: float,
-) -> None:
-    o, d = (np.array(v, dtype)[:, None] for v in (origin, direction))
-    t_near, t_far = slab_test(o, d, LO, HI)
-    assert (t_near[0], t_far[0]) == (near, far)
 
 
 @dtypes
@@ -237,83 +205,6 @@ def test_from_the_middle_of_an_octahedron_t_is_that_of_its_planes() -> None:
     assert (tests >= 1).all()
 
 
-def layers(n: int) -> tuple[Array, ...]:
-    """Large triangles at z = 0, 1, 2, ..., n - 1, in any order."""
-    z = np.random.default_rng(6).permutation(n).astype(float)
-    corners = ((-50, -50), (50, -50), (0, 80))
-    return tuple(np.stack((np.full(n, x), np.full(n, y), z)) for x, y in corners)
-
-
-@dtypes
-@pytest.mark.parametrize("leaf_size", [1, 4])
-def test_of_layers_only_the_first_leaf_is_tested(dtype: type, leaf_size: int) -> None:
-    p = tuple(corner.astype(dtype) for corner in layers(64))
-    hierarchy = build(*boxes_around(p), leaf_size)
-    for start, way in ((-1, 1), (64, -1)):
-        o, d = np.zeros((3, 50), dtype), np.zeros((3, 50), dtype)
-        o[:2], o[2], d[2] = 10 * unit(2, 50, dtype, 7) - 5, start, way
-        triangle, t, boxes, tests = traverse(hierarchy, *p, o, d)
-        assert (p[0][2, triangle] == (0 if way > 0 else 63)).all()
-        assert (t == 1).all()
-        assert (tests == leaf_size).all()
-        # The root, and two children on each level.
-        assert (boxes == 1 + 2 * math.log2(64 / leaf_size)).all()
-
-
-def test_a_ray_that_misses_everything_tests_the_root_only() -> None:
-    o, d = np.full((3, 4), 9.0), directions(4, np.float64, 8)
-    d = np.abs(d)
-    triangle, t, boxes, tests = look_around(o, d)
-    assert triangle.tolist() == [-1] * 4
-    assert np.isposinf(t).all()
-    assert boxes.tolist() == [1] * 4
-    assert tests.tolist() == [0] * 4
-
-
-def test_triangles_have_two_sides_and_no_back_and_need_an_area() -> None:
-    # The second one is a line.
-    corners = (((0, 0, 0), (0, 0, 2)), ((4, 0, 0), (4, 0, 2)), ((0, 4, 0), (8, 0, 2)))
-    p = tuple(np.array(pair, float).T for pair in corners)
-    hierarchy = build(*boxes_around(p), 2)
-    o = np.array(((1, 1, 5), (1, 1, -5), (1, 1, -5), (1, 1, 1), (2, 0, 5), (3, 3, 5))).T.astype(
-        float
-    )
-    d = np.array(((0, 0, -1), (0, 0, 1), (0, 0, -1), (0, 0, 2), (0, 0, -1), (0, 0, -1))).T.astype(
-        float
-    )
-    triangle, t, _, _ = traverse(hierarchy, *p, o, d)
-    assert triangle.tolist() == [0, 0, -1, -1, 0, -1]
-    assert t[[0, 1, 4]].tolist() == [5, 5, 5]
-
-
-def test_hits_do_not_depend_on_the_hierarchy() -> None:
-    rng = np.random.default_rng(9)
-    p = tuple(rng.uniform(-1, 1, (3, 200)) for _ in range(3))
-    o = 3 * directions(2000, np.float64, 10)
-    d = rng.uniform(-1, 1, o.shape) - o
-    lo, hi = boxes_around(p)
-    all_in_one = build(lo, hi, 200)
-    triangle, t, _, tests = traverse(all_in_one, *p, o, d)
-    assert 1000 < (triangle >= 0).sum() < 2000
-    assert (tests[triangle >= 0] == 200).all()
-    for leaf_size in (1, 3, 20):
-        found = traverse(build(lo, hi, leaf_size), *p, o, d)
-        assert (found[0] == triangle).all()
-        assert (found[1] == t).all()
-
-
-def test_what_a_box_does_not_show_is_not_found() -> None:
-    p = layers(2)
-    lo, hi, first, count, order = build(*boxes_around(p), 1)
-    # The upper triangle's box goes elsewhere, its parent's reaches there.
-    upper = int(np.flatnonzero((count == 1) & (lo[2] == 1))[0])
-    lo[0, upper] += 200
-    hi[0, [0, upper]] += 200
-    o, d = np.array(((0.0,), (0,), (9,))), np.array(((0.0,), (0,), (-1,)))
-    _, t, _, _ = traverse((lo, hi, first, count, order), *p, o, d)
-    assert t.tolist() == [9]
-
-
 @pytest.mark.parametrize("part", [0, 1, 2, 3, 4])
 def test_a_hierarchy_of_other_shapes_is_refused(part: int) -> None:
     hierarchy = list(build(*boxes_around(ROOM), 2))
@@ -328,72 +219,3 @@ def test_triangles_of_another_number_than_the_hierarchys_are_refused() -> None:
         wrong = [corner[:, :7] if i == k else corner for i, corner in enumerate(ROOM)]
         with pytest.raises(ValueError, match=rf"^p{k} must have shape \(3, 8\), got \(3, 7\)$"):
             traverse(hierarchy, *wrong, np.zeros((3, 2)), np.ones((3, 2)))
-
-
-# ---------------------------------------------------------------- beside Embree
-
-
-@cache
-def knot() -> tuple[EmbreeAccelerator, tuple[Array, ...]]:
-    """65,536 triangles, in Embree and as corners."""
-    mesh = torus_knot(segments=512, sides=64)
-    vertices, faces = mesh.vertices.astype(np.float32), mesh.triangles.astype(np.int32)
-    p = tuple(np.ascontiguousarray(vertices[faces[:, k]].T) for k in range(3))
-    return EmbreeAccelerator(vertices, faces), p
-
-
-@cache
-def hits(leaf_size: int) -> tuple[Any, tuple[Array, ...], Array, Array]:
-    """Embree's and the hierarchy's hits of 100,000 rays from all around."""
-    embree, p = knot()
-    rng = np.random.default_rng(12)
-    o = 3 * directions(100_000, np.float64, 13)
-    d = rng.uniform(-1, 1, o.shape) - o
-    o, d = (np.ascontiguousarray(v, np.float32) for v in (o, d / np.linalg.norm(d, axis=0)))
-    found = traverse(build(*boxes_around(p), leaf_size), *p, o, d)
-    return embree.intersect(o, d, QueryStats()), found, o, d
-
-
-def barycentric(triangle: Array, o: Array, d: Array) -> Array:
-    """(3, N) weights of the corners where lines meet the planes of triangles, in double precision."""
-    p0, p1, p2 = (corner[:, triangle].astype(float).T for corner in knot()[1])
-    o, d = o.T.astype(float), d.T.astype(float)
-    sides = [np.cross(b - o, c - o) for b, c in ((p1, p2), (p2, p0), (p0, p1))]
-    volumes = np.stack([(d * side).sum(axis=1) for side in sides])
-    return volumes / volumes.sum(axis=0)
-
-
-def test_every_hit_is_embrees() -> None:
-    embree, (triangle, t, _, _), o, d = hits(4)
-    assert knot()[1][0].shape[1] >= 50_000
-    assert 40_000 < (triangle >= 0).sum() < 90_000
-    differ = np.flatnonzero(triangle != embree.triangle)
-    # A tie: through an edge as nearly as float32 can tell. There may be a few in 100,000.
-    assert differ.size < 10
-    for k in differ:
-        named = np.array([found for found in (triangle[k], embree.triangle[k]) if found >= 0])
-        weights = barycentric(named, *(np.repeat(v[:, [k]], named.size, axis=1) for v in (o, d)))
-        assert np.abs(weights.min(axis=0)).max() < 1e-4
-    same = (triangle == embree.triangle) & (triangle >= 0)
-    # The knot is at most 5 away; at grazing angles rounding is magnified.
-    assert np.abs(t - embree.t)[same].max() < 1e-4
-
-
-def test_tests_are_few_beside_those_of_brute_force() -> None:
-    _, (_, _, boxes, tests), _, _ = hits(4)
-    triangles = knot()[1][0].shape[1]
-    assert boxes.mean() + tests.mean() < triangles / 500
-
-
-def test_tests_grow_with_the_logarithm_of_the_triangles() -> None:
-    means = []
-    for segments, sides in ((64, 16), (128, 32), (256, 64)):
-        mesh = torus_knot(segments=segments, sides=sides)
-        p = tuple(np.ascontiguousarray(mesh.vertices[mesh.triangles[:, k]].T) for k in range(3))
-        o = 3 * directions(3000, np.float64, 14)
-        d = np.random.default_rng(15).uniform(-1, 1, o.shape) - o
-        _, _, boxes, tests = traverse(build(*boxes_around(p), 4), *p, o, d)
-        means.append(boxes.mean() + tests.mean())
-    # Four times the triangles, and twice the tests at the very most.
-    assert all(b < 2 * a for a, b in pairwise(means))
-    assert means[-1] < 3 * means[0]

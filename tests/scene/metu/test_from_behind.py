@@ -253,7 +253,7 @@ def test_what_can_not_be_kept_is_refused_by_its_key(make_scene: MakeScene) -> No
 
 def test_who_asks_for_nothing_pays_nothing(make_scene: MakeScene) -> None:
     surface = make_scene(objects=[{"shape": "box", "material": "grey"}]).compiled.world.surface
-    assert surface.eye is surface.accelerator
+    assert surface.camera_accelerator is surface.accelerator
     assert (surface.kept, surface.through) == (None, None)
     # From outside a closed thing no back is seen before a front: all the same the hierarchy has no backs.
     box = {"shape": "box", "material": "grey", "shading": "flat", "from_behind": "unseen"}
