@@ -9,8 +9,8 @@ from course import Scene
 from course.core.counters import Counters
 from course.core.passes import passes
 from course.core.samplers import Block
-from course.core.samplers.sobol import SobolSampler
 from course.core.types import Indices
+from course.extras.samplers.sobol import SobolSampler
 from course.rendering.binding import bind
 
 Drawn = set[tuple[int, int]]

@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 
 from course.core.passes import Work
 from course.core.samplers import Block
-from course.core.samplers.sobol import SobolSampler
 from course.core.tiles import RAYS
 from course.core.types import Floats32, Numbers, Words
+from course.extras.samplers.sobol import SobolSampler
 
 Numbers64 = NDArray[np.int64]
 

@@ -6,8 +6,8 @@ import numpy as np
 from numba import njit, types
 
 from course.compiled.options import COLUMNS, OPTIONS
-from course.core.hashing import FIRST, GOLDEN, SECOND
-from course.core.samplers.sobol import TO_UNIT
+from course.extras.samplers.hashing import FIRST, GOLDEN, SECOND
+from course.extras.samplers.sobol import TO_UNIT
 
 _GOLDEN, _FIRST, _SECOND = np.uint64(GOLDEN), np.uint64(FIRST), np.uint64(SECOND)
 _BITS, _MORE_BITS, _HALF = np.uint64(30), np.uint64(27), np.uint64(32)
@@ -16,7 +16,7 @@ _BYTE = np.uint32(8)
 
 @njit(**OPTIONS)
 def _hashed(key, salt):
-    """``course.core.hashing.hash_words`` of one key and one salt."""
+    """``course.extras.samplers.hashing.hash_words`` of one key and one salt."""
     state = np.uint64(key) * _GOLDEN + salt
     state = (state ^ (state >> _BITS)) * _FIRST
     state = (state ^ (state >> _MORE_BITS)) * _SECOND

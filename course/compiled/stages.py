@@ -15,12 +15,12 @@ from course.compiled.surface import CompiledSurface
 from course.core.hits import Surface
 from course.core.integrator import Integrator
 from course.core.samplers import Block, Sampler
-from course.core.samplers.sobol import SobolSampler
 from course.core.tracer import Tracer
 from course.core.types import Floats32, Indices
 from course.extras.environment_sampling import ProductSampling
 from course.extras.path_tracing import PathIntegrator
 from course.extras.plan import same_fields
+from course.extras.samplers.sobol import SobolSampler
 from course.extras.sky import Sky
 from course.extras.surface import FullSurface
 

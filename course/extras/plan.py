@@ -14,7 +14,6 @@ from course.core.materials import Lookup, MaterialTable
 from course.core.plan import plan_dimensions, plan_direct_light, plan_integrator, plan_scatter
 from course.core.rays import Dimensions
 from course.core.samplers import Sampler
-from course.core.samplers.sobol import SobolSampler
 from course.core.scatter import Scatter
 from course.extras.conductors import Conductors
 from course.extras.direct import FullDirectLight
@@ -22,6 +21,7 @@ from course.extras.materials import FullMaterials
 from course.extras.path_bounce import PathBounce
 from course.extras.path_tracing import PathIntegrator, glow
 from course.extras.rough_glass import REFRACTION
+from course.extras.samplers.sobol import SobolSampler
 from course.extras.scatter import FullScatter
 from course.extras.sky import NUMBERS, Sky
 from course.extras.world import FullWorld, Paths

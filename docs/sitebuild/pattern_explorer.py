@@ -11,10 +11,10 @@ from html import escape
 
 import numpy as np
 
-from course.core.samplers.sobol import sobol_words
 from course.core.types import Floats32, Floats64
 from course.effects import PROJECT, Effects
 from course.errors import CourseError
+from course.extras.samplers.sobol import sobol_words
 from sitebuild.place import Place
 
 PATTERNS = ("regular", "random", "jittered", "sobol", "scrambled", "halton", "hammersley")

@@ -16,7 +16,6 @@ import pytest
 from numpy.typing import NDArray
 
 from course.core.samplers import Block
-from course.core.samplers.sobol import SobolSampler
 from course.effects import Effects
 from course.extras.cube_faces import (
     cube_from_cross,
@@ -32,6 +31,7 @@ from course.extras.environment_sampling import (
     tabulated,
 )
 from course.extras.hemisphere import cosine_directions
+from course.extras.samplers.sobol import SobolSampler
 from course.formats.pictures.reading import read_picture
 
 Array = NDArray[np.float64]

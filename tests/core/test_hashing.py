@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from course.core.hashing import combine, hash_words, mix
+from course.extras.samplers.hashing import combine, hash_words, mix
 
 N = 1 << 16
 

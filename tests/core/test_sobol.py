@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 from scipy.stats import qmc
 
-from course.core.samplers.sobol import (
+from course.core.types import Words
+from course.extras.samplers.sobol import (
     net_indices,
     owen_scrambled,
     reversed_bits,
     shuffled,
     sobol_words,
 )
-from course.core.types import Words
 
 
 def indices(first: int, count: int) -> Words:

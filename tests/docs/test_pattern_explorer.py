@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from course.core.samplers.sobol import owen_scrambled, sobol_words
 from course.core.types import Floats32
 from course.effects import PROJECT, Effects
 from course.errors import CourseError
+from course.extras.samplers.sobol import owen_scrambled, sobol_words
 
 pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')
 

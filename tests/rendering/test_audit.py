@@ -18,7 +18,7 @@ from course.adaptive.film import PARTS, AdaptiveFilm
 from course.adaptive.pixel_groups import PixelGroup, TwinGroup
 from course.core.passes import Work
 from course.core.samplers import Block
-from course.core.samplers.sobol import SobolSampler
+from course.extras.samplers.sobol import SobolSampler
 
 Array = NDArray[Any]
 WIDTH, HEIGHT, SAMPLES = 120, 100, 64

@@ -20,7 +20,7 @@ from course.core.lights.sample import Sample, towards
 from course.core.materials import Lookup
 from course.core.rays import Dimensions, Draws
 from course.core.samplers import Block
-from course.core.samplers.sobol import SobolSampler
+from course.extras.samplers.sobol import SobolSampler
 from tests.transport.coarse_sphere import hits_on_a_coarse_sphere
 
 if not packets.available():

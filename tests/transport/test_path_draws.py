@@ -10,8 +10,8 @@ import pytest
 from course.core.counters import Counters
 from course.core.rays import Dimensions, Draws
 from course.core.samplers import Block
-from course.core.samplers.sobol import SobolSampler
 from course.extras.samplers import make_sampler
+from course.extras.samplers.sobol import SobolSampler
 
 PIXELS = np.arange(100, 356, dtype=np.uint32)
 

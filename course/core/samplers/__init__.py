@@ -11,8 +11,6 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from course.core.types import Floats32, Indices, Words
 
 
@@ -37,14 +35,6 @@ class Block:
     def size(self) -> int:
         """Number of paths: pixels times samples."""
         return len(self.pixels) * self.samples
-
-    def places(self, path: Indices) -> tuple[Indices, Indices]:
-        """Indices into ``pixels`` and sample numbers, counted from ``first``, (m,) each, of paths (m,)."""
-        bits = self.samples.bit_length() - 1
-        if self.samples == 1 << bits:
-            return path >> bits, path & (self.samples - 1)
-        pixel, sample = np.divmod(path, self.samples)
-        return pixel, sample
 
 
 class Sampler(ABC):

@@ -11,13 +11,13 @@ from typing import Any
 
 from course.core.functions import Functions
 from course.core.samplers import Block, Sampler
-from course.core.samplers.sobol import SobolSampler
 from course.core.samplers.stratified import (
     JitteredSampler,
     RandomSampler,
     RegularSampler,
 )
 from course.extras.samplers.low_discrepancy import ChainedSampler, HaltonSampler, HammersleySampler
+from course.extras.samplers.sobol import SobolSampler
 from course.extras.samplers.xorshift import XorshiftSampler
 
 __all__ = ["FUNCTIONS", "Block", "Sampler", "make_sampler"]

@@ -11,9 +11,9 @@ from __future__ import annotations
 import numpy as np
 
 from course.core.functions import Functions
-from course.core.hashing import combine, hash_words
 from course.core.samplers import Block, Sampler, generator
 from course.core.types import Floats32
+from course.extras.samplers.hashing import combine, hash_words
 
 ORDERS = 256
 """Permutations of a chained pattern; two pixels share one by chance of 1 in this many."""

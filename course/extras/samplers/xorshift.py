@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from course.core.functions import Functions
-from course.core.hashing import combine, hash_words
 from course.core.samplers import Block, Sampler
 from course.core.types import Floats32
+from course.extras.samplers.hashing import combine, hash_words
 
 
 class XorshiftSampler(Sampler):

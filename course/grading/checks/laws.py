@@ -12,8 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from course.core.samplers.sobol import net_indices, owen_scrambled, shuffled, sobol_words
 from course.core.types import Words
+from course.extras.samplers.sobol import net_indices, owen_scrambled, shuffled, sobol_words
 from course.grading.checks.check import Array, Failure, Kind, Role, Trial
 from course.grading.checks.declare import Arguments, Case, Function, Law
 from course.grading.checks.drawing import Draw

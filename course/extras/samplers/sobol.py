@@ -10,9 +10,9 @@ from functools import lru_cache
 
 import numpy as np
 
-from course.core.hashing import combine, hash_words
 from course.core.samplers import Block, Sampler
 from course.core.types import Floats32, Indices, Words
+from course.extras.samplers.hashing import combine, hash_words
 
 TO_UNIT = np.float32(2.0**-24)
 
@@ -63,7 +63,7 @@ class SobolSampler(Sampler):
         if 2 * len(path) > block.size or first + width > 2:
             return self.draw(block, dimension, width).take(path, axis=1)
         rows, salts = self.pair(block, pair)
-        pixel, sample = block.places(path)
+        pixel, sample = _places(block, path)
         # One hash per path or per pixel: the smaller number.
         if len(path) < len(block.pixels):
             hashes = hash_words(block.pixels.take(pixel), *salts)
@@ -88,6 +88,15 @@ class SobolSampler(Sampler):
         """
         rows = _points(block.first, block.samples)[2 * pair if pair < _NET_PAIRS else 0 :]
         return rows, _salts(self._seed, range(pair, pair + 1))
+
+
+def _places(block: Block, path: Indices) -> tuple[Indices, Indices]:
+    """Indices into ``block.pixels`` and sample numbers, counted from ``block.first``, (m,) each, of paths (m,)."""
+    bits = block.samples.bit_length() - 1
+    if block.samples == 1 << bits:
+        return path >> bits, path & (block.samples - 1)
+    pixel, sample = np.divmod(path, block.samples)
+    return pixel, sample
 
 
 def _pairs(dimension: int, width: int) -> range:
