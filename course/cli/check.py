@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import time
 from collections.abc import Callable
 from dataclasses import replace
@@ -10,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from course.atomic import write_text
 from course.cli.options import FAILED, modules_from
 from course.cli.outputs import check_outputs
 from course.cli.tables import count
@@ -91,14 +93,16 @@ def check(
         seen = _times(folder, modules)
         report = _check(folder, modules, only, seed, arrays, rungs)
         if html is not None:
-            from course.grading.reports.page import write_page
+            from course.grading.reports.page import as_page
 
-            write_page(report, html)
+            write_text(html, as_page(report))
             click.echo(f"{html} written")
         if json_file is not None:
-            from course.grading.reports.files import write_json
+            from course.grading.reports.formats import as_json
 
-            write_json(report, json_file)
+            document = as_json(report)
+            text = json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False)
+            write_text(json_file, f"{text}\n")
             click.echo(f"{json_file} written")
         if not watch:
             ctx.exit(0 if report.points == report.of and not report.broken else FAILED)
@@ -187,7 +191,7 @@ class _Printer:
         self._pending: list[Result] = []
 
     def result(self, result: Result) -> None:
-        from course.grading.reports.text import clean
+        from course.grading.reports.formats import clean
 
         # Whoever follows an "again" line looks at somebody else's exceptions: nothing in them steers the terminal.
         found, where, example = map(clean, (result.found, result.where, result.example))
@@ -206,7 +210,7 @@ class _Printer:
 
     def end(self, report: Report) -> None:
         from course.grading.report import as_points
-        from course.grading.reports.text import clean
+        from course.grading.reports.formats import clean
 
         self._flush()
         for module, text in report.printed.items():

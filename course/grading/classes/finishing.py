@@ -155,7 +155,7 @@ def _write_for_systems(
     title: str,
 ) -> list[Path]:
     """Write what learning systems import; tables of an earlier run are not left behind."""
-    from course.grading.reports.systems import write_canvas, write_moodle
+    from course.grading.reports.classes import write_canvas, write_moodle
 
     for name in (CANVAS, MOODLE):
         for path in (out / name, out / f"{NOT_CERTAIN}{name}"):

@@ -23,11 +23,12 @@ from course.grading.catalog import module_checks
 from course.grading.checks.preparing import References
 from course.grading.checks.result import Result, Status
 from course.grading.classes.bundle import REFERENCES
-from course.grading.classes.job import json_bytes, troubled, with_whole
+from course.grading.classes.job import troubled, with_whole
 from course.grading.classes.submitted import read_one
 from course.grading.grading import grade
 from course.grading.references import read_references, references
 from course.grading.report import Report
+from course.grading.reports.formats import gradescope, json_bytes
 from course.grading.worker.limits import Limits
 from course.grading.worker.sandbox import NotProtected, protected, sandbox
 from course.modules import COURSE
@@ -141,8 +142,6 @@ class _Writer:
 
     def write(self, report: Report | None) -> None:
         """Write a report, or what it will be if no more comes."""
-        from course.grading.reports.gradescope import results
-
         if report is None:
             all_results = (*self._results, *unreached(self.modules, self._results))
             report = Report(
@@ -155,7 +154,7 @@ class _Writer:
         seconds = round(perf_counter() - self._started, 3)
         self._path.parent.mkdir(parents=True, exist_ok=True)
         with replacing(self._path) as temporary:
-            temporary.write_bytes(json_bytes(results(report) | {"execution_time": seconds}))
+            temporary.write_bytes(json_bytes(gradescope(report) | {"execution_time": seconds}))
 
 
 def unreached(modules: Sequence[str], done: Iterable[Result]) -> tuple[Result, ...]:

@@ -6,7 +6,6 @@ name or, for another machine, the file's bytes.
 
 from __future__ import annotations
 
-import json
 import tempfile
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -103,26 +102,16 @@ def without_figures(report: Report) -> Report:
 def report_files(report: Report) -> dict[str, bytes]:
     """Everything that is written for one student to read, by file name: a hidden seed is in none of it."""
     report = for_students(report)
-    from course.grading.reports import gradescope, prairielearn
-    from course.grading.reports.files import as_json
-    from course.grading.reports.junit import write_junit
-    from course.grading.reports.page import write_page
+    from course.grading.reports import formats
+    from course.grading.reports.page import as_page
 
-    with tempfile.TemporaryDirectory() as folder:
-        page, junit = Path(folder) / "report.html", Path(folder) / "junit.xml"
-        write_page(report, page)
-        write_junit(report, junit)
-        files = {path.name: path.read_bytes() for path in (page, junit)}
-    return files | {
-        "gradescope.json": json_bytes(gradescope.results(report)),
-        "prairielearn.json": json_bytes(prairielearn.results(report)),
-        RESULTS: json_bytes(as_json(report)),
+    return {
+        "report.html": as_page(report).encode(),
+        "junit.xml": formats.as_xml(report).encode(),
+        "gradescope.json": formats.json_bytes(formats.gradescope(report)),
+        "prairielearn.json": formats.json_bytes(formats.prairielearn(report)),
+        RESULTS: formats.json_bytes(formats.as_json(report)),
     }
-
-
-def json_bytes(value: object) -> bytes:
-    """As a JSON file."""
-    return json.dumps(value, indent=1, allow_nan=False).encode() + b"\n"
 
 
 @lru_cache(maxsize=2)

@@ -17,8 +17,9 @@ from course import __version__
 from course.atomic import replacing
 from course.errors import OutputError
 from course.grading.checks.result import Result, Status
-from course.grading.classes.job import RESULTS, Graded, json_bytes
+from course.grading.classes.job import RESULTS, Graded
 from course.grading.report import Report
+from course.grading.reports.formats import as_json, json_bytes
 
 INSTRUCTOR = "instructor"
 """Folder beside those of the students for what they are not to see."""
@@ -56,8 +57,6 @@ def keep(out: Path, graded: Graded, mark: str | None) -> None:
     out : of the class
     mark : the fingerprint of what was graded; empty if the next run is to grade it again, None for no record
     """
-    from course.grading.reports.files import as_json
-
     folder, record = out / graded.report.student, _record(out, graded.report.student)
     try:
         for path in (folder, record.parent):

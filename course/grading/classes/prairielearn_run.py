@@ -14,11 +14,12 @@ from pathlib import Path
 from course.atomic import replacing
 from course.errors import CourseError
 from course.grading.checks.preparing import References
-from course.grading.classes.job import json_bytes, troubled
+from course.grading.classes.job import troubled
 from course.grading.classes.submitted import read_one
 from course.grading.grading import grade
 from course.grading.references import read_references, references
 from course.grading.report import Report
+from course.grading.reports.formats import json_bytes, prairielearn
 from course.grading.worker.limits import Limits
 from course.grading.worker.sandbox import protected, sandbox
 from course.modules import COURSE
@@ -81,13 +82,11 @@ def _references(path: Path, seed: int) -> References:
 
 
 def _write(report: Report, path: Path) -> None:
-    from course.grading.reports.prairielearn import results
-
     for result in report.broken:
         # What is printed here only instructors see.
         sys.stderr.write(f"{result.id} broke:\n{result.instructor}\n")
     with replacing(path) as temporary:
-        temporary.write_bytes(json_bytes(results(report)))
+        temporary.write_bytes(json_bytes(prairielearn(report)))
 
 
 if __name__ == "__main__":

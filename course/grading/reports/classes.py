@@ -1,25 +1,26 @@
-"""The whole class: a table of grades for a spreadsheet, and one page for the instructor."""
+"""The whole class: tables of grades for a spreadsheet, Canvas and Moodle, and one page for the instructor."""
 
 from __future__ import annotations
 
 import csv
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from io import StringIO
 from pathlib import Path
 from statistics import fmean, median
 from types import MappingProxyType
+from typing import Any
 from urllib.parse import quote
 
 from course.atomic import write_text
 from course.grading.checks.result import Result, Status
 from course.grading.classes.marks import Mark
-from course.grading.classes.roster import Matched
+from course.grading.classes.roster import Listed, Matched
 from course.grading.report import Report, ending
+from course.grading.reports.formats import clean, finite
 from course.grading.reports.grouping import grouped
-from course.grading.reports.templates import render
-from course.grading.reports.text import clean, finite
+from course.grading.reports.page import render
 
 MARKS = ("raw", "adjusted", "final")
 """Columns of the score by a policy."""
@@ -30,6 +31,17 @@ BARS = 10
 _BAR_HEIGHT = 165
 _FORMULA = tuple("=+-@\t\r\n\uff1d\uff0b\uff0d\uff20")
 """What makes a spreadsheet take a text for a formula: the four signs, full-width ones too, and blanks before them."""
+
+_Columns = Mapping[str, tuple[str, ...]]
+_CANVAS: _Columns = dict.fromkeys(("Student", "ID", "SIS User ID", "SIS Login ID", "Section"), ())
+_MOODLE: _Columns = {
+    "Identifier": (),
+    "Full name": (),
+    "Username": ("login", "sis login id", "netid"),
+    "ID number": ("idnumber", "student id", "sis user id"),
+    "Email address": ("email", "e-mail"),
+}
+"""Column of a system -> columns of a roster that say the same where it has none of that name."""
 
 
 @dataclass(frozen=True)
@@ -66,41 +78,81 @@ def write_grades(
     OutputError
         The file can't be written.
     """
-    functions: dict[str, None] = {}
-    tables: list[dict[str, float]] = []
-    for report in reports:
-        points = {
+    points = [
+        {
             f"{function.module}.{function.name}": function.points
             for module in grouped(report)
             for function in module.functions
         }
-        functions.update(dict.fromkeys(points))
-        tables.append(points)
-    buffer = StringIO()
-    writer = csv.writer(buffer, lineterminator="\n")
+        for report in reports
+    ]
+    functions = [*dict.fromkeys(name for own in points for name in own)]
     head = ["student", "score", "points", "of", *([] if total is None else MARKS)]
-    head += ["broken checks", "remarks"]
-    writer.writerow([*head, *(safe_cell(name) for name in functions)])
-    for report, points in zip(reports, tables, strict=True):
+    rows = [[*head, "broken checks", "remarks", *map(safe_cell, functions)]]
+    for report, own in zip(reports, points, strict=True):
         line = lines.get(report.student, Line())
-        score = line.mark
+        score = line.mark or Mark(0.0, 0.0, 0.0)
         grades = [report.score, report.points, report.of]
-        if total is not None:
-            grades += [0.0] * 3 if score is None else [score.raw, score.adjusted, score.final]
-        why = () if score is None else score.why
-        writer.writerow(
+        grades += [] if total is None else [score.raw, score.adjusted, score.final]
+        remarks = (report.unprotected, report.trouble, *score.why, *line.remarks)
+        rows.append(
             [
                 safe_cell(report.student),
-                *("" if report.trouble else f"{finite(grade):g}" for grade in grades),
+                *("" if report.trouble else _number(grade) for grade in grades),
                 safe_cell(" ".join(result.id for result in report.broken)),
-                safe_cell(
-                    "; ".join(
-                        filter(None, (report.unprotected, report.trouble, *why, *line.remarks))
-                    )
-                ),
-                *(f"{finite(points[name]):g}" if name in points else "" for name in functions),
+                safe_cell("; ".join(filter(None, remarks))),
+                *(_number(own[name]) if name in own else "" for name in functions),
             ]
         )
+    _write_table(rows, path)
+
+
+def write_canvas(
+    grades: Sequence[tuple[Listed, float]], total: float, title: str, path: Path
+) -> None:
+    """Write a gradebook that Canvas imports: columns of the roster, and one of grades.
+
+    Parameters
+    ----------
+    total : points of who has earned all
+    title : the assignment as Canvas calls it, such as "Lens (12345)"; a new name makes a new assignment
+
+    Raises
+    ------
+    OutputError
+        The file can't be written.
+    """
+    possible = ["    Points Possible", "", "", "", "", _number(total)]
+    _write_table([[*_CANVAS, clean(title)], possible, *_gradebook(grades, _CANVAS)], path)
+
+
+def write_moodle(grades: Sequence[tuple[Listed, float]], title: str, path: Path) -> None:
+    """Write a table that Moodle imports, as an upload of a grading worksheet or into the gradebook.
+
+    Raises
+    ------
+    OutputError
+        The file can't be written.
+    """
+    _write_table([[*_MOODLE, clean(title)], *_gradebook(grades, _MOODLE)], path)
+
+
+def _gradebook(grades: Iterable[tuple[Listed, float]], columns: _Columns) -> Iterator[list[str]]:
+    """What the roster says in these columns: it is the system's own, so no text is changed that it knows by."""
+    for listed, grade in grades:
+        own = {name: listed.get(name.casefold(), *others) for name, others in columns.items()}
+        for name in {"Student", "Full name"} & own.keys():
+            own[name] = own[name] or listed.name
+        yield [*map(clean, own.values()), _number(grade)]
+
+
+def _number(value: float) -> str:
+    return f"{finite(value):g}"
+
+
+def _write_table(rows: Iterable[Sequence[str]], path: Path) -> None:
+    buffer = StringIO()
+    csv.writer(buffer, lineterminator="\n").writerows(rows)
     write_text(path, buffer.getvalue())
 
 
@@ -108,26 +160,6 @@ def safe_cell(text: str) -> str:
     """A text that no spreadsheet runs as a formula: an apostrophe goes before one that looks like it."""
     text = clean(text)
     return f"'{text}" if text.startswith(_FORMULA) or text.lstrip().startswith(_FORMULA) else text
-
-
-@dataclass(frozen=True)
-class _Bar:
-    low: int
-    high: int
-    number: int
-    height: float
-
-
-@dataclass(frozen=True)
-class _Row:
-    """One check that somebody didn't pass."""
-
-    id: str
-    title: str
-    number: int
-    share: float
-    statuses: list[tuple[str, int]]
-    mistakes: list[tuple[str, int]]
 
 
 def write_class_page(
@@ -155,7 +187,10 @@ def write_class_page(
         The file can't be written.
     """
     graded = [report for report in reports if not report.trouble]
-    students = [(report, _states(report)) for report in reports]
+    students = [
+        (report, Counter(one.state for module in grouped(report) for one in module.functions))
+        for report in reports
+    ]
     scores = sorted(finite(report.score) for report in graded)
     page = render(
         "classes.html.jinja",
@@ -189,46 +224,43 @@ def write_class_page(
         seeds=sorted({report.seed for report in reports if report.seed is not None}),
         versions=sorted({report.version for report in reports if report.version}),
         seconds=sum(finite(report.seconds) for report in reports),
-        link=_link,
+        # Relative, so that the folder can go anywhere.
+        link=lambda student: f"./{quote(student, safe='', errors='replace')}/report.html",
     )
     write_text(path, page)
 
 
-def _link(student: str) -> str:
-    """Relative, so that the folder can go anywhere."""
-    return f"./{quote(student, safe='', errors='replace')}/report.html"
-
-
-def _states(report: Report) -> Counter[str]:
-    return Counter(function.state for module in grouped(report) for function in module.functions)
-
-
-def _bars(scores: Sequence[float]) -> list[_Bar]:
+def _bars(scores: Sequence[float]) -> list[dict[str, float]]:
     # A full score belongs to the last bar.
     counts = Counter(min(BARS - 1, int(BARS * score + 1e-9)) for score in scores)
-    most = max(counts.values(), default=1)
-    width = 100 // BARS
+    most, width = max(counts.values(), default=1), 100 // BARS
     return [
-        _Bar(i * width, (i + 1) * width, counts[i], round(_BAR_HEIGHT * counts[i] / most, 1))
+        {
+            "low": i * width,
+            "high": (i + 1) * width,
+            "number": counts[i],
+            "height": round(_BAR_HEIGHT * counts[i] / most, 1),
+        }
         for i in range(BARS)
     ]
 
 
-def _failures(graded: Sequence[Report]) -> list[_Row]:
+def _failures(graded: Sequence[Report]) -> list[dict[str, Any]]:
+    """Checks that somebody didn't pass, those that most failed first."""
     by_check: dict[str, list[Result]] = {}
     for report in graded:
         for result in report.results:
             if result.status is not Status.PASSED:
                 by_check.setdefault(result.id, []).append(result)
     rows = [
-        _Row(
-            check,
-            results[0].title,
-            len(results),
-            len(results) / len(graded),
-            Counter(str(result.status) for result in results).most_common(),
-            Counter(result.mistake for result in results if result.mistake).most_common(),
-        )
+        {
+            "id": check,
+            "title": results[0].title,
+            "number": len(results),
+            "share": len(results) / len(graded),
+            "statuses": Counter(str(result.status) for result in results).most_common(),
+            "mistakes": Counter(one.mistake for one in results if one.mistake).most_common(),
+        }
         for check, results in by_check.items()
     ]
-    return sorted(rows, key=lambda row: (-row.number, row.id))
+    return sorted(rows, key=lambda row: (-row["number"], row["id"]))

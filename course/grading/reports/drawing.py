@@ -1,13 +1,126 @@
-"""Draw a figure of any kind, or say why it can't be drawn."""
+"""Figures of any kind drawn, whichever report shows them: pictures as pixels, points and histograms as SVG.
+
+An SVG element takes the page's own colour of text. Each plot is a matplotlib figure of its own: nothing is shared
+between threads, and no global setting is changed.
+"""
 
 from __future__ import annotations
 
-from course.grading.checks.check import Figure
-from course.grading.reports.panels import Drawing, NotDrawable
-from course.grading.reports.pictures import draw_pictures
-from course.grading.reports.plots import draw_histogram, draw_points
+import re
+from base64 import b64encode
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from io import BytesIO, StringIO
+from typing import Any, NamedTuple
 
-_BY_KIND = {"pictures": draw_pictures, "points": draw_points, "histogram": draw_histogram}
+import numpy as np
+from matplotlib.figure import Figure as Canvas
+from numpy.typing import NDArray
+from PIL import Image
+
+from course.core.types import Floats64
+from course.formats.pictures.srgb import linear_to_srgb8
+from course.grading.checks.check import Array, Figure
+
+WORST = 12
+"""Pixels across the enlarged region."""
+
+LARGEST = 256
+"""Pixels of the longer side that are drawn; of larger pictures every second, third, ... pixel."""
+
+NOISE_LIMIT = 5.0
+"""Where the colours of the difference over the noise end."""
+
+BROKEN = (255, 0, 255)
+"""sRGB of pixels that are NaN or infinite."""
+
+# sRGB; blue for less and red for more is told apart with any colour vision.
+_DIVERGING = np.array(
+    [(5, 48, 97), (67, 147, 195), (247, 247, 247), (214, 96, 77), (103, 0, 31)], np.float64
+)
+
+YOURS, EXPECTED = "#d9622b", "#3f8fc9"
+"""Readable on white and on black, and told apart with any colour vision."""
+
+MOST_POINTS = 2500
+FURTHEST = 1e12
+"""Beyond this nothing is drawn: the axes could not be labelled."""
+
+_INK = "#123456"
+"""Becomes the colour of the text around the plot."""
+
+_LABELS = {"yours": "Yours", "expected": "The reference"}
+_TITLES = {"yours": "Yours", "expected": "Reference"}
+
+
+class NotDrawable(Exception):  # noqa: N818 - it is no error of the program
+    """A figure's arrays are nothing that can be drawn; the message says why, to the student."""
+
+
+class Scale(NamedTuple):
+    """The meaning of a map's colours: what its two ends stand for; the middle is 0."""
+
+    low: str
+    high: str
+
+
+@dataclass(frozen=True)
+class Panel:
+    """One picture or plot.
+
+    Attributes
+    ----------
+    title, caption : stand beside it
+    alt : says it to those who don't see it
+    pixels : (H, W, 3) sRGB codes of a picture, to be enlarged without smoothing; None for a plot
+    svg : a plot's ``<svg>`` element, made here from numbers only
+    scale : of a map's colours
+    """
+
+    title: str
+    alt: str
+    caption: str = ""
+    pixels: NDArray[np.uint8] | None = None
+    svg: str = ""
+    scale: Scale | None = None
+
+    def data_uri(self, factor: int = 1) -> str:
+        """The picture or plot as a ``data:`` address; a picture's pixels become squares of ``factor`` pixels."""
+        if self.pixels is None:
+            start = (
+                '<svg xmlns="http://www.w3.org/2000/svg" '
+                'xmlns:xlink="http://www.w3.org/1999/xlink" style="color:#222"'
+            )
+            svg = self.svg.replace("<svg", start, 1)
+            return "data:image/svg+xml;base64," + b64encode(svg.encode()).decode("ascii")
+        buffer = BytesIO()
+        pixels = self.pixels.repeat(factor, axis=0).repeat(factor, axis=1)
+        Image.fromarray(pixels).save(buffer, "png", optimize=True)
+        return "data:image/png;base64," + b64encode(buffer.getvalue()).decode("ascii")
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height of the picture; of a plot, in points."""
+        if self.pixels is None:
+            found = re.search(r'viewBox="0 0 ([\d.]+) ([\d.]+)"', self.svg)
+            return (round(float(found[1])), round(float(found[2]))) if found else (0, 0)
+        return self.pixels.shape[1], self.pixels.shape[0]
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """A figure, drawn.
+
+    Attributes
+    ----------
+    title : of the figure
+    panels : in the order in which they are looked at; none where nothing could be drawn
+    notes : sentences about what the panels can't show
+    """
+
+    title: str
+    panels: tuple[Panel, ...] = ()
+    notes: tuple[str, ...] = ()
 
 
 def draw(figure: Figure) -> Drawing:
@@ -24,3 +137,443 @@ def draw(figure: Figure) -> Drawing:
         return Drawing(figure.title, notes=(f"This can't be drawn: {reason}.",))
     except Exception as error:  # noqa: BLE001 - a report without this figure is better than no report
         return Drawing(figure.title, notes=(f"This can't be drawn ({type(error).__name__}).",))
+
+
+def _sets(
+    figure: Figure,
+    read: Callable[[Array, str, list[str]], Floats64],
+    otherwise: str,
+    names: Sequence[str] = ("yours", "expected"),
+) -> tuple[dict[str, Floats64], list[str]]:
+    """What can be drawn of a figure's arrays, by name, and what there is to say about them.
+
+    Parameters
+    ----------
+    read : makes numbers to draw of an array and its label, and notes what it left out
+    otherwise : what is said where there is nothing to draw
+    """
+    found: dict[str, Floats64] = {}
+    notes: list[str] = []
+    for name in names:
+        if name in figure.arrays:
+            try:
+                with np.errstate(all="ignore"):
+                    found[name] = read(figure.arrays[name], _LABELS[name], notes)
+            except NotDrawable as reason:
+                notes.append(f"{reason}.")
+    if not found:
+        raise NotDrawable(" ".join(notes).rstrip(".") or otherwise)
+    return found, notes
+
+
+def _numbers(array: Any, name: str) -> Array:
+    """The array if it holds real numbers."""
+    found = np.asarray(array)
+    if found.dtype.kind not in "fiub":
+        raise NotDrawable(f"{name} holds {found.dtype} values, not real numbers")
+    if not found.size:
+        raise NotDrawable(f"{name} is empty: its shape is {found.shape}")
+    return found
+
+
+def draw_pictures(figure: Figure) -> Drawing:
+    """Draw ``yours`` beside ``expected``: the two, the signed difference, that over the noise, the worst region.
+
+    Parameters
+    ----------
+    figure : its arrays are (3, H, W) linear RGB; ``noise``, if there, is the standard deviation of each value,
+        (3, H, W) or (H, W)
+
+    Raises
+    ------
+    NotDrawable
+        Neither of the two is a picture.
+    """
+    pictures, notes = _sets(figure, _picture, "there is no picture", ("expected", "yours"))
+    panels = [_plain(picture, _TITLES[name]) for name, picture in pictures.items()]
+    if len(pictures) == 2:
+        yours, expected = pictures["yours"], pictures["expected"]
+        if yours.shape != expected.shape:
+            notes.insert(
+                0,
+                f"The sizes differ: yours is {_size(yours)} pixels, the reference {_size(expected)} "
+                "(width × height). So there is no difference to show.",
+            )
+        else:
+            panels += _compared(yours, expected, figure.arrays, notes)
+    return Drawing(figure.title, tuple(panels), tuple(notes))
+
+
+def _picture(array: Array, label: str, notes: list[str]) -> Floats64:
+    """A (3, H, W) picture of whatever came."""
+    found = _numbers(array, label)
+    if found.ndim == 3 and found.shape[0] == 3:
+        pass
+    elif found.ndim == 3 and found.shape[2] == 3:
+        notes.append(f"{label} has the shape {found.shape}, with the colours last, not first.")
+        found = np.moveaxis(found, 2, 0)
+    elif found.ndim == 2:
+        notes.append(f"{label} has the shape {found.shape}, one number a pixel, and is shown grey.")
+        found = np.broadcast_to(found, (3, *found.shape))
+    else:
+        raise NotDrawable(f"{label} has the shape {found.shape}, which is no picture (3, H, W)")
+    step = -(-max(found.shape[1:]) // LARGEST)
+    if step > 1:
+        notes.append(f"{label} is {_size(found)} pixels large; one in {step} is drawn, each way.")
+    picture = found[:, ::step, ::step].astype(np.float64)
+    broken = int((~np.isfinite(picture)).any(axis=0).sum())
+    if broken:
+        of = picture.shape[1] * picture.shape[2]
+        notes.append(f"{label} is NaN or infinite at {broken} of {of} pixels, painted magenta.")
+    return picture
+
+
+def _size(picture: Array) -> str:
+    return f"{picture.shape[2]} × {picture.shape[1]}"
+
+
+def _plain(picture: Floats64, title: str) -> Panel:
+    size = _size(picture)
+    return Panel(
+        title,
+        f"{title}: a picture of {size} pixels; {_brightness(picture)}.",
+        f"{size} pixels, {_brightness(picture)}",
+        _codes(picture),
+    )
+
+
+def _brightness(picture: Floats64) -> str:
+    values = picture[np.isfinite(picture)]
+    if not values.size:
+        return "no finite value"
+    # Mean of halves: a sum of the largest floats would overflow.
+    return f"mean {2 * (values / (2 * values.size)).sum():.3g}"
+
+
+def _codes(picture: Floats64) -> NDArray[np.uint8]:
+    codes = linear_to_srgb8(np.clip(np.nan_to_num(picture), 0, 1).astype(np.float32))
+    codes[~np.isfinite(picture).all(axis=0)] = BROKEN
+    return codes
+
+
+def _compared(
+    yours: Floats64, expected: Floats64, arrays: Mapping[str, Array], notes: list[str]
+) -> list[Panel]:
+    with np.errstate(all="ignore"):
+        difference = yours - expected
+    worst = _largest(difference)
+    finite = np.isfinite(worst)
+    if finite.all() and not worst.any():
+        notes.append("The two pictures are equal to the last bit.")
+        return []
+    # As the checks do, so that their text and this region are about the same pixel.
+    with np.errstate(all="ignore"):
+        magnitude = np.where(finite, np.abs(difference).sum(axis=0), np.inf)
+    row, column = (int(i) for i in np.unravel_index(magnitude.argmax(), magnitude.shape))
+    scale = float(np.abs(worst[finite]).max(initial=0.0))
+    panels = [
+        Panel(
+            "Signed difference",
+            "Map of yours minus the reference. "
+            f"The largest difference is at pixel ({column}, {row}).",
+            "Yours minus the reference, of the colour that differs most: "
+            f"blue where yours is darker, red where brighter. Colours end at ±{scale:.3g}.",
+            _map(worst, scale),
+            scale=Scale(f"−{scale:.3g} darker", f"+{scale:.3g} brighter"),  # noqa: RUF001
+        )
+    ]
+    over_noise = _over_noise(difference, arrays, notes)
+    if over_noise is not None:
+        panels.append(over_noise)
+    return panels + _enlarged(yours, expected, row, column)
+
+
+def _largest(values: Floats64) -> Floats64:
+    """Of the three colours of each pixel the value furthest from 0; NaN where any is not finite."""
+    magnitude = np.where(np.isfinite(values), np.abs(values), np.inf)
+    picked = np.take_along_axis(values, magnitude.argmax(axis=0)[None], axis=0)[0]
+    return np.where(np.isfinite(values).all(axis=0), picked, np.nan)
+
+
+def _map(values: Floats64, limit: float) -> NDArray[np.uint8]:
+    """Diverging colours of (H, W) values from -limit to limit."""
+    with np.errstate(all="ignore"):
+        share = np.nan_to_num(values / limit) if limit > 0 else np.zeros_like(values)
+    place = (np.clip(share, -1, 1) + 1) / 2 * (len(_DIVERGING) - 1)
+    stops = np.arange(len(_DIVERGING))
+    codes = np.stack([np.interp(place, stops, channel) for channel in _DIVERGING.T], axis=-1)
+    codes[np.isnan(values)] = BROKEN
+    result: NDArray[np.uint8] = np.rint(codes).astype(np.uint8)
+    return result
+
+
+def _over_noise(
+    difference: Floats64, arrays: Mapping[str, Array], notes: list[str]
+) -> Panel | None:
+    noise, source = _noise(difference, arrays)
+    if noise is None:
+        notes.append(source)
+        return None
+    with np.errstate(all="ignore"):
+        z = difference / noise
+    z[difference == 0] = 0.0
+    # A difference where there is no noise at all is as significant as can be.
+    z[np.isinf(z) & np.isfinite(difference)] = 1e9 * np.sign(
+        difference[np.isinf(z) & np.isfinite(difference)]
+    )
+    largest = _largest(z)
+    beyond = int((np.abs(largest[np.isfinite(largest)]) > 3).sum())
+    return Panel(
+        "Difference over the noise",
+        f"Map of the difference over the noise; it is beyond 3 at {beyond} of {largest.size} pixels.",
+        f"How many times the noise the difference is; beyond 3 at {beyond} of {largest.size} pixels. "
+        f"{source} Colours end at ±{NOISE_LIMIT:g}.",
+        _map(largest, NOISE_LIMIT),
+        scale=Scale(f"−{NOISE_LIMIT:g} or less", f"+{NOISE_LIMIT:g} or more"),  # noqa: RUF001
+    )
+
+
+def _noise(difference: Floats64, arrays: Mapping[str, Array]) -> tuple[Floats64 | None, str]:
+    """Standard deviation of each value, and where it is from; None and why it can't be told."""
+    known = np.asarray(arrays.get("noise", 0))
+    if known.shape in (difference.shape, difference.shape[1:]) and known.dtype.kind == "f":
+        return np.abs(known.astype(np.float64)), "The noise of each pixel is known."
+    padded = np.pad(difference, ((0, 0), (1, 1), (1, 1)), mode="edge")
+    around = padded[:, :-2, 1:-1] + padded[:, 2:, 1:-1] + padded[:, 1:-1, :-2] + padded[:, 1:-1, 2:]
+    with np.errstate(all="ignore"):
+        fine = difference - around / 4
+    fine = fine[np.isfinite(fine)]
+    # 1.4826 turns a median absolute deviation into a standard one; the mean of four neighbours adds a quarter of
+    # the variance.
+    sigma = 1.4826 * float(np.median(np.abs(fine))) / np.sqrt(1.25) if fine.size else 0.0
+    if not 0 < sigma < np.inf:
+        return None, "Most pixels agree exactly, so there is no noise to measure the difference by."
+    return (
+        np.full(difference.shape, sigma),
+        (
+            f"The noise is not known; it is taken as {sigma:.2g}, from the median absolute difference between "
+            "each pixel's difference and its neighbours'; without noise the map only shows where the difference is "
+            "large beside its own roughness."
+        ),
+    )
+
+
+def _enlarged(yours: Floats64, expected: Floats64, row: int, column: int) -> list[Panel]:
+    """The region around the worst pixel, of both pictures."""
+    _, height, width = yours.shape
+    top = max(0, min(row - WORST // 2, height - WORST))
+    left = max(0, min(column - WORST // 2, width - WORST))
+    region = np.s_[:, top : top + WORST, left : left + WORST]
+    bottom, right = min(top + WORST, height) - 1, min(left + WORST, width) - 1
+    place = f"columns {left} to {right}, rows {top} to {bottom}"
+    return [
+        Panel(
+            f"{title}, the worst region",
+            f"{title}, enlarged around pixel ({column}, {row}): {_rgb(picture, row, column)}.",
+            f"{place}; pixel ({column}, {row}) is {_rgb(picture, row, column)}",
+            _codes(picture[region]),
+        )
+        for title, picture in (("Reference", expected), ("Yours", yours))
+    ]
+
+
+def _rgb(picture: Floats64, row: int, column: int) -> str:
+    return "(" + ", ".join(f"{value:.3g}" for value in picture[:, row, column]) + ")"
+
+
+def draw_points(figure: Figure) -> Drawing:
+    """Draw ``yours`` and, if it is there, ``expected``: (2, N) numbers in the unit square or disk.
+
+    Raises
+    ------
+    NotDrawable
+        Neither of the two is points.
+    """
+    sets, notes = _sets(figure, _points, "there are no points")
+    # The reference if it is there, else the student's.
+    disk = bool(([*sets.values()][-1] < 0).mean() > 0.05)
+    low, high = _view(sets, -1.0 if disk else 0.0)
+    panels = [
+        _scatter(points, _TITLES[name], YOURS if name == "yours" else EXPECTED, disk, low, high)
+        for name, points in sets.items()
+    ]
+    return Drawing(figure.title, tuple(panels), tuple(notes))
+
+
+def _points(array: Array, label: str, notes: list[str]) -> Floats64:
+    found = _numbers(array, label)
+    if found.ndim != 2 or 2 not in found.shape:
+        if found.ndim < 2 or found.shape[0] != 2:
+            raise NotDrawable(f"{label} has the shape {found.shape}, which is no points (2, N)")
+        found = found.reshape(2, -1)
+    elif found.shape[0] != 2:
+        notes.append(f"{label} has the shape {found.shape}, with the two coordinates last.")
+        found = found.T
+    step = -(-found.shape[1] // MOST_POINTS)
+    if step > 1:
+        notes.append(f"{label} has {found.shape[1]} points; one in {step} is drawn.")
+    return _within(found[:, ::step].astype(np.float64), label, "points", notes)
+
+
+def _within(values: Floats64, label: str, what: str, notes: list[str]) -> Floats64:
+    """Those that can be drawn, of values along the last axis."""
+    fine = (np.abs(np.nan_to_num(values, nan=np.inf)) < FURTHEST).reshape(-1, values.shape[-1])
+    kept = fine.all(axis=0)
+    if not kept.all():
+        notes.append(
+            f"{label} has {int((~kept).sum())} of {kept.size} {what} that are NaN, infinite or huge; "
+            "they are left out."
+        )
+    if not kept.any():
+        raise NotDrawable(f"{label} has no finite {what}")
+    result: Floats64 = values[..., kept]
+    return result
+
+
+def _view(sets: dict[str, Floats64], low: float) -> tuple[Floats64, Floats64]:
+    """Corners (2,) of what is seen: the unit square or disk, and nearly all points."""
+    both = np.concatenate(tuple(sets.values()), axis=1)
+    least = np.minimum(np.percentile(both, 0.5, axis=1), low)
+    most = np.maximum(np.percentile(both, 99.5, axis=1), 1.0)
+    margin = 0.03 * (most - least)
+    return least - margin, most + margin
+
+
+def _scatter(
+    points: Floats64, title: str, color: str, disk: bool, low: Floats64, high: Floats64
+) -> Panel:
+    width, height = high - low
+    square = 0.2 < width / height < 5
+    canvas, axes = _axes((3.6, 3.6))
+    if disk:
+        turn = np.linspace(0, 2 * np.pi, 181)
+        axes.plot(np.cos(turn), np.sin(turn), color=_INK, linewidth=0.8)
+    else:
+        axes.plot([0, 1, 1, 0, 0], [0, 0, 1, 1, 0], color=_INK, linewidth=0.8)
+    axes.scatter(
+        *points, s=float(np.clip(6000 / points.shape[1], 5, 36)), color=color, lw=0, rasterized=True
+    )
+    axes.set_xlim(low[0], high[0])
+    axes.set_ylim(low[1], high[1])
+    axes.set_aspect("equal" if square else "auto")
+    axes.set_xlabel("first coordinate")
+    axes.set_ylabel("second coordinate")
+    outside = int(((points < low[:, None]) | (points > high[:, None])).any(axis=0).sum())
+    seen = f"{points.shape[1]} points"
+    caption = seen + (f", {outside} of them outside of the axes" if outside else "")
+    shape = "the unit disk" if disk else "the unit square"
+    mean = ", ".join(f"{value:.3g}" for value in points.mean(axis=1))
+    alt = f"{title}: {seen} drawn over {shape}; their mean is ({mean})."
+    return Panel(title, alt, f"{caption}; the line is {shape}", svg=_svg(canvas))
+
+
+def draw_histogram(figure: Figure) -> Drawing:
+    """Draw how often the values of ``yours`` occur, and of ``expected`` or the right ``density`` if it is there.
+
+    Parameters
+    ----------
+    figure : its ``yours`` and ``expected`` are values of any shape; ``density`` is (2, M), places and the density
+        there, or (M,), the density at places spread evenly over the values' range
+
+    Raises
+    ------
+    NotDrawable
+        There is no finite value.
+    """
+    sets, notes = _sets(figure, _values, "there are no values")
+    everything = np.concatenate(tuple(sets.values()))
+    low, high = float(everything.min()), float(everything.max())
+    if 0 < low < 0.1 * high:
+        low = 0.0
+    if low >= 0 and 0.5 < high <= 1:
+        low, high = 0.0, 1.0
+    if high - low < 1e-9 * max(abs(low), abs(high), 1e-30):
+        low, high = low - 0.5 * max(1.0, abs(low)), high + 0.5 * max(1.0, abs(high))
+    edges = np.linspace(low, high, int(np.clip(np.sqrt(everything.size), 8, 40)) + 1)
+    canvas, axes = _axes((4.2, 2.9))
+    labels = {"yours": "yours", "expected": "reference"}
+    for name, values in sets.items():
+        share = np.histogram(values, edges)[0] / values.size / np.diff(edges)
+        if name == "yours":
+            axes.bar(edges[:-1], share, np.diff(edges), align="edge", color=YOURS, label="yours")
+        else:
+            axes.stairs(share, edges, color=EXPECTED, linewidth=2, label="reference")
+    if _density(axes, figure.arrays.get("density"), low, high, notes):
+        labels["density"] = "right density"
+    axes.set_xlim(low, high)
+    axes.set_ylim(bottom=0)
+    axes.set_xlabel("value")
+    axes.set_ylabel("density")
+    if len(sets) + ("density" in labels) > 1:
+        axes.legend(frameon=False, labelcolor=_INK, fontsize=10)
+    told = "; ".join(
+        f"{labels[name]}: {values.size} values from {values.min():.4g} to {values.max():.4g}, "
+        f"mean {values.mean():.4g}"
+        for name, values in sets.items()
+    )
+    panel = Panel("How often each value occurs", f"Histogram. {told}.", told, svg=_svg(canvas))
+    return Drawing(figure.title, (panel,), tuple(notes))
+
+
+def _values(array: Array, label: str, notes: list[str]) -> Floats64:
+    return _within(_numbers(array, label).astype(np.float64).ravel(), label, "values", notes)
+
+
+def _density(axes: Any, density: Array | None, low: float, high: float, notes: list[str]) -> bool:
+    if density is None:
+        return False
+    try:
+        found = _numbers(density, "The density").astype(np.float64)
+        if found.ndim == 1:
+            found = np.stack((np.linspace(low, high, found.size), found))
+        if found.ndim != 2 or found.shape[0] != 2:
+            raise NotDrawable(f"The density has the shape {found.shape}")
+        places, heights = _within(found, "The density", "values", notes)
+    except NotDrawable as reason:
+        notes.append(f"{reason}.")
+        return False
+    axes.plot(places, heights, color=EXPECTED, linewidth=2, label="right density")
+    return True
+
+
+def _axes(inches: tuple[float, float]) -> tuple[Any, Any]:
+    canvas = Canvas(figsize=inches)
+    canvas.patch.set_visible(False)
+    axes = canvas.add_axes((0.2, 0.17, 0.76, 0.79))
+    axes.patch.set_visible(False)
+    axes.spines[["top", "right"]].set_visible(False)
+    axes.spines[["left", "bottom"]].set_color(_INK)
+    axes.tick_params(colors=_INK, labelsize=10)
+    axes.locator_params(nbins=5)
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.label.set_color(_INK)
+        axis.label.set_fontsize(11)
+        axis.get_offset_text().set_color(_INK)
+    return canvas, axes
+
+
+def _svg(canvas: Any) -> str:
+    buffer = StringIO()
+    canvas.savefig(buffer, format="svg", dpi=160, metadata={"Date": None})
+    text = buffer.getvalue()
+    text = text[text.index("<svg") :]
+    text = re.sub(r"<metadata>.*?</metadata>|<style.*?</style>|<!--.*?-->", "", text, flags=re.S)
+    box = re.search(r'viewBox="([^"]*)"', text)
+    text = re.sub(r"<svg[^>]*>", f'<svg viewBox="{box[1] if box else ""}">', text, count=1)
+    return text.replace(_INK, "currentColor").strip()
+
+
+_IDS = re.compile(r'(\sid="|href="#|url\(#)([^")]+)')
+
+
+def with_own_ids(svg: str, prefix: str) -> str:
+    """The same element with names that no other plot of the page has."""
+    names: dict[str, str] = {}
+
+    def rename(match: re.Match[str]) -> str:
+        return match[1] + names.setdefault(match[2], f"{prefix}-{len(names)}")
+
+    return _IDS.sub(rename, svg)
+
+
+_BY_KIND = {"pictures": draw_pictures, "points": draw_points, "histogram": draw_histogram}

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from course.grading.checks.result import Result, Status
-from course.grading.report import Report, Total, findings
+from course.grading.report import Report, Total
 
 _LAST = ("untouched", "refuses", "layouts", "columns")
 """Checks whose failures say the least where others have failed as well."""
@@ -123,8 +123,3 @@ def grouped(report: Report) -> tuple[ModuleResults, ...]:
         )
         for module, functions in modules.items()
     )
-
-
-def explained(result: Result) -> str:
-    """What a check that didn't pass has to say, as lines of plain text."""
-    return "\n".join(f"{label}: {text.rstrip()}" for label, text in findings(result))

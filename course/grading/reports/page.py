@@ -1,43 +1,30 @@
-"""A student's report as one HTML page that needs nothing else: no network, no script, no other file."""
+"""HTML pages that need nothing else: no network, no script, no other file; and a student's report as one of them.
+
+Everything that the templates print is cleaned and escaped.
+"""
 
 from __future__ import annotations
 
+import re
+from functools import lru_cache
 from itertools import count
-from pathlib import Path
+from typing import Any
 
-from markupsafe import Markup
+from jinja2 import Environment, PackageLoader, StrictUndefined
+from markupsafe import Markup, escape
 
-from course.atomic import write_text
 from course.grading.checks.result import Status
 from course.grading.report import Report, docs_page, ending, findings, reproduce, unstarted
-from course.grading.reports.drawing import draw
+from course.grading.reports.formats import clean
 from course.grading.reports.grouping import grouped
-from course.grading.reports.plots import with_own_ids
-from course.grading.reports.templates import render
-
-
-def write_page(report: Report, path: Path) -> None:
-    """Write the page.
-
-    Figures are drawn for the checks that didn't pass.
-
-    Raises
-    ------
-    OutputError
-        The file can't be written.
-    """
-    write_text(path, as_page(report))
 
 
 def as_page(report: Report) -> str:
-    """The page's text."""
+    """A student's report as a page; figures are drawn for the checks that didn't pass."""
+    from course.grading.reports.drawing import draw, with_own_ids
+
     modules = grouped(report)
     plots = count(1)
-
-    def plot(svg: str) -> Markup:
-        # Made here from numbers: nothing of a student's text is in it.
-        return Markup(with_own_ids(svg, f"p{next(plots)}"))
-
     return render(
         "page.html.jinja",
         report=report,
@@ -46,10 +33,42 @@ def as_page(report: Report) -> str:
         names={module.name for module in modules},
         counts=[(str(status), report.count(status)) for status in Status if report.count(status)],
         draw=draw,
-        plot=plot,
+        # Made here from numbers: nothing of a student's text is in it.
+        plot=lambda svg: Markup(with_own_ids(svg, f"p{next(plots)}")),
         reproduce=reproduce,
         docs_page=docs_page,
         findings=findings,
         unstarted=unstarted,
         ending=ending,
     )
+
+
+def render(template: str, **values: Any) -> str:
+    """A whole page of a template beside this file."""
+    return _environment().get_template(template).render(**values)
+
+
+@lru_cache(maxsize=1)
+def _environment() -> Environment:
+    environment = Environment(
+        loader=PackageLoader("course.grading.reports", ""),
+        autoescape=True,
+        undefined=StrictUndefined,
+        finalize=lambda value: (
+            clean(value) if isinstance(value, str) and not isinstance(value, Markup) else value
+        ),
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters |= {
+        "number": lambda value: f"{value:.6g}",
+        "percent": lambda value: f"{100 * value:.0f}\N{NO-BREAK SPACE}%",
+        "plural": lambda number, noun: f"{number} {noun}{'' if number == 1 else 's'}",
+        "marked": _marked,
+    }
+    return environment
+
+
+def _marked(text: str) -> Markup:
+    """Escaped, and `names` between backticks as code."""
+    return Markup(re.sub(r"`([^`\n]+)`", r"<code>\1</code>", str(escape(clean(text)))))

@@ -12,7 +12,7 @@ from PIL import Image
 
 from course.grading.checks.check import Figure
 from course.grading.pictures.rendered import MakeScene, loaded, rendered
-from course.grading.reports.pictures import draw_pictures
+from course.grading.reports.drawing import draw_pictures
 from sitebuild.mistakes.look import SIZE, Draw
 from sitebuild.mistakes.submissions import functions
 

@@ -9,7 +9,7 @@ import pytest
 
 from course.errors import CourseError
 from course.grading.classes.roster import match, read_roster
-from course.grading.reports.systems import write_canvas, write_moodle
+from course.grading.reports.classes import write_canvas, write_moodle
 
 CANVAS = """\
 Student,ID,SIS User ID,SIS Login ID,Section,Old (1)

@@ -15,10 +15,8 @@ from course.grading.checks.result import Status
 from course.grading.classes.job import Graded, report_files
 from course.grading.classes.keeping import INSTRUCTOR, keep, kept
 from course.grading.report import Report
-from course.grading.reports import gradescope, prairielearn
 from course.grading.reports.classes import write_class_page, write_grades
-from course.grading.reports.files import as_json
-from course.grading.reports.junit import as_xml
+from course.grading.reports.formats import as_json, as_xml, gradescope, prairielearn
 from course.grading.reports.page import as_page
 
 SECRET = "Traceback\n  the check's own lines"
@@ -53,7 +51,7 @@ def test_no_student_sees_how_it_broke(broken: Report) -> None:
 
 
 def test_gradescope_shows_no_check_as_passed_that_broke(broken: Report, ids: list[str]) -> None:
-    document = gradescope.results(broken)
+    document = gradescope(broken)
     assert document["output"].endswith("2 checks broke: whoever graded this has been told.")
     tests = {test["extra_data"]["id"]: test for test in document["tests"]}
     assert [tests[name]["status"] for name in ids] == ["failed", "failed"]
@@ -63,7 +61,7 @@ def test_gradescope_shows_no_check_as_passed_that_broke(broken: Report, ids: lis
 
 
 def test_prairielearn_and_json_mark_it(broken: Report, ids: list[str]) -> None:
-    document = prairielearn.results(broken)
+    document = prairielearn(broken)
     assert "2 checks broke" in document["message"]
     messages = {test["name"]: test["message"] for test in document["tests"]}
     assert [name for name in messages if "the check broke" in messages[name]] == ids
@@ -99,7 +97,7 @@ def test_a_report_without_such_checks_says_nothing_of_them(report: Report, tmp_p
     )
     write_class_page([whole], [], tmp_path / "class.html")
     assert "broke" not in (tmp_path / "class.html").read_text(encoding="utf-8")
-    for shown in (gradescope.results(whole), prairielearn.results(whole)):
+    for shown in (gradescope(whole), prairielearn(whole)):
         assert "broke" not in json.dumps(shown)
 
 

@@ -14,10 +14,7 @@ import pytest
 from PIL import Image
 
 from course.grading.checks.check import Figure
-from course.grading.reports.drawing import draw
-from course.grading.reports.panels import Drawing
-from course.grading.reports.pictures import BROKEN
-from course.grading.reports.plots import with_own_ids
+from course.grading.reports.drawing import BROKEN, Drawing, draw, with_own_ids
 
 
 def pictures(**arrays: Any) -> Drawing:

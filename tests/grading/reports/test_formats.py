@@ -18,10 +18,8 @@ import pytest
 from course.grading.checks.result import Status
 from course.grading.classes.marks import Mark
 from course.grading.report import Report
-from course.grading.reports import gradescope, prairielearn
 from course.grading.reports.classes import Line, safe_cell, write_grades
-from course.grading.reports.files import as_json, write_document, write_json
-from course.grading.reports.junit import as_xml, write_junit
+from course.grading.reports.formats import as_json, as_xml, gradescope, json_bytes, prairielearn
 
 TEXT = {"type": "string"}
 NUMBER = {"type": "number"}
@@ -113,7 +111,7 @@ PRAIRIELEARN = exactly(
         )
     ),
 )
-FORMATS = [(as_json, OURS), (gradescope.results, GRADESCOPE), (prairielearn.results, PRAIRIELEARN)]
+FORMATS = [(as_json, OURS), (gradescope, GRADESCOPE), (prairielearn, PRAIRIELEARN)]
 
 
 @pytest.mark.parametrize(("make", "schema"), FORMATS)
@@ -124,7 +122,6 @@ def test_every_document_has_its_keys(
     which: str,
     request: pytest.FixtureRequest,
     report: Report,
-    tmp_path: Path,
 ) -> None:
     if which == "nothing":
         report = Report("ada", (), trouble="no zip file")
@@ -133,19 +130,16 @@ def test_every_document_has_its_keys(
         report = replace(report, results=(odd,), seconds=math.nan)
     else:
         report = request.getfixturevalue(which)
-    path = tmp_path / "results.json"
-    write_document(make(report), path)
 
     def refuse(constant: str) -> None:
         raise AssertionError(constant)
 
-    document = json.loads(path.read_bytes().decode("utf-8"), parse_constant=refuse)
+    document = json.loads(json_bytes(make(report)), parse_constant=refuse)
     jsonschema.validate(document, schema)
 
 
-def test_json_holds_what_was_found(report: Report, tmp_path: Path) -> None:
-    write_json(report, tmp_path / "a.json")
-    document = json.loads((tmp_path / "a.json").read_text(encoding="utf-8"))
+def test_json_holds_what_was_found(report: Report) -> None:
+    document = json.loads(json_bytes(as_json(report)))
     assert document == as_json(report)
     assert document["points"] == sum(result["points"] for result in document["results"]) == 3
     assert document["of"] == 11.5
@@ -158,7 +152,7 @@ def test_json_holds_what_was_found(report: Report, tmp_path: Path) -> None:
 
 
 def test_gradescope_scores_add_up_and_nothing_is_left_out(report: Report) -> None:
-    document = gradescope.results(report)
+    document = gradescope(report)
     tests = document["tests"]
     assert document["score"] == sum(test["score"] for test in tests) == 3
     assert sum(test["max_score"] for test in tests) == 11.5
@@ -185,7 +179,7 @@ def test_gradescope_scores_add_up_and_nothing_is_left_out(report: Report) -> Non
 
 def test_systems_that_students_read_hide_a_seed_that_is_not_everybody_s(report: Report) -> None:
     assert report.seed == 7
-    for results in (gradescope.results, prairielearn.results):
+    for results in (gradescope, prairielearn):
         shown = json.dumps(results(report))
         assert "seed" not in shown
         assert "course check thin_lens --only lens_rays/focus" in shown
@@ -194,14 +188,14 @@ def test_systems_that_students_read_hide_a_seed_that_is_not_everybody_s(report: 
 
 
 def test_prairielearn_scores_are_shares(report: Report) -> None:
-    document = prairielearn.results(report)
+    document = prairielearn(report)
     assert document["score"] == pytest.approx(3 / 11.5, abs=1e-6)
     tests = document["tests"]
     points = [sum(test[key] for test in tests) for key in ("points", "max_points")]
     assert points == [3, 11.5]
     assert document["gradable"]
     assert "hello from thin_lens" in document["output"]
-    broken = prairielearn.results(Report("ada", (), trouble="no zip file"))
+    broken = prairielearn(Report("ada", (), trouble="no zip file"))
     assert not broken["gradable"]
     assert "no zip file" in broken["message"]
     assert broken["format_errors"] == ["no zip file"]
@@ -210,7 +204,7 @@ def test_prairielearn_scores_are_shares(report: Report) -> None:
 def test_prairielearn_texts_stay_below_its_limit(report: Report) -> None:
     long = replace(report.results[1], found="\u20ac" * 30_000)
     many = replace(report, results=(long,) * 600)
-    document = prairielearn.results(many)
+    document = prairielearn(many)
     assert len(json.dumps(document)) < 1_000_000
     assert sum(test["max_points"] for test in document["tests"]) == 600 * long.of
     # The line that finds it again is there for each.
@@ -222,16 +216,15 @@ def test_prairielearn_images_stay_below_its_limit(with_figure: Callable[..., Rep
     report = with_figure(
         "pictures", yours=rng.random((3, 36, 48)), expected=rng.random((3, 36, 48))
     )
-    assert len(prairielearn.results(report)["images"]) == 6
+    assert len(prairielearn(report)["images"]) == 6
     large = with_figure("pictures", yours=rng.random((3, 250, 250)))
     many = replace(large, results=large.results * 40)
-    assert len(json.dumps(prairielearn.results(many))) < 1_000_000
-    assert prairielearn.results(many)["images"]
+    assert len(json.dumps(prairielearn(many))) < 1_000_000
+    assert prairielearn(many)["images"]
 
 
-def test_junit_counts_are_those_of_its_elements(report: Report, tmp_path: Path) -> None:
-    write_junit(report, tmp_path / "junit.xml")
-    root = ET.parse(tmp_path / "junit.xml").getroot()
+def test_junit_counts_are_those_of_its_elements(report: Report) -> None:
+    root = ET.fromstring(as_xml(report).encode())
     assert root.tag == "testsuites"
     suites = root.findall("testsuite")
     assert [suite.get("name") for suite in suites] == ["thin_lens", "glossy"]

@@ -12,7 +12,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from course.errors import OutputError
 from course.grading.catalog import module_checks
 from course.grading.checks.preparing import prepared
 from course.grading.checks.result import Result
@@ -23,7 +22,7 @@ from course.grading.classes.roster import Matched
 from course.grading.references import reference
 from course.grading.report import Report, docs_page, reproduce
 from course.grading.reports.classes import Line, write_class_page
-from course.grading.reports.page import write_page
+from course.grading.reports.page import as_page
 from course.modules import COURSE
 
 VOID = {"meta", "img", "br"}
@@ -65,10 +64,8 @@ class Page(HTMLParser):
         return sum(name == tag for name, _ in self.tags)
 
 
-def read(report: Report, folder: Path) -> Page:
-    path = folder / "report.html"
-    write_page(report, path)
-    return Page(path.read_text(encoding="utf-8"))
+def read(report: Report) -> Page:
+    return Page(as_page(report))
 
 
 def check_closed(page: Page) -> None:
@@ -86,8 +83,8 @@ def check_closed(page: Page) -> None:
     assert not re.search(r"url\(|@import|http", styles)
 
 
-def test_the_page_says_everything(report: Report, tmp_path: Path) -> None:
-    page = read(report, tmp_path)
+def test_the_page_says_everything(report: Report) -> None:
+    page = read(report)
     check_closed(page)
     for text in (
         "ada",
@@ -115,20 +112,20 @@ def test_the_page_says_everything(report: Report, tmp_path: Path) -> None:
             assert docs_page(result) in page.text
 
 
-def test_headings_go_down_step_by_step(report: Report, tmp_path: Path) -> None:
-    page = read(report, tmp_path)
+def test_headings_go_down_step_by_step(report: Report) -> None:
+    page = read(report)
     levels = [int(tag[1]) for tag, _ in page.tags if re.fullmatch(r"h\d", tag)]
     assert levels.count(1) == 1
     assert all(after <= before + 1 for before, after in pairwise(levels))
 
 
-def test_a_known_mistake_is_told_once_for_a_function(report: Report, tmp_path: Path) -> None:
-    page = read(report, tmp_path)
+def test_a_known_mistake_is_told_once_for_a_function(report: Report) -> None:
+    page = read(report)
     assert page.text.count("You focus on a sphere") == 1
     assert "same mistake as above: wrong-plane" in page.text
 
 
-def test_what_was_said_before_is_folded(report: Report, tmp_path: Path) -> None:
+def test_what_was_said_before_is_folded(report: Report) -> None:
     first = report.results[1]
     again = [
         replace(
@@ -136,69 +133,63 @@ def test_what_was_said_before_is_folded(report: Report, tmp_path: Path) -> None:
         )
         for k in range(3)
     ]
-    page = read(replace(report, results=(first, *again)), tmp_path)
+    page = read(replace(report, results=(first, *again)))
     assert page.text.count("Expected") == 1
     assert "3 checks more: 0.75" in page.text
     assert all(reproduce(result, 7) in page.text for result in again)
 
 
-def test_a_module_that_can_not_be_used_is_told_once(report: Report, tmp_path: Path) -> None:
+def test_a_module_that_can_not_be_used_is_told_once(report: Report) -> None:
     first = replace(report.results[1], found="no such file", module_wide=True, says="", mistake="")
     other = replace(first, function="point_on_disk", same_as=first.id)
-    page = read(replace(report, results=(first, other)), tmp_path)
+    page = read(replace(report, results=(first, other)))
     check_closed(page)
     assert page.text.count("No function of this module could be checked. no such file") == 1
     assert page.text.count("no such file") == 1
     assert "point_on_disk" in page.text
 
 
-def test_a_function_that_is_not_there_is_no_untouched_stub(report: Report, tmp_path: Path) -> None:
+def test_a_function_that_is_not_there_is_no_untouched_stub(report: Report) -> None:
     missing = replace(report.results[6], found="glossy.py has no jitter_on_plane")
-    assert (
-        "glossy.py has no jitter_on_plane"
-        in read(replace(report, results=(missing,)), tmp_path).text
-    )
+    assert "glossy.py has no jitter_on_plane" in read(replace(report, results=(missing,))).text
 
 
-def test_passed_checks_are_folded(report: Report, tmp_path: Path) -> None:
-    read(report, tmp_path)
-    text = (tmp_path / "report.html").read_text(encoding="utf-8")
+def test_passed_checks_are_folded(report: Report) -> None:
+    text = as_page(report)
     folded = "".join(re.findall(r"<details>.*?</details>", text, re.DOTALL))
     assert "2 checks passed" in folded
     assert "The picture looks like the reference" in folded
     assert "Rays meet in focus" not in folded
 
 
-def test_hostile_texts_stay_texts(hostile_report: Report, tmp_path: Path) -> None:
-    page = read(hostile_report, tmp_path)
+def test_hostile_texts_stay_texts(hostile_report: Report) -> None:
+    page = read(hostile_report)
     check_closed(page)
     assert "<script>alert(1)</script> \"quote\" 'quote' &" in page.text
     assert "{{ 7 * 7 }}" in page.text
-    raw = (tmp_path / "report.html").read_bytes().decode("utf-8")
+    raw = as_page(hostile_report)
     assert not re.search("[\x00-\x08\x0b-\x1f\ud800-\udfff\u202e]", raw)
     assert "red" in page.text
     assert "[31m" not in page.text
 
 
-def test_without_a_name_and_without_results(tmp_path: Path) -> None:
-    page = read(Report("", (), trouble="The archive is <broken>."), tmp_path)
+def test_without_a_name_and_without_results() -> None:
+    page = read(Report("", (), trouble="The archive is <broken>."))
     assert "could not be graded" in page.text
     assert "The archive is <broken>." in page.text
 
 
-def test_endless_output_is_cut(report: Report, tmp_path: Path) -> None:
-    page = read(replace(report, printed={"thin_lens": "x" * 10_000_000}), tmp_path)
+def test_endless_output_is_cut(report: Report) -> None:
+    page = read(replace(report, printed={"thin_lens": "x" * 10_000_000}))
     assert len(page.text) < 100_000
     assert "characters left out" in page.text
 
 
-def test_a_wrong_sized_picture_is_readable(
-    with_figure: Callable[..., Report], tmp_path: Path
-) -> None:
+def test_a_wrong_sized_picture_is_readable(with_figure: Callable[..., Report]) -> None:
     report = with_figure(
         "pictures", yours=np.full((3, 20, 30), 0.5), expected=np.full((3, 36, 48), 0.5)
     )
-    page = read(report, tmp_path)
+    page = read(report)
     check_closed(page)
     assert "yours is 30 × 20 pixels, the reference 48 × 36" in page.text
     images = [attributes for tag, attributes in page.tags if tag == "img"]
@@ -206,42 +197,32 @@ def test_a_wrong_sized_picture_is_readable(
     assert all(image["alt"] and image["src"].startswith("data:image/png") for image in images)
 
 
-def test_a_picture_of_nothing_but_nan_is_a_page(
-    with_figure: Callable[..., Report], tmp_path: Path
-) -> None:
+def test_a_picture_of_nothing_but_nan_is_a_page(with_figure: Callable[..., Report]) -> None:
     report = with_figure(
         "pictures", yours=np.full((3, 36, 48), np.nan), expected=np.full((3, 36, 48), 0.5)
     )
-    page = read(report, tmp_path)
+    page = read(report)
     assert "NaN or infinite at 1728 of 1728 pixels" in page.text
     assert page.count("img") >= 3
 
 
 @pytest.mark.parametrize("kind", ["points", "histogram"])
-def test_plots_are_in_the_page(
-    with_figure: Callable[..., Report], tmp_path: Path, kind: str
-) -> None:
-    page = read(with_figure(kind, yours=np.random.default_rng(0).random((2, 60))), tmp_path)
+def test_plots_are_in_the_page(with_figure: Callable[..., Report], kind: str) -> None:
+    page = read(with_figure(kind, yours=np.random.default_rng(0).random((2, 60))))
     check_closed(page)
     assert page.count("svg") == 1
     assert [attributes["aria-label"] for _, attributes in page.tags if "role" in attributes]
 
 
 def test_figures_of_passed_checks_are_not_drawn(
-    with_figure: Callable[..., Report], report: Report, tmp_path: Path
+    with_figure: Callable[..., Report], report: Report
 ) -> None:
     shown = with_figure("points", yours=np.zeros((2, 9))).results[0]
     passed = replace(report.results[0], figures=shown.figures)
-    assert not read(replace(report, results=(passed,)), tmp_path).count("svg")
+    assert not read(replace(report, results=(passed,))).count("svg")
 
 
-def test_a_page_that_cannot_be_written_is_told(report: Report, tmp_path: Path) -> None:
-    with pytest.raises(OutputError):
-        write_page(report, tmp_path / "nowhere" / "report.html")
-    assert not list(tmp_path.iterdir())
-
-
-def test_a_really_wrong_submission(tmp_path: Path) -> None:
+def test_a_really_wrong_submission() -> None:
     right = reference("motion_blur")
     functions = {
         name: lambda *arguments, name=name: right.call(name, *arguments)
@@ -260,7 +241,7 @@ def test_a_really_wrong_submission(tmp_path: Path) -> None:
         )
     )
     assert any(result.status == "failed" and result.figures for result in results)
-    page = read(Report("ada", tuple(results)), tmp_path)
+    page = read(Report("ada", tuple(results)))
     check_closed(page)
     assert page.count("svg") >= 1
     assert "course check motion_blur --only shutter_times/uniform --seed 0" in page.text
