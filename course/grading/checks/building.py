@@ -2,27 +2,19 @@
 
 from __future__ import annotations
 
-import zipfile
-from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from functools import partial
-from io import BytesIO
-from itertools import count
 from time import perf_counter
-from typing import Any
-from unittest.mock import patch
 
 import numpy as np
 
-from course.grading.checks.check import Array, Caller, Check, Failure, ModuleChecks, Trial
+from course.grading.checks.check import Check, Failure, ModuleChecks, Trial
 from course.grading.checks.conventions import conventions
 from course.grading.checks.declare import Function, Law, Module
 from course.grading.checks.drawing import Draw
 from course.grading.checks.examples import fewest_columns
-from course.grading.checks.mistakes import Misconception, matching, taken
-from course.grading.checks.slips import SLIPS
+from course.grading.checks.mistakes import mistake_of, prints
 from course.grading.errors import StudentError
-from course.grading.known import Known, known, trusted
 
 SLOW = 10.0
 """Times the reference's time from which a note is made."""
@@ -45,7 +37,7 @@ def declared(module: Module) -> ModuleChecks:
     return ModuleChecks(
         module.name,
         tuple(checks),
-        prints={name: _prints(module.name, function) for name, function in functions.items()},
+        prints={name: prints(module.name, function) for name, function in functions.items()},
         named={name: partial(mistake_of, function) for name, function in functions.items()},
     )
 
@@ -94,76 +86,3 @@ def _speed(function: Function, trial: Trial) -> None:
             f"It takes {yours / reference:.0f} times as long as the reference ({yours * 1e3:.0f} ms for "
             f"{function.speed} columns): whole arrays instead of loops would help."
         )
-
-
-# ---------------------------------------------------------------- mistakes
-
-
-def _prints(module: str, function: Function) -> Check:
-    def prepare(caller: Caller, _: np.random.Generator) -> dict[str, Array]:
-        found = {f"/{key}": value for key, value in taken(function, caller).items()}
-        for one in known(module):
-            if one.mistake not in ("", *SLIPS) and one.function == function.name:
-                found |= _print(function, one)
-        # One array of all: a file of thousands of small ones takes seconds to open.
-        return {"packed": np.frombuffer(_packed(found), np.uint8).copy()}
-
-    return Check(function.name, "mistakes", "", lambda _: None, points=0, prepare=prepare)
-
-
-def _packed(arrays: Mapping[str, Array]) -> bytes:
-    """A file as ``np.savez_compressed`` makes it, but for the time of day: the same arrays give the same bytes."""
-    file = BytesIO()
-    with zipfile.ZipFile(file, "w") as pack:
-        for name, array in arrays.items():
-            entry = zipfile.ZipInfo(f"{name}.npy")
-            entry.compress_type = zipfile.ZIP_DEFLATED
-            with pack.open(entry, "w") as member:
-                np.lib.format.write_array(member, array, allow_pickle=False)
-    return file.getvalue()
-
-
-def _print(function: Function, one: Known) -> dict[str, Array]:
-    # Some draw numbers of their own: other ones in each call, but the same course gives the same bytes.
-    draw, seeds = np.random.default_rng, count()
-    seeded = patch(
-        "numpy.random.default_rng", lambda seed=None: draw(next(seeds) if seed is None else seed)
-    )
-    np.random.seed(0)  # noqa: NPY002
-    with np.errstate(all="ignore"), seeded:
-        arrays = taken(function, trusted(one))
-    start = f"{one.mistake}~{one.name}"
-    return {f"{start}/{key}": value for key, value in arrays.items()} | {
-        f"{start}/says": np.array(one.says)
-    }
-
-
-def mistake_of(
-    function: Function, caller: Caller, prints: Mapping[str, Array]
-) -> tuple[str, str] | None:
-    """Which known mistake somebody's function makes, and what the student is told; None for none.
-
-    Parameters
-    ----------
-    prints : as `Check.prepare` of ``ModuleChecks.prints`` made them; without any, nothing is known
-    """
-    if not prints:
-        return None
-    grouped: dict[str, dict[str, Any]] = {}
-    with np.load(BytesIO(prints["packed"].tobytes()), allow_pickle=False) as arrays:
-        for name in arrays.files:
-            start, _, key = name.partition("/")
-            grouped.setdefault(start, {})[key] = arrays[name]
-    right = grouped.pop("", {})
-    found = matching(function, caller, _misconceptions(grouped), right)
-    return (found.name, found.says) if found else None
-
-
-def _misconceptions(grouped: Mapping[str, Mapping[str, Any]]) -> Iterable[Misconception]:
-    says: dict[str, str] = {}
-    for start, arrays in grouped.items():
-        name = start.partition("~")[0]
-        says[name] = says.get(name) or str(arrays["says"])
-    for start, arrays in grouped.items():
-        name = start.partition("~")[0]
-        yield Misconception(name, says[name], arrays)

@@ -9,19 +9,27 @@ has them without the submissions.
 
 from __future__ import annotations
 
+import json
+import zipfile
 from collections.abc import Iterable, Iterator, Mapping
 from copy import deepcopy
 from dataclasses import dataclass
-from itertools import permutations, product
+from functools import cache
+from importlib.resources import files
+from io import BytesIO
+from itertools import count, permutations, product
 from typing import Any
+from unittest.mock import patch
 
 import numpy as np
 
-from course.grading.checks.check import Array, Caller, Trial
+from course.grading.checks.check import Array, Caller, Check, Trial
 from course.grading.checks.declare import Arguments, Function
 from course.grading.checks.drawing import Draw
 from course.grading.checks.laws import exact
+from course.grading.checks.slips import SLIPS
 from course.grading.errors import StudentError
+from course.grading.known import Known, known, trusted
 from course.grading.modules.generators import drawn
 
 PROBED = 24
@@ -355,3 +363,100 @@ def _alike(one: Array, other: Array) -> bool:
     a, b = one[finite].astype(np.float64), other[finite].astype(np.float64)
     typical = float(np.median(np.abs(b))) if b.size else 0.0
     return bool((np.abs(a - b) <= NEAR * np.maximum(np.abs(b), 0.1 * typical)).all())
+
+
+# ---------------------------------------------------------------- prints of known submissions
+
+
+def prints(module: str, function: Function) -> Check:
+    """The check whose arrays are the prints of the reference and of a function's known wrong submissions."""
+
+    def prepare(caller: Caller, _: np.random.Generator) -> dict[str, Array]:
+        found = {f"/{key}": value for key, value in taken(function, caller).items()}
+        for one in known(module):
+            if one.mistake not in ("", *SLIPS) and one.function == function.name:
+                found |= _print(function, one)
+        # One array of all: a file of thousands of small ones takes seconds to open.
+        return {"packed": np.frombuffer(_packed(found), np.uint8).copy()}
+
+    return Check(function.name, "mistakes", "", lambda _: None, points=0, prepare=prepare)
+
+
+def _packed(arrays: Mapping[str, Array]) -> bytes:
+    """A file as ``np.savez_compressed`` makes it, but for the time of day: the same arrays give the same bytes."""
+    file = BytesIO()
+    with zipfile.ZipFile(file, "w") as pack:
+        for name, array in arrays.items():
+            entry = zipfile.ZipInfo(f"{name}.npy")
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            with pack.open(entry, "w") as member:
+                np.lib.format.write_array(member, array, allow_pickle=False)
+    return file.getvalue()
+
+
+def _print(function: Function, one: Known) -> dict[str, Array]:
+    # Some draw numbers of their own: other ones in each call, but the same course gives the same bytes.
+    draw, seeds = np.random.default_rng, count()
+    seeded = patch(
+        "numpy.random.default_rng", lambda seed=None: draw(next(seeds) if seed is None else seed)
+    )
+    np.random.seed(0)  # noqa: NPY002
+    with np.errstate(all="ignore"), seeded:
+        arrays = taken(function, trusted(one))
+    start = f"{one.mistake}~{one.name}"
+    return {f"{start}/{key}": value for key, value in arrays.items()} | {
+        f"{start}/says": np.array(one.says)
+    }
+
+
+def mistake_of(
+    function: Function, caller: Caller, prints: Mapping[str, Array]
+) -> tuple[str, str] | None:
+    """Which known mistake somebody's function makes, and what the student is told; None for none.
+
+    Parameters
+    ----------
+    prints : as `Check.prepare` of ``ModuleChecks.prints`` made them; without any, nothing is known
+    """
+    if not prints:
+        return None
+    grouped: dict[str, dict[str, Any]] = {}
+    with np.load(BytesIO(prints["packed"].tobytes()), allow_pickle=False) as arrays:
+        for name in arrays.files:
+            start, _, key = name.partition("/")
+            grouped.setdefault(start, {})[key] = arrays[name]
+    right = grouped.pop("", {})
+    found = matching(function, caller, _misconceptions(grouped), right)
+    return (found.name, found.says) if found else None
+
+
+def _misconceptions(grouped: Mapping[str, Mapping[str, Any]]) -> Iterable[Misconception]:
+    says: dict[str, str] = {}
+    for start, arrays in grouped.items():
+        name = start.partition("~")[0]
+        says[name] = says.get(name) or str(arrays["says"])
+    for start, arrays in grouped.items():
+        name = start.partition("~")[0]
+        yield Misconception(name, says[name], arrays)
+
+
+# ---------------------------------------------------------------- what a mistake explains
+
+
+def explains(module: str, check: Check, mistake: str) -> bool:
+    """Whether who makes that mistake fails this check for it.
+
+    Parameters
+    ----------
+    mistake : its name; one that nobody has recorded explains all that fails
+    """
+    checks = _recorded().get(f"{module}.{check.function}/{mistake}")
+    return checks is None or check.name in checks
+
+
+@cache
+def _recorded() -> dict[str, list[str]]:
+    """What ``python -m benchmarks.mutants --record`` has found."""
+    path = files("course.grading") / "data" / "explained.json"
+    found: dict[str, list[str]] = json.loads(path.read_text(encoding="utf-8"))
+    return found

@@ -14,15 +14,21 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import partial
 from time import perf_counter
+from typing import Any
+
+import numpy as np
 
 from course.grading.checks.check import Array, Caller, Check, Failure, ModuleChecks, Trial
-from course.grading.checks.explaining import explains
-from course.grading.checks.gate import Gate
+from course.grading.checks.declarations import declaration
+from course.grading.checks.declare import Arguments, Function, unstacked
+from course.grading.checks.examples import where
+from course.grading.checks.mistakes import explains
 from course.grading.checks.preparing import References, generator
 from course.grading.checks.result import NOT_WRITTEN, Result, Status, broken, result_of, troubled
 from course.grading.checks.slips import SLIPS
 from course.grading.errors import StudentError
 from course.grading.worker.patience import NOT_RUN
+from course.grading.worker.wording import said, told
 
 Lenders = Callable[[str], Caller | None]
 """function -> the same student's module, with the reference's in place of the functions that come before it."""
@@ -52,7 +58,7 @@ def run_checks(
     """
     given_up: dict[str, Result] = {}
     matched: dict[str, tuple[str, str] | None] = {}
-    told: dict[tuple[str, str], str] = {}
+    by_cause: dict[tuple[str, str], str] = {}
     wrong: dict[str, None] = {}
     attempt = partial(_attempt, checks.module, references=references, seed=seed, standard=standard)
     for check in checks.checks:
@@ -86,7 +92,7 @@ def run_checks(
         if result.status is Status.FAILED:
             wrong.setdefault(check.function)
         if error is not None:
-            first_id = told.setdefault((check.function, error.cause), result.id)
+            first_id = by_cause.setdefault((check.function, error.cause), result.id)
             if first_id != result.id:
                 result = replace(result, same_as=first_id, where="")
         yield replace(result, seconds=perf_counter() - started)
@@ -227,7 +233,7 @@ def _ended(module: str, check: Check, trial: Trial, references: References) -> _
 
 def _prepared(module: str, check: Check, references: References) -> Mapping[str, Array]:
     try:
-        return references(module, check)
+        return references(module, check) if check.prepare else {}
     except (Failure, StudentError) as error:
         raise RuntimeError("the check's references can't be made") from error
 
@@ -252,3 +258,114 @@ def _matching(
         return checks.named[function](caller, prints)
     except StudentError:
         return None  # It doesn't end, or ends its process; the next call would be waited for, too.
+
+
+# ---------------------------------------------------------------- the gate
+
+COMMA = "A comma after the only result makes a tuple of it."
+
+
+class Gate:
+    """A ``Caller`` between a student's functions and a check: it lets no value through that a check could stumble over.
+
+    The kind of each result is looked at, how many there are, their shape where the engine counts on it, and whether
+    all numbers are finite. Which dtype they have is the business of the checks of the contract.
+
+    Parameters
+    ----------
+    module : whose functions are called; those of all modules together are called MODULE.NAME
+    caller : calls them
+    """
+
+    def __init__(self, module: str, caller: Caller) -> None:
+        self._module, self._caller = module, caller
+        self._last: tuple[str, Any, tuple[Any, ...], dict[str, Any]] | None = None
+
+    @property
+    def last(self) -> str:
+        """What the last call gave, and for which arguments."""
+        if self._last is None:
+            return "nothing was called"
+        function, value, arguments, named = self._last
+        given = said(self._path(function), arguments, named)
+        return f"{function} returned {told(value)} for {given or 'no arguments'}"
+
+    def call(self, function: str, *arguments: Any, **named: Any) -> Any:
+        """The function's value.
+
+        Raises
+        ------
+        StudentError
+            There is none, or ("bad value") it is not of the kind that it should be.
+        """
+        value = self._caller.call(function, *arguments, **named)
+        return self._looked(function, value, arguments, named)
+
+    def call_and_look(self, function: str, *arguments: Any) -> tuple[Any, list[Any], bool]:
+        """The value, the arguments afterwards, and whether NumPy's global random state moved; raises the same."""
+        value, after, moved = self._caller.call_and_look(function, *arguments)
+        return self._looked(function, value, arguments, {}), after, moved
+
+    def _path(self, function: str) -> str:
+        return function if "." in function else f"{self._module}.{function}"
+
+    def _looked(
+        self, function: str, value: Any, arguments: tuple[Any, ...], named: dict[str, Any]
+    ) -> Any:
+        declared = declaration(*self._path(function).split(".", 1))
+        value = unstacked(value, len(declared.results) if declared else None)
+        self._last = function, value, arguments, named
+        if declared is None:
+            return value
+        count = len(declared.results)
+        several = isinstance(value, tuple | list)
+        parts = value if several else (value,)
+        wrong, remedy, example = "", "", ""
+        if several != (count > 1) or len(parts) != count:
+            wanted = f"{count} results" if count > 1 else "one array or number"
+            wrong = f"{told(value)} instead of {wanted}"
+            remedy = COMMA if count == 1 and len(parts) == 1 else ""
+        else:
+            shapes = None if named else declared.shapes(arguments)
+            for part, result, shape in zip(
+                parts, declared.results, shapes or [None] * count, strict=True
+            ):
+                wrong = _wrong(part, shape, result.finite)
+                if wrong:
+                    example = _column(declared, part, arguments)
+                    break
+        if wrong:
+            error = StudentError(
+                "bad value",
+                f"{function} returned {wrong}",
+                arguments=said(self._path(function), arguments, named),
+                remedy=remedy,
+            )
+            error.example = example
+            raise error
+        return value
+
+
+def _column(declared: Function, part: Any, arguments: tuple[Any, ...]) -> str:
+    """The arguments of a number that isn't finite; empty if all are."""
+    array = np.asarray(part)
+    if array.dtype.kind != "f" or np.isfinite(array).all():
+        return ""
+    names = (argument.name for argument in declared.arguments)
+    index = tuple(map(int, np.argwhere(~np.isfinite(array))[0]))
+    return where(Arguments(zip(names, arguments, strict=False)), index, array.shape)
+
+
+def _wrong(part: Any, shape: tuple[int, ...] | None, finite: bool) -> str:
+    """What is wrong with one result; empty if nothing is."""
+    if not isinstance(part, np.ndarray | np.generic | bool | int | float):
+        return f"{told(part)} instead of numbers"
+    array = np.asarray(part)
+    if array.dtype.kind not in "fiub":
+        return f"an array of {array.dtype} instead of numbers"
+    if shape and (array.shape != shape or not isinstance(part, np.ndarray)):
+        return f"{told(part)} instead of an array of shape {shape}"
+    if not finite or np.isfinite(array).all():
+        return ""
+    index = tuple(map(int, np.argwhere(~np.isfinite(array))[0]))
+    return f"numbers that are not finite: {array[index]}" + (f" at index {index}" if index else "")

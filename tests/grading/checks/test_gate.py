@@ -9,10 +9,9 @@ import pytest
 
 from course.grading.catalog import module_checks
 from course.grading.checks.check import Caller, Check, ModuleChecks
-from course.grading.checks.gate import Gate
 from course.grading.checks.preparing import References
 from course.grading.checks.result import Status
-from course.grading.checks.running import run_checks
+from course.grading.checks.running import Gate, run_checks
 from course.grading.checks.trusted import TrustedModule
 from course.grading.errors import StudentError
 from course.grading.references import reference

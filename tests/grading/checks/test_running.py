@@ -208,7 +208,7 @@ def test_references_that_can_not_be_made_are_nobodys_mistake() -> None:
     def references(*_: object) -> dict[str, Array]:
         raise StudentError("raised", "by the reference")
 
-    checks = ModuleChecks("module", (Check("it", "value", "It is", calls),))
+    checks = ModuleChecks("module", (Check("it", "value", "It is", calls, prepare=lambda *_: {}),))
     (result,) = run_checks(checks, MODULE, references, 0, standard=lambda: RIGHT)
     assert (result.status, result.points) == (Status.GRADER_ERROR, 1)
 
