@@ -24,7 +24,7 @@ from course.core.environment import CubeEnvironment
 from course.core.triangles import Mesh
 from course.formats.meshes.welding import same
 from course.formats.yaml import description as d
-from course.formats.yaml.description.values import rgb
+from course.formats.yaml.description import rgb
 from course.formats.yaml.object_lights import Columns, material_columns
 from course.scene.scene import Scene
 

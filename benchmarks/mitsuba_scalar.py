@@ -20,7 +20,7 @@ from benchmarks.mitsuba_export import LOBES, Exported, NotExportableError, Part
 from benchmarks.mitsuba_llvm import make_mesh
 from benchmarks.mitsuba_sensors import Sensors
 from course.formats.yaml import description as d
-from course.formats.yaml.description.values import rgb
+from course.formats.yaml.description import rgb
 from course.formats.yaml.loading import load_description
 from course.formats.yaml.overriding import Overrides
 

@@ -51,7 +51,7 @@ from course.benchmarking.machine import machine
 from course.benchmarking.sources import scene_hash
 from course.benchmarking.tables import print_tables
 from course.effects import PROJECT
-from course.formats.yaml.description.values import rgb
+from course.formats.yaml.description import rgb
 from course.formats.yaml.loading import load_description
 from course.formats.yaml.overriding import Overrides
 from course.scene.scene import load_variant

@@ -14,7 +14,7 @@ from course.extras.environment_hemispheres import WAYS, HemisphereSampling
 from course.extras.environment_sampling import product_sampling
 from course.extras.sky import CosineSampling, SkySampling
 from course.formats.yaml import description as d
-from course.formats.yaml.description.values import rgb
+from course.formats.yaml.description import rgb
 from course.formats.yaml.limits import read_named_picture
 from course.formats.yaml.loading import Loaded
 

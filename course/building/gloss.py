@@ -10,7 +10,7 @@ from course.core.gloss import Lobe
 from course.effects import Bound
 from course.extras.lobes import ForeignLobe
 from course.formats.yaml import description as d
-from course.formats.yaml.description.values import rgb
+from course.formats.yaml.description import rgb
 
 FLAT = 1e6
 """A roughness from which a square's directions lie in its plane, to rounding; the functions are asked for no more."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from course.core.materials import MaterialTable
 from course.core.types import Floats64
 from course.formats.yaml import description as d
-from course.formats.yaml.description.values import rgb
+from course.formats.yaml.description import rgb
 
 
 def given(*colors: float | tuple[float, ...] | None) -> float | tuple[float, ...]:

@@ -23,7 +23,7 @@ from course.extras.mesh_light import MeshLight, areas, shares
 from course.extras.sampled import SampledSphereLight
 from course.extras.visible_sphere import VisibleSphereLight
 from course.formats.yaml import description as d
-from course.formats.yaml.description.values import rgb
+from course.formats.yaml.description import rgb
 from course.formats.yaml.loading import Loaded
 
 

@@ -10,8 +10,7 @@ from course.building.frame import Frame
 from course.core.types import Floats64, Mask
 from course.extras.conductors import Conductors
 from course.extras.materials import FullMaterials
-from course.formats.yaml.description import MaterialDescription
-from course.formats.yaml.description.values import rgb
+from course.formats.yaml.description import MaterialDescription, rgb
 
 DEFAULT_COLOR = 0.8
 """Of the light that the mirror leaves, where the file names no colour."""

@@ -13,7 +13,7 @@ from course.effects import Bound
 from course.extras.painting import Paint
 from course.extras.textures import OnMesh, OnRectangle, OnSphere, Texture
 from course.formats.yaml import description as d
-from course.formats.yaml.description.materials import TextureDescription
+from course.formats.yaml.description import TextureDescription
 from course.formats.yaml.document import KeyPath
 from course.formats.yaml.limits import read_named_picture
 from course.formats.yaml.loading import Loaded

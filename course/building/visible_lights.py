@@ -11,8 +11,7 @@ from course.building.shutter import Shutter
 from course.core.triangles import Mesh
 from course.core.types import Floats64
 from course.extras.surface import FullPart
-from course.formats.yaml.description import RectangleLight, SphereLight
-from course.formats.yaml.description.values import rgb
+from course.formats.yaml.description import RectangleLight, SphereLight, rgb
 from course.formats.yaml.loading import Loaded
 
 SEGMENTS = 128

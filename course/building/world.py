@@ -38,7 +38,7 @@ from course.effects import Bound, Effects, Need
 from course.extras.surface import FullPart, build_surface
 from course.extras.world import FullWorld
 from course.formats.yaml import description as d
-from course.formats.yaml.description.values import rgb
+from course.formats.yaml.description import rgb
 from course.formats.yaml.loading import Loaded
 from course.formats.yaml.object_lights import material_columns
 from course.formats.yaml.surroundings import in_its_surroundings, outsides, warn_of_nested

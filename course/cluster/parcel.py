@@ -18,9 +18,12 @@ import msgspec
 
 from course.building.world import compile_scene
 from course.effects import Effects
-from course.formats.yaml.description.environment import CubeEnvironment, LatLongEnvironment
-from course.formats.yaml.description.objects import MeshFile
-from course.formats.yaml.description.scene import SceneDescription
+from course.formats.yaml.description import (
+    CubeEnvironment,
+    LatLongEnvironment,
+    MeshFile,
+    SceneDescription,
+)
 from course.formats.yaml.loading import Loaded
 from course.scene.scene import Scene
 

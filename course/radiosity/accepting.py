@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from course.formats.yaml import description as d
-from course.formats.yaml.description.motion import MotionDescription
-from course.formats.yaml.description.values import rgb
+from course.formats.yaml.description import MotionDescription, rgb
 from course.formats.yaml.document import KeyPath
 from course.formats.yaml.loading import Loaded
 

@@ -22,7 +22,7 @@ from course.building.objects import object_mesh
 from course.core.triangles import Mesh
 from course.core.types import Floats32, Floats64, Indices, Mask
 from course.formats.yaml import description as d
-from course.formats.yaml.description.values import rgb
+from course.formats.yaml.description import rgb
 from course.formats.yaml.loading import Loaded
 from course.radiosity.accepting import check_accepted
 from course.scene.scene import Scene

@@ -8,7 +8,7 @@ from typing import Any
 import jsonschema
 import pytest
 
-from course.formats.yaml.description.transforms import STEP
+from course.formats.yaml.description import STEP
 from course.formats.yaml.loading import Loaded
 from course.formats.yaml.schema import json_schema
 from course.formats.yaml.tree import parse_document, read_document

@@ -13,8 +13,7 @@ from typing import Any
 from hypothesis import strategies as st
 from msgspec import inspect
 
-from course.formats.yaml.description.scene import SceneDescription
-from course.formats.yaml.description.transforms import STEP
+from course.formats.yaml.description import STEP, SceneDescription
 
 Strategy = st.SearchStrategy[Any]
 

@@ -24,8 +24,7 @@ from numpy.typing import NDArray
 from course import CourseError, load_scene, render
 from course.errors import CourseWarning
 from course.formats.pictures.files import save
-from course.formats.yaml.description.lights import Light
-from course.formats.yaml.description.objects import Object
+from course.formats.yaml.description import Light, Object
 from tests.stress.descriptions import FACES, FILES, descriptions
 from tests.stress.examples import LONG, examples
 

@@ -14,8 +14,7 @@ from course.formats.metu.element import Element
 from course.formats.metu.notes import Notes
 from course.formats.metu.transformations import matrix_of, point
 from course.formats.yaml.consistency import sine
-from course.formats.yaml.description.film import LARGEST_SIDE
-from course.formats.yaml.description.sampler import MOST_SAMPLES
+from course.formats.yaml.description import LARGEST_SIDE, MOST_SAMPLES
 from course.formats.yaml.document import show
 
 PARALLEL = 1e-6

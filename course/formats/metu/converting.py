@@ -22,7 +22,7 @@ from course.formats.metu.notes import Notes
 from course.formats.metu.objects import Objects
 from course.formats.metu.reading import read_elements
 from course.formats.metu.transformations import read_steps
-from course.formats.yaml.description.integrator import DEEPEST
+from course.formats.yaml.description import DEEPEST
 from course.formats.yaml.loading import load_description
 
 CUTOFF: Final = 1e-6

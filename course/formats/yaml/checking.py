@@ -14,7 +14,7 @@ import msgspec
 from msgspec import inspect
 
 from course.errors import SceneError
-from course.formats.yaml.description.transforms import STEP
+from course.formats.yaml.description import STEP
 from course.formats.yaml.document import Document, Key, KeyPath
 from course.formats.yaml.expected import (
     EXAMPLES,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from course.core.types import Floats32
 from course.errors import SceneError
 from course.formats.pictures.reading import read_picture
-from course.formats.yaml.description.limits import LimitsDescription
+from course.formats.yaml.description import LimitsDescription
 from course.formats.yaml.document import Document, KeyPath
 from course.formats.yaml.loading import Loaded
 from course.inputs import Bound

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from course.formats.yaml.checking import convert
 from course.formats.yaml.consistency import check_consistency
-from course.formats.yaml.description.scene import SceneDescription
+from course.formats.yaml.description import SceneDescription
 from course.formats.yaml.document import Document
 from course.formats.yaml.overriding import Overrides, override
 from course.formats.yaml.tree import read_document

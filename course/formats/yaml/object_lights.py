@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from course.formats.yaml.description.lights import ObjectLight
-from course.formats.yaml.description.scene import SceneDescription
-from course.formats.yaml.description.values import rgb
+from course.formats.yaml.description import ObjectLight, SceneDescription, rgb
 from course.formats.yaml.document import Document
 from course.formats.yaml.suggestions import suggest
 

@@ -10,8 +10,7 @@ from typing import Any, Final
 
 import msgspec
 
-from course.formats.yaml.description.scene import SceneDescription
-from course.formats.yaml.description.transforms import STEP
+from course.formats.yaml.description import STEP, SceneDescription
 
 _ONE_EMISSION: Final = {
     "oneOf": [

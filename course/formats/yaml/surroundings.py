@@ -16,8 +16,7 @@ import numpy as np
 
 from course.core.types import Floats64, Media
 from course.errors import CourseWarning
-from course.formats.yaml.description.materials import MaterialDescription
-from course.formats.yaml.description.scene import SceneDescription
+from course.formats.yaml.description import MaterialDescription, SceneDescription
 from course.formats.yaml.document import Document
 from course.formats.yaml.suggestions import suggest
 

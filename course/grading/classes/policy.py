@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 import msgspec
 
-from course.formats.yaml.description.values import about
+from course.formats.yaml.description import about
 
 _Percent = Annotated[float, msgspec.Meta(ge=0, le=100)]
 _NotNegative = Annotated[float, msgspec.Meta(ge=0)]
