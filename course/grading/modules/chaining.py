@@ -14,9 +14,9 @@ import numpy as np
 
 from course.grading.checks.check import Array, Failure, Trial
 from course.grading.checks.declare import Arguments, Function, Law, Made, function
+from course.grading.checks.distributions import FALSE_FAIL, chi_squared
 from course.grading.checks.drawing import Draw
 from course.grading.checks.laws import from_generator, holds
-from course.grading.checks.statistics import FALSE_FAIL, chi_squared
 
 ROWS = (2, 2, 1, 3)
 """Lens, light, time, gloss."""

@@ -15,7 +15,9 @@ import numpy as np
 from course.grading.checks import declare, laws
 from course.grading.checks.check import Array
 from course.grading.checks.declare import Arguments, Case, Function, Law, Made, Module, function
+from course.grading.checks.distributions import uniform
 from course.grading.checks.drawing import Draw, worst_directions
+from course.grading.checks.evenness import evenly, smooth
 from course.grading.checks.vectors import cross, dot, normalized, turn_about
 from course.grading.checks.weights import WHOLE
 from course.grading.modules.round_shapes import cornered
@@ -212,8 +214,8 @@ JITTER_IN_BALL = _lobe(
             scales=SEVERAL * 2,
             role="corner",
         ),
-        laws.smooth(10.0, case=lambda _: {"glossiness": 0.5}),
-        laws.uniform(
+        smooth(10.0, case=lambda _: {"glossiness": 0.5}),
+        uniform(
             "uniform",
             "Points are uniform over the ball's volume",
             _by_volume,
@@ -240,7 +242,7 @@ def _by_share(a: Arguments, r: Array) -> Array:
 
 def _density(name: str, title: str, low: float, high: float, case: Case = _one) -> Law:
     """The lobe's distribution, for exponents of that range."""
-    return laws.uniform(
+    return uniform(
         name,
         title,
         _by_share,
@@ -279,8 +281,8 @@ SAMPLE_PHONG_LOBE = _lobe(
         cornered(_density("flat", "Exponent 0 gives the uniform hemisphere", 0, 0)),
         cornered(_density("narrow", "Lobes of exponents to 10^4 have their density", 100, 1e4)),
         cornered(_density("poles", "The lobe is the same about each axis", 2, 20, _one_pole)),
-        laws.smooth(10.0),
-        laws.evenly(
+        smooth(10.0),
+        evenly(
             lambda _, r: r[2] + 0.3 * r[0] + 0.2 * r[1],
             13 / 14,
             case=lambda d: {**_up(d), "exponent": 12.0},

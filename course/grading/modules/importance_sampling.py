@@ -16,18 +16,10 @@ import numpy as np
 from course.grading.checks import declare
 from course.grading.checks.check import Array, Failure, Trial
 from course.grading.checks.declare import Arguments, Function, Law, Made, Module, function, values
+from course.grading.checks.distributions import FALSE_FAIL, MANY, SIGMAS, uniform
 from course.grading.checks.drawing import Draw
-from course.grading.checks.laws import (
-    EPSILON,
-    MANY,
-    close,
-    evenly,
-    smooth,
-    uniform,
-    unit_length,
-    within,
-)
-from course.grading.checks.statistics import FALSE_FAIL, SIGMAS
+from course.grading.checks.evenness import evenly, smooth
+from course.grading.checks.laws import EPSILON, close, unit_length, within
 
 SEVERAL = (1.0, 1.0, 1.0, 1.0)
 """Scales of a law without lengths: each makes other numbers."""

@@ -12,7 +12,8 @@ from course.grading.checks import declare
 from course.grading.checks.check import Array, Trial
 from course.grading.checks.declare import Arguments, Law, Made, Module, function
 from course.grading.checks.drawing import Draw
-from course.grading.checks.laws import close, evenly
+from course.grading.checks.evenness import evenly
+from course.grading.checks.laws import close
 from course.grading.checks.weights import WHOLE
 
 SCALES = (1.0, 1e-3, 1e3)

@@ -16,7 +16,9 @@ import numpy as np
 from course.grading.checks import declare, laws
 from course.grading.checks.check import Array
 from course.grading.checks.declare import Arguments, Law, Made, Module, function
+from course.grading.checks.distributions import means, uniform
 from course.grading.checks.drawing import Draw, worst_directions, worst_units
+from course.grading.checks.evenness import evenly, smooth
 from course.grading.checks.vectors import dot, turn_about
 from course.grading.checks.weights import WHOLE
 from course.grading.modules.round_shapes import cornered
@@ -55,7 +57,7 @@ def _by_solid_angle(a: Arguments, r: Array) -> Array:
 
 
 def _density(name: str, normals: str, **how: Any) -> Law:
-    return laws.uniform(
+    return uniform(
         name,
         f"Directions have the density cos / pi about {normals}",
         _by_solid_angle,
@@ -100,8 +102,8 @@ DIFFUSE_BOUNCE = function(
         ),
         cornered(_density("axes", "normals along the axes", case=_along_axes)),
         _density("density", "every normal", points=WHOLE, picture=_from_above),
-        laws.smooth(10.0),
-        laws.evenly(lambda _, r: r[2] + 0.3 * r[0] + 0.2 * r[1], 2 / 3, case=_floor),
+        smooth(10.0),
+        evenly(lambda _, r: r[2] + 0.3 * r[0] + 0.2 * r[1], 2 / 3, case=_floor),
     ),
     free=True,
     features=lambda a, r: np.stack((_cosine(a, r), np.round(np.linalg.norm(r, axis=0), 3), *r)),
@@ -253,7 +255,7 @@ RUSSIAN_ROULETTE = function(
             role="corner",
         ),
         cornered(
-            laws.means(
+            means(
                 "mean",
                 "The mean stays what it was",
                 _averages,

@@ -24,13 +24,8 @@ from course.grading.checks.declare import (
     function,
 )
 from course.grading.checks.drawing import Draw
-from course.grading.checks.laws import (
-    COUNTS,
-    REPEATS,
-    check_order,
-    close,
-    law,
-)
+from course.grading.checks.evenness import COUNTS, REPEATS, check_order
+from course.grading.checks.laws import close, law
 from course.grading.modules.chaining import CHAIN
 
 CLOSE = 5e-7

@@ -14,8 +14,10 @@ from scipy.special import iv
 
 from course.grading.checks.check import Array, Failure
 from course.grading.checks.declare import Arguments, Case, Law
+from course.grading.checks.distributions import means, uniform
+from course.grading.checks.evenness import evenly, smooth
 from course.grading.checks.examples import where
-from course.grading.checks.laws import evenly, law, means, smooth, uniform
+from course.grading.checks.laws import law
 from course.grading.checks.vectors import TINY
 from course.grading.checks.weights import WHOLE
 

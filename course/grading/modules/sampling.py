@@ -10,9 +10,9 @@ from scipy.special import ndtri
 
 from course.grading.checks.check import Array, Failure, Trial
 from course.grading.checks.declare import Arguments, Function, Law, Made, Module, function
+from course.grading.checks.distributions import FALSE_FAIL, MANY
 from course.grading.checks.drawing import Draw
-from course.grading.checks.laws import MANY, close, from_generator, holds, law
-from course.grading.checks.statistics import FALSE_FAIL
+from course.grading.checks.laws import close, from_generator, holds, law
 from course.grading.modules.generators import drawn
 from course.grading.modules.round_shapes import (
     BALL,

@@ -11,8 +11,10 @@ import numpy as np
 from course.grading.checks import declare
 from course.grading.checks.check import Array
 from course.grading.checks.declare import Arguments, Case, Function, Law, Made, Module, function
+from course.grading.checks.distributions import uniform
 from course.grading.checks.drawing import Draw
-from course.grading.checks.laws import close, evenly, uniform, within
+from course.grading.checks.evenness import evenly
+from course.grading.checks.laws import close, within
 from course.grading.checks.vectors import dot, normalized
 from course.grading.checks.weights import WHOLE
 from course.grading.modules import round_shapes

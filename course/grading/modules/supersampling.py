@@ -20,8 +20,9 @@ from course.grading.checks.declare import (
     function,
     number,
 )
+from course.grading.checks.distributions import uniform
 from course.grading.checks.drawing import Draw, worst_units
-from course.grading.checks.laws import EPSILON, close, exact, from_generator, law, uniform, within
+from course.grading.checks.laws import EPSILON, close, exact, from_generator, law, within
 
 # ---------------------------------------------------------------- cells of a pixel
 

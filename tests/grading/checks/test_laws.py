@@ -10,16 +10,9 @@ import pytest
 
 from course.grading.checks.check import Failure
 from course.grading.checks.declare import Function, Law, function
-from course.grading.checks.laws import (
-    close,
-    evenly,
-    holds,
-    means,
-    smooth,
-    uniform,
-    unit_length,
-    within,
-)
+from course.grading.checks.distributions import means, uniform
+from course.grading.checks.evenness import evenly, smooth
+from course.grading.checks.laws import close, holds, unit_length, within
 from tests.grading.checks.declaring import SHIFTED, but, shifted, trial
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from course.grading.checks.samples import crowded, feature_names, off_mean
+from course.grading.checks.distributions import crowded, feature_names, off_mean
 
 
 def test_points_at_one_place_are_told_with_the_fewest() -> None:
