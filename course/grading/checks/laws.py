@@ -1,9 +1,8 @@
 """Laws that hold of each call by itself: values in closed form, sentences, bounds, and the generator that is used.
 
-Each builder gives a ``Law``; laws about many samples stand in ``distributions.py`` and ``evenness.py``. What a law looks
-at are arguments ``a``, by name and in float64, and the results ``r`` (a tuple if there are several), float64 as well, so
-that a wrong dtype costs the contract alone. A law fails with the worst column, and with the smallest input that breaks
-it.
+Each builder gives a ``Law``; laws about many samples stand in ``distributions.py`` and ``evenness.py``. A law looks at
+arguments ``a``, by name, and results ``r``, a tuple if there are several. Both are float64, so that a wrong dtype costs
+the contract alone. A law fails with the worst column, and with the smallest input that breaks it.
 """
 
 from __future__ import annotations
