@@ -9,6 +9,7 @@ from course.building.ranges import in_reach
 from course.building.sampled_points import DISK, DISKS
 from course.core.camera import Lens
 from course.effects import Bound
+from course.extras.apertures import PolygonLens, SquareLens
 from course.extras.sampled import SampledLens
 from course.formats.yaml.loading import Loaded
 
@@ -53,8 +54,12 @@ def compile_lens(loaded: Loaded, frame: Frame, bound: Bound) -> Lens | None:
     if lens.shape == "disk" and lens.samples == "point":
         named.append("point_on_disk")
     thin_lens = bound.functions("thin_lens", *named, asked_by=(*path, "aperture_radius"))
-    known = radius, focus, lens.shape, lens.blades, thin_lens
-    if lens.shape != "disk" or lens.samples == "point":
+    known = radius, focus, thin_lens
+    if lens.shape == "polygon":
+        return PolygonLens(*known, lens.blades)
+    if lens.shape == "square":
+        return SquareLens(*known)
+    if lens.samples == "point":
         return Lens(*known)
     function = DISKS[lens.samples]
     sampling = bound.functions("sampling", function, asked_by=(*path, "samples"))

@@ -6,7 +6,6 @@ axis goes through the middle and pixels are square. With a window, the axis may 
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,48 +17,22 @@ from course.core.vectors import dot
 
 @dataclass(frozen=True)
 class Lens:
-    """A thin lens.
+    """A thin lens with a round aperture.
 
     Attributes
     ----------
     aperture_radius, focus_distance : [units of the compiled scene]
-    shape : "disk", "square" or "polygon"
-    blades : corners of the polygon
     thin_lens : functions of the module
     """
 
     aperture_radius: float
     focus_distance: float
-    shape: str
-    blades: int
     thin_lens: Functions
 
     def points(self, u: Floats32) -> Floats32:
         """Uniform points (2, N) on an aperture of radius 1, from u (2, N) in [0, 1)."""
-        if self.shape == "disk":
-            on_disk: Floats32 = self.thin_lens.point_on_disk(u)
-            return on_disk
-        if self.shape == "square":
-            return 2 * u - 1
-        return point_on_polygon(u, self.blades)
-
-
-def point_on_polygon(u: Floats32, corners: int) -> Floats32:
-    """Uniform points (2, N) on the regular polygon inscribed in the unit circle, from u (2, N) in [0, 1).
-
-    The integer part of u[0] * corners chooses one of the triangles around the centre. The fraction chooses a point on
-    the triangle's outer edge, and sqrt(u[1]) scales that point towards the centre.
-    """
-    scaled = u[0] * np.float32(corners)
-    number = np.minimum(np.floor(scaled), np.float32(corners - 1))
-    along = scaled - number
-    angle = number * np.float32(2 * math.pi / corners)
-    step = np.float32(2 * math.pi / corners)
-    x = (1 - along) * np.cos(angle) + along * np.cos(angle + step)
-    y = (1 - along) * np.sin(angle) + along * np.sin(angle + step)
-    points: Floats32 = np.stack((x, y))
-    points *= np.sqrt(u[1])
-    return points
+        on_disk: Floats32 = self.thin_lens.point_on_disk(u)
+        return on_disk
 
 
 @dataclass(frozen=True)

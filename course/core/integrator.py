@@ -6,11 +6,11 @@ one shadow ray per light, one reflected ray and one refracted ray. A stage that 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
-from course.core.absorption import Absorption
 from course.core.camera import Camera
 from course.core.direct import DirectLight
 from course.core.environment import Environment
@@ -25,6 +25,11 @@ from course.core.vectors import repeated
 
 LARGEST_BATCH = 4 * RAYS
 """Largest number of rays followed at once."""
+
+
+Absorption = Callable[[Rays, Hits, Floats32 | None, Media | None, bool], Floats32 | None]
+"""Returns the throughput of rays at their hits, from the rays, their hits, the throughput and the medium of the rays
+that hit, and true for camera rays; see ``course.extras.absorption``."""
 
 
 class CancelledError(Exception):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from course.core.absorption import Absorption
 from course.core.camera import Camera
 from course.core.direct import DirectLight, direct_light
 from course.core.gloss import Gloss
@@ -69,10 +68,6 @@ def plan_integrator(
     """The integrator, for at most ``depth`` bounces, without the stages that the scene doesn't need."""
     materials = world.materials
     ambient = materials.ambient * world.ambient[:, None]
-    absorption = None
-    if scatter is not None and scatter.absorbs:
-        coefficient = Lookup(materials.absorption)
-        absorption = Absorption(coefficient, materials.refracts, materials.outside, camera)
     shows = materials.diffuses | ambient.any(0)
     coherent = -1 if camera.lens else 0 if world.motion or world.lobes else 1
     return Integrator(
@@ -86,7 +81,7 @@ def plan_integrator(
         dark_inside=materials.refracts if (materials.refracts & shows).any() else None,
         glow=_unless_nothing(materials.glowing),
         emission=_unless_nothing(materials.shining),
-        absorption=absorption,
+        absorption=None,
         scatter=scatter,
         max_depth=depth,
         coherent_depth=coherent,

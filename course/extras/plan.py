@@ -15,6 +15,7 @@ from course.core.plan import plan_dimensions, plan_direct_light, plan_integrator
 from course.core.rays import Dimensions
 from course.core.samplers import Sampler
 from course.core.scatter import Scatter
+from course.extras.absorption import Absorption
 from course.extras.conductors import Conductors
 from course.extras.direct import FullDirectLight
 from course.extras.materials import FullMaterials
@@ -52,6 +53,8 @@ def plan(
     if world.backdrop:
         seen = min(integrator.environment_depth, 0)
         integrator = replace(integrator, environment_depth=seen)
+    if scatter is not None and scatter.absorbs:
+        integrator = replace(integrator, absorption=Absorption.of(world.materials, camera))
     if world.rough or paths is not None:
         integrator = replace(integrator, coherent_depth=min(integrator.coherent_depth, 0))
     rough = (REFRACTION,) if isinstance(scatter, FullScatter) and scatter.rough else ()

@@ -11,7 +11,12 @@ import numpy as np
 from course.core.embree import Accelerator, EmbreeAccelerator, Intersections
 from course.core.functions import Functions
 from course.core.hits import Hits, Surface, turn_to_viewer
-from course.core.triangles import (
+from course.core.types import Floats32, Floats64, Mask
+from course.core.vectors import dot
+from course.extras.behind import Behind, SeenThrough, keep_normals
+from course.extras.hierarchy import HierarchyAccelerator
+from course.extras.painting import Paint, Painting, make_painting
+from course.extras.tables import (
     Part,
     Tables,
     accelerate,
@@ -19,11 +24,6 @@ from course.core.triangles import (
     make_tables,
     vertices_and_triangles,
 )
-from course.core.types import Floats32, Floats64, Mask
-from course.core.vectors import dot
-from course.extras.behind import Behind, SeenThrough, keep_normals
-from course.extras.hierarchy import HierarchyAccelerator
-from course.extras.painting import Paint, Painting, make_painting
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ import numpy as np
 
 from course.core.camera import Camera
 from course.core.hits import Hits
-from course.core.materials import Lookup
+from course.core.materials import Lookup, MaterialTable
 from course.core.rays import OPEN, Rays
 from course.core.types import Floats32, Indices, Mask, Media
 from course.core.vectors import dot
@@ -32,6 +32,11 @@ class Absorption:
     dielectric: Mask
     outside: Media | None
     camera: Camera
+
+    @classmethod
+    def of(cls, materials: MaterialTable, camera: Camera) -> Absorption:
+        """The absorption of all dielectrics."""
+        return cls(Lookup(materials.absorption), materials.refracts, materials.outside, camera)
 
     def __call__(
         self,
