@@ -7,8 +7,8 @@ import numpy as np
 from benchmarks.engine import SCENES
 from benchmarks.figures import Figure, summary
 from course import load_scene, render
+from course.benchmarking.curves import fit_order
 from course.benchmarking.errors import rmse
-from course.benchmarking.orders import fit_order
 from course.benchmarking.references import reference
 
 SAMPLES = (4, 16, 64, 256)

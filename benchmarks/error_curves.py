@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from benchmarks.timing import median_seconds
-from course.benchmarking.orders import Order, fit_order
+from course.benchmarking.curves import Order, fit_order
 from course.benchmarking.plot_data import Plot, Series
 from course.core.types import Floats64
 

@@ -18,11 +18,11 @@ import numpy as np
 
 from course.building.gloss import lobe_function
 from course.building.materials import base_color
+from course.building.motion import shutter_of
 from course.building.objects import object_mesh
-from course.building.shutter import shutter_of
 from course.core.environment import CubeEnvironment
 from course.core.triangles import Mesh
-from course.formats.meshes.welding import same
+from course.formats.meshes.parts import same
 from course.formats.yaml import description as d
 from course.formats.yaml.description import rgb
 from course.formats.yaml.object_lights import Columns, material_columns

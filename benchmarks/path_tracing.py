@@ -22,11 +22,11 @@ from benchmarks.mitsuba_variants import start_fastest
 from benchmarks.picture_sheet import draw_sheet
 from benchmarks.report import OUT, report
 from course import Scene, render
-from course.benchmarking.convergence_data import comparisons
 from course.benchmarking.estimators import SAMPLERS, Estimator, Module
 from course.benchmarking.measuring import Effort as CurveEffort
 from course.benchmarking.measuring import Measured, measure
-from course.benchmarking.sources import scene_hash
+from course.benchmarking.plot_data import comparisons
+from course.benchmarking.references import scene_hash
 from course.benchmarking.tables import summary_table
 from course.compiled.packets import available
 from course.effects import PROJECT

@@ -48,7 +48,7 @@ from benchmarks.peer_cases import (
 from benchmarks.peer_document import SIZE, tables, write_document
 from course import Scene, render
 from course.benchmarking.machine import machine
-from course.benchmarking.sources import scene_hash
+from course.benchmarking.references import scene_hash
 from course.benchmarking.tables import print_tables
 from course.effects import PROJECT
 from course.formats.yaml.description import rgb

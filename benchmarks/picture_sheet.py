@@ -8,7 +8,7 @@ from pathlib import Path
 from PIL import Image, ImageDraw, ImageFont
 
 from course.core.types import Floats32
-from course.formats.pictures.srgb import linear_to_srgb8
+from course.formats.pictures.display import linear_to_srgb8
 
 Cell = tuple[str, Floats32]
 """A picture's name, and the picture: (3, H, W) linear RGB."""

@@ -23,18 +23,11 @@ from course.benchmarking.plot_data import Plot, Series
 from course.benchmarking.tables import Columns, Table, table_of
 from course.core.types import Floats32, Floats64
 from course.effects import PROJECT
-from course.radiosity.functions import Functions
 from course.radiosity.hemicubes import Views, make_hemicube
-from course.radiosity.patches import Patches, make_patches
+from course.radiosity.patches import Functions, Patches, make_patches
 from course.radiosity.radiosity import PATCHES, TOLERANCE, as_solution
 from course.radiosity.solution import Solution
-from course.radiosity.solving import (
-    GATHERED,
-    Shooting,
-    Solved,
-    form_factors,
-    with_ambient,
-)
+from course.radiosity.solving import GATHERED, Shooting, Solved, form_factors, with_ambient
 from course.radiosity.viewing import look, own_view
 
 SCENE = PROJECT / "scenes" / "radiosity.yaml"

@@ -18,13 +18,10 @@ from course.errors import CourseError
 from course.jobs.job import Job, Mode, check_memory, chosen_settings
 from course.jobs.picture import Picture
 from course.jobs.receipt import Receipt
-from course.rendering.binding import bind
-from course.rendering.continued import TIMED, UNIFORM
+from course.rendering.binding import bind, lines_named, skipped_modules
 from course.rendering.memory import keep_freed_memory
-from course.rendering.not_written import lines_named
-from course.scene.scene import Scene
-from course.scene.settings import Settings
-from course.scene.skipped_modules import skipped_modules
+from course.rendering.uniform import TIMED, UNIFORM
+from course.scene.scene import Scene, Settings
 
 WORTH_COMPILED = 8_000_000
 """Camera rays from which on compiled loops save more than the second that Numba takes to get ready."""

@@ -22,7 +22,7 @@ from course.core.types import Floats32, Floats64, Indices, Mask
 from course.effects import Bound
 from course.errors import CourseError, EffectError
 from course.jobs.job import Job, Mode
-from course.scene.settings import Subdivision
+from course.scene.scene import Subdivision
 
 BYTES_A_PIXEL = 400
 """Cells, their corners and what is known of them; measured, 350 or less."""

@@ -14,12 +14,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from course.atomic import replacing
-from course.benchmarking.convergence_data import comparisons
-from course.benchmarking.line_names import name_lines
+from course.benchmarking.labels import name_lines, plain, powers_of_four, ticks
 from course.benchmarking.measuring import Measured
-from course.benchmarking.plot_data import Plot, Series
+from course.benchmarking.plot_data import Plot, Series, comparisons
 from course.benchmarking.tables import digits
-from course.benchmarking.ticks import plain, powers_of_four, ticks
 from course.errors import CourseError
 
 if TYPE_CHECKING:

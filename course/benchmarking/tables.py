@@ -11,9 +11,8 @@ from typing import TypeVar
 import click
 import numpy as np
 
-from course.benchmarking.curves import Converged, Curve
+from course.benchmarking.curves import Converged, Curve, Order
 from course.benchmarking.measuring import Measured
-from course.benchmarking.orders import Order
 
 COMMON = 64
 """Samples at which estimators are compared by one number."""

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from course.building.frame import in_range
 from course.building.materials import base_color, has_body
-from course.building.ranges import in_range
 from course.core.environment import ConstantEnvironment, CubeEnvironment, Environment
 from course.core.types import Floats32
 from course.effects import Bound
@@ -15,8 +15,7 @@ from course.extras.environment_sampling import product_sampling
 from course.extras.sky import CosineSampling, SkySampling
 from course.formats.yaml import description as d
 from course.formats.yaml.description import rgb
-from course.formats.yaml.limits import read_named_picture
-from course.formats.yaml.loading import Loaded
+from course.formats.yaml.loading import Loaded, read_named_picture
 
 LOOKUPS = {"seamless": "lookup_seamless", "clamped": "lookup"}
 """The cube_map function for each value of ``lookup``."""

@@ -1,4 +1,4 @@
-"""The frame of the compiled scene: its own centre as origin, its own size as unit.
+"""The frame of the compiled scene: its own centre as origin, its own size as unit; and what float32 can carry in it.
 
 Everything is moved and scaled in float64 before it becomes float32, so a scene in nanometres or parsecs, at the
 origin or 10^8 of its sizes away, gives the same picture.
@@ -12,7 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from course.core.triangles import Mesh
-from course.core.types import Floats64
+from course.core.types import Floats32, Floats64
+from course.formats.yaml.document import KeyPath
+from course.formats.yaml.loading import Loaded
 
 
 @dataclass(frozen=True)
@@ -61,3 +63,31 @@ def frame_of(boxes: Sequence[Floats64]) -> Frame:
     center = low / 2 + high / 2
     scale = float((high / 2 - low / 2).max())
     return Frame(center, scale if scale > 0 else 1.0)
+
+
+FARTHEST = 1e18
+"""Sizes of the scene; squares of longer distances would overflow float32."""
+
+BRIGHTEST = 1e20
+"""Above this, light close to a surface would overflow float32 on its way to the film."""
+
+
+def in_reach(x: Floats64, loaded: Loaded, path: KeyPath, what: str) -> Floats32:
+    """A compiled position or length as float32; SceneError where it is too far away or too large."""
+    return _single(x, FARTHEST, "in sizes of the scene", loaded, path, what)
+
+
+def in_range(color: Floats64, loaded: Loaded, path: KeyPath, what: str) -> Floats32:
+    """A compiled colour as float32; SceneError where it is too bright."""
+    return _single(color, BRIGHTEST, "in units of the scene's size", loaded, path, what)
+
+
+def _single(
+    x: Floats64, bound: float, unit: str, loaded: Loaded, path: KeyPath, what: str
+) -> Floats32:
+    if not (np.abs(x) < bound).all():
+        largest = np.abs(x).max()
+        raise loaded.document.error(
+            path, f"{what} is {largest:.3g} {unit}: expected less than {bound:g}"
+        )
+    return x.astype(np.float32)

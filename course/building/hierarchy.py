@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from course.building.shutter import Shutter
+from course.building.motion import Shutter
 from course.core.functions import Functions
 from course.effects import Bound
 from course.formats.yaml import description as d

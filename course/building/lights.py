@@ -1,4 +1,4 @@
-"""From light descriptions to lights in the frame of the compiled scene."""
+"""From light descriptions to lights in the frame of the compiled scene, and to surfaces that rays can see."""
 
 from __future__ import annotations
 
@@ -7,20 +7,21 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from course.building.frame import Frame
+from course import shapes
+from course.building.frame import Frame, in_range, in_reach
 from course.building.light_power import given, why_dark
-from course.building.ranges import in_range, in_reach
+from course.building.motion import Shutter
 from course.building.sampled_points import NUMBERS, SPHERES
-from course.building.shutter import Shutter
 from course.core.functions import Functions
 from course.core.lights import DirectionalLight, Light, PointLight, RectangleLight, SphereLight
 from course.core.materials import MaterialTable
-from course.core.triangles import Triangles
+from course.core.triangles import Mesh, Triangles
 from course.core.types import Floats32, Floats64
 from course.effects import Bound
 from course.errors import FunctionError
 from course.extras.mesh_light import MeshLight, areas, shares
 from course.extras.sampled import SampledSphereLight
+from course.extras.surface import FullPart
 from course.extras.visible_sphere import VisibleSphereLight
 from course.formats.yaml import description as d
 from course.formats.yaml.description import rgb
@@ -226,3 +227,43 @@ def grid_size(samples: str) -> int:
 
 def _single(x: Floats64) -> Floats32:
     return x.astype(np.float32)
+
+
+SEGMENTS = 128
+"""Around a visible sphere light; it lies inside the true sphere by at most 3e-4 radii."""
+
+
+def emitter_parts(
+    loaded: Loaded, frame: Frame, shutter: Shutter, first_material: int
+) -> tuple[list[FullPart], list[Floats64]]:
+    """Meshes of the visible lights, and the radiance of the material that each of them gets.
+
+    Materials are numbered from ``first_material``. SceneError where float32 can't carry a corner or the radiance.
+    """
+    parts: list[FullPart] = []
+    emission: list[Floats64] = []
+    for number, light in enumerate(loaded.description.lights):
+        if not isinstance(light, d.RectangleLight | d.SphereLight) or light.radiance is None:
+            continue
+        if isinstance(light, d.RectangleLight) and not light.visible:
+            continue
+        mesh = _rectangle(light) if isinstance(light, d.RectangleLight) else _sphere(light)
+        mesh = Mesh(mesh.vertices + shutter.start(light.motion), mesh.triangles)
+        velocity = shutter.velocity(light.motion, frame)
+        placed = frame.mesh(mesh)
+        in_reach(placed.vertices, loaded, ("lights", number), "the light's far end")
+        parts.append(FullPart(placed, first_material + len(emission), velocity))
+        radiance = in_range(rgb(light.radiance), loaded, ("lights", number), "the light's radiance")
+        emission.append(radiance.astype(np.float64))
+    return parts, emission
+
+
+def _rectangle(light: d.RectangleLight) -> Mesh:
+    corner, u, v = (np.array(x) for x in (light.corner, light.edge_u, light.edge_v))
+    vertices = np.stack((corner, corner + u, corner + u + v, corner + v))
+    return Mesh(vertices, np.array([[0, 1, 2], [0, 2, 3]]))
+
+
+def _sphere(light: d.SphereLight) -> Mesh:
+    ball = shapes.sphere(light.radius, SEGMENTS)
+    return Mesh(ball.vertices + np.array(light.center), ball.triangles)

@@ -1,16 +1,20 @@
-"""From material descriptions to the table that hits look things up in."""
+"""From material descriptions to the table that hits look things up in; and materials that make light."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 
-from course.building.frame import Frame
+from course.building.frame import BRIGHTEST, Frame
+from course.core.environment import ConstantEnvironment, CubeEnvironment
 from course.core.types import Floats64, Mask
 from course.extras.conductors import Conductors
 from course.extras.materials import FullMaterials
+from course.extras.world import FullWorld
 from course.formats.yaml.description import MaterialDescription, rgb
+from course.formats.yaml.loading import Loaded
 
 DEFAULT_COLOR = 0.8
 """Of the light that the mirror leaves, where the file names no colour."""
@@ -126,3 +130,49 @@ def compile_materials(
         conductors=_conductors(materials, max(count, 1)),
         plain=_plain(materials, max(count, 1)),
     )
+
+
+def check_growth(loaded: Loaded, used: Iterable[str], world: FullWorld) -> None:
+    """Check what a ray may carry after all its bounces.
+
+    Parameters
+    ----------
+    used : names of the objects' materials
+
+    Raises
+    ------
+    SceneError
+        It is more than float32 holds; names the material that makes most light.
+    """
+    scene = loaded.description
+    integrator = scene.integrator
+    share = returned_share if integrator.type == "path" else handed_on
+    shares = {name: float(share(scene.materials[name]).max()) for name in used}
+    worst = max(shares, key=lambda name: shares[name], default=None)
+    if worst is None or shares[worst] <= 1:
+        return
+    # By logarithms: the power itself may overflow even here.
+    room = math.log(BRIGHTEST / max(1.0, _brightest(world)))
+    growth = math.log(shares[worst])
+    if integrator.max_depth * growth < room:
+        return
+    digits = integrator.max_depth * growth / math.log(10)
+    raise loaded.document.error(
+        ("materials", worst),
+        f"returns {shares[worst]:.3g} times the light that it gets, 10^{digits:.0f} times after the"
+        f" {integrator.max_depth} bounces of integrator.max_depth: expected a material that makes less light, or a"
+        f" max_depth of at most {math.ceil(room / growth) - 1}",
+    )
+
+
+def _brightest(world: FullWorld) -> float:
+    """The largest radiance, or irradiance at the size of the scene, of whatever shines."""
+    sky = world.environment
+    assert isinstance(sky, ConstantEnvironment | CubeEnvironment)
+    colors = (
+        world.ambient,
+        world.materials.emission,
+        sky.faces if isinstance(sky, CubeEnvironment) else sky.color,
+        *(light.color for light in world.lights),
+    )
+    return max(float(color.max()) for color in colors)

@@ -13,7 +13,7 @@ from course.errors import GeometryError, SceneError
 from course.formats.meshes import transforms
 from course.formats.yaml import description as d
 from course.formats.yaml.document import Document
-from course.formats.yaml.limits import bytes_of_files
+from course.formats.yaml.loading import bytes_of_files
 from course.inputs import Bound
 
 CONVEX = (d.Sphere, d.Box, d.Cylinder, d.Cone)

@@ -10,7 +10,7 @@ import numpy as np
 
 from course.building.cutting import SmallThings
 from course.building.frame import Frame, frame_of
-from course.building.shutter import Shutter
+from course.building.motion import Shutter
 from course.core.triangles import Mesh
 from course.core.types import Floats64
 from course.errors import CourseWarning

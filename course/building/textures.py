@@ -15,8 +15,7 @@ from course.extras.textures import OnMesh, OnRectangle, OnSphere, Texture
 from course.formats.yaml import description as d
 from course.formats.yaml.description import TextureDescription
 from course.formats.yaml.document import KeyPath
-from course.formats.yaml.limits import read_named_picture
-from course.formats.yaml.loading import Loaded
+from course.formats.yaml.loading import Loaded, read_named_picture
 
 
 def shows_texture(material: d.MaterialDescription) -> bool:

@@ -6,22 +6,17 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from course.building.cameras import make_camera, make_window_camera
+from course.building.cameras import compile_lens, make_camera, make_window_camera
 from course.building.cutting import cut
 from course.building.environment import compile_environment
-from course.building.frame import Frame, bounds_of
-from course.building.gloss import compile_lobes
-from course.building.growth import check_growth
+from course.building.frame import Frame, bounds_of, in_range, in_reach
+from course.building.gloss import compile_lobes, compile_rough_glass, reflecting
 from course.building.hierarchy import compile_acceleration
-from course.building.lens import compile_lens
-from course.building.lights import Lit, compile_lights
-from course.building.materials import compile_materials
-from course.building.motion import check_sweeps, compile_motion
+from course.building.lights import Lit, compile_lights, emitter_parts
+from course.building.materials import check_growth, compile_materials
+from course.building.motion import check_sweeps, compile_motion, shutter_of
 from course.building.objects import CONVEX, object_mesh
 from course.building.path_tracing import compile_paths
-from course.building.ranges import in_range, in_reach
-from course.building.rough_glass import compile_rough_glass, reflecting
-from course.building.shutter import shutter_of
 from course.building.small_objects import (
     CUT,
     extents_of_lamps,
@@ -30,7 +25,6 @@ from course.building.small_objects import (
     warn_of_small,
 )
 from course.building.textures import Painter, shows_texture
-from course.building.visible_lights import emitter_parts
 from course.core.camera import Camera
 from course.core.triangles import Mesh
 from course.core.types import Floats64

@@ -25,8 +25,7 @@ from course.core.passes import Work
 from course.core.threads import Execution, Executor, InOrder
 from course.core.types import Floats32
 from course.errors import CourseError
-from course.scene.scene import Scene
-from course.scene.settings import Settings
+from course.scene.scene import Scene, Settings
 
 PIECE = 0.3
 """Seconds of work in a task: a hundred times what it costs to hand it over, and little to wait for in the end."""

@@ -18,8 +18,7 @@ from course.core.tracer import Tracer
 from course.errors import CourseError
 from course.rendering.binding import bind
 from course.rendering.memory import keep_freed_memory
-from course.scene.scene import Scene
-from course.scene.settings import Settings
+from course.scene.scene import Scene, Settings
 
 MOST = 2
 """Scenes that a worker keeps: those of two people who render at the same time."""

@@ -21,11 +21,10 @@ from typing import Any
 
 import numpy as np
 
-from course.comparing.block_differences import differences, together
-from course.comparing.pixel_blocks import SMALLEST, divide
+from course.comparing.blocks import SMALLEST, differences, divide, together
 from course.core.types import Floats32, Floats64, Mask
 from course.errors import CourseError
-from course.formats.pictures.srgb import linear_to_srgb8, srgb_to_linear
+from course.formats.pictures.display import linear_to_srgb8, srgb_to_linear
 
 FEWEST = 4
 """Blocks that a picture needs."""

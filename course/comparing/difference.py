@@ -6,7 +6,7 @@ import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
 from course.core.types import Floats, Floats32
-from course.formats.pictures.srgb import srgb_to_linear
+from course.formats.pictures.display import srgb_to_linear
 
 # sRGB, from the second being brighter to the first: ColorBrewer's RdBu (Brewer and Harrower), backwards.
 _COLOURS = np.array(

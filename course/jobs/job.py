@@ -13,8 +13,7 @@ from course.effects import Bound
 from course.errors import CourseError, OutputError
 from course.formats.yaml.consistency import nearest_squares
 from course.jobs.picture import Picture
-from course.scene.scene import Scene
-from course.scene.settings import Settings
+from course.scene.scene import Scene, Settings
 
 EXTENSIBLE = ("sobol", "random", "halton", "xorshift")
 """Samplers that can go on for as long as there is time, with so many samples at most."""

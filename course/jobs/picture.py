@@ -10,7 +10,7 @@ import numpy as np
 from course.core.film import AnyFilm
 from course.core.types import Floats32
 from course.jobs.receipt import Receipt
-from course.scene.settings import Settings
+from course.scene.scene import Settings
 
 
 @dataclass(frozen=True)
@@ -53,8 +53,8 @@ class Picture:
 
     def save_heat_map(self, path: str | Path) -> None:
         """Write where the samples went: black the fewest, white the most, logarithmic between; see ``save``."""
+        from course.formats.pictures.display import heat_map
         from course.formats.pictures.files import save
-        from course.formats.pictures.heat_map import heat_map
 
         save(Path(path), heat_map(np.maximum(self.film.samples, 1)))
 

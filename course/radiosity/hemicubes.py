@@ -16,8 +16,7 @@ from numpy.typing import NDArray
 
 from course.core.embree import EmbreeAccelerator, QueryStats
 from course.core.types import Floats32, Floats64, Indices
-from course.radiosity.functions import Functions
-from course.radiosity.patches import Patches
+from course.radiosity.patches import Functions, Patches
 
 RAYS = 1 << 16
 """In a batch."""

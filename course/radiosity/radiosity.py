@@ -10,8 +10,7 @@ from course.building.materials import base_color
 from course.core.types import Mask
 from course.radiosity.accepting import check_accepted
 from course.radiosity.corners import at_corners
-from course.radiosity.functions import Functions
-from course.radiosity.patches import Patches, make_patches
+from course.radiosity.patches import Functions, Patches, make_patches
 from course.radiosity.solution import Solution
 from course.radiosity.solving import GATHERED, Report, Shooting, Solved, gathered
 from course.scene.scene import Scene

@@ -16,9 +16,8 @@ from numpy.typing import NDArray
 
 from course.core.types import Floats32, Floats64, Indices, Mask
 from course.errors import FunctionError
-from course.radiosity.functions import Functions
 from course.radiosity.hemicubes import Hemicube, Seen, Views, make_hemicube
-from course.radiosity.patches import Patches
+from course.radiosity.patches import Functions, Patches
 
 GATHERED = 1000
 """Triangles up to which all form factors are kept at once: 2000 x 2000 of them take 16 MB."""

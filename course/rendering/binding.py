@@ -1,7 +1,9 @@
-"""A tracer for a scene and the settings of one render, on whatever machine renders it."""
+"""A tracer for a scene and the settings of one render; functions that aren't written, and modules that it skips."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 
 from course.adaptive.costs import RowOfCosts
@@ -10,11 +12,12 @@ from course.core.film import Reconstruction
 from course.core.functions import Functions
 from course.core.tracer import Tracer
 from course.effects import Bound, Need
+from course.errors import EffectError, FunctionError
 from course.extras.path_tracing import PathIntegrator
 from course.extras.plan import plan
 from course.extras.samplers import FUNCTIONS, make_sampler
-from course.scene.scene import Scene
-from course.scene.settings import Settings
+from course.formats.yaml import description as d
+from course.scene.scene import Scene, Settings
 
 NARROWEST = 1e-6
 """Deviation [pixels] of a Gaussian that sees no sample beside the centre; the function is asked for no less."""
@@ -82,3 +85,50 @@ def needs_of(scene: Scene, settings: Settings) -> tuple[Need, ...]:
 
         subdivision.Functions(bound, settings.subdivision)
     return bound.needs
+
+
+@contextmanager
+def lines_named(scene: Scene, bound: Bound) -> Iterator[None]:
+    """Say of a function that fails, or isn't written yet, which line of the scene asks for it."""
+    where = scene.loaded.document.where
+    try:
+        yield
+    except FunctionError as error:
+        if (path := bound.asked_by(error.function)) is None:
+            raise
+        raise error.asked_by(where(path), path) from error.__cause__
+    except NotImplementedError as error:
+        function, folder = str(error).partition(":")[0], scene.effects.folder
+        if (path := bound.asked_by(function)) is None:
+            told = str(error) or "a function is not written yet"
+            raise EffectError(f"{told} (in {folder})") from error
+        file = folder / function.partition(".")[0]
+        unwritten = FunctionError(f"{error} ({file}.py)", function)
+        raise unwritten.asked_by(where(path), path) from error
+
+
+_REASONS = {
+    "supersampling": "one sample a pixel needs no mean, and this sampler none of its patterns",
+    "soft_shadows": "no light takes its points on a rectangle or in a ball",
+    "glossy": "no mirror is glossy by its functions",
+    "thin_lens": "the aperture is 0",
+    "motion_blur": "nothing moves while the shutter is open",
+    "cube_map": "the environment is no picture, or a black one",
+    "blurred_transparency": "no glass is rough",
+    "textures": "no surface shows a texture",
+    "bounding_volumes": "Embree answers the rays",
+    "importance_sampling": "no directions towards an environment are chosen by its functions",
+}
+
+
+def skipped_modules(needs: Iterable[Need], integrator: d.IntegratorDescription) -> dict[str, str]:
+    """Modules that are never imported for this scene, each with the reason."""
+    used = {need.function.partition(".")[0] for need in needs}
+    reasons = {module: reason for module, reason in _REASONS.items() if module not in used}
+    if "path_tracing" not in used:
+        reasons["path_tracing"] = (
+            "no path goes on from a diffuse surface"
+            if integrator.type == "path"
+            else "the integrator is the distribution ray tracer"
+        )
+    return reasons

@@ -9,10 +9,9 @@ import numpy as np
 from course.building.world import compile_camera
 from course.core.types import Indices
 from course.extras.hierarchy import HierarchyAccelerator
+from course.formats.pictures.display import heat_map
 from course.formats.pictures.files import save
-from course.formats.pictures.heat_map import heat_map
-from course.scene.scene import Scene
-from course.scene.settings import Settings
+from course.scene.scene import Scene, Settings
 
 BATCH = 16384
 """Rays that are asked at once."""

@@ -8,10 +8,9 @@ import numpy as np
 
 from course.building.materials import returned_share
 from course.formats.yaml.document import spell
-from course.rendering.binding import bind, needs_of
+from course.rendering.binding import bind, needs_of, skipped_modules
 from course.scene.darkness import why_dark
 from course.scene.scene import Scene
-from course.scene.skipped_modules import skipped_modules
 
 MOST_OBJECTS = 20
 """Objects that are listed one by one."""

@@ -1,17 +1,20 @@
-"""Pictures that are likely to be black, told before they are rendered.
+"""Pictures that are or are likely to be black, told before they are rendered.
 
-A few rays are sent from the eye, straight through the picture and all around. Two mistakes show in what they meet: the
-eye stands inside something solid, or what is seen and the lamps are turned away from each other. No function of a
-student is called, and where the rays leave any doubt nothing is said.
+Where nothing shines a picture is black for certain. Else a few rays are sent from the eye, straight through the picture
+and all around. Two mistakes show in what they meet: the eye stands inside something solid, or what is seen and the
+lamps are turned away from each other. No function of a student is called, and where the rays leave any doubt nothing is
+said.
 """
 
 from __future__ import annotations
 
 import warnings
 from pathlib import Path
+from typing import get_args
 
 import numpy as np
 
+from course.building.light_power import power
 from course.building.world import compile_camera
 from course.core.camera import Camera
 from course.core.embree import EmbreeAccelerator, QueryStats
@@ -28,8 +31,35 @@ from course.errors import CourseWarning
 from course.extras.mesh_light import MeshLight
 from course.extras.visible_sphere import VisibleSphereLight
 from course.extras.world import FullWorld
-from course.scene.lightless import why_black
+from course.formats.yaml import description as d
 from course.scene.scene import Scene
+
+
+def why_black(scene: Scene) -> str:
+    """Say why every picture of a scene is black for want of light; empty where there is some."""
+    world, lights = scene.compiled.world, scene.loaded.description.lights
+    seen = world.materials.ambient * world.ambient[:, None] + world.materials.emission
+    if world.lights or seen.any() or not world.environment.black:
+        return ""
+    if not lights:
+        kinds = ", ".join(str(kind.__struct_config__.tag) for kind in get_args(d.Light))
+        return (
+            "the picture will be black: the scene has no lights, and its environment is black; "
+            f"known are {kinds}, such as {{type: ambient, radiance: 1}}"
+        )
+    reasons = dict(world.skipped_lights)
+    for number, light in enumerate(lights):
+        if isinstance(light, d.AmbientLight):
+            dark = not power(light).any()
+            reasons[f"light {number}"] = (
+                "it has no power" if dark else "no material has an ambient term"
+            )
+    listed = [f"{name}: {reason}" for name, reason in list(reasons.items())[:3]]
+    return (
+        "the picture will be black: the environment is black, and no light shows anything "
+        f"({'; '.join(listed)}{'; ...' if len(reasons) > 3 else ''})"
+    )
+
 
 GRID = 12
 """Rays in each direction of the picture."""

@@ -1,4 +1,4 @@
-"""A scene, ready to be rendered as often and in as many ways as one likes."""
+"""A scene, ready to be rendered as often and in as many ways as one likes; and how it is to be rendered."""
 
 from __future__ import annotations
 
@@ -6,11 +6,35 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from course.building.world import Compiled, compile_scene
+from course.core import scene as core
 from course.effects import Effects
-from course.formats.pictures.exposure import Display
+from course.formats.pictures.display import SRGB, Display
 from course.formats.yaml.loading import Loaded, load_description
 from course.formats.yaml.overriding import Overrides
-from course.scene.settings import Settings, Subdivision
+
+
+@dataclass(frozen=True)
+class Subdivision:
+    """Where pixels are divided: ``threshold`` [radiance] between two corners, down to ``depth`` times."""
+
+    threshold: float
+    depth: int
+
+
+@dataclass(frozen=True)
+class Settings(core.Settings):
+    """How a scene is to be rendered.
+
+    Attributes
+    ----------
+    error : the root-mean-square error [radiance] at which sampling ends; None samples all pixels alike
+    display : how a PNG shows the picture
+    subdivision : rays through the corners of cells, which are divided by contrast; None takes samples in pixels
+    """
+
+    error: float | None = None
+    display: Display = SRGB
+    subdivision: Subdivision | None = None
 
 
 @dataclass(frozen=True)

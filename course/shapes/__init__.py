@@ -7,10 +7,8 @@ place have identical coordinates. Parameters out of range raise ValueError.
 
 from __future__ import annotations
 
-from course.shapes.capped import cone, cylinder
-from course.shapes.flat import box, disk, quad
-from course.shapes.spheres import displaced_sphere, sphere
-from course.shapes.terrain import height_field
+from course.shapes.curved import displaced_sphere, height_field, sphere
+from course.shapes.flat import box, cone, cylinder, disk, quad
 from course.shapes.tubes import torus, torus_knot
 
 __all__ = [

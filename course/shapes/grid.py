@@ -1,16 +1,63 @@
-"""Lattices of vertices: `across` cells along u, `up` cells along v, and circles that close exactly.
+"""What the shapes share: checked parameters, lattices, circles that close exactly, and meshes joined to one.
 
-Vertex (i, j) of a lattice has index j (across + 1) + i, and uv (i / across, j / up). Where u goes
-around, column `across` holds the very bits of column 0: it is a second vertex at the same place,
-for the sake of its uv, and a ray can't pass between the two.
+A check names the parameter, its value and its range. A lattice has `across` cells along u, `up` cells along v.
+Vertex (i, j) has index j (across + 1) + i, and uv (i / across, j / up). Where u goes around, column `across` holds the
+very bits of column 0: it is a second vertex at the same place, for the sake of its uv, and a ray can't pass between
+the two.
 """
 
 from __future__ import annotations
 
 import math
+import operator
+from collections.abc import Sequence
+from typing import SupportsFloat, SupportsIndex
 
 import numpy as np
 from numpy.typing import NDArray
+
+from course.core.triangles import Mesh
+
+# Between these bounds a length, its square and its reciprocal all fit a float64.
+SHORTEST = 1e-150
+LONGEST = 1e150
+
+
+def finite(name: str, value: SupportsFloat) -> float:
+    """Return `value` as a float; ValueError if it is infinite or not a number."""
+    number = float(value)
+    if not math.isfinite(number):
+        raise ValueError(f"{name} is {number}: expected a finite number")
+    return number
+
+
+def length(name: str, value: SupportsFloat) -> float:
+    """Return a length [m] > 0; ValueError if it isn't one, or beyond what float64 can square."""
+    number = finite(name, value)
+    if number <= 0.0:
+        raise ValueError(f"{name} is {number:g}: expected a number > 0")
+    if not SHORTEST <= number <= LONGEST:
+        raise ValueError(f"{name} is {number:g}: expected {SHORTEST:g} to {LONGEST:g}")
+    return number
+
+
+def at_least_zero(name: str, value: SupportsFloat, most: float = LONGEST) -> float:
+    """Return a number in [0, most]; ValueError otherwise."""
+    number = finite(name, value)
+    if not 0.0 <= number <= most:
+        raise ValueError(f"{name} is {number:g}: expected 0 to {most:g}")
+    return number
+
+
+def count(name: str, value: SupportsIndex, least: int, most: int) -> int:
+    """Return an integer in [least, most]; ValueError otherwise, a fraction or a truth value too."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise ValueError(f"{name} is {value!r}: expected a whole number") from None
+    if isinstance(value, bool) or not least <= number <= most:
+        raise ValueError(f"{name} is {value!r}: expected a whole number, {least} to {most}")
+    return number
 
 
 def lattice_triangles(across: int, up: int) -> NDArray[np.int32]:
@@ -41,3 +88,39 @@ def circle(segments: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
 def normalised(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return non-zero `vectors` (V, 3) at unit length."""
     return np.asarray(vectors / np.sqrt(np.sum(vectors * vectors, axis=1, keepdims=True)))
+
+
+def join(parts: Sequence[Mesh]) -> Mesh:
+    """Return one mesh of all `parts` in order; no vertex is merged with another.
+
+    Parts without uv get (0, 0) where others have some.
+
+    Raises
+    ------
+    ValueError
+        For no parts at all, or when only some of them have normals.
+    """
+    if not parts:
+        raise ValueError("no meshes to join")
+    if len(parts) == 1:
+        return parts[0]
+    first: NDArray[np.int64] = np.cumsum([0, *(len(part.vertices) for part in parts)])
+    normals = [part.normals for part in parts if part.normals is not None]
+    if normals and len(normals) != len(parts):
+        raise ValueError("some of the meshes to join have normals, some have none")
+    uv = None
+    if any(part.uv is not None for part in parts):
+        uv = np.concatenate(
+            [np.zeros((len(p.vertices), 2)) if p.uv is None else p.uv for p in parts]
+        )
+    # int64 only where it is needed: it doubles the memory of the triangles.
+    index = np.dtype(np.int32 if first[-1] <= np.iinfo(np.int32).max else np.int64)
+    triangles: NDArray[np.integer] = np.concatenate(
+        [(p.triangles + k).astype(index) for p, k in zip(parts, first[:-1], strict=True)]
+    )
+    return Mesh(
+        vertices=np.concatenate([part.vertices for part in parts]),
+        triangles=triangles,
+        normals=np.concatenate(normals) if normals else None,
+        uv=uv,
+    )

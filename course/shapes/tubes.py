@@ -13,8 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from course.core.triangles import Mesh
-from course.shapes.checks import count, length
-from course.shapes.grid import circle, lattice_triangles, lattice_uv, normalised
+from course.shapes.grid import circle, count, lattice_triangles, lattice_uv, length, normalised
 
 Array = NDArray[np.float64]
 

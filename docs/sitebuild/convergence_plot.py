@@ -12,9 +12,9 @@ from dataclasses import dataclass
 from html import escape
 from math import log, sqrt
 
+from course.benchmarking.labels import plain, powers_of_four, ticks
 from course.benchmarking.plot_data import Plot, Series
 from course.benchmarking.tables import digits
-from course.benchmarking.ticks import plain, powers_of_four, ticks
 
 WIDTH, HEIGHT = 340, 252
 TOP, BOTTOM, RIGHT = 26, 40, 14

@@ -15,7 +15,7 @@ import click
 from PIL import Image
 
 from course import load_scene, render
-from course.benchmarking.sources import engine_hash
+from course.benchmarking.references import engine_hash
 from course.effects import PROJECT, Effects
 from sitebuild import webp
 from sitebuild.key_headings import link

@@ -15,7 +15,7 @@ import click
 from PIL import Image
 
 from course.atomic import replacing
-from course.benchmarking.sources import engine_hash
+from course.benchmarking.references import engine_hash
 from course.effects import PROJECT, Effects
 from sitebuild import webp
 from sitebuild.place import Place

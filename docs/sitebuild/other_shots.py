@@ -14,7 +14,7 @@ from PIL import Image
 
 from course import load_scene, render
 from course.atomic import replacing
-from course.benchmarking.sources import engine_hash
+from course.benchmarking.references import engine_hash
 from course.effects import PROJECT, Effects
 from course.errors import SceneError
 from sitebuild import pictures, webp

@@ -10,8 +10,8 @@ from collections.abc import Iterable
 from html import escape
 from typing import Any
 
+from course.benchmarking.labels import plain, ticks
 from course.benchmarking.tables import digits
-from course.benchmarking.ticks import plain, ticks
 from course.effects import PROJECT
 from course.errors import CourseError
 from sitebuild.convergence_plot import LETTER, MARKS, WIDTH, Scale

@@ -12,7 +12,7 @@ import click
 
 from course import load_scene, render
 from course.atomic import replacing
-from course.benchmarking.sources import scene_hash
+from course.benchmarking.references import scene_hash
 from course.cli.tables import plain_text, receipt_sections
 from course.effects import PROJECT, Effects
 from course.formats.yaml.loading import Loaded, load_description

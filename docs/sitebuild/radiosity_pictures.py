@@ -134,7 +134,7 @@ def _kept(
 
 
 def _seen(solution: Solution, view: View) -> Image.Image:
-    from course.formats.pictures.srgb import linear_to_srgb8
+    from course.formats.pictures.display import linear_to_srgb8
     from course.radiosity.viewing import look
 
     return Image.fromarray(linear_to_srgb8(look(solution, view, *SIZE)))

@@ -10,7 +10,7 @@ import yaml
 from PIL import Image
 
 from course import render
-from course.benchmarking.sources import scene_hash
+from course.benchmarking.references import scene_hash
 from course.effects import PROJECT, Effects
 from course.formats.yaml.document import spell
 from course.formats.yaml.loading import Loaded, load_description

@@ -19,9 +19,8 @@ from benchmarks import (
     sampling,
     timing,
 )
-from course.benchmarking.convergence_data import comparisons
 from course.benchmarking.measuring import Effort
-from course.benchmarking.plot_data import Plot
+from course.benchmarking.plot_data import Plot, comparisons
 
 
 def test_a_warp_carries_evenness_over_and_rejection_does_not() -> None:

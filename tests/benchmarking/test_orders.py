@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy import stats
 
-from course.benchmarking.orders import Order, _quantile, fit_order
+from course.benchmarking.curves import Order, _quantile, fit_order
 
 SAMPLES = np.array([1, 4, 16, 64, 256, 1024], float)
 

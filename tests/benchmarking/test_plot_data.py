@@ -13,13 +13,16 @@ from hypothesis import strategies as st
 from benchmarks.curve_files import keep, publish
 from benchmarks.figures import Figure
 from benchmarks.ratios import write_ratios
-from course.benchmarking.convergence_data import STYLES, command, comparisons, record
 from course.benchmarking.measuring import FULL, QUICK, Effort
 from course.benchmarking.plot_data import (
+    STYLES,
     Plot,
     Record,
     Series,
+    command,
+    comparisons,
     read_records,
+    record,
     rounded,
     write_records,
 )

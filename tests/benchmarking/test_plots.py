@@ -11,10 +11,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from course.benchmarking.convergence_data import comparisons
 from course.benchmarking.estimators import BENCHED, Module
-from course.benchmarking.line_names import spread
+from course.benchmarking.labels import spread
 from course.benchmarking.measuring import Measured
+from course.benchmarking.plot_data import comparisons
 from course.benchmarking.plots import STYLE, check_matplotlib, draw, write_comparisons
 from course.errors import CourseError
 from tests.benchmarking.curves import curve, measured

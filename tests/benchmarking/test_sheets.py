@@ -13,7 +13,7 @@ from benchmarks import path_tracing, radiosity
 from benchmarks.picture_sheet import CAPTION, GAP, Cell, draw_sheet
 from course import load_scene, render
 from course.core.types import Floats32
-from course.formats.pictures.srgb import linear_to_srgb8
+from course.formats.pictures.display import linear_to_srgb8
 from course.radiosity.patches import Patches, make_patches
 from course.radiosity.radiosity import solve
 from course.radiosity.solution import Solution

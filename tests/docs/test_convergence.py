@@ -15,7 +15,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from course.benchmarking import ticks
+from course.benchmarking import labels
 from course.benchmarking.estimators import BENCHED, FURTHER_BENCHED
 from course.benchmarking.plot_data import Plot, Record, Series, write_records
 from course.benchmarking.tables import digits
@@ -91,13 +91,13 @@ PLOT = Plot("samplers", "two ways", AXES, "RMSE", (RANDOM, SOBOL), floor=0.002)
 def test_ticks_are_round(
     low: float, high: float, most: int, fours: bool, expected: list[float]
 ) -> None:
-    found = ticks.ticks(low, high, most, fours=fours)
+    found = labels.ticks(low, high, most, fours=fours)
     assert found == pytest.approx(expected)
 
 
 @given(st.floats(1e-9, 1e6), st.floats(1.5, 1e9), st.integers(3, 9), st.booleans())
 def test_ticks_lie_within_and_have_room(low: float, ratio: float, most: int, fours: bool) -> None:
-    found = ticks.ticks(low, low * ratio, most, fours=fours)
+    found = labels.ticks(low, low * ratio, most, fours=fours)
     assert found == sorted(set(found))
     assert len(found) <= most
     assert all(low <= tick <= low * ratio for tick in found)
@@ -107,13 +107,13 @@ def test_ticks_lie_within_and_have_room(low: float, ratio: float, most: int, fou
     ("value", "text"), [(0.01, "0.01"), (1.0, "1"), (0.00002, "0.00002"), (16384.0, "16,384")]
 )
 def test_numbers_are_plain(value: float, text: str) -> None:
-    assert ticks.plain(value) == text
+    assert labels.plain(value) == text
 
 
 def test_powers_of_four_are_known() -> None:
-    assert ticks.powers_of_four([1, 4, 1024])
-    assert not ticks.powers_of_four([1, 4, 8])
-    assert not ticks.powers_of_four([0.25, 1])
+    assert labels.powers_of_four([1, 4, 1024])
+    assert not labels.powers_of_four([1, 4, 8])
+    assert not labels.powers_of_four([0.25, 1])
 
 
 # ---------------------------------------------------------------- plots

@@ -10,8 +10,7 @@ from benchmarks import path_tracing, radiosity
 from benchmarks.mitsuba_agreement import BLOCK
 from course import load_scene
 from course.effects import PROJECT
-from course.radiosity.functions import Functions
-from course.radiosity.patches import make_patches
+from course.radiosity.patches import Functions, make_patches
 from course.radiosity.radiosity import PATCHES, TOLERANCE, solve
 from course.radiosity.solving import GATHERED, gathered
 from course.scene.scene import Scene

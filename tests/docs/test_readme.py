@@ -9,7 +9,7 @@ from PIL import Image
 
 from course import load_scene, render
 from course.effects import PROJECT
-from course.formats.pictures.srgb import linear_to_srgb8
+from course.formats.pictures.display import linear_to_srgb8
 
 SIZE = 60, 38
 

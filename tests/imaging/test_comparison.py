@@ -13,10 +13,10 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from course.comparing.blocks import divide
 from course.comparing.comparison import FLOAT_STEP, HALF_STEP, Comparison, compare
-from course.comparing.pixel_blocks import divide
 from course.errors import CourseError
-from course.formats.pictures.srgb import linear_to_srgb8, srgb_to_linear
+from course.formats.pictures.display import linear_to_srgb8, srgb_to_linear
 
 Array = NDArray[np.float64]
 Noise = Callable[[np.random.Generator], Array]

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from course.comparing.difference import NARROWEST, difference_picture
-from course.formats.pictures.srgb import linear_to_srgb8
+from course.formats.pictures.display import linear_to_srgb8
 
 
 def colours(a: NDArray[np.float32], b: NDArray[np.float32]) -> NDArray[np.int64]:

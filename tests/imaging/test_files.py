@@ -17,8 +17,8 @@ from PIL import Image
 
 from course.atomic import check_writable, replacing, write_text
 from course.errors import OutputError
+from course.formats.pictures.display import linear_to_srgb8
 from course.formats.pictures.files import check_picture_path, encode_png, save
-from course.formats.pictures.srgb import linear_to_srgb8
 
 Linear = NDArray[np.float32]
 

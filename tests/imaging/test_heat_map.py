@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from course.formats.pictures.heat_map import heat_map
+from course.formats.pictures.display import heat_map
 
 
 def lightness(linear: NDArray[np.float32]) -> NDArray[np.float64]:

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from course.formats.pictures import srgb
-from course.formats.pictures.srgb import linear_to_srgb8
+from course.formats.pictures import display
+from course.formats.pictures.display import linear_to_srgb8
 
 
 def exact_code(x: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -63,7 +63,7 @@ def test_channels_and_rows_keep_their_places() -> None:
 def test_blocks_leave_no_seam(values: int, monkeypatch: pytest.MonkeyPatch) -> None:
     linear = np.random.default_rng(1).random((3, 11, 5), np.float32)
     whole = linear_to_srgb8(linear)
-    monkeypatch.setattr(srgb, "BLOCK_VALUES", values)
+    monkeypatch.setattr(display, "BLOCK_VALUES", values)
     np.testing.assert_array_equal(linear_to_srgb8(linear), whole)
 
 

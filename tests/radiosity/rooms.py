@@ -8,10 +8,9 @@ from typing import Any
 import numpy as np
 
 from course import shapes
-from course.building.bisection import undivided
+from course.building.cutting import undivided
 from course.effects import PROJECT, Effects
-from course.radiosity.functions import Functions
-from course.radiosity.patches import Patches
+from course.radiosity.patches import Functions, Patches
 
 FUNCTIONS = Functions(Effects(PROJECT / "solutions"))
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from course.building.bisection import Triangles, bisected
+from course.building.cutting import Triangles, bisected
 from course.radiosity.corners import at_corners
 from course.radiosity.patches import Patches
 from tests.radiosity.test_patches import square

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from course.building.bisection import Triangles, bisected, undivided
+from course.building.cutting import Triangles, bisected, undivided
 from course.effects import PROJECT
 from course.errors import SceneError
 from course.radiosity.patches import make_patches

@@ -12,9 +12,8 @@ from course.core.types import Floats32
 from course.effects import PROJECT, Effects
 from course.errors import FunctionError, SceneError
 from course.radiosity.corners import at_corners
-from course.radiosity.functions import Functions
 from course.radiosity.hemicubes import Views, make_hemicube
-from course.radiosity.patches import Patches, make_patches
+from course.radiosity.patches import Functions, Patches, make_patches
 from course.radiosity.radiosity import chosen_patches, solve, solve_patches
 from course.radiosity.solving import Shooting, form_factors, gathered, with_ambient
 from course.scene.scene import load_scene

@@ -32,7 +32,7 @@ from course.errors import CourseError, EffectError
 from course.formats.meshes.files import save_ply
 from course.formats.pictures.files import save
 from course.modules import MODULES
-from course.shapes.spheres import sphere
+from course.shapes.curved import sphere
 from tests.dask_cluster import Cluster
 
 EveryStage = Callable[..., Scene]

@@ -14,7 +14,7 @@ from course.core.threads import InOrder
 from course.core.tiles import RAYS
 from course.effects import PROJECT
 from course.extras.samplers.sobol import SobolSampler
-from course.scene.settings import Settings
+from course.scene.scene import Settings
 
 WIDTH, HEIGHT, SAMPLES = 1000, 800, 64
 

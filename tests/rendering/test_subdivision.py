@@ -18,7 +18,7 @@ from course.core.passes import Work
 from course.core.threads import Pool
 from course.effects import PROJECT, Bound, Effects
 from course.rendering.summary import summarize
-from course.scene.settings import Subdivision
+from course.scene.scene import Subdivision
 
 MakeScene = Callable[..., Scene]
 

@@ -9,7 +9,7 @@ import pytest
 
 from course import Scene, render
 from course.rendering.summary import summarize
-from course.scene.lightless import why_black
+from course.scene.darkness import why_black
 
 MakeScene = Callable[..., Scene]
 

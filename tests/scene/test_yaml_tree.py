@@ -10,10 +10,8 @@ import pytest
 import yaml
 
 from course.errors import SceneError
-from course.formats.yaml import tree as yaml_tree
-from course.formats.yaml import tree_builder
-from course.formats.yaml.document import Document, show, spell
-from course.formats.yaml.suggestions import suggest
+from course.formats.yaml import tree
+from course.formats.yaml.document import Document, show, spell, suggest
 from course.formats.yaml.tree import parse_document, read_document
 
 
@@ -23,7 +21,7 @@ def parse(
 ) -> Callable[..., Document]:
     """The same laws hold with PyYAML's C parser and, where that is missing, with its Python one."""
     if request.param == "Python":
-        monkeypatch.setattr(yaml_tree, "_Loader", yaml.SafeLoader)
+        monkeypatch.setattr(tree, "_Loader", yaml.SafeLoader)
     elif not hasattr(yaml, "CSafeLoader"):
         pytest.skip("PyYAML without libyaml")
 
@@ -196,7 +194,7 @@ def test_a_bomb_is_refused_within_little_memory(bomb: str, words: str) -> None:
 
 
 def test_many_values_without_aliases_are_refused_too(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(tree_builder, "MOST_VALUES", 100)
+    monkeypatch.setattr(tree, "MOST_VALUES", 100)
     parse_document(b"a: [" + b"1," * 90 + b"]", "a.yaml")
     with pytest.raises(SceneError, match="too many"):
         parse_document(b"a: [" + b"1," * 110 + b"]", "a.yaml")
@@ -206,7 +204,7 @@ def test_many_values_without_aliases_are_refused_too(monkeypatch: pytest.MonkeyP
 
 
 def test_a_file_over_the_limit_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(yaml_tree, "LARGEST_SCENE", 2**20)
+    monkeypatch.setattr(tree, "LARGEST_SCENE", 2**20)
     path = tmp_path / "large.yaml"
     path.write_bytes(b"#" * 2**20)
     with pytest.raises(SceneError, match="empty"):

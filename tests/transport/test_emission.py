@@ -69,7 +69,7 @@ def test_the_distribution_ray_tracer_lights_nothing_by_it(make_scene: MakeScene)
 
 
 def test_a_scene_that_only_glows_is_not_said_to_be_black(make_scene: MakeScene) -> None:
-    from course.scene.lightless import why_black
+    from course.scene.darkness import why_black
 
     assert why_black(over_a_floor(make_scene, [panel()], [], PATHS)) == ""
     black = {"floor": {}, "panel": {"emission": 0}}

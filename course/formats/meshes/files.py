@@ -15,20 +15,14 @@ from numpy.typing import NDArray
 from course.atomic import replacing
 from course.core.triangles import Mesh
 from course.errors import CourseWarning, GeometryError
-from course.formats.meshes.formats import Part, parse_stl
 from course.formats.meshes.glb import parse_glb
 from course.formats.meshes.obj import parse_obj
+from course.formats.meshes.parts import Part, parse_stl, same
 from course.formats.meshes.ply import parse_ply
-from course.formats.meshes.smooth_normals import (
-    area_normals,
-    edges_and_faces,
-    smooth_normals,
-    unit,
-)
+from course.formats.meshes.smooth_normals import area_normals, edges_and_faces, smooth_normals, unit
 from course.formats.meshes.transforms import apply
-from course.formats.meshes.welding import same
 from course.inputs import LARGEST_DATA, Bound, read_input, shown
-from course.shapes.joining import join
+from course.shapes.grid import join
 
 FORMATS = {".ply": parse_ply, ".obj": parse_obj, ".stl": parse_stl, ".glb": parse_glb}
 

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from course.formats.meshes.formats import Part, part_of
+from course.formats.meshes.parts import Part, part_of
 
 UV = "_TEXCOORD_0"
 POINTS_AND_LINES = range(4)

@@ -18,10 +18,7 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from course.formats.meshes.formats import Array, Part
-from course.formats.meshes.polygons import Lists, fans, runs, too_few
-from course.formats.meshes.welding import same
-from course.formats.meshes.words import numbers, real
+from course.formats.meshes.parts import Array, Lists, Part, fans, numbers, real, runs, same, too_few
 
 _NAMES = ("int8", "uint8", "int16", "uint16", "int32", "uint32", "float32", "float64")
 _OLD = ("char", "uchar", "short", "ushort", "int", "uint", "float", "double")

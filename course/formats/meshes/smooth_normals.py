@@ -12,7 +12,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from course.formats.meshes.welding import same
+from course.formats.meshes.parts import same
 
 CREASE_DEGREES = 40.0
 

@@ -10,8 +10,7 @@ from typing import Any
 import numpy as np
 
 from course.core.types import Floats64
-from course.formats.metu.element import Element
-from course.formats.metu.notes import Notes
+from course.formats.metu.element import Element, Notes
 from course.formats.metu.transformations import matrix_of, point
 from course.formats.yaml.consistency import sine
 from course.formats.yaml.description import LARGEST_SIDE, MOST_SAMPLES

@@ -13,12 +13,10 @@ import yaml
 from course.atomic import write_text
 from course.errors import SceneError
 from course.formats.metu.cameras import MetuCamera, read_cameras
-from course.formats.metu.element import Element
+from course.formats.metu.element import Element, Notes
 from course.formats.metu.lights import read_lights
 from course.formats.metu.materials import material_name, read_materials
-from course.formats.metu.mesh_table import MeshTable
-from course.formats.metu.meshes import read_vertices
-from course.formats.metu.notes import Notes
+from course.formats.metu.meshes import MeshTable, read_vertices
 from course.formats.metu.objects import Objects
 from course.formats.metu.reading import read_elements
 from course.formats.metu.transformations import read_steps

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from course.formats.metu.element import Element
-from course.formats.metu.notes import Notes
+from course.formats.metu.element import Element, Notes
 
 TYPES = ("mirror", "conductor", "dielectric")
 

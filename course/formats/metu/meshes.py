@@ -1,17 +1,27 @@
-"""`VertexData` and `Faces`: the triangles of meshes that stand in the scene file, and the files of those that don't."""
+"""The meshes of a METU scene: `VertexData` and `Faces`, the files that it names, and planes as squares.
+
+A plane is a square so large that its edges are as good as the horizon, around the middle of everything else, and rings
+about it, each twice as wide as the one inside. Triangles close by are small, so that rays leave them as they would
+leave any floor, and those far off are large.
+"""
 
 from __future__ import annotations
 
 import os
+from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any, Final
 
 import numpy as np
 
+from course.atomic import make_folder
 from course.core.triangles import Mesh
 from course.core.types import Floats64, Indices
-from course.errors import SceneError
+from course.errors import GeometryError, SceneError
+from course.formats.meshes.files import read_mesh, save_ply
 from course.formats.meshes.smooth_normals import area_normals
-from course.formats.metu.element import Element
+from course.formats.metu.element import Element, Notes
+from course.formats.metu.lights import tangents
 from course.formats.yaml.document import show
 from course.inputs import LARGEST_DATA, Bound, opened
 
@@ -86,3 +96,128 @@ def has_normals(path: Path) -> bool:
         header = stream.read(LONGEST_HEADER).partition(b"end_header")[0]
     names = {line.split()[-1] for line in header.splitlines() if line.startswith(b"property ")}
     return {b"nx", b"ny", b"nz"} <= names
+
+
+@dataclass
+class MeshTable:
+    """Meshes by their file's name as seen from the converted scene; nothing is written before `write`.
+
+    Attributes
+    ----------
+    target : folder of the converted scene
+    folder : name of the folder beside it for meshes that the scene holds itself
+    notes : what there is to say about them
+    vertices : of each mesh by its name, (V, 3) float64
+    """
+
+    target: Path
+    folder: str
+    notes: Notes
+    vertices: dict[str, Floats64] = field(default_factory=dict)
+    _named_by: dict[str, Element] = field(default_factory=dict)
+    _own: dict[str, Mesh] = field(default_factory=dict)
+
+    def add_file(self, file: Path, faces: Element) -> str:
+        """Read a file that an element names, once; its name. One that can't be used is told where it is named."""
+        name = self._name(file)
+        if name not in self._named_by:
+            try:
+                # Its normals aren't looked at here, and these are the quicker ones.
+                mesh = read_mesh(file, "area")
+            except GeometryError as error:
+                raise faces.error(f"plyFile can't be used: {error}") from None
+            self._check_area(mesh, faces)
+            self.vertices[name] = mesh.vertices
+            self._named_by[name] = faces
+        return name
+
+    def add_own(self, mesh: Mesh, stem: str, source: Element) -> str:
+        """Take a mesh that an element of the scene holds; its name, of that stem."""
+        name = f"{self.folder}/{stem}.ply"
+        self._check_area(mesh, source)
+        self._own[name], self.vertices[name] = mesh, mesh.vertices
+        return name
+
+    def write(self) -> None:
+        """Write the meshes that the scene holds.
+
+        Raises
+        ------
+        SceneError
+            A file that the scene names would be lost.
+        OutputError
+            A file can't be written.
+        """
+        for name in self._own:
+            if name in self._named_by:
+                raise self._named_by[name].error(
+                    f"plyFile is {name}, which the conversion would write over:"
+                    " give another name to it, or to the converted scene"
+                )
+        for name, mesh in self._own.items():
+            path = self.target / name
+            make_folder(path.parent)
+            save_ply(mesh, path)
+
+    def _check_area(self, mesh: Mesh, source: Element) -> None:
+        p0, p1, p2 = (mesh.vertices[mesh.triangles[:, k]] for k in range(3))
+        if not np.cross(p1 - p0, p2 - p0).any():
+            self.notes.add(source, "has no triangle with an area: nothing of it can be seen")
+
+    def _name(self, path: Path) -> str:
+        try:
+            return Path(os.path.relpath(path.resolve(), self.target.resolve())).as_posix()
+        except ValueError:  # on another drive
+            return path.resolve().as_posix()
+
+
+RINGS: Final = 12
+"""The outermost is 2^12 times as far away as the farthest thing in the scene.
+
+From a camera as high as the scene is large it ends 1/4096 rad below the horizon.
+"""
+
+CORNERS: Final = ((-1, -1), (1, -1), (1, 1), (-1, 1))
+"""Counter-clockwise about the normal."""
+
+
+def plane_mesh(point: Floats64, normal: Floats64, others: Floats64) -> Mesh:
+    """The square of a plane.
+
+    Parameters
+    ----------
+    point, normal : (3,), of any length
+    others : (N, 3) corners of everything else in the scene, cameras among it
+    """
+    normal = normal / np.abs(normal).max()
+    normal = normal / np.linalg.norm(normal)
+    middle = (others.min(axis=0) + others.max(axis=0)) / 2 if len(others) else point
+    # The square's middle is below the scene's: the compiled scene, which lies about its own middle, keeps its digits.
+    center = middle - normal * float(normal @ (middle - point))
+    half = float(np.linalg.norm(others - center, axis=1).max()) if len(others) else 0.0
+    half = half or 1.0
+    u, v = tangents(normal)
+    squares = [
+        center + half * 2.0**ring * (a * u + b * v) for ring in range(RINGS + 1) for a, b in CORNERS
+    ]
+    triangles = [(0, 1, 2), (0, 2, 3)]
+    for ring in range(RINGS):
+        for k in range(4):
+            a, b = 4 * ring + k, 4 * ring + (k + 1) % 4
+            triangles += [(a, a + 4, b + 4), (a, b + 4, b)]
+    return Mesh(np.array(squares), np.array(triangles, np.int32), None)
+
+
+def corners_of_all(meshes: list[tuple[Floats64, dict[str, Any]]]) -> Floats64:
+    """Corners (N, 3) of the boxes around vertices, where they start and where their objects' motion takes them.
+
+    Parameters
+    ----------
+    meshes : vertices (V, 3) where the scene has them, and the keys of their object
+    """
+    found = []
+    for vertices, thing in meshes:
+        low, high = vertices.min(axis=0), vertices.max(axis=0)
+        ends = np.array(np.meshgrid(*np.stack((low, high), axis=1))).reshape(3, 8).T
+        found += [ends, ends + thing.get("motion", {}).get("velocity", 0.0)]
+    return np.concatenate(found) if found else np.zeros((0, 3))

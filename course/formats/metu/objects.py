@@ -17,24 +17,23 @@ import numpy as np
 
 from course.core.triangles import Mesh
 from course.core.types import Floats64, Indices
-from course.formats.metu.element import Element
+from course.formats.metu.element import Element, Notes
 from course.formats.metu.materials import material_name
-from course.formats.metu.mesh_table import MeshTable
 from course.formats.metu.meshes import (
+    MeshTable,
     check_indices,
     corners_of,
+    corners_of_all,
     has_normals,
     inline_mesh,
     mesh_file,
+    plane_mesh,
     vertex_offset,
 )
-from course.formats.metu.notes import Notes
-from course.formats.metu.planes import corners_of_all, plane_mesh
 from course.formats.metu.transformations import matrix_of, matrix_of_steps, transform_of
 from course.formats.metu.transformations import normal as transformed_normal
 from course.formats.metu.transformations import point as moved
-from course.formats.yaml.document import show
-from course.formats.yaml.suggestions import suggest
+from course.formats.yaml.document import show, suggest
 
 SEGMENTS = ((8, 512), (32, 256), (128, 128))
 """Spheres a scene may have at most for so many flat pieces around each: a million triangles, or two, in all."""

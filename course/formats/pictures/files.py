@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from course.atomic import check_writable, replacing
 from course.errors import OutputError
-from course.formats.pictures.exposure import SRGB, Display
+from course.formats.pictures.display import SRGB, Display
 
 if TYPE_CHECKING:
     from PIL import Image, PngImagePlugin

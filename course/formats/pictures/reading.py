@@ -15,7 +15,7 @@ import numpy as np
 
 from course.core.types import Floats32
 from course.errors import SceneError
-from course.formats.pictures.srgb import srgb_to_linear
+from course.formats.pictures.display import srgb_to_linear
 from course.inputs import LARGEST_DATA, MOST_PIXELS, Bound, opened, shown
 
 if TYPE_CHECKING:

@@ -15,7 +15,7 @@ from msgspec import inspect
 
 from course.errors import SceneError
 from course.formats.yaml.description import STEP
-from course.formats.yaml.document import Document, Key, KeyPath
+from course.formats.yaml.document import Document, Key, KeyPath, suggest
 from course.formats.yaml.expected import (
     EXAMPLES,
     describe,
@@ -24,7 +24,6 @@ from course.formats.yaml.expected import (
     item_type,
     meant_by,
 )
-from course.formats.yaml.suggestions import suggest
 
 Described = TypeVar("Described")
 

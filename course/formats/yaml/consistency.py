@@ -15,9 +15,8 @@ from course.core.types import Floats64
 from course.errors import SceneError
 from course.formats.yaml import description as d
 from course.formats.yaml.description import MOST_KNOT_SEGMENTS, Vector, rgb
-from course.formats.yaml.document import Document, KeyPath
+from course.formats.yaml.document import Document, KeyPath, suggest
 from course.formats.yaml.object_lights import check_object_lights
-from course.formats.yaml.suggestions import suggest
 from course.formats.yaml.surroundings import check_surroundings, in_its_surroundings
 
 # Below these sines two directions are held to be one: a picture turned by a rounding error, or a

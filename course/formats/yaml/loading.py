@@ -1,16 +1,20 @@
-"""A scene file, read and checked: YAML -> Document -> SceneDescription."""
+"""A scene file, read and checked: YAML -> Document -> SceneDescription; and pictures it names, within its bounds."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
 
+from course.core.types import Floats32
+from course.errors import SceneError
+from course.formats.pictures.reading import read_picture
 from course.formats.yaml.checking import convert
 from course.formats.yaml.consistency import check_consistency
-from course.formats.yaml.description import SceneDescription
-from course.formats.yaml.document import Document
+from course.formats.yaml.description import LimitsDescription, SceneDescription
+from course.formats.yaml.document import Document, KeyPath
 from course.formats.yaml.overriding import Overrides, override
 from course.formats.yaml.tree import read_document
+from course.inputs import Bound
 
 
 @dataclass(frozen=True)
@@ -56,3 +60,24 @@ def load_description(path: Path, overrides: Overrides | None = None) -> Loaded:
     description = convert(document, SceneDescription)
     check_consistency(description, document)
     return Loaded(description, document, path)
+
+
+def bytes_of_files(document: Document) -> Bound:
+    """The most bytes of a mesh or picture that a checked scene allows."""
+    return _bound(document, "bytes")
+
+
+def read_named_picture(file: str, path: KeyPath, loaded: Loaded) -> Floats32:
+    """A picture that a scene names as linear RGB, (H, W, 3); SceneError by the key that names it."""
+    document = loaded.document
+    try:
+        return read_picture(
+            loaded.path.parent / file, bytes_of_files(document), _bound(document, "pixels")
+        )
+    except SceneError as error:
+        raise document.error(path, str(error)) from error
+
+
+def _bound(document: Document, key: str) -> Bound:
+    given = document.data.get("limits", {})
+    return Bound(given.get(key, getattr(LimitsDescription(), key)), f"limits.{key}")

@@ -5,8 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from course.formats.yaml.description import ObjectLight, SceneDescription, rgb
-from course.formats.yaml.document import Document
-from course.formats.yaml.suggestions import suggest
+from course.formats.yaml.document import Document, suggest
 
 
 def check_object_lights(description: SceneDescription, document: Document) -> None:

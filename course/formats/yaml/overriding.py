@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from course.formats.yaml.document import Document, Key, KeyPath, Lines
-from course.formats.yaml.suggestions import suggest
+from course.formats.yaml.document import Document, Key, KeyPath, Lines, suggest
 
 Overrides = Mapping[KeyPath, Any]
 """Key path -> the value that stands there instead, as YAML would give it: maps, lists, texts, numbers."""

@@ -17,8 +17,7 @@ import numpy as np
 from course.core.types import Floats64, Media
 from course.errors import CourseWarning
 from course.formats.yaml.description import MaterialDescription, SceneDescription
-from course.formats.yaml.document import Document
-from course.formats.yaml.suggestions import suggest
+from course.formats.yaml.document import Document, suggest
 
 if TYPE_CHECKING:
     # The core imports embreex, which a scene that is only read needs not.

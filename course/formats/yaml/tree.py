@@ -1,23 +1,228 @@
 """From YAML text to a Document, for text that nobody has reason to trust.
 
-PyYAML only splits the text into events, from which `tree_builder` makes the tree. PyYAML's own
+PyYAML only splits the text into events, from which `TreeBuilder` makes the tree, within bounds. PyYAML's own
 loaders resolve words by YAML 1.1, let a later key silently replace an earlier one, forget line
 numbers, recurse once for each level of nesting, and follow aliases and tags wherever they lead.
+Aliases share their value here, so that the tree grows with the file and not with its expansion; how
+large it would be with every alias written out is only counted.
 """
 
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
 import yaml
 
 from course.errors import SceneError
-from course.formats.yaml.document import Document, show
-from course.formats.yaml.suggestions import suggest
-from course.formats.yaml.tree_builder import TreeBuilder
+from course.formats.yaml.document import Document, Key, Lines, show, spell, suggest
+from course.formats.yaml.scalars import resolve
 from course.inputs import LARGEST_SCENE, Bound, read_input, shown
+
+MOST_VALUES: Final = 1_000_000  # counted with every alias written out
+DEEPEST: Final = 64
+
+_MERGE = object()
+
+
+@dataclass(frozen=True)
+class _Built:
+    """A finished value; size and height count it with every alias written out."""
+
+    value: Any
+    size: int = 1
+    height: int = 0
+
+
+@dataclass
+class _Open:
+    """A map or list whose end has not been read yet."""
+
+    value: Any
+    lines: Lines
+    line: int
+    anchor: str | None
+    size: int = 1
+    height: int = 1
+    key: Any = None
+    merged: list[dict[str, Any]] = field(default_factory=list)
+
+    def position(self) -> Key | None:
+        """Key of the value that comes next."""
+        return len(self.value) if isinstance(self.value, list) else self.key
+
+
+class TreeBuilder:
+    """Takes the events of one YAML stream; holds the tree when all are taken.
+
+    Attributes
+    ----------
+    root : object
+        The whole tree; None for an empty file.
+    root_line : int
+        Line on which it starts.
+    lines : dict
+        For the id of each map or list, the lines of its keys or items (see `Document`).
+    """
+
+    def __init__(self, file: str) -> None:
+        self.file = file
+        self.root: Any = None
+        self.root_line = 1
+        self.lines: dict[int, Lines] = {}
+        self._documents = 0
+        self._values = 0
+        self._open: list[_Open] = []
+        self._anchors: dict[str, _Built] = {}
+
+    def take(self, event: Any) -> None:
+        """Add what one event of `yaml.parse` says.
+
+        Raises
+        ------
+        SceneError
+            For a repeated key, a tag, a number out of bounds, an alias without anchor, a second
+            document, or too many values.
+        """
+        line = event.start_mark.line + 1
+        if (tag := getattr(event, "tag", None)) is not None:
+            name = show(tag.replace("tag:yaml.org,2002:", "!!"))[1:-1]
+            raise self._error(line, f"tag {name} is refused: a scene file holds plain data only")
+        match event:
+            case yaml.DocumentStartEvent():
+                self._documents += 1
+                if self._documents > 1:
+                    raise self._error(line, "a second document starts: expected one scene a file")
+            case yaml.ScalarEvent():
+                self._add(self._scalar(event, line), line, event.anchor)
+            case yaml.AliasEvent():
+                self._add(self._alias(str(event.anchor), line), line, None)
+            case yaml.MappingStartEvent():
+                self._start(_Open({}, {}, line, event.anchor))
+            case yaml.SequenceStartEvent():
+                self._start(_Open([], [], line, event.anchor))
+            case yaml.MappingEndEvent() | yaml.SequenceEndEvent():
+                self._end()
+
+    def _scalar(self, event: yaml.ScalarEvent, line: int) -> _Built:
+        if not event.implicit[0]:
+            return _Built(event.value)
+        if self._expects_key() and event.value == "<<":
+            return _Built(_MERGE)
+        try:
+            return _Built(resolve(event.value))
+        except ValueError as error:
+            path = spell(self._path())
+            shown = show(event.value)[1:-1]
+            raise self._error(line, f"{path} is {shown}: expected {error}") from None
+
+    def _alias(self, name: str, line: int) -> _Built:
+        if any(frame.anchor == name for frame in self._open):
+            raise self._error(line, f"alias *{show(name)[1:-1]} stands inside its own anchor")
+        if name not in self._anchors:
+            raise self._error(line, f"alias *{show(name)[1:-1]} has no anchor before it")
+        return self._anchors[name]
+
+    def _start(self, frame: _Open) -> None:
+        if self._expects_key():
+            raise self._error(frame.line, f"a key of {self._place()} is {_container(frame.value)}")
+        self._check_depth(1, frame.line)
+        self._open.append(frame)
+
+    def _end(self) -> None:
+        frame = self._open.pop()
+        for source in frame.merged:
+            lines: Any = self.lines[id(source)]
+            for key, value in source.items():
+                if key not in frame.value:
+                    frame.value[key] = value
+                    frame.lines[key] = lines[key]  # type: ignore[call-overload]
+        self.lines[id(frame.value)] = frame.lines
+        built = _Built(frame.value, frame.size, frame.height)
+        self._add(built, frame.line, frame.anchor)
+
+    def _add(self, built: _Built, line: int, anchor: str | None) -> None:
+        self._count(line)
+        self._check_depth(built.height, line)
+        if anchor is not None:
+            self._anchors[anchor] = built
+        if not self._open:
+            self.root, self.root_line = built.value, line
+            return
+        frame = self._open[-1]
+        if self._expects_key():
+            self._set_key(frame, built.value, line)
+            return
+        frame.size += built.size
+        frame.height = max(frame.height, built.height + 1)
+        if frame.size > MOST_VALUES:
+            raise self._too_many(line)
+        if isinstance(frame.value, list):
+            frame.value.append(built.value)
+            frame.lines.append(line)  # type: ignore[union-attr]
+            return
+        if frame.key is _MERGE:
+            frame.merged += self._sources(built.value, line)
+        else:
+            frame.value[frame.key] = built.value
+        frame.key = None
+
+    def _set_key(self, frame: _Open, key: object, line: int) -> None:
+        if key is not _MERGE and not isinstance(key, str):
+            raise self._error(
+                line, f"a key of {self._place()} is {show(key)}: expected text; put it in quotes"
+            )
+        name: Any = "<<" if key is _MERGE else key
+        lines: Any = frame.lines
+        if name in lines:
+            frame.key = name
+            raise self._error(line, f"{spell(self._path())}: already given on line {lines[name]}")
+        lines[name] = line
+        frame.key = key
+
+    def _sources(self, value: object, line: int) -> list[dict[str, Any]]:
+        sources: list[Any] = value if isinstance(value, list) else [value]
+        if not all(isinstance(source, dict) for source in sources):
+            raise self._error(
+                line, f"<< in {self._place()} is {show(value)}: expected a map to merge"
+            )
+        return sources
+
+    def _expects_key(self) -> bool:
+        frame = self._open[-1] if self._open else None
+        return frame is not None and isinstance(frame.value, dict) and frame.key is None
+
+    def _path(self) -> tuple[Key, ...]:
+        keys = [frame.position() for frame in self._open]
+        return tuple("<<" if key is _MERGE else key for key in keys if key is not None)
+
+    def _place(self) -> str:
+        return spell(tuple(key for key in self._path() if key != "<<"))
+
+    def _count(self, line: int) -> None:
+        # The size of a map or list counts only once it ends; this also bounds what is still open.
+        self._values += 1
+        if self._values > MOST_VALUES:
+            raise self._too_many(line)
+
+    def _too_many(self, line: int) -> SceneError:
+        return self._error(
+            line, f"more than {MOST_VALUES:,} values with all aliases written out: too many"
+        )
+
+    def _check_depth(self, height: int, line: int) -> None:
+        if len(self._open) + height > DEEPEST:
+            raise self._error(line, f"nested more than {DEEPEST} levels deep: too deep for a scene")
+
+    def _error(self, line: int, message: str) -> SceneError:
+        return SceneError(f"{self.file}:{line}: {message}")
+
+
+def _container(value: object) -> str:
+    return "a list" if isinstance(value, list) else "a map"
+
 
 _NOT_TEXT = re.compile("[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 _SCENE_KEYS = "keys such as camera, materials, lights and objects"

@@ -14,7 +14,7 @@ from importlib.resources import files
 import numpy as np
 from scipy.special import stdtrit
 
-from course.formats.pictures.srgb import linear_to_srgb8
+from course.formats.pictures.display import linear_to_srgb8
 from course.grading.checks.check import Array, Failure
 
 BIAS_FALSE_FAIL = 1e-6

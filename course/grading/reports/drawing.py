@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from course.core.types import Floats64
-from course.formats.pictures.srgb import linear_to_srgb8
+from course.formats.pictures.display import linear_to_srgb8
 from course.grading.checks.check import Array, Figure
 
 WORST = 12

@@ -19,7 +19,7 @@ import numpy as np
 from PIL import Image, ImageDraw
 
 from course.atomic import replacing
-from course.benchmarking.sources import engine_hash
+from course.benchmarking.references import engine_hash
 from course.effects import PROJECT
 from course.errors import CourseError
 from sitebuild import webp

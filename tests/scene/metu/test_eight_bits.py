@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from course.effects import Effects
-from course.formats.pictures.exposure import SRGB, Display
-from course.formats.pictures.srgb import linear_to_srgb8
+from course.formats.pictures.display import SRGB, Display, linear_to_srgb8
 
 METU = Display(255.0, "linear")
 

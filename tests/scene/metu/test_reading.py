@@ -11,8 +11,7 @@ import pytest
 
 from course.errors import SceneError
 from course.formats.metu.converting import convert
-from course.formats.metu.element import Element
-from course.formats.metu.notes import Notes
+from course.formats.metu.element import Element, Notes
 from tests.scene.metu.conftest import CAMERA, MATT, Metu, Tree, tree, write
 
 Change = Callable[[Tree], Any]

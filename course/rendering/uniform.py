@@ -1,4 +1,4 @@
-"""The modes of uniform sampling, which may go on from a picture with fewer samples."""
+"""Uniform sampling: it may go on from a picture with fewer samples, and fit as many passes as a time limit allows."""
 
 from __future__ import annotations
 
@@ -6,14 +6,35 @@ from dataclasses import replace
 from functools import partial
 
 from course.core.film import Film
-from course.core.passes import kept_samples
-from course.core.render import UniformSchedule
+from course.core.passes import kept_samples, pass_size, preview
+from course.core.render import Run, UniformSchedule
 from course.core.samplers import Sampler
+from course.core.threads import Executor
 from course.core.tracer import Tracer
 from course.effects import Bound
 from course.errors import CourseError
 from course.jobs.job import Job, Mode
-from course.rendering.time_limit import TimedSchedule
+
+
+class TimedSchedule(UniformSchedule):
+    """Uniform passes until the executor's deadline."""
+
+    def render(self, run: Run, executor: Executor) -> bool:
+        """See ``Schedule``."""
+        settings = self._tracer.settings
+        size = pass_size(settings, self._tracer.sampler)
+        for quick in (1, 4):
+            # Where a whole pass surely fits, a preview only costs.
+            if size <= quick or self._done:
+                break
+            before = executor.seconds_left
+            run(preview(settings, quick), 0.0, 0.0)
+            if executor.interrupted:
+                return False
+            seconds = before - executor.seconds_left
+            if seconds * size / quick < 0.5 * executor.seconds_left:
+                break
+        return run(self._passes(executor))
 
 
 def make(

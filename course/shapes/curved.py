@@ -1,4 +1,4 @@
-"""Spheres in circles of latitude, smooth or displaced by waves; y is the axis.
+"""Spheres, smooth or displaced by random waves, and hills of such waves over the xz plane; y is the axis.
 
 Directions are (cos(azimuth) s, y, -sin(azimuth) s): u goes eastwards, v from the south pole to the
 north pole. A pole is one vertex; the seam at u = 0 and u = 1 is two with the same bits.
@@ -7,14 +7,74 @@ north pole. A pole is one vertex; the seam at u = 0 and u = 1 is two with the sa
 from __future__ import annotations
 
 import math
+import random
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from course.core.triangles import Mesh
-from course.shapes.checks import at_least_zero, count, finite, length
-from course.shapes.grid import circle, lattice_triangles, lattice_uv, normalised
-from course.shapes.waves import random_waves
+from course.shapes.grid import (
+    at_least_zero,
+    circle,
+    count,
+    finite,
+    lattice_triangles,
+    lattice_uv,
+    length,
+    normalised,
+)
+
+WAVES = 8
+
+
+@dataclass(frozen=True)
+class Waves:
+    """f(x) = mean over k of sin(vectors[k] . x + phases[k]), so that |f| <= 1.
+
+    Attributes
+    ----------
+    vectors : (K, D) float64
+        Wave vectors [rad per unit of x].
+    phases : (K,) float64
+        [rad]
+    """
+
+    vectors: NDArray[np.float64]
+    phases: NDArray[np.float64]
+
+    def __call__(
+        self, points: NDArray[np.float64]
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return f (V,) and its gradient (V, D) at `points` (V, D)."""
+        value = np.zeros(len(points))
+        gradient = np.zeros(points.shape)
+        # One wave at a time: a lattice may have millions of points.
+        for vector, phase in zip(self.vectors, self.phases, strict=True):
+            angle = np.sum(points * vector, axis=1) + phase
+            value += np.sin(angle)
+            gradient += np.cos(angle)[:, None] * vector
+        return value / len(self.phases), gradient / len(self.phases)
+
+
+def random_waves(seed: int, dimensions: int, wave_number: float) -> Waves:
+    """Return waves of `wave_number` / 2 to `wave_number` [rad per unit], in 2 or 3 dimensions.
+
+    Python's own generator draws them: its `random()` is the same for a seed in every version,
+    which NumPy's generators don't promise.
+    """
+    draw = random.Random(seed).random
+    vectors, phases = [], []
+    for k in range(WAVES):
+        height = 2.0 * draw() - 1.0 if dimensions == 3 else 0.0
+        across = math.sqrt(1.0 - height * height)
+        azimuth = 2.0 * math.pi * draw()
+        number = wave_number * (1.0 - 0.5 * k / (WAVES - 1))
+        direction = (across * math.cos(azimuth), across * math.sin(azimuth), height)
+        vectors.append([number * x for x in direction[:dimensions]])
+        phases.append(2.0 * math.pi * draw())
+    return Waves(np.array(vectors), np.array(phases))
 
 
 def sphere(radius: float = 1.0, segments: int = 64) -> Mesh:
@@ -122,3 +182,52 @@ def _close(values: NDArray[np.float64], segments: int) -> None:
     """Copy the first meridian of (V, 3) `values` onto the last, in place."""
     circles = values[:-2].reshape(-1, segments + 1, 3)
     circles[:, -1] = circles[:, 0]
+
+
+def height_field(
+    size: Sequence[float] = (1.0, 1.0),
+    amplitude: float = 0.1,
+    frequency: float = 4.0,
+    segments: int = 128,
+    seed: int = 0,
+) -> Mesh:
+    """Return an open sheet y = amplitude f(x, z), centred, facing +y; u along +x, v along -z.
+
+    Parameters
+    ----------
+    size : two floats
+        Extent along x and along z [m], each > 0.
+    amplitude : float
+        Bound of the height above and below 0 [m], >= 0.
+    frequency : float
+        Waves along the longer side, at most, 0 to 1e6. The mesh wants some 8 segments a wave.
+    segments : int
+        Cells along either side, 1 to 4096.
+    seed : int
+        Chooses the waves, >= 0.
+
+    Raises
+    ------
+    ValueError
+        For a parameter out of range.
+    """
+    if len(size) != 2:
+        raise ValueError(f"size has {len(size)} numbers: expected 2")
+    width, depth = length("size[0]", size[0]), length("size[1]", size[1])
+    amplitude = at_least_zero("amplitude", amplitude)
+    frequency = at_least_zero("frequency", frequency, 1e6)
+    segments = count("segments", segments, 1, 4096)
+    waves = random_waves(count("seed", seed, 0, 2**32 - 1), 2, 2.0 * math.pi * frequency)
+
+    longer = max(width, depth)
+    uv = lattice_uv(segments, segments)
+    x, z = (uv[:, 0] - 0.5) * width, (0.5 - uv[:, 1]) * depth
+    height, gradient = waves(np.stack([x, z], axis=1) / longer)
+    slope = amplitude / longer * gradient
+    normals = np.stack([-slope[:, 0], np.ones(len(uv)), -slope[:, 1]], axis=1)
+    return Mesh(
+        vertices=np.stack([x, amplitude * height, z], axis=1),
+        triangles=lattice_triangles(segments, segments),
+        normals=normalised(normals),
+        uv=uv,
+    )

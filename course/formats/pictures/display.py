@@ -1,0 +1,121 @@
+"""What a screen shows of radiance: the sRGB curve of IEC 61966-2-1, exposure, and heat maps of one number a pixel."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from course.core.types import Floats, Floats32
+
+BLOCK_VALUES = 1 << 18
+"""Values encoded at a time: what the curve needs besides its result stays near 3 MB."""
+
+
+def linear_to_srgb8(linear: NDArray[np.float32]) -> NDArray[np.uint8]:
+    """Encode a linear picture for a screen.
+
+    Parameters
+    ----------
+    linear : (3, H, W) float32
+        Linear RGB, 0 black and 1 white. Values above 1 show as 1, values below 0 as 0.
+
+    Returns
+    -------
+    (H, W, 3) uint8
+        The nearest sRGB code of each value.
+
+    Notes
+    -----
+    IEC 61966-2-1: 12.92 x up to 0.0031308, 1.055 x^(1/2.4) - 0.055 from there on.
+    """
+    _, height, width = linear.shape
+    codes = np.empty((height, width, 3), np.uint8)
+    rows = max(1, BLOCK_VALUES // max(1, 3 * width))
+    for first in range(0, height, rows):
+        block = slice(first, first + rows)
+        codes[block] = np.moveaxis(_encode(linear[:, block]), 0, -1)
+    return codes
+
+
+def srgb_to_linear(encoded: Floats) -> Floats32:
+    """Linear values of encoded ones, both from 0 to 1 and of any shape.
+
+    Notes
+    -----
+    IEC 61966-2-1, backwards: x / 12.92 up to 0.04045, ((x + 0.055) / 1.055)^2.4 from there on.
+    """
+    x = np.asarray(encoded)
+    linear = np.where(x <= 0.04045, x / 12.92, ((x + 0.055) / 1.055) ** 2.4)
+    return linear.astype(np.float32)
+
+
+def _encode(linear: NDArray[np.float32]) -> NDArray[np.uint8]:
+    x = np.clip(linear, 0.0, 1.0, dtype=np.float32)
+    curve = 1.055 * np.power(x, np.float32(1 / 2.4)) - 0.055
+    encoded = np.where(x <= 0.0031308, 12.92 * x, curve)
+    codes: NDArray[np.uint8] = (255.0 * encoded + 0.5).astype(np.uint8)
+    return codes
+
+
+ROUNDING = 2.0**-17
+"""A value this close below a code, as a share of it, is meant to be that code: float32 sums of many samples.
+
+For means of 1 to 900 equal samples the share is at most 2^-18.2; see tests/scene/metu/test_eight_bits.py.
+"""
+
+
+@dataclass(frozen=True)
+class Display:
+    """How radiance becomes codes of 8 bits.
+
+    Attributes
+    ----------
+    white : the radiance that shows as 255
+    encoding : "srgb", the nearest code of the curve; or "linear", in proportion to the radiance and rounded down
+    """
+
+    white: float = 1.0
+    encoding: str = "srgb"
+
+    def codes(self, linear: NDArray[np.float32]) -> NDArray[np.uint8]:
+        """(H, W, 3) uint8 codes of a picture (3, H, W) float32; beyond white they stay 255, below 0 they are 0."""
+        if self.encoding == "linear":
+            scaled = linear.astype(np.float64) * (255.0 / self.white * (1.0 + ROUNDING))
+            return np.ascontiguousarray(
+                np.moveaxis(np.clip(scaled, 0, 255).astype(np.uint8), 0, -1)
+            )
+        if self.white != 1:
+            linear = (linear / self.white).astype(np.float32)
+        return linear_to_srgb8(linear)
+
+
+SRGB = Display()
+"""What screens expect."""
+
+
+# sRGB; of steadily growing lightness, so that the order of the values survives a grey printer.
+_COLOURS = np.array(
+    [
+        (0, 0, 0),
+        (48, 8, 84),
+        (128, 20, 108),
+        (201, 50, 62),
+        (242, 118, 18),
+        (251, 197, 40),
+        (255, 255, 230),
+    ]
+)
+
+
+def heat_map(values: Floats) -> Floats32:
+    """Colours (3, H, W) float32, linear RGB, of positive numbers (H, W) on a logarithmic scale.
+
+    The smallest number is black and the largest white; where all are the same, everything is black.
+    """
+    logarithm = np.log(np.asarray(values, np.float64))
+    low, high = logarithm.min(), logarithm.max()
+    place = (logarithm - low) / (high - low if high > low else 1.0) * (len(_COLOURS) - 1)
+    srgb = [np.interp(place, np.arange(len(_COLOURS)), channel / 255) for channel in _COLOURS.T]
+    return srgb_to_linear(np.stack(srgb))
