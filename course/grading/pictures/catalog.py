@@ -2,165 +2,83 @@
 
 from __future__ import annotations
 
+from functools import partial
+
+import numpy as np
+
 from course.grading.checks.check import Check
 from course.grading.pictures import scenes
-from course.grading.pictures.rendered import picture_checks
+from course.grading.pictures.rendered import MakeScene, picture_checks
+from course.modules import COURSE
+
+
+def _gaussian(rng: np.random.Generator) -> scenes.Scene:
+    sigma = float(rng.uniform(0.15, 0.35))
+    return scenes.edges(rng, "sobol", 64, filter="gaussian", sigma=sigma)
+
+
+def _area_light(per_pixel: int = 64, **keys: str) -> MakeScene:
+    return lambda rng: scenes.shadows(rng, scenes.area_light(rng, **keys), per_pixel)
+
+
+def _ball_light(method: str) -> MakeScene:
+    return lambda rng: scenes.shadows(rng, scenes.ball_light(rng, method))
+
+
+def _large_ball(method: str) -> MakeScene:
+    return lambda rng: scenes.shadows(rng, scenes.large_ball_light(rng, method), 256)
+
+
+def _gloss(lobe: str, size: str, low: float, high: float, samples: int = 64) -> MakeScene:
+    """A glossy floor; the lobe's size is drawn from that range."""
+    return lambda rng: scenes.reflections(
+        rng, {"lobe": lobe, size: float(rng.uniform(low, high))}, samples
+    )
+
+
+SCENES: dict[str, MakeScene] = {
+    "supersampling.regular": scenes.edges,
+    "supersampling.random": partial(scenes.edges, sampler="random", samples=64),
+    "supersampling.jittered": partial(scenes.edges, sampler="jittered", samples=64),
+    "supersampling.gaussian_weights": _gaussian,
+    "supersampling.resolve": _gaussian,
+    "soft_shadows.light_grid": _area_light(4, samples="grid 6"),
+    "soft_shadows.point_on_rectangle": _area_light(),
+    "soft_shadows.point_on_sphere": _ball_light("sphere"),
+    "soft_shadows.point_in_ball": _ball_light("ball"),
+    "soft_shadows.point_on_facing_disk": _ball_light("facing disk"),
+    "glossy.jitter_on_plane": _gloss("plane", "roughness", 0.3, 0.5),
+    "glossy.jitter_in_ball": _gloss("ball", "glossiness", 0.2, 0.35),
+    "glossy.sample_phong_lobe": _gloss("phong", "exponent", 40, 90),
+    "glossy.keep_above": _gloss("plane", "roughness", 1.8, 2.4, samples=16),
+    "thin_lens.lens_rays": scenes.out_of_focus,
+    "motion_blur.shutter_times": scenes.moving,
+    "motion_blur.displacement": partial(scenes.moving, lit=True),
+    "motion_blur.to_object_space": scenes.moving,
+    "cube_map.lookup": partial(scenes.surroundings, lookup="clamped"),
+    "cube_map.lookup_seamless": partial(scenes.surroundings, lookup="seamless"),
+    "sampling.ball_by_rejection": _large_ball("ball by rejection"),
+    "sampling.ball_by_polar": _large_ball("ball by polar"),
+    "sampling.sphere_by_polar": _large_ball("sphere by polar"),
+    "adaptive_sampling.needs_subdivision": scenes.cells,
+    "adaptive_sampling.subdivide": scenes.cells,
+    "textures.rectangle_uv": partial(scenes.painted, shape="quad"),
+    "textures.sphere_uv": partial(scenes.painted, shape="sphere"),
+    "textures.triangle_uv": partial(scenes.painted, shape="mesh"),
+    "path_tracing.diffuse_bounce": scenes.glowing,
+    "blurred_transparency.refract": partial(scenes.under_water, view="below"),
+    "blurred_transparency.jitter_refraction": partial(scenes.under_water, view="above", samples=64),
+    "blurred_transparency.fresnel": partial(scenes.under_water, view="flat"),
+}
+"""By function, "module.function"."""
 
 PICTURES: dict[str, tuple[Check, ...]] = {
-    "supersampling": (
-        *picture_checks("supersampling", "regular", scenes.edges, noisy=False),
-        *picture_checks(
-            "supersampling", "random", lambda rng: scenes.edges(rng, "random", 64), noisy=True
-        ),
-        *picture_checks(
-            "supersampling", "jittered", lambda rng: scenes.edges(rng, "jittered", 64), noisy=True
-        ),
-        *picture_checks(
-            "supersampling",
-            "gaussian_weights",
-            lambda rng: scenes.edges(
-                rng, "sobol", 64, filter="gaussian", sigma=float(rng.uniform(0.15, 0.35))
-            ),
-            noisy=False,
-        ),
-        *picture_checks(
-            "supersampling",
-            "resolve",
-            lambda rng: scenes.edges(
-                rng, "sobol", 64, filter="gaussian", sigma=float(rng.uniform(0.15, 0.35))
-            ),
-            noisy=False,
-        ),
-    ),
-    "soft_shadows": (
-        *picture_checks(
-            "soft_shadows",
-            "light_grid",
-            lambda rng: scenes.shadows(rng, scenes.area_light(rng, samples="grid 6"), samples=4),
-            noisy=False,
-        ),
-        *picture_checks(
-            "soft_shadows",
-            "point_on_rectangle",
-            lambda rng: scenes.shadows(rng, scenes.area_light(rng)),
-            noisy=True,
-        ),
-        *(
-            check
-            for function, method in (
-                ("point_on_sphere", "sphere"),
-                ("point_in_ball", "ball"),
-                ("point_on_facing_disk", "facing disk"),
-            )
-            for check in picture_checks(
-                "soft_shadows",
-                function,
-                lambda rng, method=method: scenes.shadows(rng, scenes.ball_light(rng, method)),  # type: ignore[misc]
-                noisy=True,
-            )
-        ),
-    ),
-    "glossy": (
-        *picture_checks(
-            "glossy",
-            "jitter_on_plane",
-            lambda rng: scenes.reflections(
-                rng, {"lobe": "plane", "roughness": float(rng.uniform(0.3, 0.5))}
-            ),
-            noisy=True,
-        ),
-        *picture_checks(
-            "glossy",
-            "jitter_in_ball",
-            lambda rng: scenes.reflections(
-                rng, {"lobe": "ball", "glossiness": float(rng.uniform(0.2, 0.35))}
-            ),
-            noisy=True,
-        ),
-        *picture_checks(
-            "glossy",
-            "sample_phong_lobe",
-            lambda rng: scenes.reflections(
-                rng, {"lobe": "phong", "exponent": float(rng.uniform(40, 90))}
-            ),
-            noisy=True,
-        ),
-        *picture_checks(
-            "glossy",
-            "keep_above",
-            lambda rng: scenes.reflections(
-                rng, {"lobe": "plane", "roughness": float(rng.uniform(1.8, 2.4))}, samples=16
-            ),
-            noisy=False,
-        ),
-    ),
-    "thin_lens": picture_checks("thin_lens", "lens_rays", scenes.out_of_focus, noisy=False),
-    "motion_blur": (
-        *picture_checks("motion_blur", "shutter_times", scenes.moving, noisy=True),
-        *picture_checks(
-            "motion_blur", "displacement", lambda rng: scenes.moving(rng, lit=True), noisy=False
-        ),
-        *picture_checks("motion_blur", "to_object_space", scenes.moving, noisy=False),
-    ),
-    "cube_map": (
-        *picture_checks(
-            "cube_map", "lookup", lambda rng: scenes.surroundings(rng, "clamped"), noisy=False
-        ),
-        *picture_checks(
-            "cube_map",
-            "lookup_seamless",
-            lambda rng: scenes.surroundings(rng, "seamless"),
-            noisy=False,
-        ),
-    ),
-    "sampling": tuple(
+    module: tuple(
         check
-        for way in ("ball by rejection", "ball by polar", "sphere by polar")
-        for check in picture_checks(
-            "sampling",
-            way.replace(" ", "_"),
-            lambda rng, way=way: scenes.shadows(rng, scenes.large_ball_light(rng, way), 256),  # type: ignore[misc]
-            noisy=True,
-        )
-    ),
-    "adaptive_sampling": (
-        *picture_checks("adaptive_sampling", "needs_subdivision", scenes.cells, noisy=False),
-        *picture_checks("adaptive_sampling", "subdivide", scenes.cells, noisy=False),
-    ),
-    "textures": tuple(
-        check
-        for function, shape in (
-            ("rectangle_uv", "quad"),
-            ("sphere_uv", "sphere"),
-            ("triangle_uv", "mesh"),
-        )
-        for check in picture_checks(
-            "textures",
-            function,
-            lambda rng, shape=shape: scenes.painted(rng, shape),  # type: ignore[misc]
-            noisy=False,
-        )
-    ),
-    "path_tracing": picture_checks("path_tracing", "diffuse_bounce", scenes.glowing, noisy=True),
-    "blurred_transparency": (
-        *picture_checks(
-            "blurred_transparency",
-            "refract",
-            lambda rng: scenes.under_water(rng, "below"),
-            noisy=False,
-        ),
-        *picture_checks(
-            "blurred_transparency",
-            "jitter_refraction",
-            lambda rng: scenes.under_water(rng, "above", 64),
-            noisy=True,
-        ),
-        *picture_checks(
-            "blurred_transparency",
-            "fresnel",
-            lambda rng: scenes.under_water(rng, "flat"),
-            noisy=False,
-        ),
-    ),
+        for path, make in SCENES.items()
+        if path.startswith(f"{module}.")
+        for check in picture_checks(path, make)
+    )
+    for module in COURSE
 }
-"""By module, in the order in which they run after the module's other checks."""
+"""By module; each check's pictures run after the function's other checks."""

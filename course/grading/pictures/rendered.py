@@ -12,6 +12,7 @@ import numpy as np
 import yaml
 from PIL import Image
 
+from course.contracts import contract
 from course.effects import Effects
 from course.errors import EffectError
 from course.grading.checks.check import Array, Caller, Check, Trial
@@ -64,17 +65,20 @@ def rendered(scene: Scene, **options: Any) -> Array:
     return np.ascontiguousarray(np.moveaxis(picture, -1, 0))
 
 
-def picture_checks(
-    module: str, function: str, make: MakeScene, *, noisy: bool
-) -> tuple[Check, ...]:
+def noisy(function: str) -> bool:
+    """Right functions that draw, or get random numbers, may give pictures that differ by noise."""
+    return any(name in ("u", "rng") for name, _ in contract(function).arguments)
+
+
+def picture_checks(path: str, make: MakeScene) -> tuple[Check, ...]:
     """The picture by SSIM and, where the function makes noise, its bias.
 
     Parameters
     ----------
+    path : "module.function"
     make : describes the scene
-    noisy : whether right functions may give pictures that differ by noise
     """
-    name = f"{module}.{function}/picture"
+    module, function = path.split(".")
 
     def prepare(caller: Caller, rng: np.random.Generator) -> dict[str, Array]:
         tape: dict[str, Array] = {}
@@ -92,7 +96,7 @@ def picture_checks(
             raise StudentError("bad value", str(error)) from error
         expected = trial.references["picture"]
         trial.show("pictures", "The scene", yours=yours, expected=expected)
-        check_ssim(yours, expected, name)
+        check_ssim(yours, expected, f"{path}/picture")
 
     looks = Check(
         function,
@@ -103,7 +107,7 @@ def picture_checks(
         points=2,
         prepare=prepare,
     )
-    if not noisy:
+    if not noisy(path):
         return (looks,)
 
     def drawing(
@@ -150,8 +154,5 @@ def picture_checks(
 
 
 def _tape(references: Mapping[str, Array]) -> dict[str, Array]:
-    return {
-        name.removeprefix("tape/"): array
-        for name, array in references.items()
-        if name.startswith("tape/")
-    }
+    kept = (name for name in references if name.startswith("tape/"))
+    return {name.removeprefix("tape/"): references[name] for name in kept}

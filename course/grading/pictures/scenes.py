@@ -10,6 +10,9 @@ Scene = dict[str, Any]
 
 SIZE = (48, 36)
 
+AMBIENT = {"type": "ambient", "radiance": 1}
+FLOOR = {"shape": "quad", "material": "floor", "width": 30, "depth": 30}
+
 
 def edges(
     rng: np.random.Generator, sampler: str = "regular", samples: int = 16, **film: Any
@@ -18,21 +21,13 @@ def edges(
     angles = rng.uniform(-40, 40, 7)
     colors = rng.uniform(0.3, 1, (7, 3))
     return _scene(
-        camera={"eye": [0, 0, 10], "look_at": [0, 0, 0], "vertical_fov": 30},
+        camera=_camera([0, 0, 10], [0, 0, 0], 30),
         film=film,
         sampler={"type": sampler, "samples": samples},
-        materials={
-            f"bar {i}": {"color": 0, "ambient": 1} | _color(c) for i, c in enumerate(colors)
-        },
-        lights=[{"type": "ambient", "radiance": 1}],
+        materials=_bright("bar", colors),
+        lights=[AMBIENT],
         objects=[
-            _box(
-                f"bar {i}",
-                [0.12 + 0.05 * i, 9, 0.1],
-                [-3 + i, 0, 0.05 * i],
-                [0, 0, 1],
-                float(angle),
-            )
+            _bar(f"bar {i}", [0.12 + 0.05 * i, 9, 0.1], [-3 + i, 0, 0.05 * i], float(angle))
             for i, angle in enumerate(angles)
         ],
     )
@@ -42,12 +37,12 @@ def shadows(rng: np.random.Generator, light: dict[str, Any], samples: int = 64) 
     """Posts and a ball on a floor, whose shadows cross the picture."""
     x = rng.uniform(-0.25, 0.25, 4)
     return _scene(
-        camera={"eye": [0, 4.2, 7], "look_at": [0.5, 0.3, 0.4], "vertical_fov": 27},
+        camera=_camera([0, 4.2, 7], [0.5, 0.3, 0.4], 27),
         sampler={"samples": samples},
         materials={"floor": {"color": 0.7}, "post": {"color": [0.7, 0.3, 0.2]}},
         lights=[light, {"type": "ambient", "radiance": 0.1}],
         objects=[
-            {"shape": "quad", "material": "floor", "width": 30, "depth": 30},
+            FLOOR,
             *(
                 _box("post", [0.3, 1.5, 0.3], [-1.8 + 1.2 * i + float(d), 0.75, -0.4])
                 for i, d in enumerate(x)
@@ -74,13 +69,8 @@ def ball_light(rng: np.random.Generator, method: str) -> dict[str, Any]:
     """A ball, slightly above and behind the posts."""
     center = [-3 + float(rng.uniform(-0.4, 0.4)), 4, -2]
     radius = float(rng.uniform(0.5, 0.8))
-    return {
-        "type": "sphere",
-        "center": center,
-        "radius": radius,
-        "intensity": 30,
-        "samples": method,
-    }
+    shape = {"type": "sphere", "center": center, "radius": radius}
+    return shape | {"intensity": 30, "samples": method}
 
 
 def large_ball_light(rng: np.random.Generator, method: str) -> dict[str, Any]:
@@ -91,27 +81,18 @@ def large_ball_light(rng: np.random.Generator, method: str) -> dict[str, Any]:
 def reflections(rng: np.random.Generator, gloss: dict[str, Any], samples: int = 64) -> Scene:
     """Bright posts over a glossy floor."""
     colors = rng.uniform(0.1, 1, (5, 3))
+    places = [-2 + i + float(rng.uniform(-0.2, 0.2)) for i in range(5)]
     return _scene(
-        camera={"eye": [0, 2.4, 6], "look_at": [0, 0.4, 0], "vertical_fov": 34},
+        camera=_camera([0, 2.4, 6], [0, 0.4, 0], 34),
         sampler={"samples": samples},
         materials={
             "floor": {"color": 0, "mirror": 0.9, "gloss": gloss},
-            **{
-                f"post {i}": {"color": [float(v) for v in c], "ambient": 1}
-                for i, c in enumerate(colors)
-            },
+            **_bright("post", colors),
         },
-        lights=[{"type": "ambient", "radiance": 1}],
+        lights=[AMBIENT],
         objects=[
-            {"shape": "quad", "material": "floor", "width": 30, "depth": 30},
-            *(
-                _box(
-                    f"post {i}",
-                    [0.5, 1.4, 0.3],
-                    [-2 + i + float(rng.uniform(-0.2, 0.2)), 0.7, -0.6],
-                )
-                for i in range(5)
-            ),
+            FLOOR,
+            *(_box(f"post {i}", [0.5, 1.4, 0.3], [x, 0.7, -0.6]) for i, x in enumerate(places)),
         ],
     )
 
@@ -119,28 +100,18 @@ def reflections(rng: np.random.Generator, gloss: dict[str, Any], samples: int = 
 def out_of_focus(rng: np.random.Generator) -> Scene:
     """Pieces before, in and behind the plane of focus, seen obliquely so that no axis is the lens's own."""
     colors = rng.uniform(0.2, 1, (6, 3))
+    radius, focus = float(rng.uniform(0.2, 0.3)), float(rng.uniform(4, 5))
+    lens = {"aperture_radius": radius, "focus_distance": focus}
     return _scene(
-        camera={
-            "eye": [2.4, 1.6, 5.0],
-            "look_at": [0, 0.5, 0],
-            "vertical_fov": 30,
-            "lens": {
-                "aperture_radius": float(rng.uniform(0.2, 0.3)),
-                "focus_distance": float(rng.uniform(4, 5)),
-            },
-        },
+        camera=_camera([2.4, 1.6, 5.0], [0, 0.5, 0], 30, lens=lens),
         sampler={"samples": 16},
-        materials={
-            f"piece {i}": {"color": [float(v) for v in c], "ambient": 1}
-            for i, c in enumerate(colors)
-        },
-        lights=[{"type": "ambient", "radiance": 1}],
+        materials=_bright("piece", colors),
+        lights=[AMBIENT],
         objects=[
-            _box(
+            _bar(
                 f"piece {i}",
                 [0.25, 1.3, 0.25],
                 [-2.2 + 0.9 * i, 0.5, 2.6 - 1.3 * i],
-                [0, 0, 1],
                 25.0 * (i % 3 - 1),
             )
             for i in range(6)
@@ -150,26 +121,18 @@ def out_of_focus(rng: np.random.Generator) -> Scene:
 
 def moving(rng: np.random.Generator, *, lit: bool = False) -> Scene:
     """A ball and a bar that cross the picture while the shutter is open; or a light and a camera that move."""
-    speed = rng.uniform(0.8, 1.6, 2)
+    speed, other = map(float, rng.uniform(0.8, 1.6, 2))
     light: dict[str, Any] = {"type": "point", "position": [-2, 4, 2], "intensity": 40}
-    camera: dict[str, Any] = {
-        "eye": [0, 2.6, 6],
-        "look_at": [0, 0.4, 0],
-        "vertical_fov": 34,
-        "shutter": {"open": float(rng.uniform(-0.6, -0.3)), "close": float(rng.uniform(0.4, 0.8))},
-    }
-    ball = _ball("bright", 0.5, [-0.6, 0.5, 0.6])
-    bar = _box("bright", [0.2, 1.6, 0.2], [0.9, 0.8, -0.8])
-    if lit:
-        light |= {"motion": {"velocity": [float(speed[0]), 0, 0.5]}}
-    ball |= {"motion": {"velocity": [float(speed[0]), 0.1, 0.3]}}
-    bar |= {"motion": {"velocity": [-float(speed[1]), 0, 0.4]}}
+    shutter = {"open": float(rng.uniform(-0.6, -0.3)), "close": float(rng.uniform(0.4, 0.8))}
+    ball = _ball("bright", 0.5, [-0.6, 0.5, 0.6]) | _moving(speed, 0.1, 0.3)
+    bar = _box("bright", [0.2, 1.6, 0.2], [0.9, 0.8, -0.8]) | _moving(-other, 0, 0.4)
+    light |= _moving(speed, 0, 0.5) if lit else {}
     return _scene(
-        camera=camera,
+        camera=_camera([0, 2.6, 6], [0, 0.4, 0], 34, shutter=shutter),
         sampler={"samples": 64},
         materials={"floor": {"color": 0.4}, "bright": {"color": [0.9, 0.6, 0.2], "ambient": 0.3}},
         lights=[light, {"type": "ambient", "radiance": 0.3}],
-        objects=[{"shape": "quad", "material": "floor", "width": 30, "depth": 30}, ball, bar],
+        objects=[FLOOR, ball, bar],
     )
 
 
@@ -178,7 +141,7 @@ def surroundings(rng: np.random.Generator, lookup: str) -> Scene:
     direction = rng.uniform(-1, 1, 3)
     eye = 5 * direction / np.linalg.norm(direction)
     return _scene(
-        camera={"eye": [float(x) for x in eye], "look_at": [0, 0, 0], "vertical_fov": 75},
+        camera=_camera([float(x) for x in eye], [0, 0, 0], 75),
         environment={"type": "cube", "cross": "cross.png", "lookup": lookup},
         sampler={"samples": 16},
         integrator={"max_depth": 1},
@@ -194,9 +157,8 @@ PAINT = "paint.png"
 def painted(rng: np.random.Generator, shape: str) -> Scene:
     """One textured thing that fills most of the picture; the caller makes the files beside the scene."""
     turn = [
-        {"rotate": {"axis": [0, 1, 0], "degrees": float(rng.uniform(-180, 180))}},
-        {"rotate": {"axis": [1, 0, 0], "degrees": float(rng.uniform(40, 70))}},
-        {"rotate": {"axis": [0, 0, 1], "degrees": float(rng.uniform(-30, 30))}},
+        {"rotate": {"axis": axis, "degrees": float(rng.uniform(low, high))}}
+        for axis, low, high in (([0, 1, 0], -180, 180), ([1, 0, 0], 40, 70), ([0, 0, 1], -30, 30))
     ]
     kinds: dict[str, dict[str, Any]] = {
         "quad": {"shape": "quad", "width": float(rng.uniform(4, 5)), "depth": 3.2},
@@ -204,10 +166,10 @@ def painted(rng: np.random.Generator, shape: str) -> Scene:
         "mesh": {"shape": "mesh", "file": SHEET, "shading": "flat"},
     }
     return _scene(
-        camera={"eye": [0, 0.6, 7], "look_at": [0, 0, 0], "vertical_fov": 30},
+        camera=_camera([0, 0.6, 7], [0, 0, 0], 30),
         sampler={"samples": 16},
         materials={"painted": {"color": 1, "ambient": 1, "texture": {"image": PAINT}}},
-        lights=[{"type": "ambient", "radiance": 1}],
+        lights=[AMBIENT],
         objects=[kinds[shape] | {"material": "painted", "transform": turn}],
     )
 
@@ -258,7 +220,7 @@ def under_water(rng: np.random.Generator, view: str, samples: int = 16) -> Scene
         for side in (-1, 1)
     ]
     return _scene(
-        camera={"eye": eye, "look_at": look_at, "vertical_fov": fov},
+        camera=_camera(eye, look_at, fov),
         sampler={"samples": samples},
         materials={
             "water": {
@@ -268,10 +230,10 @@ def under_water(rng: np.random.Generator, view: str, samples: int = 16) -> Scene
                     "roughness": float(rng.uniform(0.3, 0.5)),
                 },
             },
-            **{f"post {i}": _color(c) | {"ambient": 1} for i, c in enumerate(colors)},
+            **_bright("post", colors),
         },
         environment={"type": "constant", "radiance": [0.15, 0.2, 0.3]},
-        lights=[{"type": "ambient", "radiance": 1}],
+        lights=[AMBIENT],
         objects=[{"shape": "quad", "material": "water", "width": 60, "depth": 60}, *posts],
     )
 
@@ -287,13 +249,13 @@ def glowing(rng: np.random.Generator) -> Scene:
     }
     glow = rng.uniform(0.3, 1, (len(walls), 3))
     return _scene(
-        camera={"eye": [0, 3.2, 5], "look_at": [0, 0.6, 0], "vertical_fov": 34},
+        camera=_camera([0, 3.2, 5], [0, 0.6, 0], 34),
         sampler={"samples": 64},
         integrator={"type": "path", "max_depth": 1, "roulette": None},
         materials={
             "matt": {"color": [0.9, 0.8, 0.7]},
             **{
-                name: {"color": 0, "emission": [float(v) for v in color]}
+                name: {"color": 0, "emission": _floats(color)}
                 for name, color in zip(walls, glow, strict=True)
             },
         },
@@ -330,18 +292,17 @@ def cells(rng: np.random.Generator) -> Scene:
         wall + THRESHOLD * rng.uniform(1.25, 1.4) * np.array(o) for o in rng.permutation(OFFSETS)
     ]
     return _scene(
-        camera={"eye": [0, 0, 10], "look_at": [0, 0, 0], "vertical_fov": 30},
+        camera=_camera([0, 0, 10], [0, 0, 0], 30),
         film={"subdivision": {"threshold": THRESHOLD, "depth": 3}},
         sampler={"samples": 1},
         environment={"type": "constant", "radiance": wall},
-        materials={f"bar {i}": {"ambient": 1} | _color(c) for i, c in enumerate(colors)},
-        lights=[{"type": "ambient", "radiance": 1}],
+        materials=_bright("bar", colors),
+        lights=[AMBIENT],
         objects=[
-            _box(
+            _bar(
                 f"bar {i}",
                 [float(rng.uniform(0.1, 0.45)), 9, 0.1],
                 [-3.2 + 0.7 * i, 0, 0.05 * i],
-                [0, 0, 1],
                 float(rng.uniform(-40, 40)),
             )
             for i in range(len(colors))
@@ -352,17 +313,15 @@ def cells(rng: np.random.Generator) -> Scene:
 def everything(rng: np.random.Generator) -> Scene:
     """Every effect at once: lens, shutter, ball light, glossy floor, cube map and a Gaussian filter."""
     colors = rng.uniform(0.2, 0.9, (3, 3))
-    ball = _ball("ball", 0.6, [-1.2, 0.6, 0.4]) | {
-        "motion": {"velocity": [float(rng.uniform(0.8, 1.4)), 0, 0]}
-    }
+    ball = _ball("ball", 0.6, [-1.2, 0.6, 0.4]) | _moving(float(rng.uniform(0.8, 1.4)), 0, 0)
     return _scene(
-        camera={
-            "eye": [0.4, 2.2, 6],
-            "look_at": [0, 0.6, 0],
-            "vertical_fov": 36,
-            "shutter": {"open": 0, "close": 0.8},
-            "lens": {"aperture_radius": 0.1, "focus_distance": float(rng.uniform(5.5, 6.5))},
-        },
+        camera=_camera(
+            [0.4, 2.2, 6],
+            [0, 0.6, 0],
+            36,
+            shutter={"open": 0, "close": 0.8},
+            lens={"aperture_radius": 0.1, "focus_distance": float(rng.uniform(5.5, 6.5))},
+        ),
         film={"filter": "gaussian", "sigma": 0.3},
         sampler={"samples": 64},
         integrator={"max_depth": 2},
@@ -391,31 +350,40 @@ def _scene(**parts: Any) -> Scene:
     return {"integrator": {"max_depth": 1}, "film": film} | parts
 
 
+def _camera(eye: list[float], look_at: list[float], fov: float, **more: Any) -> dict[str, Any]:
+    return {"eye": eye, "look_at": look_at, "vertical_fov": fov} | more
+
+
+def _moving(*velocity: float) -> dict[str, Any]:
+    return {"motion": {"velocity": [*velocity]}}
+
+
+def _floats(values: Any) -> list[float]:
+    return [float(v) for v in values]
+
+
 def _color(values: Any) -> dict[str, Any]:
-    return {"color": [float(v) for v in values]}
+    return {"color": _floats(values)}
 
 
-def _box(
-    material: str,
-    size: list[float],
-    at: list[float],
-    axis: list[float] | None = None,
-    degrees: float = 0,
-) -> dict[str, Any]:
-    turn = [{"rotate": {"axis": axis, "degrees": degrees}}] if axis else []
-    return {
-        "shape": "box",
-        "material": material,
-        "size": size,
-        "transform": [*turn, {"translate": at}],
-    }
+def _bright(name: str, colors: Any) -> dict[str, dict[str, Any]]:
+    """Materials that look the same in any light, NAME 0 and so on."""
+    return {f"{name} {i}": _color(c) | {"ambient": 1} for i, c in enumerate(colors)}
+
+
+def _thing(shape: str, material: str, transform: list[Any], **size: Any) -> dict[str, Any]:
+    return {"shape": shape, "material": material, "transform": transform} | size
+
+
+def _box(material: str, size: list[float], at: list[float]) -> dict[str, Any]:
+    return _thing("box", material, [{"translate": at}], size=size)
+
+
+def _bar(material: str, size: list[float], at: list[float], degrees: float) -> dict[str, Any]:
+    """A box that is turned about z before it is moved."""
+    turn = {"rotate": {"axis": [0, 0, 1], "degrees": degrees}}
+    return _thing("box", material, [turn, {"translate": at}], size=size)
 
 
 def _ball(material: str, radius: float, at: list[float]) -> dict[str, Any]:
-    return {
-        "shape": "sphere",
-        "material": material,
-        "radius": radius,
-        "segments": 96,
-        "transform": [{"translate": at}],
-    }
+    return _thing("sphere", material, [{"translate": at}], radius=radius, segments=96)

@@ -12,7 +12,7 @@ from course.grading.errors import StudentError
 from course.grading.pictures import scenes
 from course.grading.pictures.judging import check_ssim
 from course.grading.pictures.rendered import Find, loaded, rendered
-from course.grading.pictures.shapes import usable
+from course.grading.pictures.stage import usable
 from course.modules import MODULES
 
 NAME = "whole"

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from course.grading.errors import StudentError
-from course.grading.pictures.shapes import usable
+from course.grading.pictures.stage import usable
 from course.grading.worker.framing import (
     DTYPES,
     LARGEST,
