@@ -61,38 +61,38 @@ def _contents(
     trusted: bool,
 ) -> dict[str, bytes]:
     """Path in the archive or folder -> content."""
-    from course.grading.classes.bundle import gradescope_contents
-    from course.grading.classes.image import IMAGE, image_contents
-    from course.grading.classes.prairielearn_bundle import LONGEST, question_contents
+    from course.grading.classes import bundles
 
     if system == "gradescope":
-        return gradescope_contents(PROJECT, seed, modules, trusted=trusted)
+        return bundles.gradescope_contents(PROJECT, seed, modules, trusted=trusted)
     if system == "docker":
-        return image_contents(PROJECT, seed, modules, LONGEST, trusted=trusted)
-    return question_contents(PROJECT, seed, modules, title, image or IMAGE, trusted=trusted)
+        return bundles.image_contents(PROJECT, seed, modules, bundles.LONGEST, trusted=trusted)
+    return bundles.question_contents(
+        PROJECT, seed, modules, title, image or bundles.IMAGE, trusted=trusted
+    )
 
 
 # Both look at the place before the contents are made, which takes a while.
 
 
 def _archive(out: Path, contents: Callable[[], dict[str, bytes]]) -> int:
-    from course.grading.classes.bundle import write_archive
+    from course.grading.release.archive import write_zip
 
     if out.suffix.lower() != ".zip":
         raise click.BadParameter(f"{out} doesn't end in .zip", param_hint="--out")
     check_outputs(files=[("--out", out)])
-    return write_archive(contents(), out)
+    return write_zip(contents(), out)
 
 
 def _folder(out: Path, contents: Callable[[], dict[str, bytes]]) -> int:
-    from course.grading.classes.image import check_folder, write_folder
+    from course.grading.release.archive import check_folder, write_folder
 
     check_folder(out)
     return write_folder(contents(), out)
 
 
 def _tell_totals(modules: tuple[str, ...]) -> None:
-    from course.grading.classes.totals import totals
+    from course.grading.classes.bundles import totals
 
     points = totals(modules)
     rows = [(module, f"{of:g}") for module, of in points.items()]

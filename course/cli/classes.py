@@ -17,8 +17,7 @@ from course.cli.progress import progress_bar
 from course.cli.tables import count
 
 if TYPE_CHECKING:
-    from course.grading.classes.finishing import Finished
-    from course.grading.classes.grading import ClassEngine, ClassResult
+    from course.grading.classes.grading import ClassEngine, ClassResult, Finished, Way
 
 MOST_REMARKS = 12
 """Lines on submissions that are printed; class.html has them all."""
@@ -96,14 +95,23 @@ class ClassOptions:
         if (self.engine == "dask") != (self.address is not None):
             raise click.UsageError("--engine dask and --address go together")
         if self.address is None:
-            from course.grading.classes.processes import in_processes
+            from course.grading.classes.engines import in_processes
 
             return partial(in_processes, jobs=self.jobs or os.cpu_count() or 1)
         if self.jobs is not None:
             raise click.UsageError("--jobs is for --engine processes; a cluster has its own")
-        from course.grading.classes.cluster import on_cluster
+        from course.grading.classes.engines import on_cluster
 
         return partial(on_cluster, address=self.address)
+
+    @contextmanager
+    def way(self) -> Iterator[Way]:
+        """How to grade, with a progress bar; raises ``UsageError`` as `class_engine` does."""
+        from course.grading.classes.grading import Way
+
+        engine = self.class_engine()
+        with class_progress() as progress:
+            yield Way(engine, self.address is not None, self.trusted, progress)
 
 
 def class_options(command: Callable[..., None]) -> Callable[..., None]:

@@ -11,7 +11,6 @@ import click
 from course.cli.classes import (
     ClassOptions,
     class_options,
-    class_progress,
     tell_finished,
     tell_submissions,
 )
@@ -44,24 +43,13 @@ def grade(
     Each student gets a folder in --out, and the class grades.csv and class.html. What can't be graded has a row that
     says why. After an interruption the same command goes on where it stopped.
     """
-    from course.grading.classes.finishing import Terms
     from course.grading.classes.grading import grade_class
-    from course.grading.worker.limits import Limits
+    from course.grading.classes.settings import Settings
 
-    engine = options.class_engine()
-    with class_progress() as progress:
-        result = grade_class(
-            submissions,
-            out,
-            engine,
-            seed=seed,
-            modules=modules,
-            terms=Terms(options.policy, options.roster, options.title or Terms.title),
-            send_references=options.address is not None,
-            trusted=options.trusted,
-            limits=Limits(submission_seconds=options.submission_seconds),
-            progress=progress,
-        )
+    settings = Settings(seed, modules, submission_seconds=options.submission_seconds)
+    settings = settings.instead(options.policy, options.roster, options.title)
+    with options.way() as way:
+        result = grade_class(submissions, out, settings, way)
     _tell(result)
 
 

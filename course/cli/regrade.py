@@ -10,7 +10,6 @@ import click
 from course.cli.classes import (
     ClassOptions,
     class_options,
-    class_progress,
     tell_finished,
     tell_submissions,
 )
@@ -45,31 +44,16 @@ def regrade(
     Seed, modules, policy, roster and seconds are those of the grading before. What --dry-run has graded is kept, so
     that the same command without it only has to apply that.
     """
-    from course.grading.classes.finishing import Terms
     from course.grading.classes.regrading import apply
     from course.grading.classes.regrading import regrade as grade_again
     from course.grading.classes.settings import read_settings
 
-    engine = options.class_engine()
     settings = read_settings(out, options.submission_seconds)
-    before = settings.terms
-    terms = Terms(
-        options.policy or before.policy,
-        options.roster or before.roster,
-        options.title or before.title,
-    )
+    settings = settings.instead(options.policy, options.roster, options.title)
     # Before hours of grading.
-    terms.read(settings.modules)
-    with class_progress() as progress:
-        regraded = grade_again(
-            submissions,
-            out,
-            engine,
-            settings,
-            send_references=options.address is not None,
-            trusted=options.trusted,
-            progress=progress,
-        )
+    settings.read()
+    with options.way() as way:
+        regraded = grade_again(submissions, out, settings, way)
     tell_submissions(regraded.result)
     for student in regraded.gone:
         click.echo(f"{student}: graded before, and there is no submission now", err=True)
@@ -77,7 +61,7 @@ def regrade(
         _tell(change)
     _tell_all(regraded.changes, len(regraded.result.reports), dry_run)
     if not dry_run:
-        tell_finished(apply(regraded, out, terms))
+        tell_finished(apply(regraded, out))
     if regraded.result.faults:
         raise CourseError(
             f"grader error, nobody's mistake: left as they were: {', '.join(regraded.result.faults)}; "

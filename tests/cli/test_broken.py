@@ -13,7 +13,7 @@ from course.cli.options import FAILED
 from course.effects import PROJECT
 from course.grading import grading
 from course.grading.checks.check import Check, ModuleChecks, Trial
-from course.grading.classes.outcome import Outcome
+from course.grading.classes.engines import Outcome
 
 Run = Callable[..., Result]
 MODULE = "motion_blur"

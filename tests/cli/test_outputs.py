@@ -49,7 +49,7 @@ def test_no_command_makes_the_folder_of_a_file(
     monkeypatch.setattr("course.grading.calibration.calibrate", work)
     monkeypatch.setattr("course.grading.references.make_references", work)
     monkeypatch.setattr("course.grading.release.archive.write_archive", work)
-    monkeypatch.setattr("course.grading.classes.bundle.gradescope_contents", work)
+    monkeypatch.setattr("course.grading.classes.bundles.gradescope_contents", work)
     result = run(*command.split())
     assert result.exit_code == 1
     assert NOWHERE in result.stderr

@@ -429,7 +429,7 @@ def _small(words: Sequence[str] = ()) -> Iterator[None]:
 def _few_references(command: str) -> Iterator[None]:
     """Those of some modules alone: of all they take a quarter of a minute, and what pages hand in needs no others."""
     places = {
-        "bundle": "course.grading.classes.bundle",
+        "bundle": "course.grading.release.archive",
         "grade": "course.grading.classes.grading",
         "references": "course.grading.references",
         "regrade": "course.grading.classes.grading",

@@ -7,13 +7,14 @@ others go on.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from datetime import UTC, datetime
 from pathlib import Path
 
 from course import __version__
 from course.errors import CourseError, OutputError
-from course.grading.classes.finishing import Finished, Terms, finish
+from course.grading.classes.engines import Engine, Outcome
 from course.grading.classes.job import (
     RESULTS,
     Graded,
@@ -23,20 +24,74 @@ from course.grading.classes.job import (
     troubled,
     with_whole,
 )
-from course.grading.classes.keeping import INSTRUCTOR, fingerprint, keep, kept
-from course.grading.classes.outcome import Engine
-from course.grading.classes.settings import settings_of, write_settings
+from course.grading.classes.keeping import fingerprint, keep, kept
+from course.grading.classes.marks import Mark, mark
+from course.grading.classes.policy_file import MODIFIED, Rules
+from course.grading.classes.roster import Listed, Matched, match
+from course.grading.classes.settings import INSTRUCTOR, Settings
+from course.grading.classes.similarity import Compared, compare
 from course.grading.classes.submitted import Submission, find_submissions
 from course.grading.references import make_references
 from course.grading.report import Report
-from course.grading.worker.limits import Limits
 from course.grading.worker.sandbox import protected
 
 FAULT = "grader error"
 """How the trouble of a report begins that is no fault of the student's."""
 
+TOTAL = 100.0
+"""Of the score where no policy says another."""
+
+CANVAS, MOODLE = "canvas.csv", "moodle.csv"
+
+NOT_CERTAIN = "not_protected_"
+"""Before the names of tables for learning systems in which a grade may be forged. Canvas makes an assignment of every
+column that it doesn't know, Moodle refuses such a table or asks for a meaning, and any line is a student's: so only the
+name can say it."""
+
 ClassEngine = Engine[Job, Path | bytes, Graded]
-Progress = Callable[[int, int], None]
+
+
+@dataclass(frozen=True)
+class Way:
+    """How a class is graded, whatever is checked.
+
+    Attributes
+    ----------
+    engine : does the work
+    send_references : whether the engine's workers can't read files of this machine
+    trusted : whether to grade where the code can't be kept from doing harm, too
+    progress : called with the number of submissions that are done, and of all
+    """
+
+    engine: ClassEngine
+    send_references: bool = False
+    trusted: bool = False
+    progress: Callable[[int, int], None] = lambda _done, _of: None
+
+    def check(self, folder: Path, out: Path) -> None:
+        """Raise ``NotProtected`` where the code can't be kept from doing harm here, and isn't trusted."""
+        if not self.trusted and not self.send_references:
+            protected((folder, out))
+
+
+@dataclass(frozen=True)
+class Finished:
+    """What came of a class as a whole.
+
+    Attributes
+    ----------
+    compared : which submissions are alike
+    matched : whose submission is whose; None without a roster
+    unused : students of the policy who have handed in nothing
+    files : tables that were written
+    unprotected : why no grade is certain of students whose code nothing kept from doing harm; empty if there are none
+    """
+
+    compared: Compared = field(default_factory=Compared)
+    matched: Matched | None = None
+    unused: tuple[str, ...] = ()
+    files: tuple[Path, ...] = ()
+    unprotected: str = ""
 
 
 @dataclass(frozen=True)
@@ -48,45 +103,32 @@ class ClassResult:
     submissions : in the order of their names
     reports : of all of them, in the same order
     graded : how many of them this run has graded
-    faults : students whom a fault of the grader has left without a grade
-    doubtful : students of whom a check broke; its points are given if it breaks with the reference as well
     finished : what came of the class as a whole
     """
 
     submissions: tuple[Submission, ...]
     reports: tuple[Report, ...]
     graded: int
-    faults: tuple[str, ...]
-    doubtful: tuple[str, ...]
     finished: Finished = field(default_factory=Finished)
 
+    @property
+    def faults(self) -> list[str]:
+        """Students whom a fault of the grader has left without a grade."""
+        return sorted(one.student for one in self.reports if one.trouble.startswith(FAULT))
 
-def grade_class(
-    folder: Path,
-    out: Path,
-    engine: ClassEngine,
-    *,
-    seed: int,
-    modules: Sequence[str],
-    terms: Terms | None = None,
-    send_references: bool = False,
-    trusted: bool = False,
-    limits: Limits | None = None,
-    progress: Progress | None = None,
-) -> ClassResult:
+    @property
+    def doubtful(self) -> list[str]:
+        """Students of whom a check broke; its points are given if it breaks with the reference as well."""
+        return [report.student for report in self.reports if report.broken]
+
+
+def grade_class(folder: Path, out: Path, settings: Settings, way: Way) -> ClassResult:
     """Grade every submission in a folder.
 
     Parameters
     ----------
     folder : holds the submissions, as `find_submissions` reads them
     out : gets a folder for each student, and the class's tables and page
-    engine : does the work
-    seed, modules : what to check
-    terms : what makes grades of points; nothing but the points if not given
-    send_references : whether the engine's workers can't read files of this machine
-    trusted : whether to grade where the code can't be kept from doing harm, too
-    limits : what the code of one submission may use; the usual if not given
-    progress : called with the number of submissions that are done, and of all
 
     Raises
     ------
@@ -95,42 +137,19 @@ def grade_class(
     CourseError
         There are no submissions, or nothing can be written to ``out``.
     """
-    modules, terms = tuple(modules), terms or Terms()
     if folder.resolve() in (out.resolve(), out.resolve().parent):
         raise CourseError(f"{out}: lies where the submissions are; choose a folder elsewhere")
     # Before hours of grading.
-    if not trusted and not send_references:
-        protected((folder, out))
-    rules, roster = terms.read(modules)
-    result = grade_all(
-        find_submissions(folder, modules),
-        out,
-        engine,
-        seed=seed,
-        modules=modules,
-        send_references=send_references,
-        trusted=trusted,
-        limits=limits,
-        progress=progress,
-    )
-    finished = finish(result.submissions, result.reports, out, modules, rules, roster, terms.title)
-    seconds = None if limits is None else limits.submission_seconds
-    write_settings(settings_of(seed, modules, terms, seconds), out)
+    way.check(folder, out)
+    terms = settings.read()
+    result = grade_all(find_submissions(folder, settings.modules), out, settings, way)
+    finished = finish(result.submissions, result.reports, out, settings, terms)
+    settings.write(out)
     return replace(result, finished=finished)
 
 
 def grade_all(
-    submissions: Sequence[Submission],
-    out: Path,
-    engine: ClassEngine,
-    *,
-    seed: int,
-    modules: tuple[str, ...],
-    code: str = "",
-    send_references: bool = False,
-    trusted: bool = False,
-    limits: Limits | None = None,
-    progress: Progress | None = None,
+    submissions: Sequence[Submission], out: Path, settings: Settings, way: Way, code: str = ""
 ) -> ClassResult:
     """Grade submissions, and write a folder for each student.
 
@@ -138,71 +157,156 @@ def grade_all(
     ----------
     code : what else a result that was kept must have been made with
     """
-    limits = limits or Limits()
     try:
         (out / INSTRUCTOR).mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise OutputError(f"{out}: can't be written: {error.strerror}") from error
-    marks = {
-        one.student: fingerprint(
-            one.sources, one.trouble, seed, modules, code, limits.submission_seconds
-        )
-        for one in submissions
-    }
+    marks = {one.student: fingerprint(one, settings, code) for one in submissions}
+    found = {student: kept(out, student, mark) for student, mark in marks.items()}
     reports = {
-        one.student: report
-        for one in submissions
-        if (report := kept(out, one.student, marks[one.student])) is not None
-        and (trusted or not report.unprotected)
+        student: report
+        for student, report in found.items()
+        if report is not None and (way.trusted or not report.unprotected)
     }
     jobs = [
-        Job(one.student, one.sources, one.trouble, seed, modules, trusted, limits)
+        Job(one.student, one.sources, one.trouble, settings, way.trusted)
         for one in submissions
         if one.student not in reports
     ]
-    faults: list[str] = []
-    if progress is not None:
-        progress(len(reports), len(submissions))
+    way.progress(len(reports), len(submissions))
     if jobs:
-        references = out / INSTRUCTOR / f"references_{seed}.npz"
-        make_references(with_whole(modules), seed, references)
-        shared = references.read_bytes() if send_references else references
-        outcomes = engine(grade_job, jobs, shared)
+        references = out / INSTRUCTOR / f"references_{settings.seed}.npz"
+        make_references(with_whole(settings.modules), settings.seed, references)
+        shared = references.read_bytes() if way.send_references else references
+        outcomes = way.engine(grade_job, jobs, shared)
         try:
             for outcome in outcomes:
                 student = outcome.item.student
-                report = _keep(out, student, outcome.value, outcome.fault, marks[student], seed)
-                reports[student] = report
-                faults += [student] if report.trouble.startswith(FAULT) else []
-                if progress is not None:
-                    progress(len(reports), len(submissions))
+                reports[student] = _keep(out, outcome, marks[student])
+                way.progress(len(reports), len(submissions))
         finally:
             outcomes.close()
     ordered = tuple(reports[one.student] for one in submissions)
-    doubtful = tuple(report.student for report in ordered if report.broken)
-    return ClassResult(tuple(submissions), ordered, len(jobs), tuple(sorted(faults)), doubtful)
+    return ClassResult(tuple(submissions), ordered, len(jobs))
 
 
-def _keep(
-    out: Path, student: str, graded: Graded | None, fault: str, mark: str, seed: int
-) -> Report:
+def _keep(out: Path, outcome: Outcome[Job, Graded], mark: str) -> Report:
     """Write what came of one submission."""
+    graded, fault = outcome.value, outcome.fault
     if graded is not None and graded.report.version != __version__:
         fault = f"graded by version {graded.report.version}, not {__version__}"
-    if fault or graded is None:
-        return _keep_fault(out, student, fault, seed)
-    # The next run grades it again if a check had an error of its own.
-    keep(out, graded, "" if graded.report.broken else mark)
-    return graded.report
-
-
-def _keep_fault(out: Path, student: str, fault: str, seed: int) -> Report:
-    """Write what there is to say; the record that would stop another try is left out."""
-    report = troubled(student, f"{FAULT}: {fault}", seed)
+    if graded is not None and not fault:
+        # The next run grades it again if a check had an error of its own.
+        keep(out, graded, "" if graded.report.broken else mark)
+        return graded.report
+    report = troubled(outcome.item.student, f"{FAULT}: {fault}", outcome.item.settings.seed)
     try:
         files = report_files(report)
         del files[RESULTS]
     except Exception:  # noqa: BLE001 - it may be the reports that are at fault
         files = {}
+    # The record that would stop another try is left out.
     keep(out, Graded(report, files), None)
     return report
+
+
+def finish(
+    submissions: Sequence[Submission],
+    reports: Sequence[Report],
+    out: Path,
+    settings: Settings,
+    terms: tuple[Rules | None, Sequence[Listed] | None],
+) -> Finished:
+    """Write grades.csv, class.html, and with a roster canvas.csv and moodle.csv.
+
+    The names of the last two begin with ``NOT_CERTAIN`` where a submission was graded without protection.
+
+    Parameters
+    ----------
+    submissions, reports : in the same order
+    terms : policy and roster
+    """
+    from course.grading.reports.classes import Line, write_class_page, write_grades
+
+    rules, roster = terms
+    (out / INSTRUCTOR).mkdir(parents=True, exist_ok=True)
+    compared = compare(submissions, settings.modules, out / INSTRUCTOR / "similarity.npz")
+    marks = _marks(submissions, reports, rules)
+    lines = {one.student: Line(one.remarks, marks.get(one.student)) for one in submissions}
+    total = None if rules is None else rules.policy.total
+    matched = None
+    if roster is not None:
+        matched = match(roster, {one.student: one.names for one in submissions})
+    told = [report.unprotected for report in reports if report.unprotected]
+    unprotected = f"{told[0]} ({len(told)} of {len(reports)} graded so)" if told else ""
+    grades, page = out / "grades.csv", out / "class.html"
+    write_grades(reports, grades, lines, total)
+    write_class_page(
+        reports,
+        [(pair.first, pair.second, pair.module, pair.share) for pair in compared.similar],
+        page,
+        lines,
+        total,
+        not_compared=compared.left_out,
+        matched=matched,
+    )
+    scores = {
+        one.student: marks[one.student].final if total is not None else TOTAL * one.score
+        for one in reports
+        if not one.trouble
+    }
+    before = NOT_CERTAIN if unprotected else ""
+    tables = _write_for_systems(out, before, scores, total, matched, settings.title)
+    used = {rules.student(one.names)[0] for one in submissions} if rules else set()
+    unused = tuple(one for one in rules.policy.students if one not in used) if rules else ()
+    return Finished(compared, matched, unused, (grades, page, *tables), unprotected)
+
+
+def _marks(
+    submissions: Sequence[Submission], reports: Sequence[Report], rules: Rules | None
+) -> dict[str, Mark]:
+    if rules is None:
+        return {}
+    by_file = rules.policy.times == MODIFIED
+    found = {
+        one.student: mark(report, rules, one.names, _modified(one) if by_file else None)
+        for one, report in zip(submissions, reports, strict=True)
+    }
+    return {student: score for student, score in found.items() if score is not None}
+
+
+def _modified(submission: Submission) -> datetime | None:
+    """When the newest file of a submission was written."""
+    times = []
+    for path in submission.paths:
+        for file in [path, *(path.rglob("*") if path.is_dir() else ())]:
+            try:
+                if not file.is_dir():
+                    times.append(file.lstat().st_mtime)
+            except OSError:
+                continue
+    return datetime.fromtimestamp(max(times), UTC) if times else None
+
+
+def _write_for_systems(
+    out: Path,
+    before: str,
+    scores: Mapping[str, float],
+    total: float | None,
+    matched: Matched | None,
+    title: str,
+) -> list[Path]:
+    """Write what learning systems import; tables of an earlier run are not left behind."""
+    from course.grading.reports.classes import write_canvas, write_moodle
+
+    for name in (CANVAS, MOODLE):
+        for path in (out / name, out / f"{NOT_CERTAIN}{name}"):
+            path.unlink(missing_ok=True)
+    if matched is None:
+        return []
+    canvas, moodle = out / f"{before}{CANVAS}", out / f"{before}{MOODLE}"
+    of_students = matched.students
+    grades = [(of_students[one], score) for one, score in scores.items() if one in of_students]
+    write_canvas(grades, TOTAL if total is None else total, title, canvas)
+    write_moodle(grades, title, moodle)
+    return [canvas, moodle]

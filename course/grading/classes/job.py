@@ -8,17 +8,17 @@ from __future__ import annotations
 
 import tempfile
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 
 from course import __version__
 from course.grading.checks.preparing import References
+from course.grading.classes.settings import Settings
 from course.grading.grading import grade
 from course.grading.pictures.whole import ALL, NAME
 from course.grading.references import read_references
 from course.grading.report import Report, for_students
-from course.grading.worker.limits import Limits
 from course.grading.worker.sandbox import protected, sandbox
 
 RESULTS = "results.json"
@@ -34,18 +34,15 @@ class Job:
     student : the name, safe as a folder's
     sources : module -> the student's file
     trouble : why there are none
-    seed, modules : what to check
+    settings : what to check
     trusted : whether to grade it where its code can't be kept from doing harm, too
-    limits : what its code may use
     """
 
     student: str
     sources: Mapping[str, bytes]
     trouble: str
-    seed: int
-    modules: tuple[str, ...]
+    settings: Settings
     trusted: bool = False
-    limits: Limits = field(default_factory=Limits)
 
 
 @dataclass(frozen=True)
@@ -69,19 +66,22 @@ def grade_job(job: Job, references: Path | bytes) -> Graded:
     ----------
     references : a file of ``make_references``, or its content
     """
+    seed = job.settings.seed
     if job.trouble:
-        report = troubled(job.student, job.trouble, job.seed)
+        report = troubled(job.student, job.trouble, seed)
     else:
         report = grade(
             job.sources,
-            _references(references, job.seed),
-            seed=job.seed,
-            modules=job.modules,
+            _references(references, seed),
+            seed=seed,
+            modules=job.settings.modules,
             student=job.student,
-            limits=job.limits,
+            limits=job.settings.limits,
             shut_in=sandbox() if job.trusted else protected(),
         )
-    return Graded(without_figures(report), report_files(report))
+    # Arrays to draw are most of a report's bytes.
+    results = tuple(replace(result, figures=()) for result in report.results)
+    return Graded(replace(report, results=results), report_files(report))
 
 
 def with_whole(modules: Sequence[str]) -> tuple[str, ...]:
@@ -92,11 +92,6 @@ def with_whole(modules: Sequence[str]) -> tuple[str, ...]:
 def troubled(student: str, trouble: str, seed: int) -> Report:
     """The report of a submission that can't be graded: it has no results, for a 0 would be a grade."""
     return Report(student, (), seed=seed, version=__version__, trouble=trouble)
-
-
-def without_figures(report: Report) -> Report:
-    """The report without arrays to draw, which are most of its bytes."""
-    return replace(report, results=tuple(replace(result, figures=()) for result in report.results))
 
 
 def report_files(report: Report) -> dict[str, bytes]:

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Mapping
 from dataclasses import fields
 from pathlib import Path
 
@@ -18,32 +17,20 @@ from course.atomic import replacing
 from course.errors import OutputError
 from course.grading.checks.result import Result, Status
 from course.grading.classes.job import RESULTS, Graded
+from course.grading.classes.settings import INSTRUCTOR, Settings
+from course.grading.classes.submitted import Submission
 from course.grading.report import Report
 from course.grading.reports.formats import as_json, json_bytes
-
-INSTRUCTOR = "instructor"
-"""Folder beside those of the students for what they are not to see."""
-
 
 _REPORT = [field.name for field in fields(Report)]
 _RESULT = [field.name for field in fields(Result) if field.name not in ("figures", "instructor")]
 
 
-def fingerprint(
-    sources: Mapping[str, bytes],
-    trouble: str,
-    seed: int,
-    modules: tuple[str, ...],
-    code: str = "",
-    seconds: float | None = None,
-) -> str:
-    """One line that changes whenever the result may: with submission, seed, version, modules or the grader's code.
-
-    Parameters
-    ----------
-    seconds : that all checks of the submission may take; None for no limit
-    """
-    parts = [__version__, seed, modules, trouble, *([code] if code else [])]
+def fingerprint(submission: Submission, settings: Settings, code: str = "") -> str:
+    """One line that changes whenever the result may: with submission, seed, version, modules or the grader's code."""
+    seconds, sources = settings.submission_seconds, submission.sources
+    parts = [__version__, settings.seed, settings.modules, submission.trouble]
+    parts += [code] if code else []
     parts += [] if seconds is None else [f"{seconds:g} s"]
     files = [(name, hashlib.sha256(sources[name]).hexdigest()) for name in sorted(sources)]
     return hashlib.sha256(json.dumps([*parts, files]).encode()).hexdigest()

@@ -8,11 +8,10 @@ from __future__ import annotations
 import ast
 import json
 import re
-import warnings
 from typing import Any
 
-from course.grading.classes.apart import apart
-from course.grading.classes.reachable import reachable
+from course.grading.classes.engines import apart
+from course.grading.classes.reachable import parsed, reachable
 from course.grading.submissions import LARGEST_FILE, SubmissionError
 
 _MAGIC = re.compile(r"\s*(?:%{1,2}[A-Za-z]|!(?!=)|\?)")
@@ -44,8 +43,8 @@ def _converted(work: tuple[str, bytes]) -> bytes | None:
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
         return None
     # A cell that is no Python is left out, as a notebook shows its mistake and goes on.
-    text = "\n\n".join(cell for cell in cells if _parsed(cell) is not None)
-    tree = _parsed(text)
+    text = "\n\n".join(cell for cell in cells if parsed(cell) is not None)
+    tree = parsed(text)
     if tree is None:
         return None
     lines = text.splitlines()
@@ -78,15 +77,6 @@ def _without_magic(cell: str) -> str:
     if cell.lstrip().startswith("%%"):
         return ""
     return "\n".join("" if _MAGIC.match(line) else line for line in cell.splitlines())
-
-
-def _parsed(text: str) -> ast.Module | None:
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # of escapes in somebody else's strings
-            return ast.parse(text)
-    except (SyntaxError, ValueError, RecursionError, MemoryError):
-        return None
 
 
 def _first_line(node: ast.stmt) -> int:

@@ -3,9 +3,20 @@
 from __future__ import annotations
 
 import ast
+import warnings
 from collections.abc import Iterable, Iterator
 
 from course.modules import COURSE
+
+
+def parsed(text: str | bytes) -> ast.Module | None:
+    """The syntax tree of somebody's text; None where there is none."""
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of escapes in somebody else's strings
+            return ast.parse(text)
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return None
 
 
 def reachable(module: str, tree: ast.Module, imports: bool = False) -> Iterator[ast.stmt]:

@@ -14,14 +14,11 @@ from pathlib import Path
 
 from course.effects import PROJECT
 from course.grading.checks.result import Result
-from course.grading.classes.finishing import Finished, Terms, finish
-from course.grading.classes.grading import FAULT, ClassEngine, ClassResult, Progress, grade_all
-from course.grading.classes.keeping import INSTRUCTOR, fingerprint, keep, kept, kept_files, recorded
-from course.grading.classes.settings import Settings, settings_of, write_settings
+from course.grading.classes.grading import FAULT, ClassResult, Finished, Way, finish, grade_all
+from course.grading.classes.keeping import fingerprint, keep, kept, kept_files, recorded
+from course.grading.classes.settings import INSTRUCTOR, Settings
 from course.grading.classes.submitted import find_submissions
 from course.grading.report import Report
-from course.grading.worker.limits import Limits
-from course.grading.worker.sandbox import protected
 
 _CODE = (("course", "*.py"), ("course", "*.json"), ("solutions", "*.py"))
 
@@ -62,68 +59,37 @@ class Regraded:
     gone: tuple[str, ...] = ()
 
 
-def regrade(
-    folder: Path,
-    out: Path,
-    engine: ClassEngine,
-    settings: Settings,
-    *,
-    send_references: bool = False,
-    trusted: bool = False,
-    progress: Progress | None = None,
-) -> Regraded:
+def regrade(folder: Path, out: Path, settings: Settings, way: Way) -> Regraded:
     """Grade a class again, beside what was graded before.
 
     Parameters
     ----------
     folder, out : as for `grade_class`
-    settings : of the grading before
+    settings : of the grading before, with what is to change
     """
-    if not trusted and not send_references:
-        protected((folder, out))
+    way.check(folder, out)
     submissions = find_submissions(folder, settings.modules)
     before = {one.student: kept(out, one.student) for one in submissions}
-    result = grade_all(
-        submissions,
-        _staging(out),
-        engine,
-        seed=settings.seed,
-        modules=settings.modules,
-        code=_code(),
-        send_references=send_references,
-        trusted=trusted,
-        limits=Limits(submission_seconds=settings.submission_seconds),
-        progress=progress,
-    )
+    result = grade_all(submissions, _staging(out), settings, way, _code())
     changes = (_change(before[report.student], report) for report in result.reports)
     gone = tuple(student for student in recorded(out) if student not in before)
     return Regraded(result, tuple(one for one in changes if one is not None), settings, gone)
 
 
-def apply(regraded: Regraded, out: Path, terms: Terms) -> Finished:
+def apply(regraded: Regraded, out: Path) -> Finished:
     """Put the new results in the place of those before; where the grader failed, what was there stays."""
     result, settings = regraded.result, regraded.settings
-    rules, roster = terms.read(settings.modules)
+    terms = settings.read()
     reports = []
     for one, report in zip(result.submissions, result.reports, strict=True):
         if report.trouble.startswith(FAULT):
             reports.append(kept(out, one.student) or report)
             continue
-        mark = fingerprint(
-            one.sources,
-            one.trouble,
-            settings.seed,
-            settings.modules,
-            seconds=settings.submission_seconds,
-        )
-        keep(out, kept_files(_staging(out), report), "" if report.broken else mark)
+        mark = "" if report.broken else fingerprint(one, settings)
+        keep(out, kept_files(_staging(out), report), mark)
         reports.append(report)
-    finished = finish(
-        result.submissions, reports, out, settings.modules, rules, roster, terms.title
-    )
-    write_settings(
-        settings_of(settings.seed, settings.modules, terms, settings.submission_seconds), out
-    )
+    finished = finish(result.submissions, reports, out, settings, terms)
+    settings.write(out)
     shutil.rmtree(_staging(out), ignore_errors=True)
     return finished
 

@@ -1,4 +1,4 @@
-"""With what a class was graded, for whoever grades it again."""
+"""With what a class is graded, kept for whoever grades it again."""
 
 from __future__ import annotations
 
@@ -8,41 +8,62 @@ import msgspec
 
 from course.atomic import write_text
 from course.errors import CourseError
-from course.grading.classes.finishing import Terms
-from course.grading.classes.keeping import INSTRUCTOR
+from course.grading.classes.policy_file import Rules, read_policy
+from course.grading.classes.roster import Listed, read_roster
+from course.grading.worker.limits import Limits
+
+INSTRUCTOR = "instructor"
+"""Folder beside those of the students for what they are not to see."""
 
 
 class Settings(msgspec.Struct, frozen=True):
-    """As the options of `course grade` say it; paths are absolute."""
+    """As the options of `course grade` say it.
+
+    Attributes
+    ----------
+    seed, modules : what to check
+    policy, roster : paths of the files that make grades of points, if there are any
+    title : of the assignment, as a learning system knows it
+    submission_seconds : that all checks of one submission may take; None for no limit
+    """
 
     seed: int
     modules: tuple[str, ...]
     policy: str = ""
     roster: str = ""
-    title: str = Terms.title
+    title: str = "Penumbra"
     submission_seconds: float | None = None
 
-    @property
-    def terms(self) -> Terms:
-        """What makes grades of points."""
-        return Terms(
-            Path(self.policy) if self.policy else None,
-            Path(self.roster) if self.roster else None,
-            self.title,
+    def read(self) -> tuple[Rules | None, list[Listed] | None]:
+        """Policy and roster; raises ``CourseError`` where one can't be read or is wrong."""
+        return (
+            read_policy(Path(self.policy), self.modules) if self.policy else None,
+            read_roster(Path(self.roster)) if self.roster else None,
         )
 
+    def instead(self, policy: Path | None, roster: Path | None, title: str | None) -> Settings:
+        """The same with another policy, roster or title, where one is given."""
+        return msgspec.structs.replace(
+            self,
+            policy=str(policy or self.policy),
+            roster=str(roster or self.roster),
+            title=title or self.title,
+        )
 
-def settings_of(
-    seed: int, modules: tuple[str, ...], terms: Terms, submission_seconds: float | None = None
-) -> Settings:
-    """The settings of a run."""
-    policy, roster = (str(path.resolve()) if path else "" for path in (terms.policy, terms.roster))
-    return Settings(seed, modules, policy, roster, terms.title, submission_seconds)
+    @property
+    def limits(self) -> Limits:
+        """What the code of one submission may use."""
+        return Limits(submission_seconds=self.submission_seconds)
 
-
-def write_settings(settings: Settings, out: Path) -> None:
-    """Keep the settings with what was graded by them."""
-    write_text(_path(out), msgspec.json.format(msgspec.json.encode(settings).decode()) + "\n")
+    def write(self, out: Path) -> None:
+        """Keep the settings with what was graded by them; its files by their absolute paths."""
+        files = {
+            name: str(Path(file).resolve())
+            for name, file in (("policy", self.policy), ("roster", self.roster))
+            if file
+        }
+        text = msgspec.json.encode(msgspec.structs.replace(self, **files)).decode()
+        write_text(_path(out), msgspec.json.format(text) + "\n")
 
 
 def read_settings(out: Path, submission_seconds: float | None = None) -> Settings:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import tempfile
 import zipfile
+from collections.abc import Container, Iterable, Mapping
 from pathlib import Path
 
 from course.atomic import replacing
@@ -23,17 +24,9 @@ from course.modules import COURSE
 FOLDERS = {
     "course": {".py", ".typed", ".json", ".jinja"},
     "scenes": {
-        ".yaml",
-        ".xml",
-        ".json",
-        ".webp",
-        ".png",
-        ".exr",
-        ".ply",
-        ".obj",
-        ".stl",
-        ".glb",
-        ".md",
+        *(".yaml", ".xml", ".json", ".md"),
+        *(".webp", ".png", ".exr"),
+        *(".ply", ".obj", ".stl", ".glb"),
     },
     # What reports tell students to read.
     "docs/modules": {".md"},
@@ -52,6 +45,9 @@ TELLS_NOTHING = "with np.errstate("
 """What begins like this says only what NumPy warns of, and stands wherever a product may overflow."""
 
 
+_SCRIPT = b"#!"
+
+
 class LeakError(CourseError):
     """A file of the archive holds a line of a solution."""
 
@@ -64,18 +60,10 @@ def archive_contents(project: Path) -> dict[str, bytes]:
     LeakError
         A line of a solution stands somewhere in it; names the file and the line.
     """
-    contents = {
-        f"assignments/{stub.module}.py": stub.text.encode()
-        for stub in make_stubs(project / "solutions")
-    }
-    for name in FILES:
-        if (project / name).is_file():
-            contents[name] = (project / name).read_bytes()
-    for folder, suffixes in FOLDERS.items():
-        for path in sorted((project / folder).rglob("*")):
-            if path.is_file() and path.suffix in suffixes and "__pycache__" not in path.parts:
-                contents[path.relative_to(project).as_posix()] = path.read_bytes()
-    contents[REFERENCES] = _references()
+    stubs = make_stubs(project / "solutions")
+    contents = {f"assignments/{stub.module}.py": stub.text.encode() for stub in stubs}
+    contents |= project_files(project, FILES, FOLDERS)
+    contents[REFERENCES] = reference_file((*COURSE, NAME), USUAL_SEED)
     _search(contents, project)
     return contents
 
@@ -92,31 +80,72 @@ def write_archive(project: Path, out: Path) -> int:
     """
     contents = archive_contents(project)
     if out.suffix == ".zip":
-        with (
-            replacing(out) as temporary,
-            zipfile.ZipFile(temporary, "w", zipfile.ZIP_DEFLATED) as file,
-        ):
-            for name, content in contents.items():
-                # A fixed date: the same course gives the same archive, byte for byte.
-                file.writestr(zipfile.ZipInfo(f"penumbra/{name}"), content, zipfile.ZIP_DEFLATED)
-        return len(contents)
+        return write_zip({f"penumbra/{name}": text for name, text in contents.items()}, out)
+    return write_folder(contents, out)
+
+
+def project_files(
+    project: Path, files: Iterable[str], folders: Mapping[str, Container[str]]
+) -> dict[str, bytes]:
+    """Path -> content of some files of a project, and of those of some kinds in its folders."""
+    listed = [project / name for name in files if (project / name).is_file()]
+    for folder, suffixes in folders.items():
+        paths = sorted((project / folder).rglob("*"))
+        listed += [path for path in paths if path.is_file() and path.suffix in suffixes]
+    return {path.relative_to(project).as_posix(): path.read_bytes() for path in listed}
+
+
+def reference_file(modules: Iterable[str], seed: int) -> bytes:
+    """Content of a file of ``make_references``."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "references.npz"
+        make_references(modules, seed, path)
+        return path.read_bytes()
+
+
+def write_zip(contents: Mapping[str, bytes], out: Path) -> int:
+    """Write a .zip file, in which scripts can be executed; the number of its files.
+
+    Raises
+    ------
+    OutputError
+        The file can't be written.
+    """
+    with replacing(out) as temporary, zipfile.ZipFile(temporary, "w") as file:
+        for name, content in contents.items():
+            # A fixed date: the same course gives the same archive, byte for byte.
+            entry = zipfile.ZipInfo(name)
+            entry.create_system = 3  # Unix, so that the permissions count
+            entry.external_attr = (0o100755 if content.startswith(_SCRIPT) else 0o100644) << 16
+            file.writestr(entry, content, zipfile.ZIP_DEFLATED)
+    return len(contents)
+
+
+def check_folder(out: Path) -> None:
+    """Refuse a folder in which something would be written over; raises ``OutputError``."""
     if out.exists() and (not out.is_dir() or any(out.iterdir())):
         raise OutputError(f"{out}: is there already and not an empty folder; choose another")
+
+
+def write_folder(contents: Mapping[str, bytes], out: Path) -> int:
+    """Write files into a folder that is new or empty, scripts so that they can be executed; the number of files.
+
+    Raises
+    ------
+    OutputError
+        The folder holds something, or can't be written.
+    """
+    check_folder(out)
     try:
         for name, content in contents.items():
             path = out / name
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_bytes(content)
+            if content.startswith(_SCRIPT):
+                path.chmod(0o755)
     except OSError as error:
         raise OutputError(f"{out}: can't be written: {error.strerror}") from error
     return len(contents)
-
-
-def _references() -> bytes:
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "references.npz"
-        make_references((*COURSE, NAME), USUAL_SEED, path)
-        return path.read_bytes()
 
 
 def solution_lines(folder: Path) -> set[str]:

@@ -18,7 +18,7 @@ from click.testing import CliRunner
 from course.cli.main import commands
 from course.cluster import connection
 from course.errors import CourseError
-from course.grading.classes.cluster import on_cluster
+from course.grading.classes.engines import on_cluster
 from course.grading.known import known
 from tests.dask_cluster import Cluster
 

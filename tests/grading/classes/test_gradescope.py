@@ -19,8 +19,8 @@ from click.testing import CliRunner
 
 from course.cli.main import commands
 from course.grading.catalog import module_checks
-from course.grading.classes import gradescope_run
-from course.grading.classes.bundle import RUN
+from course.grading.classes import container
+from course.grading.classes.bundles import gradescope_contents
 from course.grading.known import known
 from course.grading.worker.sandbox import NotProtected, plain
 
@@ -151,7 +151,10 @@ def test_a_submission_that_can_t_be_read_is_told(root: Path) -> None:
     for name in ("a", "b"):
         (root / "submission" / name).mkdir()
         (root / "submission" / name / "motion_blur.py").write_text(RIGHT)
-    assert gradescope_run.main(["--root", str(root), "--modules", "motion_blur", "--seed=7"]) == 0
+    assert (
+        container.main(["gradescope", "--root", str(root), "--modules", "motion_blur", "--seed=7"])
+        == 0
+    )
     found = json.loads((root / "results" / "results.json").read_text())
     assert "more than once" in found["output"]
     assert str(root) not in found["output"]
@@ -162,19 +165,22 @@ def test_a_fault_of_the_grader_gives_no_grade(root: Path, monkeypatch: pytest.Mo
         raise ZeroDivisionError
 
     (root / "submission" / "motion_blur.py").write_text(RIGHT)
-    monkeypatch.setattr(gradescope_run, "grade", fail)
-    assert gradescope_run.main(["--root", str(root), "--modules", "motion_blur", "--seed=7"]) == 1
+    monkeypatch.setattr(container, "grade", fail)
+    assert (
+        container.main(["gradescope", "--root", str(root), "--modules", "motion_blur", "--seed=7"])
+        == 1
+    )
     assert not (root / "results" / "results.json").exists()
 
 
 def test_names_come_from_the_metadata_if_it_is_there(tmp_path: Path) -> None:
     path = tmp_path / "submission_metadata.json"
-    assert gradescope_run._student(path) == ""
+    assert container._student(path) == ""
     for text in ("{", "[]", '{"users": 3}', '{"users": [null]}'):
         path.write_text(text)
-        assert gradescope_run._student(path) == ""
+        assert container._student(path) == ""
     path.write_text('{"users": [{"name": "Ada"}, {"email": "b@example.org"}]}')
-    assert gradescope_run._student(path) == "Ada, b@example.org"
+    assert container._student(path) == "Ada, b@example.org"
 
 
 @pytest.mark.skipif(
@@ -205,9 +211,9 @@ def test_the_image_says_when_it_is_built_what_will_hold(
     def refuse(*_: object) -> None:
         raise NotProtected("code could read solutions; --trust-submissions")
 
-    assert gradescope_run.main(["--root", str(root), "--walls"]) == 0
-    monkeypatch.setattr(gradescope_run, "protected", refuse)
-    assert gradescope_run.main(["--root", str(root), "--walls"]) == 0
+    assert container.main(["gradescope", "--root", str(root), "--walls"]) == 0
+    monkeypatch.setattr(container, "protected", refuse)
+    assert container.main(["gradescope", "--root", str(root), "--walls"]) == 0
     assert "will not be graded: code could read solutions" in capsys.readouterr().out
 
 
@@ -219,19 +225,23 @@ def test_without_protection_nothing_is_graded_unless_it_is_asked_for(
 
     unprotected = "NOT PROTECTED: student code could read solutions"
     (root / "submission" / "motion_blur.py").write_text(STUB)
-    monkeypatch.setattr(gradescope_run, "protected", refuse)
+    monkeypatch.setattr(container, "protected", refuse)
     monkeypatch.setattr(
-        gradescope_run, "sandbox", lambda **_: replace(plain(), protections=(unprotected,))
+        container, "sandbox", lambda **_: replace(plain(), protections=(unprotected,))
     )
-    arguments = ["--root", str(root), "--modules", "motion_blur", "--seed=7"]
-    assert gradescope_run.main(arguments) == 1
+    arguments = ["gradescope", "--root", str(root), "--modules", "motion_blur", "--seed=7"]
+    assert container.main(arguments) == 1
     results = root / "results" / "results.json"
     assert not results.exists()
-    assert gradescope_run.main([*arguments, "--trust-submissions"]) == 0
+    assert container.main([*arguments, "--trust-submissions"]) == 0
     assert unprotected in json.loads(results.read_text())["output"]
 
 
-def test_trust_is_bundled_only_when_it_is_asked_for(root: Path) -> None:
+def test_trust_is_bundled_only_when_it_is_asked_for(
+    root: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     assert "--trust" not in (root / "source" / "run_autograder").read_text()
-    run = RUN.format(seed=1, modules="motion_blur", trusted=" --trust-submissions")
+    monkeypatch.setattr("course.grading.classes.bundles.reference_file", lambda *_: b"")
+    contents = gradescope_contents(PROJECT, 1, ("motion_blur",), trusted=True)
+    run = contents["run_autograder"].decode()
     assert run.rstrip().endswith("--modules motion_blur --trust-submissions")

@@ -25,12 +25,12 @@ from course.cli.main import commands
 from course.errors import CourseError
 from course.grading.checks.result import Status
 from course.grading.classes import grading
-from course.grading.classes.grading import ClassResult, grade_class
+from course.grading.classes.bundles import totals
+from course.grading.classes.engines import Outcome
+from course.grading.classes.grading import ClassResult, Way, grade_class
 from course.grading.classes.job import Graded, Job, grade_job, with_whole
 from course.grading.classes.keeping import _record
-from course.grading.classes.outcome import Outcome
-from course.grading.classes.settings import read_settings
-from course.grading.classes.totals import totals
+from course.grading.classes.settings import Settings, read_settings
 from course.grading.known import known
 from course.modules import COURSE
 
@@ -117,7 +117,7 @@ class Here:
 def grade(
     folder: Path, engine: Any, seed: int = 0, modules: Sequence[str] = ("motion_blur",)
 ) -> ClassResult:
-    return grade_class(folder, folder.parent / "out", engine, seed=seed, modules=modules)
+    return grade_class(folder, folder.parent / "out", Settings(seed, tuple(modules)), Way(engine))
 
 
 def test_a_class_from_folders_and_zip_files(tmp_path: Path) -> None:
@@ -201,7 +201,7 @@ def test_another_version_grades_anew(tmp_path: Path, monkeypatch: pytest.MonkeyP
     # A worker of another version than this one grades nobody.
     monkeypatch.setattr(grading, "__version__", "9.9")
     hand_in(folder, ada=STUB + "#")
-    assert grade(folder, here).faults == ("ada",)
+    assert grade(folder, here).faults == ["ada"]
 
 
 @pytest.mark.usefixtures("references_once")
@@ -263,7 +263,7 @@ def test_a_check_with_an_error_of_its_own_is_run_again(tmp_path: Path) -> None:
             report = replace(graded.report, results=(first, *rest))
             yield Outcome(job, replace(graded, report=report))
 
-    assert grade(folder, doubtful).doubtful == ("ada",)
+    assert grade(folder, doubtful).doubtful == ["ada"]
     assert read(tmp_path / "out", "ada")["of"] == WORTH
     here = Here()
     assert not grade(folder, here).doubtful
@@ -279,7 +279,7 @@ def test_results_may_not_lie_among_submissions(tmp_path: Path) -> None:
     folder = hand_in(tmp_path / "class", ada=STUB)
     for out in (folder, folder / "out"):
         with pytest.raises(CourseError, match="choose a folder elsewhere"):
-            grade_class(folder, out, Here(), seed=0, modules=("motion_blur",))
+            grade_class(folder, out, Settings(0, ("motion_blur",)), Way(Here()))
 
 
 @pytest.mark.parametrize(

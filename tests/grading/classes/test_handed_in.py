@@ -13,7 +13,7 @@ import pytest
 
 from course.grading.classes import entries
 from course.grading.classes.entries import Entry, unfolded
-from course.grading.classes.file_names import read_name, sent
+from course.grading.classes.names import read_name, sent
 from course.grading.classes.notebooks import notebook_source
 from course.grading.classes.submitted import Submission, find_submissions
 from course.grading.submissions import SubmissionError

@@ -15,9 +15,8 @@ import pytest
 from click.testing import CliRunner, Result
 
 from course.cli.main import commands
-from course.grading.classes import prairielearn_run
-from course.grading.classes.image import HOME
-from course.grading.classes.totals import totals
+from course.grading.classes import container
+from course.grading.classes.bundles import HOME, totals
 from course.grading.known import known
 
 PROJECT = Path(__file__).parents[3]
@@ -45,9 +44,9 @@ def grade(question: Path, root: Path, **files: str) -> dict[str, Any]:
         (root / "student" / name).write_text(content)
     script = (question / "image" / "run").read_text()
     line = shlex.split(script.split("exec ")[1].replace("\\\n", " "))
-    assert line[:4] == ["python", "-I", "-m", "course.grading.classes.prairielearn_run"]
+    assert line[:4] == ["python", "-I", "-m", "course.grading.classes.container"]
     arguments = [part.replace(HOME, str(question / "image")) for part in line[4:]]
-    assert prairielearn_run.main([*arguments, "--root", str(root), "--trust-submissions"]) == 0
+    assert container.main([*arguments, "--root", str(root), "--trust-submissions"]) == 0
     found: dict[str, Any] = json.loads((root / "results" / "results.json").read_text())
     return found
 
@@ -104,9 +103,10 @@ def test_a_fault_of_the_grader_leaves_no_results(
     question: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     grade(question, tmp_path, **{"notes.txt": ""})
-    monkeypatch.setattr(prairielearn_run, "_grade", lambda _: 1 // 0)
-    arguments = ["--root", str(tmp_path), "--references", str(question / "image/references.npz")]
-    assert prairielearn_run.main(arguments) == 1
+    monkeypatch.setattr(container, "_grade", lambda *_: 1 // 0)
+    references = str(question / "image" / "references.npz")
+    arguments = ["prairielearn", "--root", str(tmp_path), "--references", references]
+    assert container.main(arguments) == 1
     assert not (tmp_path / "results" / "results.json").exists()
 
 

@@ -7,7 +7,7 @@ from collections import Counter
 from pathlib import Path
 from time import sleep
 
-from course.grading.classes.processes import DIED, in_processes
+from course.grading.classes.engines import DIED, in_processes
 from tests.grading.classes.work import work
 
 

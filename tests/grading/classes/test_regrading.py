@@ -16,8 +16,8 @@ from course.cli.main import commands
 from course.grading.checks import result as results
 from course.grading.checks.result import Status
 from course.grading.classes import grading, regrading
+from course.grading.classes.engines import Outcome
 from course.grading.classes.job import Graded, Job, report_files, troubled
-from course.grading.classes.outcome import Outcome
 from course.grading.report import Report
 
 SOURCE = "def displacement(velocity, time):\n    return velocity[:, None] * time\n"
@@ -53,7 +53,7 @@ class Engine:
             if job.student not in self.points:
                 yield Outcome(job, None, "it broke")
             elif job.trouble:
-                report = troubled(job.student, job.trouble, job.seed)
+                report = troubled(job.student, job.trouble, job.settings.seed)
                 yield Outcome(job, Graded(report, report_files(report)))
             else:
                 yield Outcome(job, graded(job.student, self.points[job.student]))

@@ -9,11 +9,16 @@ from typing import Any
 
 import pytest
 
-from course.grading.classes import comparing, shingling
-from course.grading.classes.apart import apart
-from course.grading.classes.comparing import compare
-from course.grading.classes.shingling import LARGEST, shingles, statements
-from course.grading.classes.similarity import Similar, as_shingles
+from course.grading.classes import similarity
+from course.grading.classes.engines import apart
+from course.grading.classes.similarity import (
+    LARGEST,
+    Similar,
+    as_shingles,
+    compare,
+    shingles,
+    statements,
+)
 from course.grading.classes.similarity import find_similar as similar_of
 from course.grading.classes.submitted import Submission
 from course.grading.known import known
@@ -140,13 +145,13 @@ def test_of_a_class_of_200_each_text_is_read_once_and_the_copies_are_found(
         Submission(f"{i:03}", (), {"thin_lens": variants[i % len(variants)]}) for i in range(200)
     ]
     read: list[int] = []
-    apart = comparing.apart
+    apart = similarity.apart
 
     def counted(function: Any, items: Sequence[Any], jobs: int) -> Any:
         read.append(len(items))
         return apart(function, items, jobs)
 
-    monkeypatch.setattr(comparing, "apart", counted)
+    monkeypatch.setattr(similarity, "apart", counted)
     kept = tmp_path / "kept.npz"
     found = compare(class_, ["thin_lens"], kept)
     assert {(pair.first, pair.second) for pair in found.similar} == {
@@ -197,12 +202,12 @@ def test_each_node_of_a_nested_file_is_looked_at_twice_and_no_more(
     source = f"def point_on_disk(u):\n{nested}{' ' * depth}u = [{'u,' * 3000}]\n return u\n"
     given = statements(STUBS["thin_lens"])
     looked: list[ast.AST] = []
-    token = shingling._token
+    token = similarity._token
 
     def counted(node: ast.AST) -> str:
         looked.append(node)
         return token(node)
 
-    monkeypatch.setattr(shingling, "_token", counted)
+    monkeypatch.setattr(similarity, "_token", counted)
     assert shingles("thin_lens", source.encode(), given)
     assert len(looked) <= 2 * sum(1 for _ in ast.walk(ast.parse(source)))

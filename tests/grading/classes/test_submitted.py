@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from course.errors import CourseError
-from course.grading.classes.naming import safe_name
+from course.grading.classes.names import safe_name
 from course.grading.classes.submitted import find_submissions
 
 STUB = (Path(__file__).parents[3] / "assignments" / "motion_blur.py").read_bytes()

@@ -13,7 +13,8 @@ import pytest
 
 from course.grading.checks.result import Status
 from course.grading.classes.job import Graded, report_files
-from course.grading.classes.keeping import INSTRUCTOR, keep, kept
+from course.grading.classes.keeping import keep, kept
+from course.grading.classes.settings import INSTRUCTOR
 from course.grading.report import Report
 from course.grading.reports.classes import write_class_page, write_grades
 from course.grading.reports.formats import as_json, as_xml, gradescope, prairielearn

@@ -1,12 +1,18 @@
-"""What the name of a file says: which module it is, and whose, as students and learning systems name files."""
+"""Names: what that of a file says, as students and learning systems name files, and folders' names for students."""
 
 from __future__ import annotations
 
+import hashlib
 import re
+import unicodedata
 from collections.abc import Iterable
 from dataclasses import dataclass
+from urllib.parse import quote
 
 PYTHON, NOTEBOOK = ".py", ".ipynb"
+
+LONGEST_NAME = 150
+"""Bytes of a student's name, quoted; file systems take 255."""
 
 _CANVAS = re.compile(r"(?P<name>[^_]+)(?P<late>_LATE)?_(?P<id>\d+)_\d+_(?P<file>.+)", re.DOTALL)
 _MOODLE = re.compile(
@@ -15,6 +21,12 @@ _MOODLE = re.compile(
 )
 _COPY = re.compile(r"(?:\s*\(\d{1,3}\)|[-_\s]+\d{1,2}|[-_\s]+(?:copy|kopie|copie|copia))+$", re.I)
 _SEPARATORS = "-_. \t"
+_PLAIN = " -_@+,()'."
+_DEVICES = {
+    *("con", "prn", "aux", "nul"),
+    *(f"{p}{n}" for p in ("com", "lpt") for n in range(1, 10)),
+}
+_OUTPUTS = ("grades.csv", "canvas.csv", "moodle.csv", "class.html", "references_", "instructor")
 
 
 @dataclass(frozen=True)
@@ -98,3 +110,35 @@ def _split(name: str) -> tuple[str, str]:
 def _folded(stem: str) -> str:
     # One sign for one, so that places in the folded name are places in the name.
     return re.sub(r"[-\s.]", "_", stem.lower())
+
+
+def same_name(name: str) -> str:
+    """What two names share that some file system takes for the same: they differ in case or in accents' spelling."""
+    return unicodedata.normalize("NFC", name).casefold()
+
+
+def safe_name(name: str) -> str:
+    """A name that is safe as the name of a folder, different for different names.
+
+    Letters, digits, spaces and some signs stay; all else becomes %XX, as it does in addresses of the web.
+    """
+    safe = "".join(
+        sign if sign.isalnum() or sign in _PLAIN else quote(sign, safe="", errors="surrogateescape")
+        for sign in name
+    )
+    start = safe[:1]
+    stem = safe.partition(".")[0].rstrip().casefold()
+    if start in ("", ".", " ", "-") or stem in _DEVICES or safe.casefold().startswith(_OUTPUTS):
+        safe = "".join(f"%{byte:02X}" for byte in start.encode()) + safe[1:] or "%00"
+    if safe[-1:] in (".", " "):
+        safe = f"{safe[:-1]}%{ord(safe[-1]):02X}"
+    return safe
+
+
+def short_name(safe: str) -> str:
+    """A safe name itself, or its beginning and a number made from all of it where it is too long for a folder."""
+    if len(safe.encode()) <= LONGEST_NAME:
+        return safe
+    number = hashlib.sha256(safe.encode()).hexdigest()[:8]
+    start = safe.encode()[: LONGEST_NAME - 10].decode("utf-8", "ignore")
+    return f"{start.rstrip(' .%')}~{number}"
