@@ -141,11 +141,8 @@ class Exported:
 def export(scene: Scene, width: int, height: int) -> Exported:
     """Take a scene apart.
 
-    Raises
-    ------
-    NotExportableError
-        For what no benchmark scene has: lights by radiance that move, grids of lights, objects that are lights and
-        open or not black, apertures other than disks, glass that blurs, and keys that are not EXPORTED.
+    Raises NotExportableError for what no benchmark scene has: lights by radiance that move, grids of lights, objects
+    that are lights and open or not black, apertures other than disks, glass that blurs, and keys that are not EXPORTED.
     """
     description = scene.loaded.description
     columns = material_columns(description)

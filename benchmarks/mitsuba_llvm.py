@@ -48,14 +48,11 @@ def make_mesh(
 class LlvmScene:
     """A scene in Mitsuba's LLVM variant, which ``start_llvm`` must have switched on.
 
+    Raises NotExportableError: a light is one by radiance, such as an object.
+
     Parameters
     ----------
     exported : the scene
-
-    Raises
-    ------
-    NotExportableError
-        A light is one by radiance, such as an object.
     """
 
     def __init__(self, exported: Exported) -> None:

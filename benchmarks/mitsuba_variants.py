@@ -42,10 +42,7 @@ def find_llvm() -> Path | None:
 def start_llvm(threads: int) -> None:
     """Switch Mitsuba to its LLVM variant.
 
-    Raises
-    ------
-    NotExportableError
-        There is no LLVM on this machine that Mitsuba can use.
+    Raises NotExportableError: there is no LLVM on this machine that Mitsuba can use.
     """
     library = find_llvm()
     if library is None:

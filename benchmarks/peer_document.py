@@ -17,10 +17,7 @@ SIZE = (400, 300)
 def write_document(cases: Sequence[Measured], document: Path) -> None:
     """Put the tables between the marks of a document.
 
-    Raises
-    ------
-    OutputError
-        It isn't there, has not got the marks, or can't be written.
+    Raises OutputError: it isn't there, has not got the marks, or can't be written.
     """
     results = [case.result for case in cases]
     parts = _sources(cases)

@@ -18,21 +18,17 @@ from course.errors import OutputError
 def replacing(path: Path) -> Iterator[Path]:
     """Give the name of an empty temporary file that becomes `path` when the block ends well.
 
+    Raises OutputError: the folder isn't there or can't be written, `path` isn't a regular file, or an OSError escaped
+    from the block (a full disk).
+
     Parameters
     ----------
-    path : Path
-        The name to appear; a file that has it already is replaced. Symbolic links are followed.
+    path : the name to appear; a file that has it already is replaced. Symbolic links are followed.
 
     Yields
     ------
     Path
         The file to write, in the same folder and with the same suffix.
-
-    Raises
-    ------
-    OutputError
-        The folder isn't there or can't be written, `path` isn't a regular file, or an OSError
-        escaped from the block (a full disk).
     """
     target = _target(path)
     temporary = _reserve(path, target)
@@ -48,15 +44,11 @@ def replacing(path: Path) -> Iterator[Path]:
 def check_writable(path: Path) -> None:
     """Find out before the work whether `replacing(path)` can succeed.
 
+    Raises OutputError as `replacing` would.
+
     Parameters
     ----------
-    path : Path
-        The file that is going to be written. It stays as it is.
-
-    Raises
-    ------
-    OutputError
-        As `replacing` would.
+    path : the file that is going to be written. It stays as it is.
     """
     _reserve(path, _target(path)).unlink()
 
@@ -72,10 +64,7 @@ def make_folder(folder: Path) -> None:
 def write_text(path: Path, text: str) -> None:
     """Write a UTF-8 text file, whole or not at all.
 
-    Raises
-    ------
-    OutputError
-        As `replacing` does.
+    Raises OutputError as `replacing` does.
     """
     with replacing(path) as temporary:
         temporary.write_text(text, encoding="utf-8", newline="\n")

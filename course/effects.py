@@ -39,16 +39,13 @@ class Need:
 class Effects:
     """The student-facing functions, from one folder of ``NAME.py`` files.
 
+    Raises EffectError when the folder doesn't exist.
+
     Parameters
     ----------
     folder : where the modules are; ``solutions`` and ``assignments`` mean the project's own folders. None means the
         solutions where they are, and else the assignments.
     trusted : whether what the functions return is taken as it is; None means the project's own solutions, and no others
-
-    Raises
-    ------
-    EffectError
-        When the folder doesn't exist.
     """
 
     def __init__(self, folder: str | Path | None = None, trusted: bool | None = None) -> None:
@@ -76,10 +73,7 @@ class Effects:
     def function(self, module: str, name: str) -> Callable[..., Any]:
         """One function of a module, importing the module if this is its first; guarded where it isn't trusted.
 
-        Raises
-        ------
-        EffectError
-            When the file or the function is missing or the file can't be imported.
+        Raises EffectError when the file or the function is missing or the file can't be imported.
         """
         known = self._functions.get((module, name))
         if known is not None:

@@ -52,10 +52,7 @@ class Guard:
     def __call__(self, *arguments: Any) -> Any:
         """The function's value for these arguments.
 
-        Raises
-        ------
-        FunctionError
-            It raised an exception, or returned another kind of value than its contract says.
+        Raises FunctionError: it raised an exception, or returned another kind of value than its contract says.
         """
         try:
             value = self._function(*map(_lent, arguments))

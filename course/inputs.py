@@ -75,17 +75,14 @@ def opened(
 ) -> Iterator[BufferedReader]:
     """Open a regular file for reading; symbolic links are followed.
 
+    Raises a CourseError of the kind of ``error``, in one line that names the file: it is missing, a folder, a pipe, a
+    socket, a device or too large, or the system can't open it.
+
     Parameters
     ----------
     what : what is expected, for messages, such as "mesh file"
     bound : the most bytes that the file may have
     error : what is raised
-
-    Raises
-    ------
-    CourseError
-        Of the kind of ``error``, in one line that names the file: it is missing, a folder, a pipe, a socket, a device
-        or too large, or the system can't open it.
     """
     try:
         descriptor = os.open(path, _FLAGS)
@@ -125,10 +122,8 @@ def read_input(
 def read_arrays(path: Path, what: str) -> dict[str, NDArray[Any]]:
     """Arrays of an .npz file by their names.
 
-    Raises
-    ------
-    CourseError
-        As of `opened`; for a file that isn't one, that holds objects, or arrays of more than LARGEST_ARRAYS.
+    Raises CourseError as `opened` does, and for a file that isn't one, that holds objects, or arrays of more than
+    LARGEST_ARRAYS.
     """
     with opened(path, what, Bound(LARGEST_ARRAYS)) as stream:
         try:

@@ -67,16 +67,13 @@ class Outcome:
 def outcomes(user: str, wall: str, *, reaching: bool = False, every: int = 1) -> list[Outcome]:
     """Of all attacks, or of those that reach for something outside alone.
 
+    Raises LookupError: this machine can't.
+
     Parameters
     ----------
     user : who grades: "root" or "another"
     wall : of ``WALLS``, or ``OPEN``
     every : of those that reach, each so manieth
-
-    Raises
-    ------
-    LookupError
-        This machine can't.
     """
     with python_for(user) as python:
         command = [

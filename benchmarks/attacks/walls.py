@@ -35,14 +35,11 @@ NOBODY = 65534
 def behind(wall: str, mark: str) -> Sandbox:
     """The sandbox of a wall.
 
+    Raises LookupError: this machine has no such wall.
+
     Parameters
     ----------
     mark : stands on the command line of every worker, and of what it forks
-
-    Raises
-    ------
-    LookupError
-        This machine has no such wall.
     """
     shut_in = plain() if wall == OPEN else sandbox(**WALLS[wall])
     for name, on in (
@@ -59,14 +56,11 @@ def behind(wall: str, mark: str) -> Sandbox:
 def python_for(user: str) -> Iterator[list[str]]:
     """The command that starts a Python that every user can run, as one of them, with the course on its path.
 
+    Raises LookupError: there is no way here.
+
     Parameters
     ----------
     user : "root", or "another" for one that owns nothing
-
-    Raises
-    ------
-    LookupError
-        There is no way here.
     """
     if os.geteuid():
         if user == "root":

@@ -27,15 +27,12 @@ def write_documents(
 ) -> list[Path]:
     """Put tables into the two documents, and the plots' numbers beside them; modules not measured stay as they are.
 
+    Raises OutputError: a document isn't there, has no marks, or can't be written.
+
     Parameters
     ----------
     machine : what it was measured with, name -> value
     folder : of accuracy.md, performance.md and data/bench.json
-
-    Raises
-    ------
-    OutputError
-        A document isn't there, has no marks, or can't be written.
     """
     for name, section in zip(NAMES, (accuracy, performance), strict=True):
         path = folder / name
@@ -68,10 +65,7 @@ def performance(measured: Measured, effort: Effort, machine: Mapping[str, str]) 
 def replace_marked(path: Path, mark: str, block: str) -> None:
     """Replace what stands between `<!-- MARK: begin -->` and `<!-- MARK: end -->` in a file.
 
-    Raises
-    ------
-    OutputError
-        The file isn't there, or doesn't hold each mark once and in this order.
+    Raises OutputError: the file isn't there, or doesn't hold each mark once and in this order.
     """
     before, _, after = _around(path, mark)
     write_text(path, f"{before}\n\n{block}\n\n{after}")
@@ -80,10 +74,7 @@ def replace_marked(path: Path, mark: str, block: str) -> None:
 def check_documents(folder: Path) -> None:
     """Find out before the work whether `write_documents` finds its marks.
 
-    Raises
-    ------
-    OutputError
-        As `write_documents` would.
+    Raises OutputError as `write_documents` would.
     """
     for name in NAMES:
         _around(folder / name, MARK)
@@ -111,10 +102,7 @@ def _around(path: Path, mark: str) -> tuple[str, str, str]:
 def marked(path: Path, mark: str) -> str:
     """What stands between the marks of a file.
 
-    Raises
-    ------
-    OutputError
-        As `replace_marked`.
+    Raises OutputError as `replace_marked`.
     """
     return _around(path, mark)[1].strip()
 

@@ -22,6 +22,8 @@ Picture = NDArray[np.floating[Any]]
 def rmse(image: Picture, reference: Picture) -> float:
     """Root of the mean squared error, over pixels and channels.
 
+    Raises CourseError: the pictures differ in shape, or hold a number that is not finite.
+
     Parameters
     ----------
     image, reference : (H, W, 3) floating, linear radiance
@@ -30,11 +32,6 @@ def rmse(image: Picture, reference: Picture) -> float:
     -------
     float
         In the unit of the pictures.
-
-    Raises
-    ------
-    CourseError
-        The pictures differ in shape, or hold a number that is not finite.
     """
     a, b = _pair(image, reference)
     return float(np.sqrt(np.mean((a - b) ** 2)))
@@ -44,15 +41,11 @@ def relative_mse(image: Picture, reference: Picture) -> float:
     """Mean of (image - reference)^2 / (reference^2 + 0.01), over pixels and channels.
 
     An error in the dark counts as much as one in the light, down to a tenth of white.
+    Raises CourseError as `rmse` does.
 
     Parameters
     ----------
     image, reference : (H, W, 3) floating, linear radiance, white near 1
-
-    Raises
-    ------
-    CourseError
-        As `rmse` does.
 
     Notes
     -----
@@ -65,6 +58,8 @@ def relative_mse(image: Picture, reference: Picture) -> float:
 def dissimilarity(image: Picture, reference: Picture) -> float:
     """1 - SSIM of the pictures as a screen shows them (sRGB, cut off at white).
 
+    Raises CourseError as `rmse` does, or the pictures are smaller than the window.
+
     Parameters
     ----------
     image, reference : (H, W, 3) floating, linear radiance; H and W at least 11
@@ -73,11 +68,6 @@ def dissimilarity(image: Picture, reference: Picture) -> float:
     -------
     float
         0 for equal pictures, at most 2.
-
-    Raises
-    ------
-    CourseError
-        As `rmse` does, or the pictures are smaller than the window.
 
     Notes
     -----

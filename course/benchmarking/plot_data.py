@@ -96,10 +96,7 @@ def rounded(value: float) -> float:
 def write_records(path: Path, records: Mapping[str, Record]) -> None:
     """Put modules into a data file; others that it holds stay.
 
-    Raises
-    ------
-    OutputError
-        The file holds something else, or can't be written.
+    Raises OutputError: the file holds something else, or can't be written.
     """
     kept = read_records(path) if path.is_file() else {}
     data = {name: _plain(record) for name, record in {**kept, **records}.items()}
@@ -114,10 +111,7 @@ def write_records(path: Path, records: Mapping[str, Record]) -> None:
 def read_records(path: Path) -> dict[str, Record]:
     """Read what `write_records` wrote.
 
-    Raises
-    ------
-    CourseError
-        The file can't be read, or holds something else.
+    Raises CourseError: the file can't be read, or holds something else.
     """
     try:
         data = json.loads(path.read_text(encoding="utf-8"))

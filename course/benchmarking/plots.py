@@ -59,10 +59,7 @@ ABOVE = 1.25
 def check_matplotlib() -> None:
     """Find out before the work whether figures can be drawn.
 
-    Raises
-    ------
-    CourseError
-        matplotlib is not installed.
+    Raises CourseError: matplotlib is not installed.
     """
     if find_spec("matplotlib") is None:
         raise CourseError(
@@ -73,14 +70,11 @@ def check_matplotlib() -> None:
 def write_comparisons(measured: Measured, folder: Path, note: str) -> list[Path]:
     """Draw every comparison of a module that was measured, as MODULE_GROUP_samples.svg and MODULE_GROUP_seconds.svg.
 
+    Raises CourseError, OutputError: matplotlib is not installed, or a file can't be written.
+
     Parameters
     ----------
     folder, note : as `write_plots` takes them
-
-    Raises
-    ------
-    CourseError, OutputError
-        matplotlib is not installed, or a file can't be written.
     """
     module = measured.module
     width, height = measured.size
@@ -97,16 +91,13 @@ def write_plots(
 ) -> list[Path]:
     """Draw plots along each of their axes, as NAME_PLOT_AXIS.svg.
 
+    Raises CourseError, OutputError: matplotlib is not installed, or a file can't be written.
+
     Parameters
     ----------
     about : with what effort the plots were measured
     folder : of the SVG files; it is there
     note : small below the figures that show seconds
-
-    Raises
-    ------
-    CourseError, OutputError
-        matplotlib is not installed, or a file can't be written.
     """
     check_matplotlib()
     from matplotlib import rc_context

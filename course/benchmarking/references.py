@@ -56,15 +56,11 @@ def scene_hash(loaded: Loaded, effects: Effects, **settings: object) -> str:
 
     The scene's own sampler, number of samples, seed and title don't count: whoever renders it for a reference
     chooses the first three.
+    Raises SceneError: a file that the scene names can't be read.
 
     Parameters
     ----------
     settings : plain values
-
-    Raises
-    ------
-    SceneError
-        A file that the scene names can't be read.
     """
     data = {k: v for k, v in loaded.document.data.items() if k not in ("sampler", "seed", "title")}
     files = {

@@ -32,20 +32,10 @@ def make_camera(
     width, height : pixels
     near : depth at which rays begin
     """
-    forward, right, true_up = _axes(view, up)
     half_height = np.tan(vertical_fov / 2)
     pixel = 2 * half_height / height
-    corner = forward - right * (pixel * width / 2) + true_up * half_height
-    return Camera(
-        origin=eye.astype(np.float32),
-        right=right.astype(np.float32),
-        up=true_up.astype(np.float32),
-        forward=forward.astype(np.float32),
-        corner=corner.astype(np.float32),
-        step_x=(right * pixel).astype(np.float32),
-        step_y=(-true_up * pixel).astype(np.float32),
-        near=near,
-    )
+    corner = -(pixel * width / 2), half_height
+    return _camera(eye, view, up, corner, (pixel, -pixel), near)
 
 
 def make_window_camera(
@@ -63,25 +53,27 @@ def make_window_camera(
     ----------
     edges : (4,) float64, where the window's left, right, lower and upper edges are, at distance 1 and from the axis
     """
-    forward, right, true_up = _axes(view, up)
-    left, right_edge, bottom, top = edges
-    return Camera(
-        origin=eye.astype(np.float32),
-        right=right.astype(np.float32),
-        up=true_up.astype(np.float32),
-        forward=forward.astype(np.float32),
-        corner=(forward + right * left + true_up * top).astype(np.float32),
-        step_x=(right * ((right_edge - left) / width)).astype(np.float32),
-        step_y=(true_up * ((bottom - top) / height)).astype(np.float32),
-        near=near,
-    )
+    left, right, bottom, top = edges
+    steps = (right - left) / width, (bottom - top) / height
+    return _camera(eye, view, up, (left, top), steps, near)
 
 
-def _axes(view: Floats64, up: Floats64) -> tuple[Floats64, Floats64, Floats64]:
-    """Unit vectors forward, to the right and up."""
+def _camera(
+    eye: Floats64,
+    view: Floats64,
+    up: Floats64,
+    corner: tuple[float, float],
+    steps: tuple[float, float],
+    near: float,
+) -> Camera:
+    """A camera from its upper left corner and a pixel's steps, both to the right and up, at distance 1."""
     forward = _unit(view)
     right = _unit(np.cross(forward, _unit(up)))
-    return forward, right, np.cross(right, forward)
+    true_up = np.cross(right, forward)
+    first = forward + right * corner[0] + true_up * corner[1]
+    vectors = eye, right, true_up, forward, first, right * steps[0], true_up * steps[1]
+    origin, x, y, z, corner_at, step_x, step_y = (vector.astype(np.float32) for vector in vectors)
+    return Camera(origin, x, y, z, corner_at, step_x, step_y, near)
 
 
 def _unit(vector: Floats64) -> Floats64:
@@ -99,10 +91,7 @@ NEAREST = 1e-6
 def compile_lens(loaded: Loaded, frame: Frame, bound: Bound) -> Lens | None:
     """The lens, or None for a pinhole (no lens, or an aperture of 0).
 
-    Raises
-    ------
-    SceneError
-        Neither or both of focus_distance and focus_point, or a focus that isn't in front of the camera.
+    Raises SceneError: neither or both of focus_distance and focus_point, or a focus that isn't in front of the camera.
     """
     camera, document = loaded.description.camera, loaded.document
     lens, path = camera.lens, ("camera", "lens")

@@ -34,14 +34,12 @@ HEMISPHERES = {
 def compile_environment(loaded: Loaded, bound: Bound) -> tuple[Environment, SkySampling | None]:
     """Read the pictures, if there are any, and make a cube of them.
 
+    Raises SceneError: a picture is missing, can't be read, has the wrong size or is too bright; names the key that asks
+    for it.
+
     Returns
     -------
     The environment, and what chooses directions of its light; None where it lights nothing
-
-    Raises
-    ------
-    SceneError
-        A picture is missing, can't be read, has the wrong size or is too bright; names the key that asks for it.
     """
     environment = loaded.description.environment
     if isinstance(environment, d.ConstantEnvironment):

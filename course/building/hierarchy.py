@@ -20,10 +20,7 @@ def compile_acceleration(
 ) -> tuple[Functions, int] | None:
     """The module's functions and the size of a leaf; None where Embree answers, and then nothing of it is imported.
 
-    Raises
-    ------
-    SceneError
-        Something that rays meet moves while the shutter is open; names the key.
+    Raises SceneError: something that rays meet moves while the shutter is open; names the key.
     """
     scene = loaded.description
     if scene.acceleration.type == "embree":

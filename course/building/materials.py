@@ -135,14 +135,11 @@ def compile_materials(
 def check_growth(loaded: Loaded, used: Iterable[str], world: FullWorld) -> None:
     """Check what a ray may carry after all its bounces.
 
+    Raises SceneError: it is more than float32 holds; names the material that makes most light.
+
     Parameters
     ----------
     used : names of the objects' materials
-
-    Raises
-    ------
-    SceneError
-        It is more than float32 holds; names the material that makes most light.
     """
     scene = loaded.description
     integrator = scene.integrator

@@ -29,14 +29,11 @@ def object_mesh(
 ) -> Mesh:
     """The mesh of one object, transformed.
 
+    Raises SceneError when a mesh file can't be used, or a shape or a transform is impossible; names the object's line.
+
     Parameters
     ----------
     files : mesh files that have been read already, by their normals and names in the scene; this one is added
-
-    Raises
-    ------
-    SceneError
-        When a mesh file can't be used, or a shape or a transform is impossible; names the object's line.
     """
     path = ("objects", number)
     try:
@@ -62,33 +59,12 @@ def _local_mesh(thing: d.Object, folder: Path, files: dict[str, Mesh], bound: Bo
         if read not in files:
             files[read] = read_mesh(folder / thing.file, thing.normals, bound)
         return files[read]
-    match thing:
-        case d.Quad():
-            return shapes.quad(thing.width, thing.depth)
-        case d.Box():
-            return shapes.box(thing.size)
-        case d.Sphere():
-            return shapes.sphere(thing.radius, thing.segments)
-        case d.Disk():
-            return shapes.disk(thing.radius, thing.segments)
-        case d.Cylinder():
-            return shapes.cylinder(thing.radius, thing.height, thing.segments)
-        case d.Cone():
-            return shapes.cone(thing.radius, thing.height, thing.segments)
-        case d.Torus():
-            return shapes.torus(thing.radius, thing.tube, thing.segments, thing.sides)
-        case d.TorusKnot():
-            return shapes.torus_knot(
-                thing.p, thing.q, thing.radius, thing.tube, thing.segments, thing.sides
-            )
-        case d.DisplacedSphere():
-            return shapes.displaced_sphere(
-                thing.radius, thing.amplitude, thing.frequency, thing.segments, thing.seed
-            )
-        case d.HeightField():
-            return shapes.height_field(
-                thing.size, thing.amplitude, thing.frequency, thing.segments, thing.seed
-            )
+    # A shape's own keys are the parameters of the function of its name.
+    own = [name for name in thing.__struct_fields__ if name not in d.SHARED]
+    mesh: Mesh = getattr(shapes, str(thing.__struct_config__.tag))(
+        **{name: getattr(thing, name) for name in own}
+    )
+    return mesh
 
 
 def _matrix(step: d.Transform) -> Floats64:

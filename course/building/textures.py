@@ -50,15 +50,12 @@ class Painter:
     def paint(self, number: int, mesh: Mesh) -> Paint | None:
         """The paint of an object; None where it has none.
 
+        Raises SceneError: the picture is missing, can't be read or returns more light than it gets, or the mesh has no
+        texture coordinates; names the key that asks for it.
+
         Parameters
         ----------
         mesh : as it is compiled, of which the triangles and uv count
-
-        Raises
-        ------
-        SceneError
-            The picture is missing, can't be read or returns more light than it gets, or the mesh has no texture
-            coordinates; names the key that asks for it.
         """
         thing = self._loaded.description.objects[number]
         material = self._loaded.description.materials[thing.material]

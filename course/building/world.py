@@ -63,10 +63,7 @@ class Compiled:
 def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
     """Read the meshes and build everything that rays meet.
 
-    Raises
-    ------
-    SceneError
-        For what only shows when meshes are there; names file, line and key path.
+    Raises SceneError for what only shows when meshes are there; names file, line and key path.
     """
     scene, document = loaded.description, loaded.document
     bound = Bound(effects)

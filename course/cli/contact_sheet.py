@@ -18,16 +18,11 @@ class Card:
 
     Attributes
     ----------
-    title : str
-        What it shows.
-    file : str
-        Name of the picture's file, relative to the page; the picture links to it.
-    png : bytes
-        The PNG itself, shown by the page.
-    receipt : mapping
-        As `course.jobs.receipt.Receipt.to_dict` gives it.
-    size : (int, int)
-        Width and height [pixels].
+    title : what it shows
+    file : name of the picture's file, relative to the page; the picture links to it
+    png : bytes, the PNG itself, shown by the page
+    receipt : as `course.jobs.receipt.Receipt.to_dict` gives it
+    size : (int, int), width and height [pixels]
     """
 
     title: str

@@ -24,17 +24,14 @@ def check_outputs(
 ) -> None:
     """Find out before the work whether all outputs can be written, without one replacing another or the source.
 
+    Raises OutputError: names the option and the path: a suffix that no picture has, a folder that isn't there or can't
+    be written, or one file for two purposes, however it is spelled.
+
     Parameters
     ----------
     pictures : .png or .exr
     files : of any other kind
     source : the file that the command reads
-
-    Raises
-    ------
-    OutputError
-        Names the option and the path: a suffix that no picture has, a folder that isn't there or can't be written, or
-        one file for two purposes, however it is spelled.
     """
     check_distinct((*pictures, *files), source)
     for _, path in pictures:
@@ -51,10 +48,7 @@ def check_outputs(
 def check_distinct(outputs: Sequence[Named], source: Path | None = None) -> None:
     """The part of `check_outputs` for which no folder has to be there yet.
 
-    Raises
-    ------
-    OutputError
-        Two outputs are one file, or one is the source.
+    Raises OutputError: two outputs are one file, or one is the source.
     """
     given = [(name, path) for name, path in outputs if path is not None]
     for name, path in given:

@@ -24,8 +24,7 @@ def progress_bar(label: str) -> Iterator[Report | None]:
 
     Parameters
     ----------
-    label : str
-        What stands before the bar.
+    label : what stands before the bar
 
     Yields
     ------

@@ -59,8 +59,7 @@ def receipt_sections(receipt: Mapping[str, Any]) -> list[Section]:
 
     Parameters
     ----------
-    receipt : mapping
-        As `course.jobs.receipt.Receipt.to_dict` gives it.
+    receipt : as `course.jobs.receipt.Receipt.to_dict` gives it
 
     Returns
     -------
@@ -164,8 +163,7 @@ def summary_sections(summary: Mapping[str, Mapping[str, object]]) -> list[Sectio
 
     Parameters
     ----------
-    summary : mapping
-        Sections by heading, each a mapping of labels to values, as a scene's `summary` gives it.
+    summary : sections by heading, each a mapping of labels to values, as a scene's `summary` gives it
 
     Returns
     -------

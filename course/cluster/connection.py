@@ -30,6 +30,8 @@ LOOK = 1.0
 class Connection:
     """To the scheduler of a cluster that has workers; close it in the end.
 
+    Raises CourseError: ``distributed`` isn't installed, no scheduler answers, or it has no workers.
+
     Parameters
     ----------
     address : of the scheduler, such as tcp://127.0.0.1:8786
@@ -39,11 +41,6 @@ class Connection:
     client : of ``distributed``
     threads : of all workers together, when last looked at
     most_threads : that they ever had together
-
-    Raises
-    ------
-    CourseError
-        ``distributed`` isn't installed, no scheduler answers, or it has no workers.
     """
 
     def __init__(self, address: str) -> None:
@@ -64,10 +61,7 @@ class Connection:
     def look(self) -> None:
         """See now and then which workers there are; they may come and go.
 
-        Raises
-        ------
-        CourseError
-            The scheduler has gone, or all workers have for ALONE seconds.
+        Raises CourseError: the scheduler has gone, or all workers have for ALONE seconds.
         """
         if self.client.status != "running":
             raise self.gone()

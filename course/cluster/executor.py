@@ -50,15 +50,13 @@ _kept = KeptScenes()
 class Cluster(Executor):
     """The workers of a cluster; close it in the end.
 
+    Raises CourseError: ``distributed`` isn't installed, no scheduler answers, it has no workers, or a file of the scene
+    has gone.
+
     Parameters
     ----------
     address : of the scheduler, such as tcp://127.0.0.1:8786
     packets : whether workers shall use compiled loops where they have them
-
-    Raises
-    ------
-    CourseError
-        ``distributed`` isn't installed, no scheduler answers, it has no workers, or a file of the scene has gone.
     """
 
     def __init__(self, address: str, scene: Scene, settings: Settings, packets: bool) -> None:

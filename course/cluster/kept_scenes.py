@@ -69,10 +69,7 @@ class KeptScenes:
     def tracer(self, parcel: Parcel, order: Order) -> Tracer:
         """The scene of a parcel bound to these settings; compiled if this is the first time.
 
-        Raises
-        ------
-        CourseError
-            When this process runs another edition of the course than who gave the order.
+        Raises CourseError when this process runs another edition of the course than who gave the order.
         """
         if order.edition != edition():
             raise CourseError(

@@ -48,10 +48,7 @@ class Parcel:
 def pack(scene: Scene) -> Parcel:
     """Put a scene, the meshes and pictures that it names, and its functions into one parcel.
 
-    Raises
-    ------
-    OSError
-        When a file has gone since the scene was loaded.
+    Raises OSError when a file has gone since the scene was loaded.
     """
     loaded = scene.loaded
     files = _Files(loaded.path.parent)

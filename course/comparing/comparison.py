@@ -72,16 +72,13 @@ class Comparison:
 def compare(a: Floats32, b: Floats32, coded: tuple[bool, bool] = (False, False)) -> Comparison:
     """Test the hypothesis that two independent pictures have the same mean.
 
+    Raises CourseError: the pictures differ in size, or too little of them is left to compare.
+
     Parameters
     ----------
     a, b : (H, W, 3) float32, linear
     coded : whether each comes from a file that is cut off at white. Where one does and has 8 bits, the other is encoded
         and decoded likewise.
-
-    Raises
-    ------
-    CourseError
-        The pictures differ in size, or too little of them is left to compare.
     """
     if a.shape != b.shape:
         raise CourseError(

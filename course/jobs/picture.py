@@ -42,10 +42,7 @@ class Picture:
     def save(self, path: str | Path) -> None:
         """Write the picture: ``.png`` (8 bit, sRGB unless the scene's film says otherwise) or ``.exr`` (linear).
 
-        Raises
-        ------
-        OutputError
-            When the file can't be written; then there is no such file.
+        Raises OutputError when the file can't be written; then there is no such file.
         """
         from course.formats.pictures.files import save
 

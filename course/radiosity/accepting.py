@@ -16,11 +16,8 @@ SHINES = "a light that is a rectangle or a sphere with radiance, or a material w
 def check_accepted(loaded: Loaded) -> None:
     """Refuse what has no radiosity.
 
-    Raises
-    ------
-    SceneError
-        The scene has a mirror, glass, a highlight, a light without a surface, light from outside, a lens, or something
-        that moves; names file, line, key path and the remedy.
+    Raises SceneError: the scene has a mirror, glass, a highlight, a light without a surface, light from outside, a
+    lens, or something that moves; names file, line, key path and the remedy.
     """
     scene = loaded.description
     used = {thing.material for thing in scene.objects}

@@ -143,10 +143,7 @@ class Patches:
 def make_patches(scene: Scene, count: int) -> Patches:
     """Divide a scene's surfaces evenly until there are that many triangles; those of its meshes if they are more.
 
-    Raises
-    ------
-    SceneError
-        The scene is none for radiosity, or its meshes have too many triangles.
+    Raises SceneError: the scene is none for radiosity, or its meshes have too many triangles.
     """
     check_accepted(scene.loaded)
     patches = _undivided(scene)

@@ -55,10 +55,7 @@ class Solution:
     def save(self, path: Path) -> None:
         """Write an .npz file, whole or not at all.
 
-        Raises
-        ------
-        OutputError
-            The file can't be written.
+        Raises OutputError: the file can't be written.
         """
         arrays = {field.name: getattr(self, field.name) for field in fields(self)}
         with replacing(path) as temporary, temporary.open("wb") as file:
@@ -68,10 +65,7 @@ class Solution:
 def load_solution(path: Path) -> Solution:
     """Read what ``Solution.save`` has written.
 
-    Raises
-    ------
-    CourseError
-        The file can't be read or holds no solution.
+    Raises CourseError: the file can't be read or holds no solution.
     """
     remedy = f"{path}: no radiosity solution: expected a file that course radiosity has written"
     arrays = read_arrays(path, "solution that course radiosity has written")

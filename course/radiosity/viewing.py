@@ -64,11 +64,8 @@ def own_view(solution: Solution) -> View:
 def flight(views: Sequence[View], frames: int) -> list[View]:
     """Views from the first to the last, by all between, evenly along the straight lines between their eyes.
 
-    Raises
-    ------
-    CourseError
-        There are fewer than two views or frames, or one on the way sees nothing; its frame, counted from 0 as files
-        are, and the cameras before and after it are named.
+    Raises CourseError: there are fewer than two views or frames, or one on the way sees nothing; its frame, counted
+    from 0 as files are, and the cameras before and after it are named.
     """
     if len(views) < 2 or frames < 2:
         raise CourseError(
@@ -167,10 +164,7 @@ def radiance(
 def views_of(solution: Solution, cameras: Sequence[tuple[Floats64, Floats64]]) -> Iterator[View]:
     """Views with the scene's own up and field of view, from (eye, look_at) each.
 
-    Raises
-    ------
-    CourseError
-        One sees nothing; of several, it is told which.
+    Raises CourseError: one sees nothing; of several, it is told which.
     """
     own = own_view(solution)
     for number, (eye, look_at) in enumerate(cameras, start=1):

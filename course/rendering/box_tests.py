@@ -43,9 +43,6 @@ def box_tests(scene: Scene, settings: Settings) -> Indices:
 def save_box_tests(scene: Scene, settings: Settings, path: Path) -> None:
     """Write them as a picture: black the fewest, white the most, logarithmic between.
 
-    Raises
-    ------
-    OutputError
-        When the file can't be written; then there is no such file.
+    Raises OutputError when the file can't be written; then there is no such file.
     """
     save(path, heat_map(np.maximum(box_tests(scene, settings), 1)))

@@ -109,10 +109,7 @@ def load_variant(
 ) -> Scene:
     """`load_scene`, with other values at some key paths, such as ``{("lights", 0, "samples"): "ball"}``.
 
-    Raises
-    ------
-    SceneError, EffectError
-        As `load_scene` does, and for an override of something that isn't there.
+    Raises SceneError, EffectError as `load_scene` does, and for an override of something that isn't there.
     """
     bound = effects if isinstance(effects, Effects) else Effects(effects)
     loaded = load_description(Path(path), overrides)

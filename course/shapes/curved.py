@@ -35,10 +35,8 @@ class Waves:
 
     Attributes
     ----------
-    vectors : (K, D) float64
-        Wave vectors [rad per unit of x].
-    phases : (K,) float64
-        [rad]
+    vectors : (K, D) float64, wave vectors [rad per unit of x]
+    phases : (K,) float64 [rad]
     """
 
     vectors: NDArray[np.float64]
@@ -80,17 +78,12 @@ def random_waves(seed: int, dimensions: int, wave_number: float) -> Waves:
 def sphere(radius: float = 1.0, segments: int = 64) -> Mesh:
     """Return a sphere of `segments` meridians and half as many steps of latitude.
 
+    Raises ValueError for a parameter out of range.
+
     Parameters
     ----------
-    radius : float
-        [m], > 0. Every vertex lies on the sphere, so that the mesh is inscribed.
-    segments : int
-        3 to 4096.
-
-    Raises
-    ------
-    ValueError
-        For a parameter out of range.
+    radius : [m], > 0. Every vertex lies on the sphere, so that the mesh is inscribed.
+    segments : 3 to 4096
     """
     radius = length("radius", radius)
     directions, triangles, uv = _globe(count("segments", segments, 3, 4096))
@@ -108,24 +101,15 @@ def displaced_sphere(
 
     The surface is |x| = radius + amplitude f(x / |x|), f a mean of sine waves over the unit sphere;
     the normals are the gradient of |x| - amplitude f(x / |x|).
+    Raises ValueError for a parameter out of range.
 
     Parameters
     ----------
-    radius : float
-        Mean distance from the centre [m], > 0.
-    amplitude : float
-        Bound of the displacement [m], 0 <= amplitude < radius.
-    frequency : float
-        Bumps around the ball, at most, 0 to 1e6. The mesh wants some 8 segments a bump.
-    segments : int
-        Meridians, 3 to 4096.
-    seed : int
-        Chooses the waves, >= 0.
-
-    Raises
-    ------
-    ValueError
-        For a parameter out of range.
+    radius : mean distance from the centre [m], > 0
+    amplitude : bound of the displacement [m], 0 <= amplitude < radius
+    frequency : bumps around the ball, at most, 0 to 1e6. The mesh wants some 8 segments a bump.
+    segments : Meridians, 3 to 4096
+    seed : chooses the waves, >= 0
     """
     radius = length("radius", radius)
     amplitude = finite("amplitude", amplitude)
@@ -193,23 +177,15 @@ def height_field(
 ) -> Mesh:
     """Return an open sheet y = amplitude f(x, z), centred, facing +y; u along +x, v along -z.
 
+    Raises ValueError for a parameter out of range.
+
     Parameters
     ----------
-    size : two floats
-        Extent along x and along z [m], each > 0.
-    amplitude : float
-        Bound of the height above and below 0 [m], >= 0.
-    frequency : float
-        Waves along the longer side, at most, 0 to 1e6. The mesh wants some 8 segments a wave.
-    segments : int
-        Cells along either side, 1 to 4096.
-    seed : int
-        Chooses the waves, >= 0.
-
-    Raises
-    ------
-    ValueError
-        For a parameter out of range.
+    size : two floats, extent along x and along z [m], each > 0
+    amplitude : bound of the height above and below 0 [m], >= 0
+    frequency : waves along the longer side, at most, 0 to 1e6. The mesh wants some 8 segments a wave.
+    segments : cells along either side, 1 to 4096
+    seed : chooses the waves, >= 0
     """
     if len(size) != 2:
         raise ValueError(f"size has {len(size)} numbers: expected 2")

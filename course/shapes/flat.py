@@ -14,15 +14,11 @@ from course.shapes.grid import circle, count, join, lattice_triangles, lattice_u
 def quad(width: float = 1.0, depth: float = 1.0) -> Mesh:
     """Return a rectangle in the xz plane, centred, facing +y; u along +x, v along -z.
 
+    Raises ValueError for an extent out of range.
+
     Parameters
     ----------
-    width, depth : float
-        Extent along x and along z [m], > 0.
-
-    Raises
-    ------
-    ValueError
-        For an extent out of range.
+    width, depth : extent along x and along z [m], > 0
     """
     x, z = 0.5 * length("width", width), 0.5 * length("depth", depth)
     return Mesh(
@@ -43,15 +39,12 @@ Rays leave long thin triangles from further above them, see ``course.core.triang
 def box(size: Sequence[float] = (1.0, 1.0, 1.0)) -> Mesh:
     """Return a box centred at the origin, six faces with 0..1 uv each and hard edges.
 
+    Raises ValueError for an extent out of range, or not three of them.
+
     Parameters
     ----------
     size : three floats
         Extent along x, y and z [m], each > 0. Long sides of a slender box are strips of quads, at most 256.
-
-    Raises
-    ------
-    ValueError
-        For an extent out of range, or not three of them.
     """
     if len(size) != 3:
         raise ValueError(f"size has {len(size)} numbers: expected 3")
@@ -79,17 +72,12 @@ def box(size: Sequence[float] = (1.0, 1.0, 1.0)) -> Mesh:
 def disk(radius: float = 1.0, segments: int = 64) -> Mesh:
     """Return a regular polygon in the xz plane, centred, facing +y; uv as seen from above.
 
+    Raises ValueError for a parameter out of range.
+
     Parameters
     ----------
-    radius : float
-        Of the circle through the corners [m], > 0.
-    segments : int
-        Corners, 3 to 4096.
-
-    Raises
-    ------
-    ValueError
-        For a parameter out of range.
+    radius : of the circle through the corners [m], > 0
+    segments : Corners, 3 to 4096
     """
     return fan(length("radius", radius), 0.0, count("segments", segments, 3, 4096), upwards=True)
 
@@ -115,17 +103,12 @@ def fan(radius: float, y: float, segments: int, *, upwards: bool) -> Mesh:
 def cylinder(radius: float = 0.5, height: float = 1.0, segments: int = 64) -> Mesh:
     """Return a closed cylinder: a smooth side (u around, v up) and two flat caps.
 
+    Raises ValueError for a parameter out of range.
+
     Parameters
     ----------
-    radius, height : float
-        [m], > 0.
-    segments : int
-        Sides, 3 to 4096.
-
-    Raises
-    ------
-    ValueError
-        For a parameter out of range.
+    radius, height : [m], > 0
+    segments : Sides, 3 to 4096
     """
     radius, height = length("radius", radius), length("height", height)
     segments = count("segments", segments, 3, 4096)
@@ -151,18 +134,12 @@ def cone(radius: float = 0.5, height: float = 1.0, segments: int = 64) -> Mesh:
 
     The normal has no limit at the tip, so that each side has a tip of its own there, with the
     normal of the side's middle.
+    Raises ValueError for a parameter out of range.
 
     Parameters
     ----------
-    radius, height : float
-        Of the cap, and from cap to tip [m], > 0.
-    segments : int
-        Sides, 3 to 4096.
-
-    Raises
-    ------
-    ValueError
-        For a parameter out of range.
+    radius, height : of the cap, and from cap to tip [m], > 0
+    segments : Sides, 3 to 4096
     """
     radius, height = length("radius", radius), length("height", height)
     segments = count("segments", segments, 3, 4096)

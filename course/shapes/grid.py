@@ -94,11 +94,7 @@ def join(parts: Sequence[Mesh]) -> Mesh:
     """Return one mesh of all `parts` in order; no vertex is merged with another.
 
     Parts without uv get (0, 0) where others have some.
-
-    Raises
-    ------
-    ValueError
-        For no parts at all, or when only some of them have normals.
+    Raises ValueError for no parts at all, or when only some of them have normals.
     """
     if not parts:
         raise ValueError("no meshes to join")

@@ -21,19 +21,13 @@ Array = NDArray[np.float64]
 def torus(radius: float = 1.0, tube: float = 0.25, segments: int = 96, sides: int = 48) -> Mesh:
     """Return a ring torus about the y axis.
 
+    Raises ValueError for a parameter out of range.
+
     Parameters
     ----------
-    radius : float
-        From the centre to the middle of the tube [m], > 0.
-    tube : float
-        Radius of the tube [m], 0 < tube < radius.
-    segments, sides : int
-        Steps along the tube and around it, 3 to 4096.
-
-    Raises
-    ------
-    ValueError
-        For a parameter out of range.
+    radius : from the centre to the middle of the tube [m], > 0
+    tube : radius of the tube [m], 0 < tube < radius
+    segments, sides : steps along the tube and around it, 3 to 4096
     """
     radius, tube = length("radius", radius), length("tube", tube)
     if tube >= radius:
@@ -56,24 +50,15 @@ def torus_knot(
     """Return a tube along the (p, q) torus knot, which winds p times around the y axis.
 
     The knot lies on a torus of radii `radius` and `radius` / 2, and winds q times around its tube.
+    Raises ValueError for a parameter out of range; for a tube that is too thick the message tells the limit.
 
     Parameters
     ----------
-    p, q : int
-        1 to 32, without a common divisor.
-    radius : float
-        From the centre to the middle of the torus [m], > 0.
-    tube : float
-        Radius of the tube along the knot [m], > 0, small enough that the tube meets itself nowhere.
-    segments : int
-        Steps along the knot, 8 (p + q) to 16384.
-    sides : int
-        Steps around the tube, 3 to 1024.
-
-    Raises
-    ------
-    ValueError
-        For a parameter out of range; for a tube that is too thick the message tells the limit.
+    p, q : 1 to 32, without a common divisor
+    radius : from the centre to the middle of the torus [m], > 0
+    tube : radius of the tube along the knot [m], > 0, small enough that the tube meets itself nowhere
+    segments : steps along the knot, 8 (p + q) to 16384
+    sides : steps around the tube, 3 to 1024
     """
     p, q = count("p", p, 1, 32), count("q", q, 1, 32)
     if math.gcd(p, q) != 1:

@@ -50,12 +50,9 @@ def read_mesh(path: Path, weights: Weights = "angle", bound: Bound = USUAL) -> M
 
     Parameters
     ----------
-    path : Path
-        Ends in .ply, .obj, .stl or .glb, in capitals or not. No other file is read.
-    weights : "angle" or "area"
-        By what faces count in normals that the file doesn't have.
-    bound : Bound
-        The most bytes that the file may have.
+    path : ends in .ply, .obj, .stl or .glb, in capitals or not. No other file is read.
+    weights : "angle" or "area", by what faces count in normals that the file doesn't have
+    bound : the most bytes that the file may have
 
     Raises
     ------

@@ -26,10 +26,7 @@ USED = ("POSITION", "NORMAL", "TEXCOORD_0")
 def parse_glb(data: bytes) -> list[Part]:
     """Return the parts of a GLB file, one for each primitive and each node that shows it.
 
-    Raises
-    ------
-    ValueError
-        For what isn't GLB 2, and for compressed, quantised or sparse geometry, and triangle fans.
+    Raises ValueError for what isn't GLB 2, and for compressed, quantised or sparse geometry, and triangle fans.
     """
     from trimesh.exchange.gltf import load_glb
 

@@ -55,15 +55,12 @@ def corners_of(
 ) -> tuple[NDArray[np.int64], Corners]:
     """Return how many corners each face has, (N,), and what these refer to.
 
+    Raises ValueError, IndexError naming the line, as `course.formats.meshes.obj.parse_obj` says.
+
     Parameters
     ----------
     faces : at least one
     there : how many vertices, uv and normals the file has
-
-    Raises
-    ------
-    ValueError, IndexError
-        Naming the line, as `course.formats.meshes.obj.parse_obj` says.
     """
     words = [face.text.split() for face in faces]
     lengths = np.array([len(each) for each in words], np.int64)
@@ -204,12 +201,8 @@ def parse_obj(data: bytes) -> list[Part]:
 
     Vertices are parted where faces give them several uv or normals. Corners without uv, in a file where others have it,
     are at (0, 0); those without a normal have zeros in its place.
-
-    Raises
-    ------
-    ValueError, IndexError
-        Naming the line: for a row of too few numbers, or a word that is none; for a face of fewer than three corners,
-        whose corners differ in form, or that refers to what isn't there.
+    Raises ValueError, IndexError naming the line: for a row of too few numbers, or a word that is none; for a face of
+    fewer than three corners, whose corners differ in form, or that refers to what isn't there.
     """
     lines = _Lines()
     for number, line in enumerate(_plain_lines(data.decode("utf-8", "replace")), start=1):

@@ -30,12 +30,9 @@ class Part:
     ----------
     vertices : (V, 3)
     triangles : (T, 3) integer
-    normals : (V, 3) or None
-        Of any length.
-    uv : (V, 2) or None
-        v upwards.
-    transform : (4, 4) float64
-        From the part's frame to the file's.
+    normals : (V, 3) or None, of any length
+    uv : (V, 2) or None, v upwards
+    transform : (4, 4) float64, from the part's frame to the file's
     """
 
     vertices: Array
@@ -105,8 +102,7 @@ class Lists:
     Attributes
     ----------
     lengths : (N,) int64
-    values : (sum of the lengths,)
-        Those of the first row, then those of the second, and so on.
+    values : (sum of the lengths,), those of the first row, then those of the second, and so on
     """
 
     lengths: NDArray[np.int64]

@@ -92,12 +92,8 @@ def parse_ply(data: bytes) -> list[Part]:
 
     Elements and properties of other names are left out. Faces whose list of uv is empty, while others have uv, are at
     (0, 0) with all corners.
-
-    Raises
-    ------
-    ValueError
-        For whatever is wrong with the header, a line or the length of the data, and for lists of uv that don't fit
-        their faces.
+    Raises ValueError for whatever is wrong with the header, a line or the length of the data, and for lists of uv that
+    don't fit their faces.
     """
     order, elements, end = _header(data)
     columns = dict((_text if order == "ascii" else _binary)(elements, data, end))

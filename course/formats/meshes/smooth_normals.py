@@ -35,10 +35,8 @@ def smooth_normals(
     Parameters
     ----------
     vertices : (V, 3) float64
-    triangles : (T, 3) integer
-        Indices in range.
-    crease_degrees : float
-        Vertices at one place whose own normals differ by more keep them apart.
+    triangles : (T, 3) integer, indices in range
+    crease_degrees : vertices at one place whose own normals differ by more keep them apart
     """
     faces, weights = _faces_and_angles(vertices, triangles)
     sums = _sums(len(vertices), triangles, faces, weights)
@@ -58,8 +56,7 @@ def area_normals(
     Parameters
     ----------
     vertices : (V, 3) float64
-    triangles : (T, 3) integer
-        Indices in range.
+    triangles : (T, 3) integer, indices in range
     """
     p = vertices[triangles]
     # In units of the longest edge, so that no product leaves float64's range.

@@ -78,18 +78,12 @@ def apply(mesh: Mesh, matrix: Matrix) -> Mesh:
     they do, but for one factor for all of them: the longest possible has length 1, and under rotations and even
     scales unit normals stay unit normals. Whoever interpolates them sees the normals of the mesh as it was,
     interpolated and then transformed.
+    Raises ValueError for a matrix that is not affine, not finite or not invertible, and where a coordinate overflows.
 
     Parameters
     ----------
     mesh : Mesh
-    matrix : (4, 4) float64
-        Affine and invertible.
-
-    Raises
-    ------
-    ValueError
-        For a matrix that is not affine, not finite or not invertible, and where a coordinate
-        overflows.
+    matrix : (4, 4) float64, affine and invertible
     """
     matrix = np.asarray(matrix, np.float64)
     if matrix.shape != (4, 4):

@@ -27,11 +27,8 @@ UTF_16: Final = (b"\xff\xfe", b"\xfe\xff")
 def read_elements(path: Path) -> Element:
     """Read a file as the element `Scene`.
 
-    Raises
-    ------
-    SceneError
-        For a file that is missing, unreadable, too large or not what its suffix says, for another root than Scene,
-        and for XML with a document type, whose entities could grow beyond all bounds.
+    Raises SceneError for a file that is missing, unreadable, too large or not what its suffix says, for another root
+    than Scene, and for XML with a document type, whose entities could grow beyond all bounds.
     """
     file = shown(path)
     if not is_metu(path):

@@ -18,8 +18,7 @@ def linear_to_srgb8(linear: NDArray[np.float32]) -> NDArray[np.uint8]:
 
     Parameters
     ----------
-    linear : (3, H, W) float32
-        Linear RGB, 0 black and 1 white. Values above 1 show as 1, values below 0 as 0.
+    linear : (3, H, W) float32, linear RGB, 0 black and 1 white. Values above 1 show as 1, values below 0 as 0.
 
     Returns
     -------

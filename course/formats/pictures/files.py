@@ -28,19 +28,13 @@ COMPRESS_LEVEL = 4
 def save(path: Path, linear: NDArray[np.float32], display: Display = SRGB) -> None:
     """Write a picture in the format that the file's suffix names.
 
+    Raises OutputError: the suffix is not known, or the file can't be written. Then nothing is.
+
     Parameters
     ----------
-    path : Path
-        Ends in .png or .exr, in upper or lower case.
-    linear : (3, H, W) float32
-        Linear RGB.
-    display : Display
-        How a PNG shows it; other formats hold the values themselves.
-
-    Raises
-    ------
-    OutputError
-        The suffix is not known, or the file can't be written. Then nothing is.
+    path : ends in .png or .exr, in upper or lower case
+    linear : (3, H, W) float32, linear RGB
+    display : how a PNG shows it; other formats hold the values themselves
     """
     if path.suffix.lower() == ".png":
         write_png(path, linear, display)
@@ -51,10 +45,7 @@ def save(path: Path, linear: NDArray[np.float32], display: Display = SRGB) -> No
 def check_picture_path(path: Path) -> None:
     """Find out before rendering whether `save` can write to `path`.
 
-    Raises
-    ------
-    OutputError
-        As `save` would.
+    Raises OutputError as `save` would.
     """
     _writer(path)
     check_writable(path)
@@ -63,10 +54,7 @@ def check_picture_path(path: Path) -> None:
 def write_png(path: Path, linear: NDArray[np.float32], display: Display = SRGB) -> None:
     """Write linear RGB (3, H, W) as a PNG of 8 bits; values above the display's white show as white.
 
-    Raises
-    ------
-    OutputError
-        The file can't be written.
+    Raises OutputError: the file can't be written.
     """
     with replacing(path) as temporary:
         image, options = _image(linear, display), _options(display)
@@ -85,10 +73,7 @@ def encode_png(linear: NDArray[np.float32], display: Display = SRGB) -> bytes:
 def write_exr(path: Path, linear: NDArray[np.float32]) -> None:
     """Write linear RGB (3, H, W) as OpenEXR, float32, lossless: the values as they are.
 
-    Raises
-    ------
-    OutputError
-        The file can't be written.
+    Raises OutputError: the file can't be written.
     """
     with replacing(path) as temporary:
         import OpenImageIO

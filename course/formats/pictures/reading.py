@@ -44,6 +44,8 @@ def read_picture(path: Path, bound: Bound = USUAL_FILE, pixels: Bound = USUAL_PI
     """A picture as linear RGB; grey becomes RGB, and alpha is dropped.
 
     On the way it takes little more memory than the picture that is returned and the file's own codes together.
+    Raises SceneError: the file is missing, is no picture or is too large, or holds a value that is negative or not
+    finite.
 
     Parameters
     ----------
@@ -53,11 +55,6 @@ def read_picture(path: Path, bound: Bound = USUAL_FILE, pixels: Bound = USUAL_PI
     Returns
     -------
     (H, W, 3) float32
-
-    Raises
-    ------
-    SceneError
-        The file is missing, is no picture or is too large, or holds a value that is negative or not finite.
     """
     with opened(path, "picture", bound, SceneError) as stream:
         try:

@@ -35,15 +35,11 @@ _KEY: Final = re.compile(r"\.([^.\[]+)|\[([^]]+)\]")
 def convert(document: Document, kind: type[Described]) -> Described:
     """Make what a document describes.
 
+    Raises SceneError for the first value that breaks the format.
+
     Parameters
     ----------
-    kind : type
-        The description class of the whole file.
-
-    Raises
-    ------
-    SceneError
-        For the first value that breaks the format.
+    kind : the description class of the whole file
     """
     try:
         return msgspec.convert(_with_steps(document.data), kind)

@@ -32,10 +32,7 @@ _SHARPEST: Final = 1e6
 def check_consistency(description: d.SceneDescription, document: Document) -> None:
     """Check the values of a scene against each other.
 
-    Raises
-    ------
-    SceneError
-        For the first contradiction, by file, line, key path and value.
+    Raises SceneError for the first contradiction, by file, line, key path and value.
     """
     scene = _Place(document, ())
     _check_camera(description.camera, scene.at("camera"))

@@ -310,6 +310,9 @@ class ObjectDescription(Map, frozen=True, kw_only=True, tag_field="shape"):
     ] = "turned"
 
 
+SHARED: Final = ObjectDescription.__struct_fields__
+
+
 class Quad(ObjectDescription, frozen=True, kw_only=True, tag="quad"):
     """A rectangle in the plane of x and z; its normal is +y."""
 

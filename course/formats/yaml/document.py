@@ -24,10 +24,8 @@ class Document:
 
     Attributes
     ----------
-    file : str
-        Name of the file, as the user gave it.
-    data : dict
-        Maps, lists, texts, numbers, booleans and None. Aliases share their value.
+    file : name of the file, as the user gave it
+    data : Maps, lists, texts, numbers, booleans and None. Aliases share their value.
     lines : mapping from int to dict or list
         For the id of each map or list in `data`, the line of each of its keys or items, from 1.
     """

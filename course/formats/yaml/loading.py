@@ -23,12 +23,9 @@ class Loaded:
 
     Attributes
     ----------
-    description : SceneDescription
-        What the file says, with defaults filled in.
-    document : Document
-        The file's own values and their lines, for the errors of later stages.
-    path : pathlib.Path
-        Where the file lies; the paths in it are relative to its folder.
+    description : what the file says, with defaults filled in
+    document : the file's own values and their lines, for the errors of later stages
+    path : where the file lies; the paths in it are relative to its folder
     """
 
     description: SceneDescription
@@ -39,19 +36,15 @@ class Loaded:
 def load_description(path: Path, overrides: Overrides | None = None) -> Loaded:
     """Read a scene file and check all that can be checked without its meshes.
 
+    Raises SceneError for the first mistake, in one line that names the file, the line, the key path, the value and what
+    was expected.
+
     Parameters
     ----------
-    path : pathlib.Path
-        A YAML file in the scene format (see `course.formats.yaml.schema`).
+    path : a YAML file in the scene format (see `course.formats.yaml.schema`)
     overrides : mapping from key path to value, optional
         What stands there instead of what the file says, such as
         ``{("lights", 0, "samples"): "ball"}``; checked like the rest (`course.formats.yaml.overriding`).
-
-    Raises
-    ------
-    SceneError
-        For the first mistake, in one line that names the file, the line, the key path, the value
-        and what was expected.
     """
     path = Path(path)
     document = read_document(path)

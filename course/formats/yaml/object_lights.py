@@ -11,10 +11,7 @@ from course.formats.yaml.document import Document, suggest
 def check_object_lights(description: SceneDescription, document: Document) -> None:
     """Check that every light of type object names one object of its own, which emits.
 
-    Raises
-    ------
-    SceneError
-        For the first that doesn't; names the key to change.
+    Raises SceneError for the first that doesn't; names the key to change.
     """
     names = [thing.name for thing in description.objects if thing.name]
     lit: dict[str, int] = {}

@@ -14,6 +14,8 @@ Overrides = Mapping[KeyPath, Any]
 def override(document: Document, overrides: Overrides) -> Document:
     """A copy of a document with other values at some key paths.
 
+    Raises SceneError: a path leads nowhere in this document, or one override lies within another.
+
     Parameters
     ----------
     document : of the scene file; it stays as it is
@@ -23,11 +25,6 @@ def override(document: Document, overrides: Overrides) -> Document:
     -------
     Document
         Values that were replaced stand on the line of the old ones, new ones on that of the map that holds them.
-
-    Raises
-    ------
-    SceneError
-        A path leads nowhere in this document, or one override lies within another.
     """
     for path in overrides:
         _check_path(path, document)

@@ -26,16 +26,12 @@ _MOST_DIGITS = 160
 def resolve(word: str) -> str | int | float | bool | None:
     """Give an unquoted word its value.
 
+    Raises ValueError for a number that is infinite, not a number, or larger or smaller than float64 can square; the
+    message says what was expected.
+
     Parameters
     ----------
-    word : str
-        A plain scalar, without quotes around it.
-
-    Raises
-    ------
-    ValueError
-        For a number that is infinite, not a number, or larger or smaller than float64 can square;
-        the message says what was expected.
+    word : a plain scalar, without quotes around it
 
     Notes
     -----

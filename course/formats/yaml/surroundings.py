@@ -33,10 +33,7 @@ MOST_LOOKED_AT = 256
 def check_surroundings(description: SceneDescription, document: Document) -> None:
     """Check that what surrounds a dielectric is another one.
 
-    Raises
-    ------
-    SceneError
-        For the first that isn't, or that lies in itself; names the key to change.
+    Raises SceneError for the first that isn't, or that lies in itself; names the key to change.
     """
     glasses = {name: m.dielectric for name, m in description.materials.items() if m.dielectric}
     for name, glass in glasses.items():

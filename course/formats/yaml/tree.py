@@ -59,12 +59,9 @@ class TreeBuilder:
 
     Attributes
     ----------
-    root : object
-        The whole tree; None for an empty file.
-    root_line : int
-        Line on which it starts.
-    lines : dict
-        For the id of each map or list, the lines of its keys or items (see `Document`).
+    root : the whole tree; None for an empty file
+    root_line : line on which it starts
+    lines : for the id of each map or list, the lines of its keys or items (see `Document`)
     """
 
     def __init__(self, file: str) -> None:
@@ -80,11 +77,8 @@ class TreeBuilder:
     def take(self, event: Any) -> None:
         """Add what one event of `yaml.parse` says.
 
-        Raises
-        ------
-        SceneError
-            For a repeated key, a tag, a number out of bounds, an alias without anchor, a second
-            document, or too many values.
+        Raises SceneError for a repeated key, a tag, a number out of bounds, an alias without anchor, a second document,
+        or too many values.
         """
         line = event.start_mark.line + 1
         if (tag := getattr(event, "tag", None)) is not None:
@@ -232,11 +226,8 @@ _Loader: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 def read_document(path: Path, what: str = "scene") -> Document:
     """Read a YAML file; `what` is what it describes, for messages.
 
-    Raises
-    ------
-    SceneError
-        For a file that is missing, unreadable, too large, not UTF-8 or not YAML, and for YAML that
-        repeats a key, carries tags, holds numbers that are not finite, or grows beyond bounds.
+    Raises SceneError for a file that is missing, unreadable, too large, not UTF-8 or not YAML, and for YAML that
+    repeats a key, carries tags, holds numbers that are not finite, or grows beyond bounds.
     """
     return parse_document(_read(path, what), shown(path), what)
 
