@@ -44,9 +44,7 @@ def error_curves(
 ) -> list[Curve]:
     """Estimate a mean in several ways with each number of points and each seed.
 
-    Parameters
-    ----------
-    value : of the mean
+    ``value``: of the mean.
     """
     seconds = median_seconds(ways, counts, seeds)
     curves = []

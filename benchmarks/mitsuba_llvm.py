@@ -49,10 +49,7 @@ class LlvmScene:
     """A scene in Mitsuba's LLVM variant, which ``start_llvm`` must have switched on.
 
     Raises NotExportableError: a light is one by radiance, such as an object.
-
-    Parameters
-    ----------
-    exported : the scene
+    ``exported``: the scene.
     """
 
     def __init__(self, exported: Exported) -> None:

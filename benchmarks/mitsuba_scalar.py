@@ -79,9 +79,7 @@ def native_overrides(path: Path) -> tuple[Overrides, list[str]]:
 class NativeScene:
     """A scene in whichever variant of Mitsuba is switched on, of Mitsuba's own plugins only.
 
-    Parameters
-    ----------
-    exported : the scene, loaded with ``native_overrides``
+    ``exported``: the scene, loaded with ``native_overrides``.
     """
 
     def __init__(self, exported: Exported) -> None:

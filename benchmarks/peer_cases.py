@@ -115,9 +115,7 @@ def read_cases(path: Path) -> list[Measured]:
 def keep_cases(new: Iterable[Measured], path: Path) -> list[Measured]:
     """Put cases into a file, each in the place of an older one of the same effect and form.
 
-    Returns
-    -------
-    All that the file now keeps, in the order of FORMS and EFFECTS.
+    Returns all that the file now keeps, in the order of FORMS and EFFECTS.
     """
     cases = {each.case: each for each in (*read_cases(path), *new)}
     ordered = [

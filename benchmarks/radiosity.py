@@ -188,9 +188,7 @@ def iterate(
 ) -> dict[int, Solved]:
     """What gathering has after so many iterations; ``left`` is the light that is still missing then.
 
-    Parameters
-    ----------
-    cells : along the top of the hemicubes
+    ``cells``: along the top of the hemicubes.
     """
     factors = form_factors(Views(patches), make_hemicube(cells, functions), 2 * patches.size)
     emission = patches.both(patches.emission, patches.back_emission)

@@ -20,10 +20,7 @@ def replacing(path: Path) -> Iterator[Path]:
 
     Raises OutputError: the folder isn't there or can't be written, `path` isn't a regular file, or an OSError escaped
     from the block (a full disk).
-
-    Parameters
-    ----------
-    path : the name to appear; a file that has it already is replaced. Symbolic links are followed.
+    ``path``: the name to appear; a file that has it already is replaced. Symbolic links are followed.
 
     Yields
     ------
@@ -45,10 +42,7 @@ def check_writable(path: Path) -> None:
     """Find out before the work whether `replacing(path)` can succeed.
 
     Raises OutputError as `replacing` would.
-
-    Parameters
-    ----------
-    path : the file that is going to be written. It stays as it is.
+    ``path``: the file that is going to be written. It stays as it is.
     """
     _reserve(path, _target(path)).unlink()
 

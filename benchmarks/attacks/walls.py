@@ -36,10 +36,7 @@ def behind(wall: str, mark: str) -> Sandbox:
     """The sandbox of a wall.
 
     Raises LookupError: this machine has no such wall.
-
-    Parameters
-    ----------
-    mark : stands on the command line of every worker, and of what it forks
+    ``mark``: stands on the command line of every worker, and of what it forks.
     """
     shut_in = plain() if wall == OPEN else sandbox(**WALLS[wall])
     for name, on in (
@@ -57,10 +54,7 @@ def python_for(user: str) -> Iterator[list[str]]:
     """The command that starts a Python that every user can run, as one of them, with the course on its path.
 
     Raises LookupError: there is no way here.
-
-    Parameters
-    ----------
-    user : "root", or "another" for one that owns nothing
+    ``user``: "root", or "another" for one that owns nothing.
     """
     if os.geteuid():
         if user == "root":

@@ -57,9 +57,7 @@ class SceneFiles:
     def picture(self, folder: Path, compiled: bool | None = None) -> Array:
         """(H, W, 3) float64 linear radiance; what NumPy warns of on the way there is an error.
 
-        Parameters
-        ----------
-        compiled : whether by Numba's loops; None for what the renderer takes itself
+        ``compiled``: whether by Numba's loops; None for what the renderer takes itself.
         """
         path = self.write(folder)
         with warnings.catch_warnings():

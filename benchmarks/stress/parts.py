@@ -69,9 +69,7 @@ def lens(cell: Cell, place: Placement, clearance: float, focus: float) -> dict[s
 def near_plane(cell: Cell, place: Placement, clearance: float, fov: float) -> dict[str, Any]:
     """How deep the camera is blind, in units of the least depth that half its clearance has; nothing for not at all.
 
-    Parameters
-    ----------
-    fov : vertical field of view [degrees]
+    ``fov``: vertical field of view [degrees].
     """
     if cell["near plane"] == 0:
         return {}

@@ -23,15 +23,8 @@ def rmse(image: Picture, reference: Picture) -> float:
     """Root of the mean squared error, over pixels and channels.
 
     Raises CourseError: the pictures differ in shape, or hold a number that is not finite.
-
-    Parameters
-    ----------
-    image, reference : (H, W, 3) floating, linear radiance
-
-    Returns
-    -------
-    float
-        In the unit of the pictures.
+    ``image``, ``reference``: (H, W, 3) floating, linear radiance.
+    Returns the error in the unit of the pictures.
     """
     a, b = _pair(image, reference)
     return float(np.sqrt(np.mean((a - b) ** 2)))
@@ -42,10 +35,7 @@ def relative_mse(image: Picture, reference: Picture) -> float:
 
     An error in the dark counts as much as one in the light, down to a tenth of white.
     Raises CourseError as `rmse` does.
-
-    Parameters
-    ----------
-    image, reference : (H, W, 3) floating, linear radiance, white near 1
+    ``image``, ``reference``: (H, W, 3) floating, linear radiance, white near 1.
 
     Notes
     -----
@@ -59,15 +49,8 @@ def dissimilarity(image: Picture, reference: Picture) -> float:
     """1 - SSIM of the pictures as a screen shows them (sRGB, cut off at white).
 
     Raises CourseError as `rmse` does, or the pictures are smaller than the window.
-
-    Parameters
-    ----------
-    image, reference : (H, W, 3) floating, linear radiance; H and W at least 11
-
-    Returns
-    -------
-    float
-        0 for equal pictures, at most 2.
+    ``image``, ``reference``: (H, W, 3) floating, linear radiance; H and W at least 11.
+    Returns 0 for equal pictures, at most 2.
 
     Notes
     -----

@@ -71,10 +71,7 @@ def write_comparisons(measured: Measured, folder: Path, note: str) -> list[Path]
     """Draw every comparison of a module that was measured, as MODULE_GROUP_samples.svg and MODULE_GROUP_seconds.svg.
 
     Raises CourseError, OutputError: matplotlib is not installed, or a file can't be written.
-
-    Parameters
-    ----------
-    folder, note : as `write_plots` takes them
+    ``folder``, ``note``: as `write_plots` takes them.
     """
     module = measured.module
     width, height = measured.size
@@ -142,9 +139,7 @@ def sheet(title: str, about: str, size: tuple[float, float] = WIDE) -> Figure:
 def draw_lines(axes: Axes, plot: Plot, axis: str, names: Mapping[str, str] | None = None) -> None:
     """Fill axes with a plot's lines along one of its axes.
 
-    Parameters
-    ----------
-    names : series -> name at the end of its line; None means its own name, with the fitted order over counts
+    ``names``: series -> name at the end of its line; None means its own name, with the fitted order over counts.
     """
     axes.set(xscale="log", yscale="log", xlabel=plot.axes[axis])
     axes.grid(visible=True, which="major", color="#e2e2e2", linewidth=0.8)

@@ -37,9 +37,7 @@ LIBRARIES = ("embreex", "numpy", "pillow", "trimesh")
 def engine_hash(effects: Path) -> str:
     """Hash of the sources of all that renders: the engine, the effects' folder, the versions of the libraries.
 
-    Parameters
-    ----------
-    effects : folder of the functions that the engine calls
+    ``effects``: folder of the functions that the engine calls.
     """
     digest = sha256()
     for name in LIBRARIES:
@@ -57,10 +55,7 @@ def scene_hash(loaded: Loaded, effects: Effects, **settings: object) -> str:
     The scene's own sampler, number of samples, seed and title don't count: whoever renders it for a reference
     chooses the first three.
     Raises SceneError: a file that the scene names can't be read.
-
-    Parameters
-    ----------
-    settings : plain values
+    ``settings``: plain values.
     """
     data = {k: v for k, v in loaded.document.data.items() if k not in ("sampler", "seed", "title")}
     files = {

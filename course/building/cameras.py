@@ -49,9 +49,7 @@ def make_window_camera(
 ) -> Camera:
     """A camera whose picture is a window at right angles to the view; see ``make_camera``.
 
-    Parameters
-    ----------
-    edges : (4,) float64, where the window's left, right, lower and upper edges are, at distance 1 and from the axis
+    ``edges``: (4,) float64, where the window's left, right, lower and upper edges are, at distance 1 and from the axis.
     """
     left, right, bottom, top = edges
     steps = (right - left) / width, (bottom - top) / height

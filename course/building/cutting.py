@@ -69,9 +69,7 @@ def undivided(vertices: Floats64, corners: Indices) -> Triangles:
 def bisected(triangles: Triangles, chosen: Mask) -> Triangles:
     """Halve the chosen triangles, and those that have to be halved with them.
 
-    Parameters
-    ----------
-    chosen : (T,) bool
+    ``chosen``: (T,) bool.
     """
     corners = triangles.corners
     pairs = np.sort(np.stack((corners, np.roll(corners, -1, axis=1)), axis=2), axis=2)

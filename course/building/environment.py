@@ -36,10 +36,7 @@ def compile_environment(loaded: Loaded, bound: Bound) -> tuple[Environment, SkyS
 
     Raises SceneError: a picture is missing, can't be read, has the wrong size or is too bright; names the key that asks
     for it.
-
-    Returns
-    -------
-    The environment, and what chooses directions of its light; None where it lights nothing
+    Returns the environment, and what chooses directions of its light; None where it lights nothing.
     """
     environment = loaded.description.environment
     if isinstance(environment, d.ConstantEnvironment):

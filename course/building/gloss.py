@@ -21,9 +21,7 @@ FLAT = 1e6
 def lobe_function(material: d.MaterialDescription, cutoff: float) -> str | None:
     """Name of the glossy function that a material calls; None where its reflection is a mirror's, or too weak to see.
 
-    Parameters
-    ----------
-    cutoff : throughputs up to this are dropped
+    ``cutoff``: throughputs up to this are dropped.
     """
     # In float32, as the rays' throughputs are; a dielectric reflects more than its mirror.
     strongest = rgb(material.mirror).astype(np.float32).max()
@@ -95,9 +93,7 @@ def compile_rough_glass(
 ) -> tuple[RoughGlass, ...]:
     """The rough glasses; none where the depth allows no refraction.
 
-    Parameters
-    ----------
-    lobes : of the glossy materials
+    ``lobes``: of the glossy materials.
     """
     if integrator.max_depth == 0:
         return ()

@@ -94,9 +94,7 @@ def compile_materials(
 ) -> FullMaterials:
     """One column for each material, then one for each surface of a light, which reflects nothing.
 
-    Parameters
-    ----------
-    emission : radiance of the lights that have a surface
+    ``emission``: radiance of the lights that have a surface.
     """
     count = len(materials) + len(emission)
     ambient, diffuse, specular, mirror, absorption, emitted = np.zeros((6, 3, max(count, 1)))
@@ -136,10 +134,7 @@ def check_growth(loaded: Loaded, used: Iterable[str], world: FullWorld) -> None:
     """Check what a ray may carry after all its bounces.
 
     Raises SceneError: it is more than float32 holds; names the material that makes most light.
-
-    Parameters
-    ----------
-    used : names of the objects' materials
+    ``used``: names of the objects' materials.
     """
     scene = loaded.description
     integrator = scene.integrator

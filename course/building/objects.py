@@ -30,10 +30,7 @@ def object_mesh(
     """The mesh of one object, transformed.
 
     Raises SceneError when a mesh file can't be used, or a shape or a transform is impossible; names the object's line.
-
-    Parameters
-    ----------
-    files : mesh files that have been read already, by their normals and names in the scene; this one is added
+    ``files``: mesh files that have been read already, by their normals and names in the scene; this one is added.
     """
     path = ("objects", number)
     try:

@@ -33,9 +33,7 @@ def compile_paths(
 ) -> Paths | None:
     """The functions of the path_tracing module; None where the integrator is another.
 
-    Parameters
-    ----------
-    objects : materials of the objects that are lights
+    ``objects``: materials of the objects that are lights.
     """
     integrator = scene.integrator
     if integrator.type != "path":

@@ -65,9 +65,7 @@ def extents_of_lamps(
 ) -> Extents:
     """Extents of the lights that have a place; one inside an object's box has no distance from that object.
 
-    Parameters
-    ----------
-    meshes : of the objects; where triangles are few, their boxes are looked at instead of the object's
+    ``meshes``: of the objects; where triangles are few, their boxes are looked at instead of the object's.
     """
     boxes, sizes = [], []
     near = None
@@ -118,10 +116,7 @@ def frame_for(extents: Extents, objects: int) -> tuple[Frame, SmallThings | None
 
     These are None, and the frame is that of all objects, where nothing is so small that it matters. Else its origin is
     where small things are placed best: each may be off by so much more as it is larger.
-
-    Parameters
-    ----------
-    objects : how many of the extents are those of objects
+    ``objects``: how many of the extents are those of objects.
     """
     frame = frame_of(list(extents.boxes[:objects]))
     there = extents.sizes > 0
@@ -156,9 +151,7 @@ def _between(places: Floats64, sizes: Floats64) -> float:
 def warn_of_small(loaded: Loaded, extents: Extents, frame: Frame) -> None:
     """Say which object is too small for the scene or for its place in it, once for all of them.
 
-    Parameters
-    ----------
-    extents : of the objects alone
+    ``extents``: of the objects alone.
     """
     nearest = np.maximum(extents.boxes[:, 0] - frame.center, frame.center - extents.boxes[:, 1])
     # An object without extent is seen by nobody.

@@ -36,9 +36,7 @@ def places_function(thing: d.Object) -> str:
 class Painter:
     """Makes the paint of objects; each picture is read once, and those that nothing shows never.
 
-    Parameters
-    ----------
-    files : mesh files that have been read, by their normals and names in the scene
+    ``files``: mesh files that have been read, by their normals and names in the scene.
     """
 
     def __init__(self, loaded: Loaded, bound: Bound, files: dict[str, Mesh]) -> None:
@@ -52,10 +50,7 @@ class Painter:
 
         Raises SceneError: the picture is missing, can't be read or returns more light than it gets, or the mesh has no
         texture coordinates; names the key that asks for it.
-
-        Parameters
-        ----------
-        mesh : as it is compiled, of which the triangles and uv count
+        ``mesh``: as it is compiled, of which the triangles and uv count.
         """
         thing = self._loaded.description.objects[number]
         material = self._loaded.description.materials[thing.material]

@@ -31,10 +31,7 @@ class Connection:
     """To the scheduler of a cluster that has workers; close it in the end.
 
     Raises CourseError: ``distributed`` isn't installed, no scheduler answers, or it has no workers.
-
-    Parameters
-    ----------
-    address : of the scheduler, such as tcp://127.0.0.1:8786
+    ``address``: of the scheduler, such as tcp://127.0.0.1:8786.
 
     Attributes
     ----------
@@ -88,15 +85,8 @@ class Connection:
 
         A worker that is lost takes with it what it has done, and another one must do that again. So even what has
         ended may have to be waited for.
-
-        Parameters
-        ----------
-        ends : says when nothing is to be awaited any longer
-
-        Returns
-        -------
-        list
-            In the order of the futures; empty if it ended before they were done.
+        ``ends``: says when nothing is to be awaited any longer.
+        Returns them in the order of the futures; empty if it ended before they were done.
 
         Raises
         ------

@@ -64,9 +64,7 @@ def pack(scene: Scene) -> Parcel:
 def unpack(content: bytes, folder: Path) -> Scene:
     """Compile what `pack` has packed.
 
-    Parameters
-    ----------
-    folder : an empty one for the functions, which must stay as long as the scene is used
+    ``folder``: an empty one for the functions, which must stay as long as the scene is used.
     """
     description, document, name, files, (effects, trusted, functions) = pickle.loads(content)
     home = folder / EFFECTS / (effects or "root")

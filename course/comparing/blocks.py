@@ -105,10 +105,7 @@ def rounding_variance(mean: Floats64, mean_square: Floats64, step: float | None)
     Values that spread over several steps are rounded up as often as down. Where a block is of one colour all are
     rounded alike, by up to half a step. Of values with the variance v [steps^2] the mean is off by e with
     E e^2 = exp(-4 pi^2 v) / 12, to the first term of the Fourier series of rounding.
-
-    Parameters
-    ----------
-    step : distance of two neighbouring values as a share of their size; None for the codes of 8 bits
+    ``step``: distance of two neighbouring values as a share of their size; None for the codes of 8 bits.
     """
     if step is None:
         # The derivative of the sRGB curve, backwards, over 255.

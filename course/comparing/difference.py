@@ -34,13 +34,8 @@ _MARGIN, _BAR, _TEXT = 8, 8, 14
 def difference_picture(a: Floats32, b: Floats32) -> Floats32:
     """The mean over the channels of a - b as colours, with a legend below.
 
-    Parameters
-    ----------
-    a, b : (H, W, 3) float32, linear
-
-    Returns
-    -------
-    (3, H', W') float32, linear RGB, as `course.formats.pictures.files.write_png` takes it
+    ``a``, ``b``: (H, W, 3) float32, linear.
+    Returns (3, H', W') float32, linear RGB, as `course.formats.pictures.files.write_png` takes it.
     """
     difference = (a.astype(np.float64) - b).mean(axis=2)
     scale = float(np.percentile(np.abs(difference), SHOWN)) or float(np.abs(difference).max())

@@ -62,9 +62,7 @@ class Mode:
 def chosen_settings(settings: Settings, ends_early: bool, **given: Any) -> Settings:
     """The settings, with what was given and isn't None in their place; CourseError for what can't be.
 
-    Parameters
-    ----------
-    ends_early : something else than the number of samples is to end the render
+    ``ends_early``: something else than the number of samples is to end the render.
     """
     chosen = replace(
         settings, **{name: value for name, value in given.items() if value is not None}

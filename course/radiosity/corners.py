@@ -27,14 +27,8 @@ def at_corners(patches: Patches, radiosity: Floats32) -> Floats32:
     By least squares, weighted by area, as a plane over the patches' centres; what the patches then lack of their own
     radiosities is given back to their corners, so that no light is lost. No farther from the
     patches' radiosities than they are apart, for light may also change abruptly, and never black among lit patches.
-
-    Parameters
-    ----------
-    radiosity : (3, P) float32
-
-    Returns
-    -------
-    (3, 3, P) float32, channels, corners, patches
+    ``radiosity``: (3, P) float32.
+    Returns (3, 3, P) float32, channels, corners, patches.
     """
     corners, size = patches.triangles.corners, patches.size
     place = np.stack((corners, np.broadcast_to(patches.surface[:, None], corners.shape)), axis=2)

@@ -92,13 +92,8 @@ class Views:
     def look(self, which: Indices, hemicube: Hemicube) -> Seen:
         """What some patches see through the cells of their hemicubes.
 
-        Parameters
-        ----------
-        which : (m,) numbers of patches
-
-        Returns
-        -------
-        (m, C) int32
+        ``which``: (m,) numbers of patches.
+        Returns (m, C) int32.
         """
         seen = np.empty((len(which), hemicube.cells), np.int32)
         self.rays += seen.size

@@ -223,14 +223,8 @@ def with_ambient(
     """Radiosities with what the unshot light would bring if it came to all patches alike, for looking at early steps.
 
     Shot and reflected again and again, it adds up to 1 / (1 - rho) times itself for a mean rho (Cohen 1988).
-
-    Parameters
-    ----------
-    among : (P,) which patches it comes to, for the insides of solids stay dark; those it has reached by default
-
-    Returns
-    -------
-    (3, P) float32
+    ``among``: (P,) which patches it comes to, for the insides of solids stay dark; those it has reached by default.
+    Returns (3, P) float32.
     """
     _, reflectance, areas = _both_sides(patches)
     reached = radiosity.any(axis=0) if among is None else among

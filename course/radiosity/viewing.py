@@ -105,13 +105,8 @@ def look(
 ) -> Floats32:
     """The picture of a solution.
 
-    Parameters
-    ----------
-    samples : along each side of a pixel
-
-    Returns
-    -------
-    (3, height, width) float32, radiance [W/(m^2 sr)], black where nothing is
+    ``samples``: along each side of a pixel.
+    Returns (3, height, width) float32, radiance [W/(m^2 sr)], black where nothing is.
     """
     eye = (view.eye - solution.center) / solution.scale
     fov = math.radians(view.vertical_fov)

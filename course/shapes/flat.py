@@ -15,10 +15,7 @@ def quad(width: float = 1.0, depth: float = 1.0) -> Mesh:
     """Return a rectangle in the xz plane, centred, facing +y; u along +x, v along -z.
 
     Raises ValueError for an extent out of range.
-
-    Parameters
-    ----------
-    width, depth : extent along x and along z [m], > 0
+    ``width``, ``depth``: extent along x and along z [m], > 0.
     """
     x, z = 0.5 * length("width", width), 0.5 * length("depth", depth)
     return Mesh(
@@ -40,11 +37,8 @@ def box(size: Sequence[float] = (1.0, 1.0, 1.0)) -> Mesh:
     """Return a box centred at the origin, six faces with 0..1 uv each and hard edges.
 
     Raises ValueError for an extent out of range, or not three of them.
-
-    Parameters
-    ----------
-    size : three floats
-        Extent along x, y and z [m], each > 0. Long sides of a slender box are strips of quads, at most 256.
+    ``size``: three floats Extent along x, y and z [m], each > 0. Long sides of a slender box are strips of quads, at
+    most 256.
     """
     if len(size) != 3:
         raise ValueError(f"size has {len(size)} numbers: expected 3")

@@ -127,14 +127,8 @@ def fans(lengths: NDArray[np.int64]) -> Indices:
     """Return where the corners of triangles stand among those of polygons.
 
     A polygon 0 1 2 3 becomes 0 1 2 and 0 2 3, in its place.
-
-    Parameters
-    ----------
-    lengths : (N,) corners of each polygon, 3 or more
-
-    Returns
-    -------
-    (T, 3) intp, numbers of corners, which are counted through all polygons
+    ``lengths``: (N,) corners of each polygon, 3 or more.
+    Returns (T, 3) intp, numbers of corners, which are counted through all polygons.
     """
     triangles = lengths - 2
     first = np.repeat(np.cumsum(lengths) - lengths, triangles)
@@ -151,9 +145,7 @@ def too_few(face: str, corners: int) -> str:
 def same(*columns: NDArray[Any]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Group the rows that are equal in every column, exactly; -0.0 equals 0.0.
 
-    Parameters
-    ----------
-    columns : (N,) arrays of numbers, at least one, without NaN
+    ``columns``: (N,) arrays of numbers, at least one, without NaN.
 
     Returns
     -------

@@ -20,9 +20,7 @@ from course.formats.metu.transformations import normal as transformed_normal
 def read_lights(scene: Element, steps: dict[str, dict[str, Any]]) -> list[dict[str, Any]]:
     """The lights of a scene.
 
-    Parameters
-    ----------
-    steps : of `Transformations`, by letter and id
+    ``steps``: of `Transformations`, by letter and id.
     """
     parent = scene.maybe("Lights")
     if parent is None:

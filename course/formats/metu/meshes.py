@@ -211,9 +211,7 @@ def plane_mesh(point: Floats64, normal: Floats64, others: Floats64) -> Mesh:
 def corners_of_all(meshes: list[tuple[Floats64, dict[str, Any]]]) -> Floats64:
     """Corners (N, 3) of the boxes around vertices, where they start and where their objects' motion takes them.
 
-    Parameters
-    ----------
-    meshes : vertices (V, 3) where the scene has them, and the keys of their object
+    ``meshes``: vertices (V, 3) where the scene has them, and the keys of their object.
     """
     found = []
     for vertices, thing in meshes:

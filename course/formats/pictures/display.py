@@ -16,14 +16,8 @@ BLOCK_VALUES = 1 << 18
 def linear_to_srgb8(linear: NDArray[np.float32]) -> NDArray[np.uint8]:
     """Encode a linear picture for a screen.
 
-    Parameters
-    ----------
-    linear : (3, H, W) float32, linear RGB, 0 black and 1 white. Values above 1 show as 1, values below 0 as 0.
-
-    Returns
-    -------
-    (H, W, 3) uint8
-        The nearest sRGB code of each value.
+    ``linear``: (3, H, W) float32, linear RGB, 0 black and 1 white. Values above 1 show as 1, values below 0 as 0.
+    Returns (H, W, 3) uint8: the nearest sRGB code of each value.
 
     Notes
     -----

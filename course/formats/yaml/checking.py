@@ -36,10 +36,7 @@ def convert(document: Document, kind: type[Described]) -> Described:
     """Make what a document describes.
 
     Raises SceneError for the first value that breaks the format.
-
-    Parameters
-    ----------
-    kind : the description class of the whole file
+    ``kind``: the description class of the whole file.
     """
     try:
         return msgspec.convert(_with_steps(document.data), kind)

@@ -56,10 +56,7 @@ def about(description: str, unit: str | None = None, **bounds: Any) -> msgspec.M
 def rgb(color: float | tuple[float, ...]) -> NDArray[np.float64]:
     """Red, green and blue of a colour that may be given as one number.
 
-    Returns
-    -------
-    (3,) float64
-        In the colour's own unit; a number is repeated in all three channels.
+    Returns (3,) float64: in the colour's own unit; a number is repeated in all three channels.
     """
     return np.array(np.broadcast_to(np.asarray(color, dtype=np.float64), (3,)))
 

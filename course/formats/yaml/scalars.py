@@ -28,10 +28,7 @@ def resolve(word: str) -> str | int | float | bool | None:
 
     Raises ValueError for a number that is infinite, not a number, or larger or smaller than float64 can square; the
     message says what was expected.
-
-    Parameters
-    ----------
-    word : a plain scalar, without quotes around it
+    ``word``: a plain scalar, without quotes around it.
 
     Notes
     -----

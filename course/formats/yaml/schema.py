@@ -26,11 +26,8 @@ _ONE_EMISSION: Final = {
 def json_schema() -> dict[str, Any]:
     """Make the JSON schema of the scene format.
 
-    Returns
-    -------
-    dict
-        JSON Schema 2020-12 with descriptions, ranges, defaults and, under `x-unit`, units. What
-        takes more than one key to see, such as the name of a material, only loading checks.
+    Returns JSON Schema 2020-12 with descriptions, ranges, defaults and, under `x-unit`, units. What takes more
+    than one key to see, such as the name of a material, only loading checks.
     """
     generated = msgspec.json.schema(SceneDescription)
     definitions = {name: _tidy(each) for name, each in generated["$defs"].items()}

@@ -69,9 +69,7 @@ def outsides(
 ) -> Media | None:
     """The column (columns,) of what surrounds each material, NOWHERE for vacuum; None where all lie in vacuum.
 
-    Parameters
-    ----------
-    names : of the materials of the first columns
+    ``names``: of the materials of the first columns.
     """
     found = np.full(columns, NOWHERE)
     for column, name in enumerate(names):
