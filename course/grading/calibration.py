@@ -8,7 +8,7 @@ A wrong submission that the picture can't tell is listed; other checks are there
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from math import sqrt
 from pathlib import Path
 from typing import Any
@@ -84,6 +84,11 @@ def _calibrated(module: str, check: Check, submissions: list[Known], seeds: int)
             right = min(right, *values)
         else:
             wrong[submission.name] = max(values)
+    return _tolerance(right, wrong)
+
+
+def _tolerance(right: float, wrong: Mapping[str, float]) -> dict[str, Any]:
+    """What comes of the least similar right picture, and of the most similar one of each wrong submission."""
     least = max(1 - right, ROUNDING)
     seen = {name: value for name, value in wrong.items() if 1 - value > APART * least}
     nearest = max(seen, key=lambda name: seen[name], default="")
@@ -110,14 +115,7 @@ def _calibrated_whole(seeds: int) -> dict[str, Any]:
                 {module: trusted(found[number]) for module, found in variants.items()}
             )
             right = min(right, _similarity(NAME, check, caller, seed, references))
-    least = max(1 - right, ROUNDING)
-    return {
-        "tolerance": round(1 - MARGIN * least, 6),
-        "right": round(right, 6),
-        "wrong": None,
-        "nearest": "",
-        "unseen": [],
-    }
+    return _tolerance(right, {})
 
 
 def _similarity(module: str, check: Check, caller: Caller, seed: int, references: Any) -> float:

@@ -80,8 +80,6 @@ def _read(path: Path, module: str, solution: str, *, right: bool) -> Known:
         raise CourseError(f"{path}: needs a docstring that says what it is")
     # Later definitions win: what the file defines takes the place of the solution's.
     source = solution + "\n\n" + text.replace("from __future__ import annotations\n", "")
-    if right:
-        return Known(module, path.stem, right, about, source)
     constants = {
         node.targets[0].id: node.value.value
         for node in tree.body
@@ -89,16 +87,8 @@ def _read(path: Path, module: str, solution: str, *, right: bool) -> Known:
         and isinstance(node.targets[0], ast.Name)
         and isinstance(node.value, ast.Constant)
     }
-    if not {"FUNCTION", "CAUGHT_BY", "MISTAKE"} <= constants.keys():
+    if not right and not {"FUNCTION", "CAUGHT_BY", "MISTAKE"} <= constants.keys():
         raise CourseError(f"{path}: needs FUNCTION, CAUGHT_BY and MISTAKE")
-    return Known(
-        module,
-        path.stem,
-        right,
-        about,
-        source,
-        str(constants["FUNCTION"]),
-        str(constants["CAUGHT_BY"]),
-        str(constants["MISTAKE"] or ""),
-        str(constants.get("SAYS", "")),
-    )
+    told = ("FUNCTION", "CAUGHT_BY", "MISTAKE", "SAYS")
+    what = ["" if right else str(constants.get(name) or "") for name in told]
+    return Known(module, path.stem, right, about, source, *what)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from math import fsum
-from typing import Protocol
 
 from course.grading.checks.result import NOT_WRITTEN, Result, Status
 from course.modules import COURSE
@@ -14,24 +13,10 @@ USUAL_SEED = 0
 """Of checks whose references a student's copy has."""
 
 
-class Scored(Protocol):
-    """Something with points."""
-
-    @property
-    def points(self) -> float:
-        """Earned."""
-        ...
-
-    @property
-    def of(self) -> float:
-        """That could be earned."""
-        ...
-
-
 class Total:
     """What has parts, and of points what they have together."""
 
-    def parts(self) -> Sequence[Scored]:
+    def parts(self) -> Sequence[Result | Total]:
         """What the points are of."""
         raise NotImplementedError
 

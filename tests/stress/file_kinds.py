@@ -21,7 +21,7 @@ from course import load_scene
 from course.formats.meshes.files import read_mesh
 from course.formats.metu.converting import convert
 from course.formats.pictures.reading import read_picture
-from course.grading.classes.policy_file import read_policy
+from course.grading.classes.policy import read_policy
 from course.grading.classes.roster import read_roster
 from course.grading.classes.submitted import read_one
 from course.grading.references import read_references

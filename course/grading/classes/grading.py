@@ -25,8 +25,7 @@ from course.grading.classes.job import (
     with_whole,
 )
 from course.grading.classes.keeping import fingerprint, keep, kept
-from course.grading.classes.marks import Mark, mark
-from course.grading.classes.policy_file import MODIFIED, Rules
+from course.grading.classes.policy import MODIFIED, Mark, Rules, mark
 from course.grading.classes.roster import Listed, Matched, match
 from course.grading.classes.settings import INSTRUCTOR, Settings
 from course.grading.classes.similarity import Compared, compare

@@ -12,6 +12,7 @@ from typing import Any
 
 from course.grading.classes.engines import apart
 from course.grading.classes.reachable import parsed, reachable
+from course.grading.release.stubs import first_line
 from course.grading.submissions import LARGEST_FILE, SubmissionError
 
 _MAGIC = re.compile(r"\s*(?:%{1,2}[A-Za-z]|!(?!=)|\?)")
@@ -49,7 +50,7 @@ def _converted(work: tuple[str, bytes]) -> bytes | None:
         return None
     lines = text.splitlines()
     parts = {
-        node.lineno: "\n".join(lines[_first_line(node) - 1 : node.end_lineno])
+        node.lineno: "\n".join(lines[first_line(node) - 1 : node.end_lineno])
         for node in reachable(module, tree, imports=True)
     }
     # What is on from the future comes first, or not at all.
@@ -77,8 +78,3 @@ def _without_magic(cell: str) -> str:
     if cell.lstrip().startswith("%%"):
         return ""
     return "\n".join("" if _MAGIC.match(line) else line for line in cell.splitlines())
-
-
-def _first_line(node: ast.stmt) -> int:
-    decorators: list[ast.expr] = getattr(node, "decorator_list", [])
-    return min([node.lineno, *(decorator.lineno for decorator in decorators)])

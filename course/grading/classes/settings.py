@@ -8,7 +8,7 @@ import msgspec
 
 from course.atomic import write_text
 from course.errors import CourseError
-from course.grading.classes.policy_file import Rules, read_policy
+from course.grading.classes.policy import Rules, read_policy
 from course.grading.classes.roster import Listed, read_roster
 from course.grading.worker.limits import Limits
 

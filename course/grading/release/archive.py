@@ -16,8 +16,7 @@ from course.atomic import replacing
 from course.errors import CourseError, OutputError
 from course.grading.pictures.whole import NAME
 from course.grading.references import make_references
-from course.grading.release.regions import find_regions
-from course.grading.release.stubs import make_stubs
+from course.grading.release.stubs import find_regions, make_stubs
 from course.grading.report import USUAL_SEED
 from course.modules import COURSE
 

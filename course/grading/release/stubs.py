@@ -6,6 +6,10 @@
 
 A solution is refused rather than published in part: each public function has a region, and whatever else stands
 outside the regions must be used by what the students get, as the checks of shape and range are.
+
+A region runs from a line ``### BEGIN SOLUTION`` to the next ``### END SOLUTION``, each alone on its line and both
+indented alike. Lines are read as text, not as Python, so that nothing can hide a marker; what nearly is a marker is
+refused rather than overlooked, for the price of overlooking one is a published solution.
 """
 
 from __future__ import annotations
@@ -17,10 +21,34 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeGuard
 
-from course.grading.release.regions import Region, SolutionError, find_regions
+from course.errors import CourseError
+
+BEGIN = "### BEGIN SOLUTION"
+END = "### END SOLUTION"
+
+_NEARLY = re.compile(r"#.*\b(begin|end)[\s_-]*solution", re.IGNORECASE)
 
 _KEPT = {"np", "annotations"}
 """Imported names that a stub keeps even where it doesn't use them."""
+
+
+class SolutionError(CourseError):
+    """A solution from which no stub can be made; the message names file and line."""
+
+
+@dataclass(frozen=True)
+class Region:
+    """Where one region stands.
+
+    Attributes
+    ----------
+    begin, end : numbers of the lines that hold the two markers, counted from 1
+    indent : the white space before both
+    """
+
+    begin: int
+    end: int
+    indent: str
 
 
 @dataclass(frozen=True)
@@ -29,11 +57,8 @@ class Stub:
 
     Attributes
     ----------
-    module : str
-    text : str
-        The whole file.
-    tasks : tuple of str
-        Ids of what is to be written, "module.function", in the order of the file.
+    text : the whole file
+    tasks : ids of what is to be written, "module.function", in the order of the file
     """
 
     module: str
@@ -48,6 +73,49 @@ class Stub:
             if re.search(rf"^def {task.partition('.')[2]}\b", text, re.MULTILINE)
             and _not_written(task) not in text
         ]
+
+
+def find_regions(text: str, file: str) -> list[Region]:
+    """Find the regions of a text, from top to bottom.
+
+    Parameters
+    ----------
+    file : what error messages call the text
+
+    Raises
+    ------
+    SolutionError
+        A region is not closed, begins within another or ends without having begun; its markers
+        are indented differently; or a marker is misspelt or shares its line.
+    """
+    regions = []
+    opened: tuple[int, str] | None = None
+    for number, line in enumerate(text.split("\n"), start=1):
+        marker = line.strip()
+        indent = line[: len(line) - len(line.lstrip())]
+        if marker == BEGIN:
+            if opened:
+                raise SolutionError(
+                    f"{file}:{number}: a region begins inside the one that line {opened[0]} opened"
+                )
+            opened = number, indent
+        elif marker == END:
+            if not opened:
+                raise SolutionError(f"{file}:{number}: {END!r} closes no region")
+            if indent != opened[1]:
+                raise SolutionError(
+                    f"{file}:{number}: {END!r} is not indented like its beginning in line {opened[0]}"
+                )
+            regions.append(Region(opened[0], number, indent))
+            opened = None
+        elif _NEARLY.search(line):
+            raise SolutionError(
+                f"{file}:{number}: {marker!r} is no marker: "
+                f"expected {BEGIN!r} or {END!r}, alone on its line"
+            )
+    if opened:
+        raise SolutionError(f"{file}:{opened[0]}: the region that begins here is never closed")
+    return regions
 
 
 def make_stubs(folder: Path) -> list[Stub]:
@@ -65,15 +133,13 @@ def make_stubs(folder: Path) -> list[Stub]:
 
 
 def make_stub(text: str, module: str, file: str) -> Stub:
-    """Make a stub from the text of a solution.
+    """Make a stub of a solution.
 
     Parameters
     ----------
-    text : str
-    module : str
-        First half of the tasks' ids.
-    file : str
-        What error messages call the text.
+    text : of the solution
+    module : first half of the tasks' ids
+    file : what error messages call the text
 
     Raises
     ------
@@ -124,10 +190,10 @@ def _parse(text: str, file: str) -> ast.Module:
         raise SolutionError(f"{file}:{line}: not Python: {error}") from error
 
 
-def _first_line(node: ast.stmt) -> int:
-    if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
-        return min([node.lineno, *(decorator.lineno for decorator in node.decorator_list)])
-    return node.lineno
+def first_line(node: ast.stmt) -> int:
+    """Number of the line where a statement begins, with its decorators."""
+    decorators: list[ast.expr] = getattr(node, "decorator_list", [])
+    return min([node.lineno, *(decorator.lineno for decorator in decorators)])
 
 
 def _check_cuts(tree: ast.Module, regions: list[Region], file: str) -> None:
@@ -135,7 +201,7 @@ def _check_cuts(tree: ast.Module, regions: list[Region], file: str) -> None:
     for node in ast.walk(tree):
         if not isinstance(node, ast.stmt):
             continue
-        first, last = _first_line(node), node.end_lineno or node.lineno
+        first, last = first_line(node), node.end_lineno or node.lineno
         holds_statements = hasattr(node, "body") or hasattr(node, "cases")
         for region in regions:
             apart = last < region.begin or region.end < first
@@ -151,7 +217,7 @@ def _owner(tree: ast.Module, region: Region, file: str) -> str | None:
     """Name of the public function in which a region stands; None for one at module level."""
     if not region.indent:
         return None
-    before = [node for node in tree.body if _first_line(node) < region.begin]
+    before = [node for node in tree.body if first_line(node) < region.begin]
     if before and _is_task(before[-1]):
         return before[-1].name
     raise SolutionError(

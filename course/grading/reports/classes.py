@@ -15,7 +15,7 @@ from urllib.parse import quote
 
 from course.atomic import write_text
 from course.grading.checks.result import Result, Status
-from course.grading.classes.marks import Mark
+from course.grading.classes.policy import Mark
 from course.grading.classes.roster import Listed, Matched
 from course.grading.report import Report, ending
 from course.grading.reports.formats import clean, finite

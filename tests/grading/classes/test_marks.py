@@ -10,8 +10,7 @@ import pytest
 
 from course.errors import CourseError
 from course.grading.checks.result import Result, Status
-from course.grading.classes.marks import Mark, mark
-from course.grading.classes.policy_file import read_policy
+from course.grading.classes.policy import Mark, mark, read_policy
 from course.grading.report import Report
 
 MODULES = ("thin_lens", "glossy", "sampling")

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from course.errors import CourseError
-from course.grading.release.regions import Region, SolutionError, find_regions
+from course.grading.release.stubs import Region, SolutionError, find_regions
 
 
 def refusal(text: str) -> str:

@@ -8,8 +8,7 @@ from pathlib import Path
 import pytest
 
 from course.effects import PROJECT
-from course.grading.release.regions import SolutionError
-from course.grading.release.stubs import Stub, make_stub, make_stubs
+from course.grading.release.stubs import SolutionError, Stub, make_stub, make_stubs
 from course.modules import COURSE
 
 SOLUTION = '''\

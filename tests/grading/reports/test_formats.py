@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 
 from course.grading.checks.result import Status
-from course.grading.classes.marks import Mark
+from course.grading.classes.policy import Mark
 from course.grading.report import Report
 from course.grading.reports.classes import Line, safe_cell, write_grades
 from course.grading.reports.formats import as_json, as_xml, gradescope, json_bytes, prairielearn

@@ -17,7 +17,7 @@ from course.grading.checks.preparing import prepared
 from course.grading.checks.result import Result
 from course.grading.checks.running import run_checks
 from course.grading.checks.trusted import TrustedModule
-from course.grading.classes.marks import Mark
+from course.grading.classes.policy import Mark
 from course.grading.classes.roster import Matched
 from course.grading.references import reference
 from course.grading.report import Report, docs_page, reproduce
