@@ -69,7 +69,7 @@ LISTED = f"""Modules: {", ".join(KNOWN)}.
     "--references",
     default=Path("out", "references"),
     show_default=True,
-    type=click.Path(path_type=Path),
+    type=options.PATH,
     help="Folder where converged pictures are kept.",
 )
 @click.option(
@@ -80,10 +80,7 @@ LISTED = f"""Modules: {", ".join(KNOWN)}.
     help="Write everything that was measured as JSON.",
 )
 @click.option(
-    "--plots",
-    metavar="DIR",
-    type=click.Path(path_type=Path),
-    help="Write plots as SVG; needs the extra `bench`.",
+    "--plots", metavar="DIR", type=options.PATH, help="Write plots as SVG; needs the extra `bench`."
 )
 @click.option(
     "--write-docs",

@@ -227,8 +227,7 @@ class _Printer:
         results, self._pending = self._pending, []
         if not results:
             return
-        from course.grading.report import unstarted
-        from course.grading.reports.grouping import FunctionResults
+        from course.grading.report import FunctionResults, unstarted
 
         function = results[0].function
         wrong = [result for result in results if result.status != "passed"]

@@ -23,8 +23,8 @@ TROUBLE = 2
 
 
 @click.command()
-@click.argument("a", metavar="A", type=click.Path(path_type=Path))
-@click.argument("b", metavar="B", type=click.Path(path_type=Path))
+@click.argument("a", metavar="A", type=options.PATH)
+@click.argument("b", metavar="B", type=options.PATH)
 @click.option(
     "--significance",
     type=click.FloatRange(0, 1, min_open=True, max_open=True),
@@ -35,7 +35,7 @@ TROUBLE = 2
 )
 @click.option(
     "--difference",
-    type=click.Path(path_type=Path),
+    type=options.PATH,
     help="Write A - B in colours, as .png: red where A is brighter, blue where B is.",
 )
 @click.option(
@@ -124,10 +124,7 @@ def _sections(found: Comparison, different: bool, significance: float) -> list[S
             [
                 ("mean", ", ".join(means)),
                 ("RMSE", f"{found.rmse:.4g}"),
-                (
-                    "largest block",
-                    f"{channel} {found.block_difference:+.3g} in {place}",
-                ),
+                ("largest block", f"{channel} {found.block_difference:+.3g} in {place}"),
             ],
         ),
         ("compared", seen),

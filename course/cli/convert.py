@@ -6,17 +6,18 @@ from pathlib import Path
 
 import click
 
+from course.cli import options
 from course.cli.outputs import check_outputs
 from course.errors import OutputError
 
 
 @click.command()
-@click.argument("scene", metavar="SCENE", type=click.Path(path_type=Path))
+@options.scene_argument
 @click.option(
     "-o",
     "--out",
     metavar="FILE.yaml",
-    type=click.Path(path_type=Path),
+    type=options.PATH,
     help="Scene file to write.  [default: SCENE's name with .yaml]",
 )
 def convert(scene: Path, out: Path | None) -> None:

@@ -6,18 +6,15 @@ from pathlib import Path
 
 import click
 
+from course.cli import options
 from course.cli.metu import check_camera, converted, told_of, without_place
 from course.cli.tables import Section, print_sections, summary_sections
 from course.formats.metu.suffixes import is_metu
 
 
 @click.command()
-@click.argument("scene", metavar="SCENE", type=click.Path(path_type=Path))
-@click.option(
-    "--effects",
-    help="Whose functions would be called: solutions, assignments, or a folder of modules."
-    "  [default: solutions, or assignments where there are none]",
-)
+@options.scene_argument
+@options.effects_option
 @click.option("--camera", metavar="ID", help="Of a METU scene with several cameras, only this one.")
 def info(scene: Path, effects: str | None, camera: str | None) -> None:
     """Say what a scene holds and what rendering it will call.

@@ -82,6 +82,17 @@ def modules_from(
     return tuple(name for name in COURSE if not given or name in given)
 
 
+PATH = click.Path(path_type=Path)
+
+scene_argument = click.argument("scene", metavar="SCENE", type=PATH)
+
+effects_option = click.option(
+    "--effects",
+    help="Whose functions to call: solutions, assignments, or a folder of modules."
+    "  [default: solutions, or assignments where there are none]",
+)
+
+
 def choice_options(command: Callable[..., None]) -> Callable[..., None]:
     """Add the options that say what is graded: the seed and the modules."""
     for option in (

@@ -6,7 +6,7 @@ import math
 import re
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -24,6 +24,9 @@ NUMBER = r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
 POINT = rf"\s*({NUMBER})\s*,\s*({NUMBER})\s*,\s*({NUMBER})\s*"
 
 Place = tuple[float, float, float]
+
+SOLVING = ("patches", "method", "iterations", "tolerance", "split")
+"""Options that say how a scene is worked out."""
 
 
 def _cameras(
@@ -43,13 +46,13 @@ def _cameras(
 
 
 @click.command()
-@click.argument("scene", metavar="SCENE", type=click.Path(path_type=Path))
+@options.scene_argument
 @click.option(
     "-o",
     "--out",
     "outs",
     multiple=True,
-    type=click.Path(path_type=Path),
+    type=options.PATH,
     help="Picture (.png, .exr) or solution (.npz) to write; may be given for each."
     "  [default: SCENE's name with .png]",
 )
@@ -95,23 +98,15 @@ def _cameras(
     help="Fly from the first camera to the last in so many pictures.",
 )
 @click.option("--size", metavar="WxH", callback=options.size, help="Size in pixels.")
-@click.option(
-    "--effects",
-    help="Whose functions to call: solutions, assignments, or a folder of modules."
-    "  [default: solutions, or assignments where there are none]",
-)
+@options.effects_option
 def radiosity(
     scene: Path,
     outs: tuple[Path, ...],
-    patches: int | None,
-    method: Literal["auto", "gather", "shoot"] | None,
-    iterations: int | None,
-    tolerance: float | None,
-    split: float | None,
     cameras: list[tuple[Place, Place]],
     frames: int | None,
     size: tuple[int, int] | None,
     effects: str | None,
+    **solving: Any,
 ) -> None:
     """Work out the light on all surfaces of a scene, and look at it.
 
@@ -125,18 +120,11 @@ def radiosity(
     check_outputs([("-o", out) for out in pictures], [("-o", out) for out in solutions], scene)
     if frames is not None and len(cameras) < 2:
         raise CourseError("--frames needs two or more --camera to fly between")
-    if scene.suffix.lower() == ".npz":
-        given = {
-            "--patches": patches,
-            "--method": method,
-            "--iterations": iterations,
-            "--tolerance": tolerance,
-            "--split": split,
-        }
-        for name, value in given.items():
-            if value is not None:
-                raise CourseError(f"{name} is for scene files; {scene} has been worked out already")
-    solution = _solution(scene, effects, patches, method, iterations, tolerance, split)
+    given = {name: value for name, value in solving.items() if value is not None}
+    if given and scene.suffix.lower() == ".npz":
+        name = next(name for name in SOLVING if name in given)
+        raise CourseError(f"--{name} is for scene files; {scene} has been worked out already")
+    solution = _solution(scene, effects, given)
     views = _views(solution, cameras, frames)
     for out in outs:
         if out in pictures:
@@ -146,33 +134,17 @@ def radiosity(
             click.echo(str(out))
 
 
-def _solution(
-    scene: Path,
-    effects: str | None,
-    patches: int | None,
-    method: Literal["auto", "gather", "shoot"] | None,
-    iterations: int | None,
-    tolerance: float | None,
-    split: float | None,
-) -> Solution:
+def _solution(scene: Path, effects: str | None, given: dict[str, Any]) -> Solution:
     from course.radiosity.solution import load_solution
 
     if scene.suffix.lower() == ".npz":
         return load_solution(scene)
     from course import load_scene
-    from course.radiosity.radiosity import PATCHES, TOLERANCE, solve
+    from course.radiosity.radiosity import solve
 
     loaded = load_scene(scene, effects=effects)
     with progress_bar(scene.stem) as report:
-        solution = solve(
-            loaded,
-            patches=PATCHES if patches is None else patches,
-            tolerance=TOLERANCE if tolerance is None else tolerance,
-            iterations=iterations,
-            method=method or "auto",
-            split=split,
-            report=report,
-        )
+        solution = solve(loaded, report=report, **given)
     left = float(solution.left[0])
     # Gathering learns how far it is by its first iteration.
     near = (

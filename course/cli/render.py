@@ -18,24 +18,15 @@ from course.cli.tables import print_sections, receipt_sections
 from course.errors import CourseError
 from course.formats.metu.suffixes import is_metu
 
-SAMPLERS = (
-    "sobol",
-    "random",
-    "jittered",
-    "regular",
-    "halton",
-    "hammersley",
-    "chained",
-    "xorshift",
-)
+SAMPLERS = ("sobol", "random", "jittered", "regular", "halton", "hammersley", "chained", "xorshift")
 
 
 @click.command()
-@click.argument("scene", metavar="SCENE", type=click.Path(path_type=Path))
+@options.scene_argument
 @click.option(
     "-o",
     "--out",
-    type=click.Path(path_type=Path),
+    type=options.PATH,
     help="Picture to write, .png (sRGB) or .exr (linear float).  [default: SCENE's name with .png]",
 )
 @click.option(
@@ -58,11 +49,7 @@ SAMPLERS = (
     help="Where to render: on this machine or on a dask cluster.",
 )
 @click.option("--address", metavar="tcp://HOST:PORT", help="Of the dask scheduler.")
-@click.option(
-    "--effects",
-    help="Whose functions to call: solutions, assignments, or a folder of modules."
-    "  [default: solutions, or assignments where there are none]",
-)
+@options.effects_option
 @click.option(
     "--time-limit",
     metavar="S",
@@ -77,7 +64,7 @@ SAMPLERS = (
 )
 @click.option(
     "--heat-map",
-    type=click.Path(path_type=Path),
+    type=options.PATH,
     help="Write where the samples went, as a picture; with `acceleration: {type: hierarchy}`, how many boxes the ray"
     " through the middle of each pixel is tested with.",
 )
@@ -91,18 +78,11 @@ def render(
     scene: Path,
     out: Path | None,
     camera: str | None,
-    spp: int | None,
-    size: tuple[int, int] | None,
-    sampler: str | None,
-    seed: int | None,
-    threads: int | None,
     engine: str,
-    address: str | None,
     effects: str | None,
-    time_limit: float | None,
-    error: float | None,
     heat_map: Path | None,
     receipt_path: Path | None,
+    **choices: Any,
 ) -> None:
     """Render a scene file to a picture.
 
@@ -110,17 +90,7 @@ def render(
     is as NAME.partial.png. A METU scene (.xml or .json) gives a picture for each camera, under
     the names that it has for them.
     """
-    _check_engine(engine, address, threads)
-    choices: dict[str, Any] = {
-        "spp": spp,
-        "size": size,
-        "sampler": sampler,
-        "seed": seed,
-        "threads": threads,
-        "time_limit": time_limit,
-        "error": error,
-        "address": address,
-    }
+    _check_engine(engine, choices["address"], choices["threads"])
     check_camera(scene, camera)
     if not is_metu(scene):
         out = Path(f"{scene.stem}.png") if out is None else out
