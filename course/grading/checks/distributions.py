@@ -21,6 +21,7 @@ from course.grading.checks.declare import Arguments, Case, Function, Law
 from course.grading.checks.drawing import Draw
 from course.grading.checks.examples import where
 from course.grading.checks.laws import DTYPES, exact, first_result, result_at, shown
+from course.grading.checks.weights import WHOLE
 
 FALSE_FAIL = 1e-7
 """Of each comparison: a hundred in an assignment stay under 1e-5."""
@@ -43,7 +44,7 @@ def uniform(
     case: Case | None = None,
     draws: int = 1,
     n: int = MANY,
-    points: float = 1.0,
+    whole: bool = False,
     picture: Callable[[Arguments, Any], Array] | None = None,
 ) -> Law:
     """Features fill the unit cube evenly: each by itself, and all together, by chi-squared tests.
@@ -53,6 +54,7 @@ def uniform(
     features : (d, n) numbers from 0 to 1, independent and uniform for a right function
     cells : of all of them together
     draws : calls of each dtype, each with arguments of its own
+    whole : whether it says all of the function's values
     picture : (2, n) points that show it; the features if not given
     """
     alone = len(cells) if len(cells) > 1 else 0
@@ -85,6 +87,7 @@ def uniform(
     comparisons = 2 * draws * (alone + 1)
     chance = comparisons * FALSE_FAIL
     alike = _none_alike(features, what, case, n)
+    points = WHOLE if whole else 1.0
     return Law(name, title, run, "core", "distribution", points, chance, case=case, beside=alike)
 
 
@@ -156,7 +159,6 @@ def means(
     comparisons: int,
     case: Case | None = None,
     n: int = MANY,
-    points: float = 1.0,
 ) -> Law:
     """Means of independent values are what they should be: z-tests with known variances.
 
@@ -175,9 +177,8 @@ def means(
                 failure.example = off_mean(np.asarray(some), mean, variance, what)
                 raise
 
-    return Law(
-        name, title, run, "core", "distribution", points, comparisons * FALSE_FAIL, case=case
-    )
+    chance = comparisons * FALSE_FAIL
+    return Law(name, title, run, "core", "distribution", 1.0, chance, case=case)
 
 
 # ---------------------------------------------------------------- tests

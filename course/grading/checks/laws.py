@@ -16,6 +16,7 @@ from course.grading.checks.check import Failure, Kind, Role, Trial
 from course.grading.checks.declare import Arguments, Case, Function, Law
 from course.grading.checks.drawing import Draw
 from course.grading.checks.examples import call, example, where
+from course.grading.checks.weights import WHOLE
 
 EPSILON = float(np.finfo(np.float32).eps)
 """Of single precision: nothing is asked to be more exact, whatever dtype it has."""
@@ -34,11 +35,12 @@ def law(
     title: str,
     look: Look,
     *,
-    role: Role = "core",
+    role: Role = "corner",
     kind: Kind = "property",
     case: Case | None = None,
     n: int = 1000,
     scales: Iterable[float] = (1.0,),
+    whole: bool = False,
     points: float = 1.0,
     dtypes: Iterable[Any] = DTYPES,
     figure: Callable[[Trial, Arguments, Any], None] | None = None,
@@ -51,6 +53,7 @@ def law(
     case : what to call the function with; as it is declared if not given
     n : columns
     scales : factors of all lengths, each tried
+    whole : whether it says all of the function's values, which makes it the core's largest
     points : weight among the checks of its role
     figure : keeps one for a report, of a trial, its arguments and the results
     """
@@ -69,6 +72,7 @@ def law(
                     example(function, trial, failure, look, case)
                     raise
 
+    role, points = ("core", WHOLE) if whole else (role, points)
     return Law(name, title, run, role, kind, points, case=case)
 
 
@@ -179,7 +183,6 @@ def within(
     *,
     what: str = "a value",
     slack: float = 1e-6,
-    role: Role = "corner",
     **how: Any,
 ) -> Law:
     """Values lie between two bounds, but for rounding."""
@@ -190,7 +193,6 @@ def within(
         f"{what} from {low:g} to {high:g}",
         hint,
         shows=value,
-        role=role,
         **how,
     )
 
@@ -207,7 +209,6 @@ def unit_length(
         what="a length of",
         within=0,
         floor=1e-5,
-        role="corner",
     )
 
 

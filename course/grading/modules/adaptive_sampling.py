@@ -125,14 +125,12 @@ NEEDS_SUBDIVISION = function(
             "Cells of one colour are smooth, and red need not be as bright as green; "
             "with threshold 0 the smallest difference counts.",
             _plain,
-            role="corner",
         ),
         _decisions(
             "threshold",
             "Every pair of corners counts in every channel, just above the threshold and not at it",
             "A difference has to be over the threshold: as large is not enough. All pairs count.",
             _at_threshold,
-            role="corner",
         ),
         _decisions(
             "bright",
@@ -141,11 +139,13 @@ NEEDS_SUBDIVISION = function(
             _bright,
             BRIGHT,
             points=0.5,
+            role="core",
         ),
         _decisions(
             "any",
             "Cells are divided where the largest difference is over the threshold",
             "Any two corners, in any channel, are enough.",
+            role="core",
         ),
     ),
     case=_colours,
@@ -251,7 +251,6 @@ SUBDIVIDE = function(
             what="the children's outermost x0, y0, x1, y1 are the cell's own: ",
             within=0,
             scales=LENGTHS,
-            role="corner",
         ),
         holds(
             "shared",
@@ -260,7 +259,6 @@ SUBDIVIDE = function(
             "the edges in a cell's middle, bit for bit the same for all four children, and in the cell",
             "Shared corners are the same numbers, so that one ray serves all.",
             scales=LENGTHS,
-            role="corner",
         ),
         holds(
             "area",
@@ -270,7 +268,6 @@ SUBDIVIDE = function(
             "Four children, each a quarter of the area.",
             shows=lambda a, r: np.abs(_covered(a, r) - 1).max(axis=0) + 1,
             case=_wide,
-            role="corner",
         ),
         close(
             "halves",
@@ -285,6 +282,7 @@ SUBDIVIDE = function(
             within=8,
             scales=LENGTHS,
             points=0.5,
+            role="core",
         ),
         law(
             "order",
@@ -292,6 +290,7 @@ SUBDIVIDE = function(
             _in_order,
             case=_cells,
             scales=LENGTHS,
+            role="core",
         ),
     ),
     case=_cells,

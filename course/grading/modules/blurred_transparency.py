@@ -17,7 +17,6 @@ from course.grading.checks.declare import Arguments, Case, Made, Module, functio
 from course.grading.checks.drawing import Draw, worst_directions, worst_units
 from course.grading.checks.laws import close, holds, unit_length, within
 from course.grading.checks.vectors import cross, dot
-from course.grading.checks.weights import WHOLE
 from course.grading.modules.squares import no_jitter, offsets, square
 
 MARGIN = 1e-3
@@ -144,7 +143,6 @@ REFRACT = function(
             "No angle has a sine over 1.",
             shows=lambda _, r: r[1].astype(float),
             case=lambda d: _boundary(*_each_eta(d), d),
-            role="corner",
         ),
         _bent(
             "ends",
@@ -159,7 +157,7 @@ REFRACT = function(
             lambda d: _boundary(*_one_eta(d), d),
             scales=(1.0,) * 4,
             role="core",
-            points=WHOLE,
+            whole=True,
         ),
         _bent(
             "total",
@@ -250,7 +248,6 @@ JITTER_REFRACTION = function(
             shows=lambda a, r: dot(r, a.normal),
             case=_far(_flat, 0.5, 4.0, 1e3),
             scales=(1.0,) * 3,
-            role="corner",
         ),
         close(
             "mirrored",
@@ -261,7 +258,6 @@ JITTER_REFRACTION = function(
             within=100,
             case=_far(_flat, 0.5, 0.9, 2.0),
             scales=(1.0,) * 3,
-            role="corner",
         ),
         no_jitter("roughness", _far(_flat)),
         square(
@@ -270,7 +266,7 @@ JITTER_REFRACTION = function(
             case=_steep,
             scales=(1.0,) * 2,
             figure=_shown,
-            points=WHOLE,
+            whole=True,
         ),
     ),
     case=_far(_flat),
@@ -346,7 +342,7 @@ FRESNEL = function(
             lambda d: _cosines(*_one_eta(d)),
             scales=(1.0,) * 4,
             role="core",
-            points=WHOLE,
+            whole=True,
         ),
         _reflected(
             "total",

@@ -125,7 +125,6 @@ SLAB_TEST = function(
             "It has to be between all three pairs of faces at the same time.",
             case=_past,
             scales=SCALES,
-            role="corner",
         ),
         holds(
             "parallel",
@@ -135,7 +134,6 @@ SLAB_TEST = function(
             "Along two faces: between them for all t or for none. Zero over zero is no number.",
             case=_along,
             scales=SCALES,
-            role="corner",
         ),
         close(
             "flat",
@@ -144,7 +142,6 @@ SLAB_TEST = function(
             "A triangle along an axis has a box without thickness.",
             what="of a box without thickness, t_near (row 0) or t_far (1):",
             case=_through(thin=True),
-            role="corner",
         ),
         close(
             "through",
@@ -153,6 +150,7 @@ SLAB_TEST = function(
             "In the box is between all three pairs of faces at once; behind the origin t is negative.",
             what="t_near (row 0) or t_far (1):",
             scales=SCALES,
+            role="core",
         ),
     ),
     contract="origins: 3 N, directions: 3 N, lo: 3 N, hi: 3 N -> t_near: infinite N, t_far: infinite N",
@@ -269,7 +267,7 @@ EMPTY = {"lo": np.zeros((3, 0)), "hi": np.zeros((3, 0))}
 
 
 def _sorts(name: str, title: str, look: Look) -> Law:
-    return law(name, title, look, case=_any_boxes, n=101, scales=(1.0,) * 8, role="corner")
+    return law(name, title, look, case=_any_boxes, n=101, scales=(1.0,) * 8)
 
 
 BUILD = function(
@@ -290,6 +288,7 @@ BUILD = function(
             case=_ordinary,
             n=MANY,
             scales=(1.0,) * 6,
+            role="core",
         ),
     ),
     case=lambda d: _small(d, max(d.n, 1)),

@@ -74,7 +74,7 @@ def _shared(a: Arguments, r: Any) -> Array:
 
 
 def _rays_law(name: str, title: str, true: Any, says: str, hint: str, **how: Any) -> Law:
-    return holds(name, title, true, says, hint, n=60, role="corner", **how)
+    return holds(name, title, true, says, hint, n=60, **how)
 
 
 CALLS = 240

@@ -8,11 +8,10 @@ from typing import Any
 import numpy as np
 from scipy.spatial import cKDTree
 
-from course.grading.checks.check import Array, Role, Trial
+from course.grading.checks.check import Array, Trial
 from course.grading.checks.declare import Arguments, Case, Function, Law, Made, Module, function
 from course.grading.checks.drawing import Draw, worst_directions
 from course.grading.checks.laws import close, holds, within
-from course.grading.checks.weights import WHOLE
 
 # Each face as a picture that hangs in space, as OpenGL has it: where on the cube of half side 1 its top left corner
 # is, and the ways from there along the top row and down the left column.
@@ -95,7 +94,6 @@ FACE_AND_UV = function(
             what="along an axis, face (row 0), u (1) or v (2):",
             case=_six,
             n=6,
-            role="corner",
         ),
         within(
             "range",
@@ -115,7 +113,6 @@ FACE_AND_UV = function(
             "Edges and corners belong to one face each.",
             shows=lambda _, r: r[0],
             case=lambda d: {"direction": _edge(d)},
-            role="corner",
         ),
         close(
             "uv",
@@ -130,6 +127,7 @@ FACE_AND_UV = function(
                 yours=np.stack(r[1:]),
                 expected=np.stack(_place(a.direction)[1:]),
             ),
+            role="core",
         ),
         close(
             "length",
@@ -138,7 +136,6 @@ FACE_AND_UV = function(
             "Only where a direction points matters, not how long it is.",
             what="for a direction of any length, face (row 0), u (1) or v (2):",
             scales=LENGTHS,
-            role="corner",
         ),
     ),
     contract="direction: 3 N -> face: whole N, u: N, v: N",
@@ -269,15 +266,9 @@ def _lookup(name: str, seamless: bool, *more: Any) -> Function:
         yours, right = (c.reshape(3, HEIGHT, WIDTH) for c in (r, _colors(a, seamless)))
         trial.show("pictures", "All around, faces of random texels", yours=yours, expected=right)
 
-    def about(
-        name: str, title: str, hint: str, case: Case, role: Role = "corner", **how: Any
-    ) -> Law:
-        usual: dict[str, Any] = {
-            "what": "a colour's channel of",
-            "points": WHOLE if role == "core" else 1.0,
-        }
-        how = usual | {"case": case, "role": role} | how
-        return close(name, title, how.pop("compare", compare), hint, **how)
+    def about(name: str, title: str, hint: str, case: Case, whole: bool = False, **how: Any) -> Law:
+        usual: dict[str, Any] = {"compare": compare, "what": "a colour's channel of"}
+        return close(name, title, hint=hint, case=case, whole=whole, **usual | how)
 
     return function(
         f"cube_map.{name}",
@@ -299,7 +290,7 @@ def _lookup(name: str, seamless: bool, *more: Any) -> Function:
                 n=HEIGHT * WIDTH,
                 compare=away_from_edges,
                 figure=shown,
-                role="core",
+                whole=True,
             ),
             about(
                 "bright",
@@ -356,7 +347,7 @@ LOOKUP_SEAMLESS = _lookup(
         "Beside an edge the neighbour's texels are mixed in by their distance",
         "Half a texel from an edge its own face counts alone, on the edge both faces count the same.",
         _around(_edges),
-        "core",
+        True,
     ),
 )
 

@@ -19,7 +19,6 @@ from course.grading.checks.distributions import uniform
 from course.grading.checks.drawing import Draw, worst_directions
 from course.grading.checks.evenness import evenly, smooth
 from course.grading.checks.vectors import cross, dot, normalized, turn_about
-from course.grading.checks.weights import WHOLE
 from course.grading.modules.round_shapes import cornered
 from course.grading.modules.squares import no_jitter, square
 
@@ -108,6 +107,7 @@ ORTHONORMAL_BASIS = function(
             "orthonormal",
             "u, v and w are unit length and at right angles",
             "u and v are unit vectors for every w, and all three are at right angles.",
+            role="core",
         ),
         laws.close(
             "right_handed",
@@ -116,7 +116,6 @@ ORTHONORMAL_BASIS = function(
             "In a right-handed basis the cross product of the first two is the third.",
             what="cross(u, v) = w:",
             within=2 * UNIT,
-            role="corner",
         ),
         _orthonormal(
             "poles",
@@ -124,7 +123,6 @@ ORTHONORMAL_BASIS = function(
             "Is there a w for which two vectors are parallel, or a divisor 0 or nearly so?",
             case=lambda d: {"w": _poles(d)},
             n=4000,
-            role="corner",
         ),
     ),
     contract="w: 3 N -> u: 3 N, v: 3 N",
@@ -164,7 +162,7 @@ JITTER_ON_PLANE = _lobe(
             "The jitter is a square of side roughness around the direction, at right angles to it",
             case=_one,
             scales=SEVERAL,
-            points=WHOLE,
+            whole=True,
         ),
         laws.close(
             "extremes",
@@ -174,7 +172,6 @@ JITTER_ON_PLANE = _lobe(
             what="from the direction's tip to the result's,",
             case=lambda d: {"roughness": float(10.0 ** d.rng.choice((-6, -4, -2, 1, 3, 6)))},
             scales=SEVERAL,
-            role="corner",
         ),
         square(
             "poles",
@@ -182,7 +179,6 @@ JITTER_ON_PLANE = _lobe(
             "Is there a direction for which your basis breaks down?",
             case=_one_pole,
             scales=SEVERAL * 2,
-            role="corner",
         ),
     ),
 )
@@ -212,7 +208,6 @@ JITTER_IN_BALL = _lobe(
             "Is each point inside the ball, and glossiness its radius?",
             case=lambda d: {"glossiness": 1 - d.number(0.001, 0.999999)},
             scales=SEVERAL * 2,
-            role="corner",
         ),
         smooth(10.0, case=lambda _: {"glossiness": 0.5}),
         uniform(
@@ -224,7 +219,7 @@ JITTER_IN_BALL = _lobe(
             what="share of the ball's volume within each direction, and turn",
             case=_one,
             draws=2,
-            points=WHOLE,
+            whole=True,
         ),
     ),
 )
@@ -251,7 +246,7 @@ def _density(name: str, title: str, low: float, high: float, case: Case = _one) 
         what="share of the lobe within each direction, and turn",
         case=lambda d: {**case(d), "exponent": d.number(low, high) if high else 0.0},
         n=20_000 if case is _one else 10_000,
-        points=WHOLE,
+        whole=True,
         picture=_in_disk,
     )
 
@@ -275,7 +270,6 @@ SAMPLE_PHONG_LOBE = _lobe(
             "a direction next to the axis",
             "The larger the exponent, the closer to a mirror.",
             case=lambda d: {"exponent": d.number(1e5, 1e6), "u": d.uniform(1e-6, 1 - 1e-6, 2, d.n)},
-            role="corner",
         ),
         _density("density", "Directions have the density of the lobe, around its axis", 0.5, 5),
         cornered(_density("flat", "Exponent 0 gives the uniform hemisphere", 0, 0)),
@@ -357,7 +351,7 @@ KEEP_ABOVE = function(
             "Is each direction decided on by itself, with its own normal?",
             _sided(0),
             role="core",
-            points=WHOLE,
+            whole=True,
         ),
     ),
     scales=(),

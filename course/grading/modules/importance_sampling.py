@@ -133,7 +133,6 @@ def _pdf(name: str, more: Mapping[str, Made] = NONE, laws: tuple[Law, ...] = ())
                 what="below the horizon, a density of",
                 case=_below,
                 scales=SEVERAL,
-                role="corner",
             ),
             *laws,
             close(
@@ -144,6 +143,7 @@ def _pdf(name: str, more: Mapping[str, Made] = NONE, laws: tuple[Law, ...] = ())
                 what="a density of",
                 case=lambda d: {"cos": d.uniform(0.01, 1, d.n)},
                 scales=SEVERAL,
+                role="core",
             ),
         ),
         scales=(),
@@ -174,7 +174,6 @@ PHONG = _pdf(
             "Exponent 0 is the uniform hemisphere.",
             what="a density of",
             case=_flat,
-            role="corner",
         ),
         close(
             "sharp",
@@ -184,7 +183,6 @@ PHONG = _pdf(
             what="a density of",
             case=_sharp,
             scales=SEVERAL,
-            role="corner",
         ),
     ),
 )
@@ -310,7 +308,6 @@ ESTIMATE = function(
             what="with samples of density 0, a mean or variance of",
             n=200,
             case=_some_of_none,
-            role="corner",
         ),
         close(
             "small_variance",
@@ -320,7 +317,6 @@ ESTIMATE = function(
             what="a variance of",
             within=4e-3 / EPSILON,
             case=_large,
-            role="corner",
         ),
         _for_counts(
             (0, 1, 2, 3, 5),
@@ -330,7 +326,6 @@ ESTIMATE = function(
             "The mean was estimated from the same samples, and lies closer to them than the true one.",
             what="of few samples, a mean or variance of",
             scales=MAGNITUDES,
-            role="corner",
         ),
         Law("one_channel", "One channel gives two numbers", _one_channel, "corner"),
         Law(
@@ -348,7 +343,6 @@ ESTIMATE = function(
             "Each sample counts as much as it is rare: its value, with its sign, over its density.",
             what="a mean of",
             scales=MAGNITUDES,
-            role="corner",
         ),
         close(
             "variance",
@@ -358,6 +352,7 @@ ESTIMATE = function(
             what="a mean or variance of",
             within=4e-3 / EPSILON,
             scales=MAGNITUDES,
+            role="core",
         ),
     ),
     contract="f: C N, pdf: N -> the mean: C, the variance: C",
@@ -399,7 +394,6 @@ POWER_HEURISTIC = function(
             "What only one density could have drawn is its own; what none could have counts 0.",
             what="a weight of",
             case=_zeros,
-            role="corner",
         ),
         close(
             "extremes",
@@ -409,7 +403,6 @@ POWER_HEURISTIC = function(
             what="a weight of",
             case=_unlike,
             scales=ENDS,
-            role="corner",
         ),
         close(
             "values",
@@ -417,6 +410,7 @@ POWER_HEURISTIC = function(
             _weight,
             "The power is 2, and the weight is that of the sample drawn with a.",
             what="a weight of",
+            role="core",
         ),
     ),
     scales=ENDS,

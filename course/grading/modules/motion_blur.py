@@ -14,7 +14,6 @@ from course.grading.checks.declare import Arguments, Law, Made, Module, function
 from course.grading.checks.drawing import Draw
 from course.grading.checks.evenness import evenly
 from course.grading.checks.laws import close
-from course.grading.checks.weights import WHOLE
 
 SCALES = (1.0, 1e-3, 1e3)
 """Of times of the shutter, of velocities and of origins."""
@@ -78,7 +77,6 @@ SHUTTER_TIMES = function(
             within=4,
             case=_instant,
             scales=SCALES,
-            role="corner",
         ),
         close(
             "inside",
@@ -89,7 +87,6 @@ SHUTTER_TIMES = function(
             within=4,
             case=_others,
             scales=SCALES * 2,
-            role="corner",
         ),
         close(
             "uniform",
@@ -99,7 +96,7 @@ SHUTTER_TIMES = function(
             what="a time of",
             within=4,
             scales=SCALES,
-            points=WHOLE,
+            whole=True,
             figure=_histogram,
         ),
         evenly(lambda _, r: np.exp(r), float(np.e - 1), case=lambda _: {"open": 0.0, "close": 1.0}),
@@ -154,20 +151,18 @@ DISPLACEMENT = function(
             "In one second an object goes its velocity",
             "Velocity is the way gone in one second.",
             case=lambda d: {"time": np.ones(d.n)},
-            role="corner",
         ),
         _gone(
             "any-time",
             "Long and short times have their ways, before the start as well, and time 0 has none",
             "At a constant velocity twice the time is twice the way.",
             case=_any_time,
-            role="corner",
         ),
         _gone(
             "linear",
             "Each ray gets the way of its own time",
             "At a constant velocity twice the time is twice the way; each ray has a time of its own.",
-            points=WHOLE,
+            whole=True,
         ),
     ),
 )
@@ -210,7 +205,6 @@ TO_OBJECT_SPACE = function(
             "What has gone no way sees every ray where it is; at time 0 nothing has moved yet.",
             case=_unmoved,
             scales=SCALES * 2,
-            role="corner",
         ),
         _seen(
             "travels-along",
@@ -218,7 +212,6 @@ TO_OBJECT_SPACE = function(
             "Whoever travels along with the object stays at the same place of it.",
             what="a ray that starts on the object, seen from the object, at",
             case=_aboard,
-            role="corner",
         ),
         _seen(
             "own-time",
@@ -227,7 +220,7 @@ TO_OBJECT_SPACE = function(
             # Whether the last places are kept near 0 is asked above.
             floor=1e-5,
             scales=(1.0, 1e3),
-            points=WHOLE,
+            whole=True,
         ),
     ),
 )

@@ -20,7 +20,6 @@ from course.grading.checks.distributions import means, uniform
 from course.grading.checks.drawing import Draw, worst_directions, worst_units
 from course.grading.checks.evenness import evenly, smooth
 from course.grading.checks.vectors import dot, turn_about
-from course.grading.checks.weights import WHOLE
 from course.grading.modules.round_shapes import cornered
 
 HAIR = 1e-4
@@ -98,10 +97,9 @@ DIFFUSE_BOUNCE = function(
             what="length (row 0), or what is below the surface (1):",
             within=1e-5 / laws.EPSILON,
             case=_steep,
-            role="corner",
         ),
         cornered(_density("axes", "normals along the axes", case=_along_axes)),
-        _density("density", "every normal", points=WHOLE, picture=_from_above),
+        _density("density", "every normal", whole=True, picture=_from_above),
         smooth(10.0),
         evenly(lambda _, r: r[2] + 0.3 * r[0] + 0.2 * r[1], 2 / 3, case=_floor),
     ),
@@ -145,7 +143,6 @@ THROUGHPUT = function(
             "After a roulette a throughput may be over 1: it is multiplied like any other, nothing is cut off.",
             what="a throughput of",
             case=_of_any_size,
-            role="corner",
         ),
         laws.close(
             "values",
@@ -153,6 +150,7 @@ THROUGHPUT = function(
             _returned,
             "Write down f cos / pdf: what of it is left?",
             what="a throughput of",
+            role="core",
         ),
     ),
 )
@@ -229,7 +227,6 @@ RUSSIAN_ROULETTE = function(
             _survives,
             "a path to survive if u is less than its largest channel",
             "The probability is the largest channel, and at most 1.",
-            role="corner",
         ),
         laws.close(
             "certain",
@@ -243,7 +240,6 @@ RUSSIAN_ROULETTE = function(
             what="a bright path to survive (row 0 is 1) as it was (rows 1 to 3):",
             case=_sure,
             scales=(1.0, 1e3),
-            role="corner",
         ),
         laws.holds(
             "dark",
@@ -252,7 +248,6 @@ RUSSIAN_ROULETTE = function(
             "a path that brings nothing to end, and one that brings little to survive where u is 0",
             "Nothing is certain to end, even where u is 0.",
             case=_dark,
-            role="corner",
         ),
         cornered(
             means(
@@ -270,6 +265,7 @@ RUSSIAN_ROULETTE = function(
             _after,
             "Who survives stands for those who don't; who doesn't brings nothing.",
             what="a throughput of",
+            role="core",
         ),
     ),
     case=_games,

@@ -278,7 +278,6 @@ HAMMERSLEY = function(
             within=0,
             floor=CLOSE,
             case=_any_number,
-            role="corner",
         ),
         _order(_moved),
         _law(

@@ -19,7 +19,6 @@ from course.grading.checks.evenness import evenly, smooth
 from course.grading.checks.examples import where
 from course.grading.checks.laws import law
 from course.grading.checks.vectors import TINY
-from course.grading.checks.weights import WHOLE
 
 Offsets = Callable[[Arguments, Any], Array]
 """(arguments, results) -> the points as seen from the centre, in radii."""
@@ -140,7 +139,7 @@ def edge(shape: Shape, offsets: Offsets, **how: Any) -> Law:
         if shape is SPHERE
         else ("inside", f"Points lie in the {shape.name}, and reach to its edge")
     )
-    return law(name, title, look, role="corner", **how)
+    return law(name, title, look, **how)
 
 
 def uniform_over(shape: Shape, offsets: Offsets, case: Case | None = None) -> Law:
@@ -154,7 +153,7 @@ def uniform_over(shape: Shape, offsets: Offsets, case: Case | None = None) -> La
         shape.hint,
         what=shape.what,
         case=case,
-        points=WHOLE,
+        whole=True,
         picture=lambda a, r: offsets(a, r)[:2],
     )
 

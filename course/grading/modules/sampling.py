@@ -206,7 +206,6 @@ XORSHIFT = function(
             _streams,
             case=lambda _: {"state": ENDS.copy()},
             dtypes=(np.float32,),
-            role="corner",
         ),
         close(
             "random",
@@ -216,7 +215,6 @@ XORSHIFT = function(
             what="the new state / 2^32 =",
             within=1,
             dtypes=(np.float32,),
-            role="corner",
         ),
         holds(
             "below-one",
@@ -227,7 +225,6 @@ XORSHIFT = function(
             shows=lambda _, r: r[1],
             case=lambda _: {"state": LAST.copy()},
             dtypes=(np.float32,),
-            role="corner",
             points=0.5,
         ),
         law(
@@ -235,6 +232,7 @@ XORSHIFT = function(
             "Each stream takes its own step",
             _streams,
             dtypes=(np.float32,),
+            role="core",
         ),
     ),
 )

@@ -16,7 +16,6 @@ from course.grading.checks.drawing import Draw
 from course.grading.checks.evenness import evenly
 from course.grading.checks.laws import close, within
 from course.grading.checks.vectors import dot, normalized
-from course.grading.checks.weights import WHOLE
 from course.grading.modules import round_shapes
 
 SCALES = (1.0, 1e-3, 1e3)
@@ -49,7 +48,6 @@ PLANE = close(
     what="a distance from the light's plane, in its widths, of",
     floor=5e-5,
     scales=SCALES,
-    role="corner",
 )
 
 
@@ -98,13 +96,12 @@ LIGHT_GRID = function(
             "A single point light is in the light's middle, and many are in their cells' centres, too",
             "With k = 1 the whole light is one cell, whose middle is half way along both edges.",
             case=lambda d: {**_parallelogram(d), "k": int(d.rng.choice((1, 2, 40)))},
-            role="corner",
         ),
         _centres(
             "centres",
             "Point lights are at the cells' centres",
             "The light falls into k x k equal cells, with a point light in the middle of each.",
-            points=WHOLE,
+            whole=True,
         ),
     ),
     case=_parallelogram,
@@ -143,7 +140,7 @@ POINT_ON_RECTANGLE = function(
             (16, 16),
             "Each edge needs a number of its own.",
             what="places along the edges",
-            points=WHOLE,
+            whole=True,
         ),
         evenly(
             lambda a, r: np.exp(np.array((1.2, -1.6)) @ (_edges(a, r) - 0.5)),
@@ -179,7 +176,6 @@ RADIUS_ZERO = close(
     what="for radius 0, the centre's coordinate",
     within=4,
     case=_radius(0.0),
-    role="corner",
 )
 
 
@@ -263,7 +259,6 @@ POINT_ON_FACING_DISK = function(
             what="a distance from the disk's plane, in radii, of",
             floor=1e-4,
             scales=SCALES,
-            role="corner",
         ),
         round_shapes.edge(round_shapes.DISK, _from_centre, scales=SCALES),
         RADIUS_ZERO,

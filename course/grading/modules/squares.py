@@ -49,5 +49,4 @@ def no_jitter(size: str, case: Case | None = None) -> Law:
         what=f"with {size} 0, the direction itself:",
         within=4,
         case=lambda draw: {**(case(draw) if case else {}), size: 0.0},
-        role="corner",
     )

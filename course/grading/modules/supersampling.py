@@ -107,7 +107,6 @@ ORDER = law(
     _in_order,
     case=_some_k,
     n=FEW,
-    role="corner",
 )
 
 # ---------------------------------------------------------------- regular
@@ -128,6 +127,7 @@ REGULAR = function(
             n=FEW,
             within=4,
             scales=(1.0,) * 3,
+            role="core",
         ),
     ),
     corners=SMALLEST,
@@ -233,6 +233,7 @@ JITTERED = function(
             case=_any_k,
             n=FEW,
             scales=(1.0,) * 3,
+            role="core",
         ),
         ORDER,
         *_independent(_in_cells, "their cells", "The jitter of cells is"),
@@ -301,7 +302,6 @@ GAUSSIAN_WEIGHTS = function(
             what="a weight of",
             case=_near_centre,
             scales=(1e-6, 1e-3, 1e3, 1e6),
-            role="corner",
         ),
         close(
             "formula",
@@ -310,6 +310,7 @@ GAUSSIAN_WEIGHTS = function(
             HINT,
             what="a weight of",
             scales=(1.0,) * 3,
+            role="core",
         ),
     ),
     case=_offsets,
@@ -395,28 +396,24 @@ RESOLVE = function(
             "Without samples no light has been seen.",
             what="without samples,",
             case=lambda d: _samples(d, 0),
-            role="corner",
         ),
         _resolved(
             "zero-weights",
             "Weights of zero give the plain mean",
             "Where the weights of a pixel sum to zero, and only there, all samples count alike.",
             _some_zero,
-            role="corner",
         ),
         _resolved(
             "scale",
             "The weights' scale does not matter",
             "Weights that are all a hundred times larger or smaller mean the same.",
             _of_any_scale,
-            role="corner",
         ),
         _resolved(
             "negative-weights",
             "Weights may be negative",
             "A filter may have lobes below 0: such a sample is taken away from the others.",
             _some_negative,
-            role="corner",
         ),
         _resolved(
             "bright",
@@ -425,12 +422,14 @@ RESOLVE = function(
             _bright,
             scales=(1.0, 1e-3, 1e3, 1e5),
             points=0.5,
+            role="core",
         ),
         _resolved(
             "mean",
             "Samples count by their weights",
             "Samples count by their weights, and equal samples give their own colour.",
             _samples,
+            role="core",
         ),
     ),
     case=_ordinary,

@@ -12,7 +12,6 @@ from course.grading.checks.check import Array, Trial
 from course.grading.checks.declare import Arguments, Case, Made, Module, function
 from course.grading.checks.drawing import Draw
 from course.grading.checks.laws import close, within
-from course.grading.checks.weights import WHOLE
 
 SCALES = (1.0, 1e-3, 1e3)
 
@@ -64,7 +63,6 @@ RECTANGLE_UV = function(
             "How far along each edge, in lengths of that edge; beyond its ends too.",
             what="of p = p1 + u (p2 - p1) + v (p3 - p1), the coordinate",
             case=_rectangle(-2, 3),
-            role="corner",
         ),
         close(
             "off_plane",
@@ -73,7 +71,6 @@ RECTANGLE_UV = function(
             "What is at right angles to both edges changes neither u nor v.",
             what="beside the plane, that of the nearest point on it:",
             case=_rectangle(0, 1, 0.5),
-            role="corner",
         ),
         close(
             "inside",
@@ -82,7 +79,7 @@ RECTANGLE_UV = function(
             "How far along each edge, in lengths of that edge.",
             what="of p = p1 + u (p2 - p1) + v (p3 - p1), the coordinate",
             scales=SCALES,
-            points=WHOLE,
+            whole=True,
         ),
     ),
     case=_rectangle(0, 1),
@@ -172,7 +169,6 @@ SPHERE_UV = function(
             what="on an axis, or half way between two, coordinate (u, v):",
             case=_axes,
             n=40,
-            role="corner",
         ),
         close(
             "poles",
@@ -183,7 +179,6 @@ SPHERE_UV = function(
             case=_near_poles,
             dtypes=(np.float64,),
             within=1,
-            role="corner",
         ),
         close(
             "everywhere",
@@ -192,7 +187,7 @@ SPHERE_UV = function(
             "Only the direction from the centre matters, not how far the point is.",
             what="coordinate (u, v) on the sphere:",
             scales=SCALES,
-            points=WHOLE,
+            whole=True,
         ),
     ),
     case=_anywhere,
@@ -243,7 +238,6 @@ TRIANGLE_UV = function(
             what="for as many points as coordinates or corners, the corners' coordinate, weighted:",
             case=_few_triangles,
             scales=SCALES * 2,
-            role="corner",
         ),
         close(
             "inside",
@@ -254,6 +248,7 @@ TRIANGLE_UV = function(
             case=_one_triangle,
             points=2.0,
             scales=SCALES,
+            role="core",
         ),
         close(
             "each",
@@ -261,7 +256,7 @@ TRIANGLE_UV = function(
             _mixed,
             "Column by column: the weights of a point and the corners of its triangle.",
             what="where each point has a triangle of its own, the corners' coordinate, weighted:",
-            points=WHOLE,
+            whole=True,
         ),
     ),
 )
@@ -362,7 +357,6 @@ TEXTURE_LOOKUP = function(
             "At a texel's centre its colour counts alone: column i has it at (i + 1/2) / W, and v = 1 is on top.",
             what="at a texel's centre, its colour's channel of",
             case=_at_centers,
-            role="corner",
         ),
         close(
             "small",
@@ -372,7 +366,6 @@ TEXTURE_LOOKUP = function(
             what="in a picture of a single row or column, a colour's channel of",
             case=_small,
             scales=(1.0,) * 6,
-            role="corner",
         ),
         close(
             "wraps",
@@ -381,7 +374,6 @@ TEXTURE_LOOKUP = function(
             "Half a texel from an edge the texel at the opposite edge begins to count.",
             what="at the picture's edge, a colour's channel of",
             case=_at_edges,
-            role="corner",
         ),
         close(
             "repeats",
@@ -390,7 +382,6 @@ TEXTURE_LOOKUP = function(
             "The picture goes on beyond its edges, to the left and downwards too.",
             what="beyond the edges, a colour's channel of",
             case=lambda d: {"image": _image(d), "uv": d.uniform(-5, 6, 2, d.n)},
-            role="corner",
         ),
         close(
             "picture",
@@ -401,6 +392,7 @@ TEXTURE_LOOKUP = function(
             case=_between(1.0),
             n=HEIGHT * WIDTH,
             figure=_shown,
+            role="core",
         ),
         close(
             "bright",
@@ -409,7 +401,6 @@ TEXTURE_LOOKUP = function(
             "A lamp or the sky in a picture is brighter than 1; to show that is the display's business.",
             what="in a picture with texels over 1, a colour's channel of",
             case=_between(500.0),
-            role="corner",
         ),
     ),
 )

@@ -179,7 +179,7 @@ CORNERS = Made(lambda d: d.lengths(-1, 1, 3, d.n), batch=False)
 
 
 def _hits(name: str, title: str, case: Case) -> Law:
-    return law(name, title, _nearest, case=case, n=100, scales=(1.0, 1.0), role="corner")
+    return law(name, title, _nearest, case=case, n=100, scales=(1.0, 1.0))
 
 
 TREE = one_leaf(tuple(np.eye(3)[:, [k]] for k in range(3)))  # type: ignore[arg-type]
@@ -201,7 +201,6 @@ TRAVERSE = function(
             what="t =",
             case=ray_scenes.one_triangle,
             scales=(1.0, 1e-3, 1e3),
-            role="corner",
         ),
         _hits("any", "The nearest hit, in any hierarchy", ray_scenes.cloud),
         _hits(
@@ -222,7 +221,6 @@ TRAVERSE = function(
             "A triangle counts only where the ray meets the boxes of all nodes above it.",
             case=ray_scenes.hidden,
             n=50,
-            role="corner",
         ),
         holds(
             "counts",
@@ -234,7 +232,6 @@ TRAVERSE = function(
             case=ray_scenes.two_heaps,
             n=4,
             scales=(1.0,) * 4,
-            role="corner",
         ),
         law(
             "order",
@@ -242,7 +239,6 @@ TRAVERSE = function(
             _few_from_both_sides,
             case=ray_scenes.ordered,
             n=100,
-            role="corner",
         ),
         Law("embree", "Hit for hit with Embree on 65,536 triangles, with few tests", _embree),
     ),
