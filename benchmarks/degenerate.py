@@ -23,9 +23,7 @@ GLOSS: Overrides = {
     ("materials", "mirror", "gloss"): {"lobe": "ball", "glossiness": 0},
 }
 RADIUS: Overrides = {("lights", 0, "radius"): 0}
-POINT: Overrides = {
-    ("lights", 0): {"type": "point", "position": [1.5, 4, 4], "intensity": 80},
-}
+POINT: Overrides = {("lights", 0): {"type": "point", "position": [1.5, 4, 4], "intensity": 80}}
 PAIRS: tuple[tuple[str, str, Overrides, Overrides], ...] = (
     ("aperture 0", "direct_light", LENS, {}),
     ("velocity 0", "direct_light", MOTION, {}),

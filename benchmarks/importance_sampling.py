@@ -203,12 +203,7 @@ def measure(integrand: Integrand, batches: int, samples: int) -> list[Measured]:
         error = float(variances.std(ddof=1)) / math.sqrt(batches)
         found.append(
             Measured(
-                name,
-                expected[name],
-                float(variances.mean()),
-                error,
-                np.array(curve),
-                seconds[name],
+                name, expected[name], float(variances.mean()), error, np.array(curve), seconds[name]
             )
         )
     return found

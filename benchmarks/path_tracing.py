@@ -103,11 +103,7 @@ def curves(effort: CurveEffort, folder: Path = Path("out/references")) -> Measur
     samplers = [Estimator("", sampler, "as the scene", ("samplers",)) for sampler in SAMPLERS]
     players = [
         Estimator(
-            name,
-            "sobol",
-            "as the scene",
-            ("roulette",),
-            {("integrator", "roulette"): bounces},
+            name, "sobol", "as the scene", ("roulette",), {("integrator", "roulette"): bounces}
         )
         for name, bounces in ROULETTE.items()
     ]

@@ -90,9 +90,7 @@ class Result:
 class Measured:
     """A result, with what it was measured with.
 
-    Attributes
-    ----------
-    about : machine and software, in words
+    ``about``: machine and software, in words.
     """
 
     effort: Effort

@@ -325,11 +325,7 @@ def seconds(action: Callable[[], object]) -> float:
 
 
 def processes(
-    case: Case,
-    sampler: str,
-    samples: int,
-    brackets: list[tuple[Setting, Ends]],
-    target: float,
+    case: Case, sampler: str, samples: int, brackets: list[tuple[Setting, Ends]], target: float
 ) -> tuple[float, float]:
     """Median seconds of whole processes, theirs and ours (NumPy alone, adaptive where there is that), in turn."""
     name = "adaptive" if any(setting.name == "adaptive" for setting, _ in brackets) else "uniform"

@@ -64,13 +64,7 @@ class Integral:
 
 
 INTEGRALS = (
-    Integral(
-        "disk",
-        "a disk's area",
-        2,
-        lambda x: ((2 * x - 1) ** 2).sum(axis=0) < 1,
-        math.pi / 4,
-    ),
+    Integral("disk", "a disk's area", 2, lambda x: ((2 * x - 1) ** 2).sum(axis=0) < 1, math.pi / 4),
     Integral(
         "smooth",
         "a smooth function, exp(x + y)",

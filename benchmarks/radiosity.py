@@ -181,10 +181,7 @@ def shot_table(rows: Iterable[Row], patches: Patches) -> Table:
 
 
 def iterate(
-    patches: Patches,
-    functions: Functions,
-    steps: Sequence[int] = ITERATIONS,
-    cells: int = CELLS,
+    patches: Patches, functions: Functions, steps: Sequence[int] = ITERATIONS, cells: int = CELLS
 ) -> dict[int, Solved]:
     """What gathering has after so many iterations; ``left`` is the light that is still missing then.
 

@@ -174,15 +174,7 @@ def figures(runs: list[Runs]) -> list[Figure]:
 
 def table(runs: list[Runs]) -> Table:
     """A row for each scene."""
-    columns = (
-        "scene",
-        "asked",
-        "reached / asked",
-        "least",
-        "most",
-        "reached / told",
-        "samples",
-    )
+    columns = ("scene", "asked", "reached / asked", "least", "most", "reached / told", "samples")
     rows = tuple(
         (
             one.name,

@@ -17,14 +17,12 @@ OUT = Path("out/bench")
 def report(name: str, about: str, tables: Iterable[Table], plots: Sequence[Plot]) -> None:
     """Print tables; draw plots as `out/bench/NAME_PLOT_AXIS.svg`; keep their numbers in `out/bench/data/NAME.json`.
 
+    Without matplotlib, which is an extra, there are no figures.
+
     Parameters
     ----------
     name : of the benchmark and of the module whose page shows the plots
     about : with what effort they were measured
-
-    Notes
-    -----
-    Without matplotlib, which is an extra, there are no figures.
     """
     print_tables(tables)
     if find_spec("matplotlib"):

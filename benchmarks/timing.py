@@ -13,16 +13,14 @@ def median_seconds(
 ) -> dict[str, tuple[float, ...]]:
     """Time every way with every number of samples.
 
+    In each round all ways take their turn, so that whatever else the machine does meets them alike. The rounds of one
+    number of samples come before those of the next: a small batch would else begin with caches that a large one has
+    left. Before the first round each way has been called once, for what it makes only then.
+
     Parameters
     ----------
     ways : name -> what takes a number of samples and a round's number, from 0 on
     rounds : how often each is timed; of the times the median counts
-
-    Notes
-    -----
-    In each round all ways take their turn, so that whatever else the machine does meets them alike. The rounds of one
-    number of samples come before those of the next: a small batch would else begin with caches that a large one has
-    left. Before the first round each way has been called once, for what it makes only then.
     """
     for way in ways.values():
         way(counts[0], 0)

@@ -21,11 +21,7 @@ def replacing(path: Path) -> Iterator[Path]:
     Raises OutputError: the folder isn't there or can't be written, `path` isn't a regular file, or an OSError escaped
     from the block (a full disk).
     ``path``: the name to appear; a file that has it already is replaced. Symbolic links are followed.
-
-    Yields
-    ------
-    Path
-        The file to write, in the same folder and with the same suffix.
+    Yields the file to write, in the same folder and with the same suffix.
     """
     target = _target(path)
     temporary = _reserve(path, target)

@@ -99,14 +99,12 @@ class Effects:
 class Bound:
     """The functions that one scene is bound to, with what asks for them: its receipt and its errors follow from that.
 
+    ``needs``: of each function the first that asked.
+
     Parameters
     ----------
     effects : whose functions
     needs : what was bound before
-
-    Attributes
-    ----------
-    needs : of each function the first that asked
     """
 
     def __init__(self, effects: Effects, needs: Iterable[Need] = ()) -> None:

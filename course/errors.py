@@ -28,9 +28,7 @@ class EffectError(CourseError):
 class FunctionError(EffectError):
     """A student function that raised an exception or returned what it must not.
 
-    Attributes
-    ----------
-    function : "module.function"
+    ``function``: "module.function".
     """
 
     def __init__(self, message: str, function: str) -> None:

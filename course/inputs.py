@@ -68,10 +68,7 @@ def shown(path: Path) -> str:
 
 @contextmanager
 def opened(
-    path: Path,
-    what: str,
-    bound: Bound,
-    error: type[CourseError] = CourseError,
+    path: Path, what: str, bound: Bound, error: type[CourseError] = CourseError
 ) -> Iterator[BufferedReader]:
     """Open a regular file for reading; symbolic links are followed.
 
@@ -99,10 +96,7 @@ def opened(
 
 
 def read_input(
-    path: Path,
-    what: str,
-    bound: Bound,
-    error: type[CourseError] = CourseError,
+    path: Path, what: str, bound: Bound, error: type[CourseError] = CourseError
 ) -> bytes:
     """Content of a file; parameters and errors as of `opened`, and one for nothing but zeros at the start."""
     with opened(path, what, bound, error) as stream:

@@ -45,6 +45,11 @@ def render(
 ) -> Picture:
     """Render a scene; what isn't given is as the scene file says.
 
+    Returns Picture.
+
+    Ctrl-C ends the render with a picture whose ``interrupted`` is true. A picture is a function of scene, settings
+    and seed alone: the same bits for any number of threads or workers.
+
     Parameters
     ----------
     spp : samples a pixel
@@ -65,21 +70,12 @@ def render(
     address : of the scheduler of a Dask cluster, such as tcp://127.0.0.1:8786, whose workers render (``pip install
         .[dask]``) and decide how many threads; None means this machine
 
-    Returns
-    -------
-    Picture
-
     Raises
     ------
     SceneError, EffectError, OutputError
         For settings that don't fit together, functions that are not written yet, and pictures larger than memory.
     CourseError
         For a cluster that can't be reached or is lost.
-
-    Notes
-    -----
-    Ctrl-C ends the render with a picture whose ``interrupted`` is true. A picture is a function of scene, settings
-    and seed alone: the same bits for any number of threads or workers.
     """
     since = monotonic() if since is None else since
     keep_freed_memory()

@@ -15,15 +15,7 @@ from numpy.typing import NDArray
 from benchmarks.stress.axes import U
 from benchmarks.stress.cells import Cell
 from benchmarks.stress.files import SceneFiles, square
-from benchmarks.stress.parts import (
-    gloss,
-    hang_lamp,
-    lamp,
-    lens,
-    near_plane,
-    picture,
-    placement,
-)
+from benchmarks.stress.parts import gloss, hang_lamp, lamp, lens, near_plane, picture, placement
 
 COLOR = 0.3
 FOV = 70.0

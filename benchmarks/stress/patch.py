@@ -16,15 +16,7 @@ from numpy.typing import NDArray
 from benchmarks.stress.axes import U
 from benchmarks.stress.cells import Cell
 from benchmarks.stress.files import SceneFiles, square
-from benchmarks.stress.parts import (
-    BACKGROUND,
-    gloss,
-    lens,
-    near_plane,
-    picture,
-    placement,
-    samples,
-)
+from benchmarks.stress.parts import BACKGROUND, gloss, lens, near_plane, picture, placement, samples
 
 COLOR, MIRROR = 0.2, 0.8
 SUN = 3.0

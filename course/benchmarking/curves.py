@@ -43,24 +43,19 @@ class Order:
 def fit_order(samples: Floats64, mse: Floats64, floor: float = 0.0) -> Order | None:
     """Fit an order by least squares on logarithmic scales, and its interval by the bootstrap over seeds.
 
+    Returns None where fewer than 3 points count. With one seed the interval is infinite.
+
+    Whole columns are resampled, for points of one seed may share their first samples. The interval is the estimate
+    plus or minus t times the bootstrap's standard error, corrected by sqrt(s / (s - 1)) for s seeds: percentiles of
+    so few seeds would be too narrow (Hesterberg, "What teachers should know about the bootstrap", 2015). It speaks of
+    noise only; where the points don't lie on a line, the slope is a mean over the range that was fitted.
+
     Parameters
     ----------
     samples : (n,) numbers of samples, ascending
     mse : (n, seeds) mean squared errors; a column belongs to one seed
     floor : RMSE of the reference itself; points that are not clearly above it don't count, nor those of less than
         4 samples
-
-    Returns
-    -------
-    Order or None
-        None where fewer than 3 points count. With one seed the interval is infinite.
-
-    Notes
-    -----
-    Whole columns are resampled, for points of one seed may share their first samples. The interval is the estimate
-    plus or minus t times the bootstrap's standard error, corrected by sqrt(s / (s - 1)) for s seeds: percentiles of
-    so few seeds would be too narrow (Hesterberg, "What teachers should know about the bootstrap", 2015). It speaks of
-    noise only; where the points don't lie on a line, the slope is a mean over the range that was fitted.
     """
     mean = np.sqrt(mse.mean(axis=1))
     counts = (samples >= FIRST) & (mean > CLEAR * floor)

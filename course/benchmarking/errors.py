@@ -37,8 +37,6 @@ def relative_mse(image: Picture, reference: Picture) -> float:
     Raises CourseError as `rmse` does.
     ``image``, ``reference``: (H, W, 3) floating, linear radiance, white near 1.
 
-    Notes
-    -----
     Rousselle, Knaus and Zwicker, "Adaptive sampling and reconstruction using greedy error minimization", 2011.
     """
     a, b = _pair(image, reference)
@@ -52,8 +50,6 @@ def dissimilarity(image: Picture, reference: Picture) -> float:
     ``image``, ``reference``: (H, W, 3) floating, linear radiance; H and W at least 11.
     Returns 0 for equal pictures, at most 2.
 
-    Notes
-    -----
     Wang, Bovik, Sheikh and Simoncelli, "Image quality assessment: from error visibility to structural similarity",
     2004, with their Gaussian window of sigma 1.5; by scikit-image, the mean over the channels.
     """

@@ -190,9 +190,7 @@ BENCHED = {
         ),
         *(
             _module(
-                name,
-                {"samplers": "four ways to place samples"},
-                *_samplers("", "as the scene"),
+                name, {"samplers": "four ways to place samples"}, *_samplers("", "as the scene")
             )
             for name in ("thin_lens", "motion_blur", "cube_map")
         ),
@@ -201,11 +199,7 @@ BENCHED = {
 """The modules that are measured, by name, in the course's order."""
 
 FURTHER_BENCHED = {
-    name: _module(
-        name,
-        {"samplers": "four ways to place samples"},
-        *_samplers("", "as the scene"),
-    )
+    name: _module(name, {"samplers": "four ways to place samples"}, *_samplers("", "as the scene"))
     for name in ("blurred_transparency", "textures")
 }
 """Those that are measured when they are asked for by name."""

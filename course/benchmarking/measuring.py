@@ -94,6 +94,10 @@ def measure(
 ) -> Measured:
     """Measure some estimators of a module.
 
+    For each seed and number of samples all estimators are rendered before the next, so that whatever else the machine
+    does meets them alike. Times are of these same renders, with all threads, without loading the scene, and with the
+    compiled loops if they are installed.
+
     Parameters
     ----------
     folder : of the references
@@ -105,12 +109,6 @@ def measure(
         As `course.load_scene` and `reference` do.
     KeyboardInterrupt
         Ctrl-C.
-
-    Notes
-    -----
-    For each seed and number of samples all estimators are rendered before the next, so that whatever else the machine
-    does meets them alike. Times are of these same renders, with all threads, without loading the scene, and with the
-    compiled loops if they are installed.
     """
     effects = Effects()
     scenes = _scenes(module, estimators, effects)
@@ -182,11 +180,7 @@ class _Work:
     """How much of a module's work is done, counted in samples."""
 
     def __init__(
-        self,
-        module: Module,
-        estimators: tuple[Estimator, ...],
-        effort: Effort,
-        tick: Tick | None,
+        self, module: Module, estimators: tuple[Estimator, ...], effort: Effort, tick: Tick | None
     ) -> None:
         integrals = {estimator.integral for estimator in estimators}
         measured = sum(sum(_samples(e, effort)) * e.points for e in estimators)

@@ -120,6 +120,9 @@ def reference(
 ) -> Reference:
     """The converged picture of a scene, from the folder or else rendered now and kept there.
 
+    The mean of two independent halves a and b has the error variance E (a - b)^2 / 4, so the root of the mean of
+    that over pixels and channels is its RMSE; what both halves have in common (a bias) it can't tell.
+
     Parameters
     ----------
     scene_path : the YAML file
@@ -131,21 +134,12 @@ def reference(
     effects : as `course.load_scene` takes it
     progress : as `course.render` takes it, called for each half
 
-    Returns
-    -------
-    Reference
-
     Raises
     ------
     CourseError
         An odd number of samples, a scene that can't be rendered, or a folder that can't be written.
     KeyboardInterrupt
         Ctrl-C; the half that was done is kept, and the next call goes on from there.
-
-    Notes
-    -----
-    The mean of two independent halves a and b has the error variance E (a - b)^2 / 4, so the root of the mean of
-    that over pixels and channels is its RMSE; what both halves have in common (a bias) it can't tell.
     """
     if samples < 2 or samples % 2:
         raise CourseError(f"a reference of {samples} samples has no two equal halves")

@@ -26,10 +26,7 @@ def path_functions(
 
 
 def compile_paths(
-    scene: d.SceneDescription,
-    bound: Bound,
-    materials: MaterialTable,
-    objects: Iterable[int],
+    scene: d.SceneDescription, bound: Bound, materials: MaterialTable, objects: Iterable[int]
 ) -> Paths | None:
     """The functions of the path_tracing module; None where the integrator is another.
 

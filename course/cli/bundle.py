@@ -53,12 +53,7 @@ def bundle(
 
 
 def _contents(
-    system: str,
-    seed: int,
-    modules: tuple[str, ...],
-    title: str,
-    image: str | None,
-    trusted: bool,
+    system: str, seed: int, modules: tuple[str, ...], title: str, image: str | None, trusted: bool
 ) -> dict[str, bytes]:
     """Path in the archive or folder -> content."""
     from course.grading.classes import bundles

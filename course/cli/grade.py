@@ -8,12 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from course.cli.classes import (
-    ClassOptions,
-    class_options,
-    tell_finished,
-    tell_submissions,
-)
+from course.cli.classes import ClassOptions, class_options, tell_finished, tell_submissions
 from course.cli.options import FAILED, choice_options
 from course.cli.tables import count
 from course.errors import CourseError
@@ -32,11 +27,7 @@ if TYPE_CHECKING:
 @choice_options
 @class_options
 def grade(
-    submissions: Path,
-    out: Path,
-    seed: int,
-    modules: tuple[str, ...],
-    options: ClassOptions,
+    submissions: Path, out: Path, seed: int, modules: tuple[str, ...], options: ClassOptions
 ) -> None:
     """Grade a class: whatever lies in SUBMISSIONS, folders, archives and files named after their students.
 

@@ -22,14 +22,8 @@ Report = Callable[[float, bool], None]
 def progress_bar(label: str) -> Iterator[Report | None]:
     """Show how far a render is.
 
-    Parameters
-    ----------
-    label : what stands before the bar
-
-    Yields
-    ------
-    callable or None
-        What `course.render` takes as `progress`; None where nobody looks.
+    ``label``: what stands before the bar.
+    Yields what `course.render` takes as `progress`; None where nobody looks.
     """
     if not sys.stderr.isatty():
         yield None

@@ -7,12 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from course.cli.classes import (
-    ClassOptions,
-    class_options,
-    tell_finished,
-    tell_submissions,
-)
+from course.cli.classes import ClassOptions, class_options, tell_finished, tell_submissions
 from course.cli.tables import count
 from course.errors import CourseError
 
@@ -33,12 +28,7 @@ if TYPE_CHECKING:
     "--dry-run", is_flag=True, help="Tell who would change, and leave the grades as they are."
 )
 @class_options
-def regrade(
-    submissions: Path,
-    out: Path,
-    dry_run: bool,
-    options: ClassOptions,
-) -> None:
+def regrade(submissions: Path, out: Path, dry_run: bool, options: ClassOptions) -> None:
     """Grade a class again after a change to checks, scenes or solutions, and tell who changes by which check.
 
     Seed, modules, policy, roster and seconds are those of the grading before. What --dry-run has graded is kept, so

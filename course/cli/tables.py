@@ -57,14 +57,8 @@ def _print_rich(title: str, sections: Sequence[Section]) -> None:
 def receipt_sections(receipt: Mapping[str, Any]) -> list[Section]:
     """Arrange what a render cost.
 
-    Parameters
-    ----------
-    receipt : as `course.jobs.receipt.Receipt.to_dict` gives it
-
-    Returns
-    -------
-    list of Section
-        Sections without a row are left out.
+    ``receipt``: as `course.jobs.receipt.Receipt.to_dict` gives it.
+    Sections without a row are left out.
     """
     rays = receipt["rays"]
     wall, threads = receipt["wall_seconds"], receipt["threads"]
@@ -161,14 +155,8 @@ def _share(part: float, whole: float) -> str:
 def summary_sections(summary: Mapping[str, Mapping[str, object]]) -> list[Section]:
     """Arrange what a scene says of itself.
 
-    Parameters
-    ----------
-    summary : sections by heading, each a mapping of labels to values, as a scene's `summary` gives it
-
-    Returns
-    -------
-    list of Section
-        Sections without a row are left out.
+    ``summary``: sections by heading, each a mapping of labels to values, as a scene's `summary` gives it.
+    Sections without a row are left out.
     """
     return [
         (heading, [(label, _text(value)) for label, value in rows.items()])

@@ -36,9 +36,7 @@ def temporary_folder() -> Iterator[Path]:
 class _End:
     """What becomes of a signal to end.
 
-    Attributes
-    ----------
-    folder : to be deleted before
+    ``folder``: to be deleted before.
     """
 
     def __init__(self) -> None:

@@ -19,13 +19,7 @@ from course.building.world import compile_camera
 from course.core.camera import Camera
 from course.core.embree import EmbreeAccelerator, QueryStats
 from course.core.hits import Hits
-from course.core.lights import (
-    DirectionalLight,
-    Light,
-    PointLight,
-    RectangleLight,
-    SphereLight,
-)
+from course.core.lights import DirectionalLight, Light, PointLight, RectangleLight, SphereLight
 from course.core.types import Floats32, Floats64, Mask
 from course.errors import CourseWarning
 from course.extras.mesh_light import MeshLight

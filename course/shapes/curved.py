@@ -133,9 +133,7 @@ def displaced_sphere(
     return Mesh(vertices, triangles, normals, uv)
 
 
-def _globe(
-    segments: int,
-) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.float64]]:
+def _globe(segments: int) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.float64]]:
     """Return unit directions (V, 3), triangles and uv: circles of latitude, then the two poles."""
     bands = max(2, segments // 2)
     cosine, sine = circle(segments)

@@ -104,9 +104,7 @@ def _sums(
     for axis in range(3):
         for corner in range(3):
             sums[:, axis] += np.bincount(
-                triangles[:, corner],
-                weights=weights[:, corner] * faces[:, axis],
-                minlength=count,
+                triangles[:, corner], weights=weights[:, corner] * faces[:, axis], minlength=count
             )
     return sums
 

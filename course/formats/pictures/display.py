@@ -19,8 +19,6 @@ def linear_to_srgb8(linear: NDArray[np.float32]) -> NDArray[np.uint8]:
     ``linear``: (3, H, W) float32, linear RGB, 0 black and 1 white. Values above 1 show as 1, values below 0 as 0.
     Returns (H, W, 3) uint8: the nearest sRGB code of each value.
 
-    Notes
-    -----
     IEC 61966-2-1: 12.92 x up to 0.0031308, 1.055 x^(1/2.4) - 0.055 from there on.
     """
     _, height, width = linear.shape
@@ -35,8 +33,6 @@ def linear_to_srgb8(linear: NDArray[np.float32]) -> NDArray[np.uint8]:
 def srgb_to_linear(encoded: Floats) -> Floats32:
     """Linear values of encoded ones, both from 0 to 1 and of any shape.
 
-    Notes
-    -----
     IEC 61966-2-1, backwards: x / 12.92 up to 0.04045, ((x + 0.055) / 1.055)^2.4 from there on.
     """
     x = np.asarray(encoded)

@@ -46,15 +46,12 @@ def read_picture(path: Path, bound: Bound = USUAL_FILE, pixels: Bound = USUAL_PI
     On the way it takes little more memory than the picture that is returned and the file's own codes together.
     Raises SceneError: the file is missing, is no picture or is too large, or holds a value that is negative or not
     finite.
+    Returns (H, W, 3) float32.
 
     Parameters
     ----------
     bound : the most bytes that the file may have
     pixels : the most pixels that the picture may have; it is refused before they are read
-
-    Returns
-    -------
-    (H, W, 3) float32
     """
     with opened(path, "picture", bound, SceneError) as stream:
         try:

@@ -15,16 +15,13 @@ def override(document: Document, overrides: Overrides) -> Document:
     """A copy of a document with other values at some key paths.
 
     Raises SceneError: a path leads nowhere in this document, or one override lies within another.
+    Values that were replaced stand on the line of the old ones, new ones on that of the map that
+    holds them.
 
     Parameters
     ----------
     document : of the scene file; it stays as it is
     overrides : the last key of a path may be new where it is a map's; all keys before it are there
-
-    Returns
-    -------
-    Document
-        Values that were replaced stand on the line of the old ones, new ones on that of the map that holds them.
     """
     for path in overrides:
         _check_path(path, document)
@@ -53,11 +50,7 @@ def _check_path(path: KeyPath, document: Document) -> None:
 
 
 def _overridden(
-    value: Any,
-    path: KeyPath,
-    overrides: Overrides,
-    old: Mapping[int, Lines],
-    new: dict[int, Lines],
+    value: Any, path: KeyPath, overrides: Overrides, old: Mapping[int, Lines], new: dict[int, Lines]
 ) -> Any:
     """The value at a path, copied; `new` gets the lines of the copies, by their ids, as `old` has them."""
     if path in overrides:

@@ -30,8 +30,6 @@ def resolve(word: str) -> str | int | float | bool | None:
     message says what was expected.
     ``word``: a plain scalar, without quotes around it.
 
-    Notes
-    -----
     YAML 1.2.2, section 10.3.2, tag resolution of the core schema.
     """
     if word in _NULL:
