@@ -11,7 +11,6 @@ from course.compiled.packets import available as packets_available
 from course.core.film import AnyFilm
 from course.core.render import Progress, Schedule
 from course.core.render import render as render_film
-from course.core.threads import Executor, Pool, default_threads
 from course.core.tracer import Tracer
 from course.effects import Bound
 from course.errors import CourseError
@@ -20,6 +19,7 @@ from course.jobs.picture import Picture
 from course.jobs.receipt import Receipt
 from course.rendering.binding import bind, lines_named, skipped_modules
 from course.rendering.memory import keep_freed_memory
+from course.rendering.threads import Pool, ThreadedExecutor, default_threads
 from course.rendering.uniform import TIMED, UNIFORM
 from course.scene.scene import Scene, Settings
 
@@ -106,7 +106,7 @@ def render(
     with lines_named(scene, bound):
         tracer = bind(scene, settings, bound, packets and address is None)
         film, schedule = mode.make(job, tracer, bound)
-        executor: Executor
+        executor: ThreadedExecutor
         if address is None:
             executor = Pool(tracer, threads or default_threads())
         else:
@@ -156,7 +156,7 @@ def _receipt(
     tracer: Tracer,
     film: AnyFilm,
     schedule: Schedule,
-    executor: Executor,
+    executor: ThreadedExecutor,
     wall: float,
 ) -> Receipt:
     """Collect the entries that world, film, schedule and executor have for the receipt."""

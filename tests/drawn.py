@@ -7,8 +7,8 @@ from typing import Any
 
 from course import Scene
 from course.core.counters import Counters
-from course.core.passes import passes
 from course.core.samplers import Block
+from course.core.tiles import passes
 from course.core.types import Indices
 from course.extras.samplers.sobol import SobolSampler
 from course.rendering.binding import bind

@@ -188,5 +188,5 @@ def test_what_is_below_may_be_imported() -> None:
         "import math\nimport numpy as np\nfrom course.errors import CourseError\nimport trimesh"
     )
     assert not breaches("course.formats.meshes.files", source)
-    assert not breaches("course.cli.render", "from course.core.threads import Pool")
+    assert not breaches("course.cli.render", "from course.rendering.threads import Pool")
     assert not breaches("course.jobs.receipt", "from course import __version__")

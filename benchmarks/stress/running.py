@@ -12,7 +12,7 @@ from pathlib import Path
 
 from benchmarks.stress.cells import Cell
 from benchmarks.stress.verdict import Judge, Verdict
-from course.core.threads import default_threads
+from course.rendering.threads import default_threads
 
 AT_ONCE = 16
 """Cells that a process takes at a time, or all of a family."""

@@ -26,8 +26,8 @@ import numpy as np
 from course.adaptive.allocation import LADDER, LONGEST
 from course.adaptive.film import PARTS, AdaptiveFilm
 from course.adaptive.pixel_groups import TwinGroup
-from course.core.passes import Work
-from course.core.tiles import RAYS
+from course.core.rays import RAYS
+from course.core.tiles import Work
 from course.core.types import Floats64, Indices, Numbers
 
 PIXELS = 1024

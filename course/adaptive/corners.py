@@ -11,9 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from course.core.passes import Work
+from course.core.rays import RAYS
 from course.core.samplers import Block
-from course.core.tiles import RAYS
+from course.core.tiles import Work
 from course.core.types import Floats32, Numbers, Words
 from course.extras.samplers.sobol import SobolSampler
 

@@ -24,8 +24,8 @@ from course.adaptive.audit import draw, judge, work_for
 from course.adaptive.film import PARTS, AdaptiveFilm
 from course.adaptive.pixel_groups import PixelGroup, nearby_order
 from course.adaptive.smoothing import Guide, smoothed
-from course.core.passes import Work, fair_share
-from course.core.tiles import RAYS, spread_pixels
+from course.core.rays import RAYS
+from course.core.tiles import Work, fair_share, spread_pixels
 from course.core.types import Floats32, Indices, Numbers
 
 ADAPTABLE = ("sobol", "random", "xorshift")

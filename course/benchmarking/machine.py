@@ -9,7 +9,7 @@ from pathlib import Path
 
 from course import __version__
 from course.compiled.packets import available
-from course.core.threads import default_threads
+from course.rendering.threads import default_threads
 
 
 def machine() -> dict[str, str]:

@@ -14,8 +14,8 @@ from queue import Empty, SimpleQueue
 from time import monotonic, sleep
 from typing import Any
 
-from course.core.threads import TICK
 from course.errors import CourseError
+from course.rendering.threads import TICK
 
 PATIENCE = 10
 """Seconds in which a scheduler must answer, and a worker be there."""

@@ -18,13 +18,12 @@ from time import monotonic
 from typing import Any
 
 from course.cluster.connection import Connection, arrived
-from course.cluster.kept_scenes import KeptScenes, Order, edition
-from course.cluster.parcel import Parcel, pack
+from course.cluster.parcel import KeptScenes, Order, Parcel, edition, pack
 from course.core.counters import Counters
-from course.core.passes import Work
-from course.core.threads import Execution, Executor, InOrder
+from course.core.tiles import Work
 from course.core.types import Floats32
 from course.errors import CourseError
+from course.rendering.threads import Execution, InOrder, ThreadedExecutor
 from course.scene.scene import Scene, Settings
 
 PIECE = 0.3
@@ -47,7 +46,7 @@ Result = tuple[Floats32, Floats32 | float]
 _kept = KeptScenes()
 
 
-class Cluster(Executor):
+class Cluster(ThreadedExecutor):
     """The workers of a cluster; close it in the end.
 
     Raises CourseError: ``distributed`` isn't installed, no scheduler answers, it has no workers, or a file of the scene

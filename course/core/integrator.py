@@ -17,9 +17,8 @@ from course.core.environment import Environment
 from course.core.hits import Hits, Surface
 from course.core.materials import Lookup
 from course.core.motion import Motion
-from course.core.rays import Draws, Rays
+from course.core.rays import RAYS, Draws, Rays
 from course.core.scatter import Scatter
-from course.core.tiles import RAYS
 from course.core.types import Floats32, Indices, Mask, Media
 from course.core.vectors import repeated
 

@@ -12,6 +12,9 @@ from course.core.counters import Counters
 from course.core.samplers import Block, Sampler
 from course.core.types import Floats32, Indices, Media
 
+RAYS = 65536
+"""Most camera rays in a batch."""
+
 OPEN = np.int16(-1)
 """Medium of rays outside all dielectrics."""
 

@@ -7,9 +7,9 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from math import inf
 from typing import Any, Protocol
 
+from course.core.counters import Counters
 from course.core.film import AnyFilm
-from course.core.passes import Work, passes
-from course.core.threads import Executor
+from course.core.tiles import Work, passes
 from course.core.tracer import Tracer
 
 Progress = Callable[[float, bool], None]
@@ -21,6 +21,46 @@ class Run(Protocol):
 
     def __call__(self, work: Iterable[Work], done: float = 0.0, after: float = 1.0) -> bool:
         """``done``, ``after``: approximate share of the whole render before and after this round."""
+
+
+Tick = Callable[[int, int], None]
+"""Called with the number of pieces of work done, and the number of those in the first pass."""
+
+
+class Executor(ABC):
+    """Renders work with ``Tracer.render_tile`` and adds it to a film, in any number of threads or processes.
+
+    Attributes
+    ----------
+    counters : of all runs so far
+    interrupted : true after Ctrl-C
+    """
+
+    counters: Counters
+    interrupted: bool
+
+    @property
+    @abstractmethod
+    def threads(self) -> int:
+        """Number of threads that render."""
+
+    @property
+    @abstractmethod
+    def seconds_left(self) -> float:
+        """Seconds until the deadline, after which no work begins; infinite if there is none."""
+
+    @property
+    @abstractmethod
+    def elapsed(self) -> float:
+        """Share of the time limit that has passed; 0 if there is none."""
+
+    @abstractmethod
+    def batches(self, most: int) -> int:
+        """Batches of rays in a tile, at most ``most``."""
+
+    @abstractmethod
+    def run(self, work: Iterable[Work], film: AnyFilm, tick: Tick) -> bool:
+        """Do the work and add it to the film, the passes of a tile in order; returns true if all of it was done."""
 
 
 class Schedule(ABC):
@@ -61,7 +101,7 @@ def render(
 
 
 class UniformSchedule(Schedule):
-    """All passes in one round; the film already holds ``done`` samples per pixel, a multiple of ``passes.PASS``."""
+    """All passes in one round; the film already holds ``done`` samples per pixel, a multiple of ``tiles.PASS``."""
 
     def __init__(self, tracer: Tracer, done: int = 0) -> None:
         self._tracer = tracer

@@ -1,16 +1,27 @@
-"""The compiled scene (centred, scaled to unit size, in float32) and its render settings."""
+"""The compiled scene (centred, scaled to unit size, in float32), its render settings, and the stages that it needs.
+
+Stages and random numbers are planned once, before the first ray.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
+from course.core.camera import Camera
+from course.core.direct import DirectLight, direct_light
 from course.core.environment import Environment
-from course.core.gloss import Lobe
+from course.core.gloss import Gloss, Lobe
 from course.core.hits import Surface
+from course.core.integrator import Integrator
 from course.core.lights import Light
-from course.core.materials import MaterialTable
+from course.core.materials import Lookup, MaterialTable
 from course.core.motion import Motion
+from course.core.rays import Dimensions
+from course.core.scatter import Scatter
 from course.core.types import Floats32
+
+PIXEL = ("pixel", 2)
 
 
 @dataclass(frozen=True)
@@ -56,3 +67,78 @@ class Settings:
     seed: int
     max_depth: int
     cutoff: float
+
+
+def plan_dimensions(
+    world: World,
+    camera: Camera,
+    before_lights: Sequence[tuple[str, int]] = (),
+    after_lights: Sequence[tuple[str, int]] = (),
+) -> Dimensions:
+    """Dimensions of the sampler for all that is drawn.
+
+    Without lens and time, gloss gets the second pair, which forms a net with the pixel's. Lights come later: mirror
+    images are sharper than soft shadows, so worth more. before_lights, after_lights: other numbers that a bounce draws.
+    """
+    of_path = [PIXEL, ("lens", 2 if camera.lens else 0), ("time", 1 if world.motion else 0)]
+    gloss = ("gloss", max((lobe.width for lobe in world.lobes), default=0))
+    lights = [(light.name, light.width) for light in world.lights]
+    return Dimensions(of_path, [gloss, *before_lights, *lights, *after_lights])
+
+
+def plan_direct_light(world: World) -> DirectLight | None:
+    """Direct light; None if there are no lights, or no material reflects them."""
+    if not world.lights or not world.materials.shaded.any():
+        return None
+    return direct_light(world.surface, world.lights, world.motion, world.materials)
+
+
+def plan_scatter(world: World, max_depth: int, cutoff: float) -> Scatter | None:
+    """Reflection and refraction; None if no material does either, or ``max_depth`` is 0."""
+    materials = world.materials
+    refracts = bool(materials.refracts.any())
+    if max_depth == 0 or not (refracts or bool((materials.mirror.max(0) > cutoff).any())):
+        return None
+    return Scatter(
+        world.surface,
+        Lookup(materials.mirror),
+        Lookup(materials.refraction_index) if refracts else None,
+        Gloss(world.lobes) if world.lobes else None,
+        refracts and bool(materials.absorption.any()),
+        materials.outside,
+        cutoff,
+    )
+
+
+def plan_integrator(
+    world: World,
+    camera: Camera,
+    depth: int,
+    direct: DirectLight | None,
+    scatter: Scatter | None,
+) -> Integrator:
+    """The integrator, for at most ``depth`` bounces, without the stages that the scene doesn't need."""
+    materials = world.materials
+    ambient = materials.ambient * world.ambient[:, None]
+    shows = materials.diffuses | ambient.any(0)
+    coherent = -1 if camera.lens else 0 if world.motion or world.lobes else 1
+    return Integrator(
+        surface=world.surface,
+        camera=camera,
+        motion=world.motion,
+        environment=world.environment,
+        environment_depth=-1 if world.environment.black else depth,
+        direct=direct,
+        ambient=_unless_nothing(ambient),
+        dark_inside=materials.refracts if (materials.refracts & shows).any() else None,
+        glow=_unless_nothing(materials.glowing),
+        emission=_unless_nothing(materials.shining),
+        absorption=None,
+        scatter=scatter,
+        max_depth=depth,
+        coherent_depth=coherent,
+    )
+
+
+def _unless_nothing(rows: Floats32) -> Lookup | None:
+    return Lookup(rows) if rows.any() else None

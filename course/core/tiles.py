@@ -1,4 +1,7 @@
-"""Tiles: rectangles of pixels that are rendered at once.
+"""The work of a render: tiles are rectangles of pixels that are rendered at once, passes are ranges of their samples.
+
+Every pass but the last has PASS samples. So the film's sums grow in the same steps, and memory stays the same, however
+many samples there are in all. A sampler that isn't extensible has one pass.
 
 A batch shares the cost of Python among its rays: the longer NumPy and Embree run per call, the less two threads wait
 for each other. Measured on two cores with 1 MB of second-level cache each, whole render / time inside Embree, medians
@@ -7,15 +10,22 @@ of five: 1.85 with 32 thousand rays, 1.53 to 1.64 with 64 thousand, 1.59 with 12
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
 
+from course.core.rays import RAYS
+from course.core.samplers import Sampler
+from course.core.scene import Settings
 from course.core.types import Floats32, Words
 
-RAYS = 65536
-"""Most camera rays in a batch."""
+PASS = 16
+"""Samples per pixel in a whole pass of an extensible sampler."""
+
+SHARES = 2
+"""A piece of work is at most 1 / SHARES of a thread's share of the remaining work."""
 
 _PAGE, _APART = 1024, 64
 """Both in numbers of four bytes. Addresses that differ by _PAGE share a place in the first-level cache. A good row
@@ -129,3 +139,80 @@ def halves(tile: Tile) -> tuple[Tile, Tile]:
         replace(tile, height=half),
         replace(tile, y=tile.y + half, height=tile.height - half),
     )
+
+
+@dataclass(frozen=True)
+class Work:
+    """One tile of one pass, or a piece of that tile.
+
+    Attributes
+    ----------
+    order : number of the pass; the film adds the passes of a tile in order
+    first, samples : first sample and number of samples of each pixel
+    summed : true if the pass enters the film's sums
+    parts : number of equal parts of each pixel's samples, each with its own mean
+    pixels : number of pixels in the whole tile; None if this work is the whole tile
+    """
+
+    tile: Area
+    order: int
+    first: int
+    samples: int
+    summed: bool
+    parts: int = 1
+    pixels: int | None = None
+
+
+def fair_share(remaining: int, threads: int) -> int:
+    """Largest piece of work that a thread may take, in the unit of ``remaining``: pixels or rays."""
+    return remaining // (SHARES * max(threads, 1))
+
+
+def pass_size(settings: Settings, sampler: Sampler) -> int:
+    """Samples per pixel in one pass."""
+    return min(settings.samples, PASS) if sampler.extensible else settings.samples
+
+
+def passes(
+    settings: Settings, sampler: Sampler, done: int = 0, batches: int = 1, threads: int = 1
+) -> Iterator[Work]:
+    """The work of a render, pass by pass.
+
+    When little work remains, tiles of several batches are split, so that no thread waits long for another.
+
+    Parameters
+    ----------
+    done : samples per pixel that the film already holds, a multiple of PASS
+    batches : most batches of rays in a tile
+    threads : number of threads that render
+    """
+    size = pass_size(settings, sampler)
+    tiles = tile_picture(settings.width, settings.height, size, batches)
+    one = max(RAYS // size, 1)
+    starts = range(done, settings.samples, size)
+    remaining = settings.width * settings.height * len(starts)
+    for order, first in enumerate(starts):
+        samples = min(size, settings.samples - first)
+        summed = samples == PASS or not sampler.extensible
+        for tile in tiles:
+            waiting: list[Tile] = [tile]
+            while waiting:
+                part = waiting.pop()
+                if batches > 1 and part.size > max(fair_share(remaining, threads), one):
+                    waiting += halves(part)[::-1]
+                    continue
+                remaining -= part.size
+                yield Work(part, order, first, samples, summed, pixels=tile.size)
+
+
+def preview(settings: Settings, samples: int) -> list[Work]:
+    """A quick pass over the whole picture, which later passes replace."""
+    return [
+        Work(tile, 0, 0, samples, False)
+        for tile in tile_picture(settings.width, settings.height, samples)
+    ]
+
+
+def kept_samples(samples: int) -> int:
+    """Samples per pixel that a longer render keeps: those of whole passes."""
+    return samples - samples % PASS

@@ -11,8 +11,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from course.core.rays import Draws, Rays, join_rays
-from course.core.tiles import RAYS, spread_pixels
+from course.core.rays import RAYS, Draws, Rays, join_rays
+from course.core.tiles import spread_pixels
 from course.core.types import Floats32, Mask
 
 

@@ -15,8 +15,7 @@ import numpy as np
 
 from course.core.hits import Hits
 from course.core.integrator import CancelledError, Integrator
-from course.core.rays import Draws, Rays
-from course.core.tiles import RAYS
+from course.core.rays import RAYS, Draws, Rays
 from course.core.types import Floats32, Indices, Mask
 from course.extras.path_bounce import PathBounce
 from course.extras.path_pieces import Piece, Pieces

@@ -11,10 +11,10 @@ from course.core.camera import Camera
 from course.core.direct import DirectLight, direct_light
 from course.core.integrator import Integrator
 from course.core.materials import Lookup, MaterialTable
-from course.core.plan import plan_dimensions, plan_direct_light, plan_integrator, plan_scatter
 from course.core.rays import Dimensions
 from course.core.samplers import Sampler
 from course.core.scatter import Scatter
+from course.core.scene import plan_dimensions, plan_direct_light, plan_integrator, plan_scatter
 from course.extras.absorption import Absorption
 from course.extras.conductors import Conductors
 from course.extras.direct import FullDirectLight

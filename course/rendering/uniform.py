@@ -6,10 +6,9 @@ from dataclasses import replace
 from functools import partial
 
 from course.core.film import Film
-from course.core.passes import kept_samples, pass_size, preview
-from course.core.render import Run, UniformSchedule
+from course.core.render import Executor, Run, UniformSchedule
 from course.core.samplers import Sampler
-from course.core.threads import Executor
+from course.core.tiles import kept_samples, pass_size, preview
 from course.core.tracer import Tracer
 from course.effects import Bound
 from course.errors import CourseError

@@ -29,11 +29,11 @@ from course.adaptive.allocation import FIRST, FIRST_OF_NET, LADDER, LONGEST
 from course.adaptive.film import PARTS, AdaptiveFilm
 from course.adaptive.pixel_groups import TwinGroup
 from course.adaptive.rounds import Groups, render_adaptively
-from course.core import threads as pool
-from course.core.passes import Work
+from course.core.tiles import Work
 from course.core.tracer import Tracer
 from course.errors import CourseError, SceneError
 from course.formats.pictures.reading import read_picture
+from course.rendering import threads as pool
 
 MakeScene = Callable[..., Scene]
 EveryStage = Callable[..., Scene]

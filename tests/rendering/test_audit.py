@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 from course.adaptive.audit import DRIFT, EVENLY, FEWEST, PIXELS, QUIET, draw, judge, work_for
 from course.adaptive.film import PARTS, AdaptiveFilm
 from course.adaptive.pixel_groups import PixelGroup, TwinGroup
-from course.core.passes import Work
 from course.core.samplers import Block
+from course.core.tiles import Work
 from course.extras.samplers.sobol import SobolSampler
 
 Array = NDArray[Any]

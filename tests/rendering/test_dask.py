@@ -22,16 +22,14 @@ from course.cluster import connection as connection_module
 from course.cluster import executor as cluster_module
 from course.cluster import kept_scenes
 from course.cluster.executor import PIECE, next_piece
-from course.cluster.kept_scenes import KeptScenes, Order, edition
-from course.cluster.parcel import pack, unpack
+from course.cluster.parcel import KeptScenes, Order, edition, pack, unpack
 from course.core.film import Film
-from course.core.passes import Work
-from course.core.threads import InOrder
-from course.core.tiles import Tile
+from course.core.tiles import Tile, Work
 from course.errors import CourseError, EffectError
 from course.formats.meshes.files import save_ply
 from course.formats.pictures.files import save
 from course.modules import MODULES
+from course.rendering.threads import InOrder
 from course.shapes.curved import sphere
 from tests.dask_cluster import Cluster
 

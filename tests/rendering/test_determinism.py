@@ -14,12 +14,11 @@ from course import Picture, Scene, render
 from course.core import render as render_of_core
 from course.core.counters import Counters
 from course.core.film import Film
-from course.core.passes import Work, passes
-from course.core.threads import Pool
-from course.core.tiles import Tile
+from course.core.tiles import Tile, Work, passes
 from course.errors import CourseError
 from course.extras.samplers import FUNCTIONS
 from course.rendering.binding import bind
+from course.rendering.threads import Pool
 
 SAMPLERS = tuple(FUNCTIONS)
 FILTERS = ("box", "gaussian")

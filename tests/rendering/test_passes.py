@@ -9,11 +9,11 @@ import pytest
 
 from course import load_scene
 from course.core.film import Film
-from course.core.passes import PASS, SHARES, Work, passes
-from course.core.threads import InOrder
-from course.core.tiles import RAYS
+from course.core.rays import RAYS
+from course.core.tiles import PASS, SHARES, Work, passes
 from course.effects import PROJECT
 from course.extras.samplers.sobol import SobolSampler
+from course.rendering.threads import InOrder
 from course.scene.scene import Settings
 
 WIDTH, HEIGHT, SAMPLES = 1000, 800, 64

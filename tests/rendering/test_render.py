@@ -10,16 +10,15 @@ import pytest
 
 from course import CourseError, Scene, render
 from course.core.film import Film
-from course.core.passes import Work
 from course.core.render import Run, Schedule
 from course.core.render import render as render_film
-from course.core.threads import Execution, Executor
-from course.core.tiles import Tile
+from course.core.tiles import Tile, Work
+from course.rendering.threads import Execution, ThreadedExecutor
 
 MakeScene = Callable[..., Scene]
 
 
-class Steps(Executor):
+class Steps(ThreadedExecutor):
     """Renders piece by piece in this thread, and tells after each; a second passes with every piece."""
 
     def __init__(self) -> None:
@@ -60,11 +59,11 @@ class Rounds(Schedule):
     def __init__(self, *rounds: tuple[Any, ...]) -> None:
         self.rounds = rounds
 
-    def render(self, run: Run, executor: Executor) -> bool:
+    def render(self, run: Run, executor: ThreadedExecutor) -> bool:
         return all(run(*each) for each in self.rounds)
 
 
-def told(schedule: Schedule, executor: Executor, film: Film) -> tuple[bool, list[Any]]:
+def told(schedule: Schedule, executor: ThreadedExecutor, film: Film) -> tuple[bool, list[Any]]:
     progress: list[Any] = []
     complete = render_film(film, schedule, executor, lambda *now: progress.append(now))
     return complete, progress

@@ -14,10 +14,10 @@ import yaml
 from course import CourseError, EffectError, Picture, Scene, load_scene, render
 from course.adaptive.corners import CornerFilm
 from course.adaptive.subdivision import Functions, SubdivisionSchedule
-from course.core.passes import Work
-from course.core.threads import Pool
+from course.core.tiles import Work
 from course.effects import PROJECT, Bound, Effects
 from course.rendering.summary import summarize
+from course.rendering.threads import Pool
 from course.scene.scene import Subdivision
 
 MakeScene = Callable[..., Scene]

@@ -11,9 +11,9 @@ import pytest
 
 from course import Scene, render
 from course import render_scene as rendering
-from course.core import threads as pool
 from course.core.tracer import Tracer
 from course.extras.samplers import FUNCTIONS
+from course.rendering import threads as pool
 from course.rendering.binding import bind
 
 MakeScene = Callable[..., Scene]

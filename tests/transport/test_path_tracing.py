@@ -17,7 +17,7 @@ import pytest
 from numpy.typing import NDArray
 
 from course import Scene, render, shapes
-from course.core import passes
+from course.core import tiles
 from course.effects import PROJECT
 from course.errors import EffectError, SceneError
 from course.extras import path_pieces, path_tracing, plan
@@ -318,7 +318,7 @@ def test_batches_that_are_followed_together_give_the_same_bits(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     scene = load_scene(PROJECT / "scenes" / "path_tracing.yaml")
-    monkeypatch.setattr(passes, "SHARES", 1)
+    monkeypatch.setattr(tiles, "SHARES", 1)
 
     def picture(batches: int, **settings: Any) -> bytes:
         monkeypatch.setattr(plan, "PIECES", batches)

@@ -1,4 +1,4 @@
-"""Executors do the work of a render, here with threads; ``course.cluster.executor`` uses the workers of a cluster.
+"""The executor of one machine: threads that render tiles; ``course.cluster.executor`` uses the workers of a cluster.
 
 Embree and NumPy's loops release the interpreter lock, so threads are enough.
 """
@@ -7,15 +7,16 @@ from __future__ import annotations
 
 import os
 import threading
-from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterable
+from abc import abstractmethod
+from collections.abc import Iterable
 from math import inf
 from time import monotonic
 
 from course.core.counters import Counters
 from course.core.film import AnyFilm
 from course.core.integrator import CancelledError
-from course.core.passes import Work
+from course.core.render import Executor, Tick
+from course.core.tiles import Work
 from course.core.tracer import Tracer
 from course.core.types import Floats32
 
@@ -27,9 +28,6 @@ HURRIED = 4
 
 LEAST_FOR_RAYS = 0.1
 """Least share of a time limit that is kept for rays, however long reading and building took."""
-
-Tick = Callable[[int, int], None]
-"""Called with the number of tiles done, and the number of those in the first pass."""
 
 
 def default_threads() -> int:
@@ -64,7 +62,7 @@ class Execution:
         self.error: BaseException | None = None
 
 
-class Executor(ABC):
+class ThreadedExecutor(Executor):
     """Runs work in threads, while the calling thread handles progress, time and Ctrl-C.
 
     Parameters
@@ -85,11 +83,6 @@ class Executor(ABC):
         self.interrupted = False
         self.deadline = inf
         self._time_limit = inf
-
-    @property
-    @abstractmethod
-    def threads(self) -> int:
-        """Number of threads that render."""
 
     @abstractmethod
     def _serve(self, run: Execution) -> None:
@@ -145,7 +138,7 @@ class Executor(ABC):
             if run.working == 0:
                 run.finished.set()
 
-    def close(self) -> None:  # noqa: B027 - most hold nothing
+    def close(self) -> None:
         """Release the resources of all runs."""
 
     def prepare(self) -> float:
@@ -175,7 +168,7 @@ class Executor(ABC):
         return min(most, HURRIED) if self.seconds_left < inf else most
 
 
-class Pool(Executor):
+class Pool(ThreadedExecutor):
     """Threads of this process that take tiles one by one."""
 
     def __init__(self, tracer: Tracer, threads: int) -> None:
