@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from enum import StrEnum
+from typing import Any
 
 from course.grading.checks.check import Check, Figure
 from course.grading.errors import StudentError
@@ -82,15 +83,10 @@ def troubled(module: str, check: Check, error: StudentError) -> Result:
     }.get(error.kind, Status.FAILED)
     found = f"{error.type}: {error}" if error.kind == "raised" else str(error)
     expected = "" if error.kind == "missing" else "a value"
-    where = "\n".join(
-        filter(
-            None, (error.traceback.rstrip(), error.arguments and f"arguments: {error.arguments}")
-        )
-    )
-    result = result_of(
-        module, check, status, expected=expected, found=found, where=where, hint=error.remedy
-    )
-    return replace(result, example=error.example or error.arguments)
+    called_with = error.arguments and f"arguments: {error.arguments}"
+    where = "\n".join(filter(None, (error.traceback.rstrip(), called_with)))
+    told = {"expected": expected, "found": found, "where": where, "hint": error.remedy}
+    return result_of(module, check, status, **told, example=error.example or error.arguments)
 
 
 BROKEN = "the check itself broke"
@@ -105,51 +101,26 @@ def broken(module: str, check: Check, reference_too: bool | None, last: str) -> 
     last : what the student's function had returned before
     """
     if reference_too:
-        result = result_of(
-            module,
-            check,
-            Status.GRADER_ERROR,
-            found=f"{BROKEN}, as it does with the course's own function",
-            hint="This is no fault of yours, and its points are given; please pass it on.",
+        found = f"{BROKEN}, as it does with the course's own function"
+        hint = "This is no fault of yours, and its points are given; please pass it on."
+        return result_of(module, check, Status.GRADER_ERROR, found=found, hint=hint, broken=True)
+    why = "With the course's own function it doesn't."
+    if reference_too is None:
+        why = (
+            "Whose fault it is can't be told in a copy without solutions: here it gives no points."
         )
-    else:
-        why = "With the course's own function it doesn't."
-        if reference_too is None:
-            why = "Whose fault it is can't be told in a copy without solutions: here it gives no points."
-        result = result_of(
-            module,
-            check,
-            Status.FAILED,
-            expected="a result that the check can work with",
-            found=last,
-            hint=f"On this {BROKEN}. {why}",
-        )
-    return replace(result, broken=True)
+    expected, hint = "a result that the check can work with", f"On this {BROKEN}. {why}"
+    told = {"expected": expected, "found": last, "hint": hint}
+    return result_of(module, check, Status.FAILED, **told, broken=True)
 
 
-def result_of(
-    module: str,
-    check: Check,
-    status: Status,
-    *,
-    expected: str = "",
-    found: str = "",
-    where: str = "",
-    hint: str = "",
-) -> Result:
-    """The result of a check, with the points that the status earns."""
+def result_of(module: str, check: Check, status: Status, **more: Any) -> Result:
+    """The result of a check, with the points that the status earns.
+
+    Parameters
+    ----------
+    more : further attributes of the result, by name
+    """
     earned = check.points if status in (Status.PASSED, Status.GRADER_ERROR) else 0.0
-    return Result(
-        module,
-        check.function,
-        check.name,
-        check.title,
-        check.kind,
-        status,
-        earned,
-        check.points,
-        expected,
-        found,
-        where,
-        hint,
-    )
+    about = check.function, check.name, check.title, check.kind
+    return Result(module, *about, status, earned, check.points, **more)
