@@ -44,7 +44,7 @@ class RowOfCosts:
         """See ``PathCosts``."""
         return RowOfCosts(self._cost[paths])
 
-    def below(self, mean: Floats32, parts: int) -> Floats32:
+    def with_row(self, mean: Floats32, parts: int) -> Floats32:
         """See ``PathCosts``; the same for all parts: sums of few numbers each would take more time than they spare."""
         pixels = mean.shape[1] // parts
         each = self._cost.reshape(pixels, -1).mean(axis=1)

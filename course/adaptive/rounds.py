@@ -25,8 +25,9 @@ from course.adaptive.film import PARTS, AdaptiveFilm
 from course.adaptive.pixel_groups import PixelGroup, nearby_order
 from course.adaptive.smoothing import Guide, smoothed
 from course.core.rays import RAYS
-from course.core.tiles import Work, fair_share, spread_pixels
+from course.core.tiles import Work
 from course.core.types import Floats32, Indices, Numbers
+from course.extras.work import fair_share, spread_pixels
 
 ADAPTABLE = ("sobol", "random", "xorshift")
 """Samplers that can go on where the error is, and whose samples tell it."""

@@ -9,10 +9,10 @@ from course.adaptive.allocation import FIRST, FIRST_OF_NET
 from course.adaptive.film import AdaptiveFilm
 from course.adaptive.rounds import ADAPTABLE, Groups, render_adaptively
 from course.core.render import Executor, Run, Schedule
-from course.core.tiles import preview
 from course.core.tracer import Tracer
 from course.effects import Bound
 from course.errors import CourseError
+from course.extras.work import preview
 from course.jobs.job import Job, Mode
 
 

@@ -1,7 +1,6 @@
 """The camera: rays through points of the picture, from a pinhole or a thin lens.
 
-Picture coordinates are in pixels, x to the right and y down from the upper left corner. With a field of view, the
-axis goes through the middle and pixels are square. With a window, the axis may go elsewhere and pixels may be oblong.
+Picture coordinates are in pixels, x to the right and y down from the upper left corner.
 """
 
 from __future__ import annotations
@@ -21,7 +20,7 @@ class Lens:
 
     Attributes
     ----------
-    aperture_radius, focus_distance : [units of the compiled scene]
+    aperture_radius, focus_distance : [unit of the compiled scene]
     thin_lens : functions of the module
     """
 
@@ -45,7 +44,7 @@ class Camera:
     right, up, forward : (3,) float32, an orthonormal basis
     corner : (3,) float32, direction to the upper left corner of the picture; its forward component is 1
     step_x, step_y : (3,) float32, change of direction per pixel
-    near : depth along forward at which rays start
+    near : depth along forward at which rays begin
     lens : None for a pinhole
     """
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass, field
 from time import perf_counter
 
@@ -17,19 +18,19 @@ class Counters:
     Attributes
     ----------
     rays : kind -> rays cast
-    numbers : dimension -> numbers drawn
+    numbers : name of a dimension -> random numbers drawn
     seconds : stage -> seconds
-    embree : seconds inside Embree, or tests of the BVH in its place
+    embree : seconds inside Embree, or tests made by another BVH
     """
 
-    rays: dict[str, int] = field(default_factory=lambda: dict.fromkeys(RAY_KINDS, 0))
-    numbers: dict[str, int] = field(default_factory=dict)
+    rays: Counter[str] = field(default_factory=lambda: Counter(dict.fromkeys(RAY_KINDS, 0)))
+    numbers: Counter[str] = field(default_factory=Counter)
     seconds: dict[str, float] = field(default_factory=dict)
     embree: QueryStats = field(default_factory=QueryStats)
     _since: float = field(default_factory=perf_counter)
 
     def start(self) -> None:
-        """Start the stats for the next ``lap``."""
+        """Start the clock of the next ``lap``."""
         self._since = perf_counter()
 
     def lap(self, stage: str) -> None:
@@ -38,15 +39,10 @@ class Counters:
         self.seconds[stage] = self.seconds.get(stage, 0.0) + now - self._since
         self._since = now
 
-    def drew(self, dimension: str, count: int) -> None:
-        """Count random numbers."""
-        self.numbers[dimension] = self.numbers.get(dimension, 0) + count
-
     def add(self, other: Counters) -> None:
         """Add another thread's counters."""
-        for mine, theirs in ((self.rays, other.rays), (self.numbers, other.numbers)):
-            for key, count in theirs.items():
-                mine[key] = mine.get(key, 0) + count
+        self.rays.update(other.rays)
+        self.numbers.update(other.numbers)
         for stage, seconds in other.seconds.items():
             self.seconds[stage] = self.seconds.get(stage, 0.0) + seconds
         self.embree.seconds += other.embree.seconds

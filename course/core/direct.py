@@ -1,8 +1,4 @@
-"""Direct light by next-event estimation: for each light one point on it, one shadow ray, and Blinn-Phong reflection.
-
-Symbols: l the vector to the light (not normalised), d its length, n the shading normal, v = -direction the direction
-to the viewer, h the half vector between l and v.
-"""
+"""Direct light by next-event estimation: for each light one point on it, one shadow ray, and Blinn-Phong reflection."""
 
 from __future__ import annotations
 
@@ -23,9 +19,9 @@ from course.core.types import Floats32, Indices, Mask
 from course.core.vectors import dot, repeated
 
 DENSE = 0.5
-"""If at least this share of the hits are candidates, arrays have a column for every hit: computing all is faster
-than copying the candidates. Median time relative to copying, in paired renders on one thread without Embree's time: .95
-with direct light, .96 with gloss, .97 with soft shadows, .98 with path tracing. Any share from .2 to .8 will do."""
+"""If at least this share of the hits are candidates, arrays have a column for every hit. Computing all columns is then
+faster than copying those of the candidates: median times relative to copying, on one thread without Embree's time, were
+.95 with direct light, .96 with gloss, .97 with soft shadows, .98 with path tracing. Any share from .2 to .8 will do."""
 
 ROUNDING = 1e-4
 """Added to a float32 sine before it is compared with a float32 cosine."""
@@ -37,13 +33,13 @@ _Scalar = TypeVar("_Scalar", bound=np.generic)
 class Candidates:
     """Hits that a light illuminates unless their shadow rays are blocked: hit and light face each other.
 
-    Arrays have k columns: one for each of the m candidates, or one for each of all n hits.
+    Arrays have k columns: one for each of the m candidates, or one for each of the n hits.
 
     Attributes
     ----------
     index : (m,) int, the candidates among the hits
-    columns : (m,) int, the hit of each column; None if the columns are all hits
-    mask : (n,) bool, the candidates, if the arrays have other columns too; else None
+    columns : (k,) int, the hit of each column; None if the columns are the hits
+    mask : (n,) bool, true for candidates; None if every column is one
     irradiance : (k,) float32, unoccluded, in units of the light's colour; 0 for a hit that is no candidate
     cosine : (k,) float32, between shading normal and direction to the light
     origin : (3, k) float32, of the shadow rays
@@ -61,7 +57,7 @@ class Candidates:
     inverse_length: Floats32
 
     def of(self, values: NDArray[_Scalar]) -> NDArray[_Scalar]:
-        """Select from values (n,) or (3, n) of all hits the columns of these arrays: (k,) or (3, k)."""
+        """Values (k,) or (3, k) of the columns, from values (n,) or (3, n) of all hits."""
         return values if self.columns is None else values.take(self.columns, axis=-1)
 
     def hit(self, column: Indices) -> Indices:
@@ -75,10 +71,10 @@ class DirectLight:
 
     Attributes
     ----------
-    shaded : (1 or 2, M) bool, materials that reflect it, see ``MaterialTable.shaded_sides``; None for all
+    shaded : ``MaterialTable.shaded_sides``; None if all materials reflect direct light from both sides
     diffuse : (3, M) reflectance
     specular, exponent : (3, M) and (M,) of the highlights; specular is None if no material has one
-    sky : irradiance / pi (3, n) from the environment, or None; None if the environment is no light
+    sky : returns irradiance / pi from the environment, (3, n) or None for 0; None if the environment is no light
     """
 
     surface: Surface
@@ -93,7 +89,7 @@ class DirectLight:
     def __call__(
         self, hits: Hits, path: Indices | None, depth: int, draws: Draws
     ) -> Floats32 | None:
-        """Reflected radiance (3, n) of all lights at hits of paths (n,); None if no light faces any of the hits."""
+        """Radiance (3, n) that hits of paths (n,) reflect; None if no light faces any of them."""
         diffuse: Floats32 | None = None
         specular: Floats32 | None = None
         for light in self.lights:
@@ -125,11 +121,11 @@ class DirectLight:
         return diffuse
 
     def _points(self, hits: Hits, light: Light) -> Floats32:
-        """Points (3, n) for which the light is sampled: origins of the shadow rays."""
+        """Shading points (3, n) for which the light is sampled: the origins of the shadow rays."""
         return self._as_if_still(hits.near_origin, hits, light)
 
     def _as_if_still(self, points: Floats32, hits: Hits, light: Light) -> Floats32:
-        """Points (3, n) in the frame of a moving light: shifted back by its displacement."""
+        """Points (3, n) in the frame of a moving light: the light stands still, the points move by -displacement."""
         if light.velocity is None or self.motion is None or hits.time is None:
             return points
         return points - self.motion.moved(light.velocity, hits.time)
@@ -149,28 +145,23 @@ class DirectLight:
         index = np.flatnonzero(mask)
         if len(index) == 0:
             return None
-        origin, to_light, inverse_length = hits.near_origin, sample.to_light, sample.inverse_length
+        arrays = irradiance, cosine, hits.near_origin, sample.to_light, sample.inverse_length
         if len(index) == hits.size:
-            return Candidates(
-                index, None, None, irradiance, cosine, origin, to_light, inverse_length
-            )
-        # A NaN would survive the clamp, and the multiplication by a visibility of 0.
+            return Candidates(index, None, None, *arrays)
+        # The clamp keeps a NaN, and so does the multiplication by a visibility of 0.
         if len(index) >= DENSE * hits.size and np.isfinite(irradiance.min()):
             np.maximum(irradiance, 0, out=irradiance)
-            return Candidates(
-                index, None, mask, irradiance, cosine, origin, to_light, inverse_length
-            )
-        if to_light.shape[1] > 1:
-            to_light, inverse_length = to_light.take(index, axis=1), inverse_length.take(index)
-        origin = origin.take(index, axis=1)
-        arrays = irradiance.take(index), cosine.take(index), origin, to_light, inverse_length
-        return Candidates(index, index, None, *arrays)
+            return Candidates(index, None, mask, *arrays)
+        # The vector to a directional light is one column for all hits.
+        some = [a if a.shape[-1] == 1 else a.take(index, axis=-1) for a in arrays]
+        return Candidates(index, index, None, *some)
 
     def _visible(self, light: Light, hits: Hits, candidates: Candidates, draws: Draws) -> Mask:
         """Visibility of the light, (k,); undefined for hits that are no candidates.
 
-        A facet of a smooth mesh may face away from a light that its shading normal faces. The shadow ray then starts at
-        a point of the round surface above the facet. A second ray, from the facet to that point, must be unblocked too.
+        A facet of a smooth mesh may face away from a light that its shading normal faces. Its shadow ray starts at the
+        round surface above the facet (``Triangles.bulge``). A second ray, from the facet up to that point, must be
+        unblocked too.
         """
         triangles, unoccluded = self.surface.triangles, self.surface.accelerator.unoccluded
         stats, mask = draws.counters.embree, candidates.mask
@@ -179,8 +170,8 @@ class DirectLight:
         to_light = self._to_light(light, hits, candidates)
         if triangles.bulge is None:
             return unoccluded(origin, to_light, light.limit, stats, time, active=mask)
-        # `largest_sine` bounds the sine of the angle between shading and geometric normal. Where the cosine
-        # to the light is larger than that, the facet faces the light, as its shading normal does.
+        # A facet faces away only where the light's angle above the shading normal's horizon is at most the
+        # angle between both normals: where the cosine to the light is at most the sine of that angle.
         most = np.float32(triangles.largest_sine + ROUNDING)
         column = self._turned_away(hits, candidates, to_light, most)
         height = bulge(triangles, hits, candidates.hit(column))
@@ -193,7 +184,7 @@ class DirectLight:
         draws.counters.rays["shadow"] += len(column)
         when = None if time is None else time.take(column)
         free_above = unoccluded(foot, up, 1.0, stats, when)
-        # Changed in place and restored: few hits are raised, so copying all would cost more.
+        # Few origins are raised: changing and restoring them costs less than a copy of all.
         unraised = to_light.take(column, axis=1)
         origin[:, column] = foot + up
         if light.limit <= TO_THE_LIGHT:
@@ -211,7 +202,7 @@ class DirectLight:
     def _turned_away(
         self, hits: Hits, candidates: Candidates, to_light: Floats32, most: np.float32
     ) -> Indices:
-        """Columns (t,) of the candidates whose facets face away from the light; their cosines are at most ``most``."""
+        """Columns (t,) of the candidates whose facets face away from the light; ``most`` bounds their cosines."""
         near = candidates.cosine <= most
         if candidates.mask is not None:
             near &= candidates.mask
@@ -256,7 +247,7 @@ class DirectLight:
 def direct_light(
     surface: Surface, lights: tuple[Light, ...], motion: Motion | None, materials: MaterialTable
 ) -> DirectLight:
-    """Direct light of a scene; attributes that its materials don't need are None."""
+    """Direct light of a scene."""
     return DirectLight(
         surface,
         lights,

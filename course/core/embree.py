@@ -1,14 +1,9 @@
 """Embree intersects batches of rays with static triangles. Only this file imports embreex.
 
-Surprises of embreex:
-
-- It takes (N, 3) float32 arrays with any strides. So the transpose of our (3, N) needs no copy, and an origin shared
-  by all rays is an array of stride 0.
-- It overwrites the ``dists`` array, so limits are passed as a number or as a new array.
-- An occlusion query returns 0 for blocked and -1 for free.
-- It ignores meshes added after the first query.
-- Only robust mode finds the hits of all rays through the edges of a closed mesh (measured: 0 of 1.2 million lost; the
-  default mode loses 1 in 20). A ray aimed exactly at a vertex may still slip through, at 2 vertices in 1000.
+embreex takes (N, 3) float32 arrays with any strides, so the transpose of our (3, N) needs no copy. It ignores meshes
+added after the first query. Only its robust mode finds the hits of all rays through the edges of a closed mesh
+(measured: 0 of 1.2 million lost; the default mode loses 1 in 20). A ray aimed exactly at a vertex may still slip
+through, at 2 vertices in 1000.
 """
 
 from __future__ import annotations
@@ -30,7 +25,7 @@ NO_HIT = 1e37
 
 @dataclass
 class QueryStats:
-    """Seconds spent inside Embree, or the tests that another BVH made; one object per thread."""
+    """Seconds inside Embree, or tests made by another BVH; one object per thread."""
 
     seconds: float = 0.0
     box_tests: int = 0
@@ -60,7 +55,7 @@ class Intersections:
 
 
 class Accelerator(Protocol):
-    """Interface of Embree, of the accelerator of moving triangles, and of another BVH."""
+    """Interface of Embree, of the accelerator of moving triangles, and of other BVHs."""
 
     def intersect(
         self,
@@ -141,7 +136,7 @@ class EmbreeAccelerator:
         n = direction.shape[1]
         if len(self.triangles) == 0 or n == 0:
             return no_hits(n)
-        # Embree overwrites the limits.
+        # embreex overwrites the array of limits with the distances.
         limits = None if limit is None else limit.copy()
         scene = self._built()
         start = perf_counter()
@@ -167,6 +162,7 @@ class EmbreeAccelerator:
         limits = limit if active is None else np.where(active, np.float32(limit), np.float32(-1))
         scene = self._built()
         start = perf_counter()
+        # 0 where the ray is blocked, -1 where it is free.
         blocked = scene.run(_rows(origin, n), direction.T, limits, query="OCCLUDED")
         stats.seconds += perf_counter() - start
         return blocked < 0  # type: ignore[no-any-return]

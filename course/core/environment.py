@@ -44,7 +44,7 @@ class CubeEnvironment:
     ----------
     faces : (6, S, S, 3) float32 linear radiance, rows from the top
     cube_map : functions of that module
-    seamless : whether to interpolate across the cube's edges
+    seamless : true to interpolate across the cube's edges
     """
 
     faces: Floats32

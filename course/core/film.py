@@ -1,8 +1,8 @@
 """From samples to pixels: a filter by the module ``supersampling``, and the film, which has weighted sums of radiance.
 
-Samples arrive in passes. The sums are float64, hold whole passes only and grow in a fixed order. A last, partial pass
-enters the picture but not the sums. So a picture continued from n to 2n samples repeats the partial pass and equals,
-bit for bit, one rendered in one go.
+Samples arrive in passes. The sums are float64, and grow in a fixed order. A partial pass, which can only be the last,
+is seen in the picture but not added to the sums: if the render is continued with more samples, that pass is repeated
+as a whole one. So the continued picture has the same bits as one rendered at once.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from course.core.tiles import Tile
 from course.core.types import Floats32, Numbers
 
 _NEARLY_NOTHING = 1e-300
-"""Least weight of a mean: avoids a division by 0, and is negligible beside any other weight."""
+"""Least weight of a mean; avoids a division by 0."""
 
 
 @dataclass(frozen=True)
@@ -27,7 +27,7 @@ class Reconstruction:
     Attributes
     ----------
     supersampling : functions of that module
-    single : whether each pixel has one sample, which is its colour
+    single : true if each pixel has one sample, whose radiance is its colour
     sigma : standard deviation of the Gaussian [pixels]; None for the box filter
     """
 
@@ -46,7 +46,7 @@ class Reconstruction:
         Returns
         -------
         mean : (3, n) float32
-        weight : (n,) float32 or one number, sum of the samples' weights
+        weight : (n,) float32 or one number, the sum of the samples' weights
         """
         n, s = radiance.shape[1:]
         weights: Floats32 = np.ones((n, s), np.float32)
@@ -60,7 +60,7 @@ class Reconstruction:
 
 
 class AnyFilm(Protocol):
-    """Accumulates rendered pieces of a picture.
+    """Interface of a film.
 
     Attributes
     ----------
@@ -99,8 +99,8 @@ class Film:
         ----------
         mean : (3, n) float32, radiance of the tile's n pixels, row by row
         weight : (n,) float32 or one number
-        samples : of each pixel, this pass included
-        summed : true if the pass enters the sums; a partial pass, which is the last, doesn't
+        samples : of each pixel, with those of this pass
+        summed : true if the pass is added to the sums
         """
         rows, columns = tile.rows, tile.columns
         shape = (tile.height, tile.width)

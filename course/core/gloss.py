@@ -13,13 +13,12 @@ from course.core.types import Floats32, Indices, Materials
 
 @dataclass(frozen=True)
 class Lobe:
-    """Scattering of one glossy material about the mirrored direction.
+    """The lobe of one glossy material around the mirrored direction.
 
     Attributes
     ----------
     material : its number
-    kind : "plane", "ball" or "phong"
-    parameter : roughness, glossiness or exponent of that kind
+    kind, parameter : "plane" and roughness, "ball" and glossiness, or "phong" and exponent
     glossy : functions of that module
     """
 
@@ -46,7 +45,7 @@ class Lobe:
         return scattered
 
     def keep_above(self, direction: Floats32, ng: Floats32) -> Floats32:
-        """Directions (3, N), moved to the side of the geometric normals ng (3, N) if they are below."""
+        """Directions (3, N); those below the surface with geometric normals ng (3, N) are moved above it."""
         kept: Floats32 = self.glossy.keep_above(direction, ng)
         return kept
 
@@ -66,13 +65,12 @@ class Gloss:
         depth: int,
         draws: Draws,
     ) -> Floats32:
-        """Reflected directions (3, n), jittered for glossy materials.
+        """Reflected directions (3, n) of paths (n,), jittered for glossy materials.
 
         Parameters
         ----------
         material : (n,) of the reflecting surface
-        mirrored, ng : (3, n) mirrored directions (may be overwritten) and geometric normals
-        path : (n,)
+        mirrored, ng : (3, n) mirrored directions, which may be overwritten, and geometric normals
         """
         for lobe in self.lobes:
             which = np.flatnonzero(material == lobe.material)

@@ -1,4 +1,4 @@
-"""Hits of a batch of rays: points, normals, and origins from which rays leave without hitting the same triangle."""
+"""Hits of a batch of rays: points, normals, and origins of the rays that leave them."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from course.core.motion import MovingAccelerator
 from course.core.ray_offset import OFFSET
 from course.core.triangles import Triangles
 from course.core.types import Floats32, Indices, Mask, Materials, Numbers
-from course.core.vectors import cross, dot, gather
+from course.core.vectors import cross, dot, gather, normalise
 
 
 @dataclass(frozen=True)
 class Hits:
-    """The hits of a batch, one column a hit.
+    """The hits of a batch, one column per hit.
 
     Attributes
     ----------
@@ -29,11 +29,11 @@ class Hits:
     direction : (3, n) float32, of the incoming ray
     p : (3, n) float32, the point
     ng, ns : (3, n) float32, unit geometric and shading normals, on the incoming side
-    offset : (n,) float32, distance from p at which rays leave
-    near_origin : (3, n) float32, p + offset ng: where rays begin that leave on the incoming side
+    offset : (n,) float32, distance from p at which rays begin (``course.core.ray_offset``)
+    near_origin : (3, n) float32, p + offset ng, the origins of rays that leave on the incoming side
     side : (n,) float32, 1 at the front of the triangle, -1 at the back
     time : (n,) float32, share of the exposure; None if nothing moves
-    tint : (3, n) float32, colour factor from textures, 1 where there is none; None if no hit has one
+    tint : (3, n) float32, colour factor of textures, 1 where there is none; None if no hit has one
     """
 
     ray: Indices | None
@@ -59,11 +59,11 @@ class Hits:
 
     @property
     def entering(self) -> Mask:
-        """(n,) bool, true where the ray meets the triangle's front and so comes from outside."""
+        """(n,) bool, true where the ray comes from outside and hits the triangle's front."""
         return np.asarray(self.side > 0)
 
     def far_origin(self, which: Indices) -> Floats32:
-        """Points p - offset ng, (3, m), where rays begin that leave hits ``which`` (m,) on the far side."""
+        """Points p - offset ng, (3, m), the origins of rays that leave hits ``which`` (m,) on the far side."""
         origin: Floats32 = self.p.take(which, axis=1)
         origin -= self.ng.take(which, axis=1) * self.offset.take(which)
         return origin
@@ -78,7 +78,7 @@ class Surface:
 
     @property
     def turns_normals(self) -> bool:
-        """True if interpolated shading normals that face away from the ray are turned; see ``turn_to_viewer``."""
+        """True if ``turn_to_viewer`` turns interpolated shading normals."""
         return True
 
     @property
@@ -98,7 +98,7 @@ class Surface:
         found: Intersections = self.camera_accelerator.intersect(
             origin, direction, stats, time, coherent=coherent
         )
-        # If the camera lies exactly on a surface, rays hit it at once. They start again, one offset on.
+        # If the camera lies exactly on a surface, rays hit it at once. They begin again, one offset on.
         stuck = np.flatnonzero((found.t <= 0) & (found.triangle >= 0))
         if len(stuck) == 0:
             return found
@@ -143,23 +143,12 @@ class Surface:
             ray = hit
             triangle, u, v, t = triangle.take(hit), u.take(hit), v.take(hit), t.take(hit)
             direction = direction.take(hit, axis=1)
-        p, ng, ns, offset, side = self._places(triangle, u, v, direction)
-        material = self.triangles.material.take(triangle)
-        near_origin = ng * offset
-        near_origin += p
-        return Hits(
-            ray, triangle, u, v, t, material, direction, p, ng, ns, offset, near_origin, side
-        )
-
-    def _places(
-        self, triangle: Numbers, u: Floats32, v: Floats32, direction: Floats32
-    ) -> tuple[Floats32, Floats32, Floats32, Floats32, Floats32]:
-        """p, ng, ns, offset and side of the hits at time 0; see ``Hits``."""
         triangles = self.triangles
+        material = triangles.material.take(triangle)
         plane = gather(triangles.planes, triangle)
         corner, ng, offset, flat = plane[0:3], plane[3:6], plane[6], plane[7]
 
-        # From barycentrics, not origin + t * direction, whose error would grow with the ray's length.
+        # ---- points, from barycentrics: the error of origin + t * direction would grow with the ray's length
         edges = gather(triangles.edges, triangle)
         p, along_2, widest = edges[0:3], edges[3:6], edges[6]
         p *= u
@@ -168,6 +157,7 @@ class Surface:
         p += corner
         _pull_off_edges(triangles, p, triangle, u, v, widest)
 
+        # ---- normals
         facing = dot(ng, direction)
         side = np.copysign(np.float32(1), -facing)
         ng *= side
@@ -182,7 +172,11 @@ class Surface:
                 if len(some):
                     at = triangle.take(some), u.take(some), v.take(some), side.take(some)
                     ns[:, some] = self._interpolated(*at, direction.take(some, axis=1))
-        return p, ng, ns, offset, side
+        near_origin = ng * offset
+        near_origin += p
+        return Hits(
+            ray, triangle, u, v, t, material, direction, p, ng, ns, offset, near_origin, side
+        )
 
     def _interpolated(
         self, triangle: Numbers, u: Floats32, v: Floats32, side: Floats32, direction: Floats32
@@ -195,17 +189,15 @@ class Surface:
         rows[6:9] *= v
         normal += rows[6:9]
         normal += rows[0:3]
-        squared = dot(normal, normal)
-        # Opposite corner normals may cancel. The clamp avoids a division by 0.
-        np.maximum(squared, np.float32(1e-20), out=squared)
-        normal *= 1 / np.sqrt(squared)
+        # Opposite corner normals may cancel; then the length is clamped.
+        normalise(normal)
         normal *= side
         if self.turns_normals:
             turn_to_viewer(normal, direction)
         return normal
 
     def excluded_objects(self, hits: Hits, which: Indices, direction: Floats32) -> Any:
-        """Objects that rays (3, m) from hits ``which`` (m,) can't hit again; None if nobody asks."""
+        """Objects that rays (3, m) from hits ``which`` (m,) can't hit; None if the accelerator doesn't use them."""
         return None
 
 
@@ -230,7 +222,7 @@ def _pull_off_edges(
     w -= v
     smallest = np.minimum(u, v)
     np.minimum(smallest, w, out=smallest)
-    # The triangle's largest inset rules out most points; only the others look up all three.
+    # Most points are farther inside than the triangle's largest inset; only the others look up all three.
     near = np.flatnonzero(smallest < widest)
     inset = gather(triangles.inset, triangle.take(near))
     close = (w.take(near) < inset[0]) | (u.take(near) < inset[1]) | (v.take(near) < inset[2])
@@ -243,7 +235,8 @@ def _pull_off_edges(
     twice_area = dot(cross(e1, e2), ng)
     moved = p[:, near].astype(np.float64)
     for edge, barycentric, least in zip((e2 - e1, -e2, e1), (w, u, v), inset, strict=True):
-        # Height = twice the area / |edge|; the other |edge| normalises the inward normal.
+        # The distance is lacking * height, and height = twice the area / |edge|. The vector cross(ng, edge) points
+        # inwards and has the length |edge|.
         lacking = np.maximum(least - barycentric.take(near), 0)
         moved += cross(ng, edge) * (lacking * twice_area / dot(edge, edge))
     p[:, near] = moved
@@ -257,7 +250,5 @@ def turn_to_viewer(ns: Floats32, direction: Floats32) -> None:
         d = direction.take(wrong, axis=1)
         turned = ns.take(wrong, axis=1)
         turned -= away.take(wrong) * d
-        squared = dot(turned, turned)
-        np.maximum(squared, np.float32(1e-20), out=squared)
-        turned *= 1 / np.sqrt(squared)
+        normalise(turned)
         ns[:, wrong] = turned

@@ -1,7 +1,7 @@
 """Distribution ray tracing: follow a batch of camera rays from depth to depth and add up their radiance.
 
 Whitted's ray tree (1980) with Cook's random sampling of lens, time, gloss and lights (1984). Each hit casts at most
-one shadow ray per light, one reflected ray and one refracted ray. A stage that the scene doesn't need is None.
+one shadow ray per light, one reflected ray and one refracted ray.
 """
 
 from __future__ import annotations
@@ -27,8 +27,7 @@ LARGEST_BATCH = 4 * RAYS
 
 
 Absorption = Callable[[Rays, Hits, Floats32 | None, Media | None, bool], Floats32 | None]
-"""Returns the throughput of rays at their hits, from the rays, their hits, the throughput and the medium of the rays
-that hit, and true for camera rays; see ``course.extras.absorption``."""
+"""Returns the throughput at the hits from rays, hits, throughput and medium of the hits, and true for camera rays."""
 
 
 class CancelledError(Exception):
@@ -37,19 +36,19 @@ class CancelledError(Exception):
 
 @dataclass(frozen=True)
 class Integrator:
-    """Follows rays. All threads share it, and none writes to it.
+    """Follows rays. All threads share it, and none writes to it. A stage that the scene doesn't need is None.
 
     Attributes
     ----------
-    environment : radiance of the rays that hit nothing; None for none
+    environment : radiance of the rays that hit nothing
     environment_depth : largest depth at which such rays add radiance, -1 for none
-    direct : direct light; None if there is none
-    ambient : (3, M) reflected ambient radiance; None if all 0
-    dark_inside : (M,) bool, dielectrics: only their fronts reflect ambient or diffuse light; None if none reflects any
-    glow : (3, M) emission of surfaces that are no lights, from both sides; None if all 0
-    emission : (3, M) emission of the surfaces of lights, from their fronts; None if all 0
-    absorption : along rays in dielectrics; None if nothing absorbs
-    scatter : reflects and refracts rays; None if no material does
+    direct : direct light
+    ambient : (3, M) reflected ambient radiance
+    dark_inside : (M,) bool, the dielectrics, whose insides reflect neither ambient nor diffuse light
+    glow : (3, M) radiance emitted from both sides by surfaces that are no lights
+    emission : (3, M) radiance emitted from the fronts of the surfaces of lights
+    absorption : along rays in dielectrics (``course.extras.absorption``)
+    scatter : reflects and refracts rays
     max_depth : largest number of bounces in this scene
     coherent_depth : largest depth at which neighbouring rays have similar directions, -1 for none
     """
@@ -70,7 +69,7 @@ class Integrator:
     coherent_depth: int
 
     def camera_rays(self, x: Floats32, y: Floats32, draws: Draws) -> Rays:
-        """Rays through picture points (N,) [pixels], with random lens points and times if the scene needs them."""
+        """Rays through picture points (N,) [pixels], with random points on the lens and random times."""
         u = draws("lens") if self.camera.lens is not None else None
         time = moved = None
         if self.motion is not None:
@@ -82,7 +81,7 @@ class Integrator:
         return Rays(origin, direction, None, None, time=time)
 
     def radiance(self, camera_rays: Rays, draws: Draws) -> Floats32:
-        """Radiance (3, paths) along the camera rays, gathered from all rays that follow from them.
+        """Radiance (3, paths) along the camera rays, the sum over all rays of their trees.
 
         Raises
         ------
@@ -106,13 +105,13 @@ class Integrator:
         return path_radiance
 
     def _follow(self, rays: Rays, depth: int, path_radiance: Floats32, draws: Draws) -> Rays | None:
-        """Follow rays by one depth: add up radiance, return the rays of the next depth."""
+        """Follow rays for one depth: add up radiance, return the rays of the next depth."""
         counters = draws.counters
         # ---- intersection, environment, absorption
         hits, throughput, path, medium = self._intersect(rays, True, depth, path_radiance, draws)
         if hits.size == 0:
             return None
-        # ---- radiance from the hits towards the viewer
+        # ---- direct light, ambient light, emission
         radiance = self._shade(hits, path, depth, draws)
         if radiance is not None:
             self.add_radiance(path_radiance, path, radiance, throughput)
@@ -134,21 +133,21 @@ class Integrator:
     ) -> tuple[Hits, Floats32 | None, Indices | None, Media | None]:
         """Hits of the rays, with throughput, path and medium of the rays that hit.
 
-        Rays that hit nothing add the environment's radiance, if ``adds_lights`` is true of the ray, or of all.
+        Rays that hit nothing add the environment's radiance. ``adds_lights``, (N,) or one bool, excepts those where it
+        is false.
         """
-        counters, of_camera = draws.counters, depth == 0
+        counters, surface, of_camera = draws.counters, self.surface, depth == 0
         arrays = rays.origin, rays.direction, counters.embree, rays.time
-        coherent = depth <= self.coherent_depth
+        coherent, excluded = depth <= self.coherent_depth, rays.excluded
         if of_camera:
-            found = self.surface.intersect_camera(*arrays, coherent)
+            found = surface.intersect_camera(*arrays, coherent)
         else:
-            accelerator = self.surface.accelerator
-            found = accelerator.intersect(*arrays, coherent=coherent, excluded=rays.excluded)
+            found = surface.accelerator.intersect(*arrays, coherent=coherent, excluded=excluded)
         counters.lap("trace")
         if depth <= self.environment_depth and adds_lights is not False:
             self._add_environment(path_radiance, rays, (found.triangle < 0) & adds_lights)
-        hits = self.surface.hits(found, rays.direction, rays.time, of_camera)
-        throughput, path, medium = _of_hits(rays, hits)
+        hits = surface.hits(found, rays.direction, rays.time, of_camera)
+        throughput, path, medium = _carried(rays, hits)
         if draws.costs is not None:
             draws.costs.add("hit", path)
         if self.absorption is not None:
@@ -157,7 +156,7 @@ class Integrator:
         return hits, throughput, path, medium
 
     def _shade(self, hits: Hits, path: Indices | None, depth: int, draws: Draws) -> Floats32 | None:
-        """Radiance (3, n) from the hits towards the viewer, without further bounces."""
+        """Radiance (3, n) from the hits towards the viewer, without that of scattered rays."""
         radiance = None
         if self.direct is not None:
             radiance = self.direct(hits, path, depth, draws)
@@ -181,7 +180,7 @@ class Integrator:
         return reflected
 
     def insides(self, hits: Hits) -> Indices:
-        """Indices of the hits on the inside of a dielectric in ``dark_inside``."""
+        """Indices of the hits on the insides of the dielectrics in ``dark_inside``."""
         if self.dark_inside is None:
             return np.empty(0, np.intp)
         return np.flatnonzero(~hits.entering & self.dark_inside.take(hits.material))
@@ -191,10 +190,9 @@ class Integrator:
         if len(which) == 0 or self.environment is None:
             return
         radiance = self.environment.radiance(rays.direction.take(which, axis=1))
-        radiance = repeated(radiance, len(which))
         throughput = None if rays.throughput is None else rays.throughput.take(which, axis=1)
         path = which if rays.path is None else rays.path.take(which)
-        self.add_radiance(path_radiance, path, radiance, throughput)
+        self.add_radiance(path_radiance, path, repeated(radiance, len(which)), throughput)
 
     def add_radiance(
         self,
@@ -210,11 +208,12 @@ class Integrator:
             path_radiance += radiance
             return
         for channel, values in zip(path_radiance, radiance, strict=True):
-            # Adds in the order of the rays, so that no sum depends on the rest of the batch.
+            # `add.at` adds in the order of the rays: a sum depends on the rays of its path only.
             np.add.at(channel, path, values)
 
 
-def _of_hits(rays: Rays, hits: Hits) -> tuple[Floats32 | None, Indices | None, Media | None]:
+def _carried(rays: Rays, hits: Hits) -> tuple[Floats32 | None, Indices | None, Media | None]:
+    """Throughput, path and medium of the rays that hit."""
     throughput, path, medium = rays.throughput, rays.path, rays.medium
     if hits.ray is None:
         return throughput, path, medium
@@ -226,7 +225,7 @@ def _of_hits(rays: Rays, hits: Hits) -> tuple[Floats32 | None, Indices | None, M
 
 
 def _sum(radiance: Floats32 | None, term: Floats32) -> Floats32:
-    """Add a term, (3, n) or (3, 1). Radiance (3, 1) is not changed in place, for it may belong to a table."""
+    """Radiance plus a term, (3, n) or (3, 1) each. An array (3, 1) isn't overwritten: it may be a row of a table."""
     if radiance is None:
         return term
     return np.add(radiance, term, out=radiance if radiance.shape[1] > 1 else None)

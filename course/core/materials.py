@@ -4,8 +4,8 @@ The BRDF is Blinn-Phong over pi, so that ``color`` is the diffuse reflectance. W
 
     L = color (ambient La + diffuse E / pi) + specular (n . h)^exponent E / pi
 
-A dielectric transmits what it doesn't reflect. It has ambient and diffuse terms only if the scene gives it some, and
-its inside has none of the terms.
+A dielectric transmits what it doesn't reflect. A scene may give it ambient, diffuse and specular terms, too. They hold
+for its outside: the inside reflects by Fresnel's equations only.
 """
 
 from __future__ import annotations
@@ -29,8 +29,8 @@ class MaterialTable:
     exponent : (M,) float32
     refraction_index : (M,) float32, relative to the medium outside; 0 for opaque materials
     absorption : (3, M) float32 [1 / unit of the compiled scene]
-    emission : (3, M) float32 [W/(m^2 sr)], of lights' surfaces and of all others that emit
-    lamps : (M,) bool, surfaces of lights: they emit from their fronts only, and shadow rays aim at them; None for none
+    emission : (3, M) float32 [W/(m^2 sr)]
+    lamps : (M,) bool, surfaces of lights, which emit from their fronts only; None if no light has a surface
     outside : (M,) material around each dielectric, -1 for vacuum; None if vacuum is around all
     """
 
@@ -52,20 +52,20 @@ class MaterialTable:
 
     @cached_property
     def shaded_sides(self) -> Mask:
-        """(1 or 2, M) ``shaded`` for both sides, or for front and back if they differ: the inside of glass is dark."""
+        """(2, M) ``shaded`` of fronts and backs, which differ for dielectrics; (1, M) if they are the same."""
         back = self.shaded & ~self.refracts
         sides = [self.shaded] if (back == self.shaded).all() else [self.shaded, back]
         return np.stack(sides)
 
     @cached_property
-    def shining(self) -> Floats32:
+    def light_emission(self) -> Floats32:
         """(3, M) emission of the surfaces of lights, 0 elsewhere."""
         return np.zeros_like(self.emission) if self.lamps is None else self.emission * self.lamps
 
     @cached_property
-    def glowing(self) -> Floats32:
+    def other_emission(self) -> Floats32:
         """(3, M) emission of all other surfaces, from both sides."""
-        return self.emission - self.shining
+        return self.emission - self.light_emission
 
     @cached_property
     def diffuses(self) -> Mask:
@@ -79,14 +79,14 @@ class MaterialTable:
 
 
 class Lookup:
-    """Gathers a property, (3, M) or (M,) float32, for hits; one column if it is the same for all materials."""
+    """A property of all materials, (3, M) or (M,) float32, that is gathered for hits."""
 
     def __init__(self, rows: Floats32) -> None:
         self.rows = np.ascontiguousarray(rows)
         self._same = bool((rows == rows[..., :1]).all())
 
     def __call__(self, material: Materials) -> Floats32:
-        """(3, n) or (3, 1) from rows (3, M), (n,) or (1,) from rows (M,)."""
+        """(3, n) from rows (3, M), (n,) from rows (M,); one column if all materials are the same."""
         if self._same:
             return self.rows[..., :1]
         return self.rows.take(material, axis=-1)
@@ -95,7 +95,7 @@ class Lookup:
 def blinn_phong_highlight(
     to_light: Floats32, direction: Floats32, normal: Floats32, exponent: Floats32
 ) -> Floats32:
-    """(n . h)^exponent, (k,), with the half vector h between the directions to the light and to the viewer.
+    """(n . h)^exponent, (k,), with h the half vector of the directions to the light and to the viewer.
 
     Parameters
     ----------
@@ -111,8 +111,8 @@ def blinn_phong_highlight(
     squared = dot(half, half)
     cosine = dot(half, normal)
     cosine /= np.sqrt(np.maximum(squared, np.float32(1e-12)))
-    # NumPy's exp and log are ten times faster than `power`. Below the clamp the power is
-    # negligible for exponents from 1 up; exponent 0 gives 1 for every cosine.
+    # NumPy's exp and log are ten times faster than `power`. The clamp makes no visible difference: for exponents
+    # from 1 up the power is negligible there, and for exponent 0 it is 1 everywhere.
     np.clip(cosine, np.float32(1e-6), 1, out=cosine)
     np.log(cosine, out=cosine)
     cosine *= exponent

@@ -1,8 +1,8 @@
 """Moving triangles: each velocity has its own Embree scene, and ray origins are shifted into its frame.
 
 embreex has no motion blur. Instead of moving an object by d, the ray's origin is moved by -d: the ray hits the same
-point of the object. A translation keeps directions (the `motion_blur` module). Static triangles have the first numbers;
-those of each mover follow.
+point of the object. A translation keeps directions (the `motion_blur` module). Static triangles are numbered first,
+then those of each mover.
 """
 
 from __future__ import annotations
@@ -105,7 +105,6 @@ class MovingAccelerator:
             free &= active
         origin = repeated(origin, direction.shape[1])
         for mover in self.movers:
-            # Only rays that are still unblocked need this test; see MOSTLY_UNBLOCKED.
             unblocked = np.flatnonzero(free)
             if len(unblocked) == 0:
                 break

@@ -13,7 +13,12 @@ from course.core.samplers import Block, Sampler
 from course.core.types import Floats32, Indices, Media
 
 RAYS = 65536
-"""Most camera rays in a batch."""
+"""Most camera rays in a batch.
+
+A batch shares the cost of Python among its rays: the longer NumPy and Embree run per call, the less threads wait for
+each other. The time of a render relative to that inside Embree, on two cores with 1 MB of second-level cache each, was
+1.85 with 32 thousand rays, 1.53 to 1.64 with 64 thousand, and 1.59 with 128 thousand (medians of five).
+"""
 
 OPEN = np.int16(-1)
 """Medium of rays outside all dielectrics."""
@@ -29,10 +34,10 @@ class Rays:
     direction : (3, n) float32, unit length
     throughput : (3, n) float32, share of a ray's radiance that reaches the picture; None for 1
     path : (n,) number of the path in the block; None for one ray per path, in order
-    medium : (n,) int16, material that the ray is in, or OPEN; None if nothing absorbs, and for camera rays
-    time : (n,) float32 since the shutter opened, in exposures; None if nothing moves
-    excluded : ``Surface.excluded_objects``, for the accelerator
-    start : (3, n) float32, hit point that the ray leaves, next to its origin; None if ``medium`` is
+    medium : (n,) int16, material that the ray travels in, or OPEN; None if nothing absorbs, and for camera rays
+    time : (n,) float32, share of the exposure since the shutter opened; None if nothing moves
+    excluded : objects that the rays can't hit, see ``Surface.excluded_objects``
+    start : (3, n) float32, the hit points that the rays leave, without the offset of ``origin``; None if no medium is
     """
 
     origin: Floats32
@@ -50,13 +55,13 @@ class Rays:
         return int(self.direction.shape[1])
 
     def halves(self) -> tuple[Rays, Rays]:
-        """The second half and the first half as batches."""
+        """Two batches, the second half of the rays first."""
         middle = self.size // 2
         rays = self if self.path is not None else replace(self, path=np.arange(self.size))
         return rays.part(slice(middle, None)), rays.part(slice(middle))
 
     def part(self, columns: slice) -> Rays:
-        """Some of the rays. If ``path`` is None it stays None: one ray per path of the part."""
+        """The rays in some columns. If ``path`` is None, the part has one ray for each of its own paths."""
         arrays = {field.name: getattr(self, field.name) for field in fields(self)}
         # A shared origin has one column.
         kept = {
@@ -67,7 +72,7 @@ class Rays:
 
 
 def join_rays(batches: Sequence[Rays]) -> Rays:
-    """Join batches: one costs less than several small ones. An attribute must be None in all batches or in none."""
+    """One batch, which costs less than several small ones. An attribute must be None in all batches or in none."""
 
     def columns(name: str) -> Any:
         arrays = [getattr(rays, name) for rays in batches]
@@ -77,10 +82,10 @@ def join_rays(batches: Sequence[Rays]) -> Rays:
 
 
 class Dimensions:
-    """Assigns dimensions of the sampler to names, such as "lens" or a light's; ``width`` says how many each has.
+    """Assigns dimensions of the sampler to names, such as "lens" or the name of a light.
 
-    A name of width 0 has no dimensions. Others have whole pairs (0, 1), (2, 3), ..., in which the sampler is best.
-    A path draws numbers for ``of_path`` once, and for ``of_bounce`` at each depth. Both hold pairs (name, width).
+    Samplers stratify pairs of dimensions (0, 1), (2, 3), ..., so every name begins a new pair. A path draws ``of_path``
+    once and ``of_bounce`` at each depth; both have pairs (name, number of dimensions), and the number may be 0.
     """
 
     def __init__(
@@ -88,17 +93,16 @@ class Dimensions:
     ) -> None:
         self.width: dict[str, int] = {}
         self._first: dict[str, int] = {}
-        self._next = 0
-        self._take(of_path)
-        begin = self._next
-        self._take(of_bounce)
-        self._stride = self._next - begin
+        begin = self._assign(of_path, 0)
+        self._stride = self._assign(of_bounce, begin) - begin
 
-    def _take(self, wanted: Iterable[tuple[str, int]]) -> None:
+    def _assign(self, wanted: Iterable[tuple[str, int]], dimension: int) -> int:
+        """Assign dimensions from the given one on; returns the next one."""
         for name, width in wanted:
             if width:
-                self.width[name], self._first[name] = width, self._next
-                self._next += width + width % 2
+                self.width[name], self._first[name] = width, dimension
+                dimension += width + width % 2
+        return dimension
 
     def first(self, name: str, depth: int) -> int:
         """First dimension of a name at a depth."""
@@ -106,16 +110,16 @@ class Dimensions:
 
 
 class PathCosts(Protocol):
-    """What the paths of a block cost, for adaptive sampling."""
+    """The cost of each path of a block, for adaptive sampling."""
 
     def add(self, kind: str, path: Indices | None, cost: float | None = None) -> None:
-        """Add the cost of rays of a kind, or of a "hit", to paths (n,) (None: all); ``cost`` None: that of the kind."""
+        """Add ``cost`` (None: that of the kind) to paths (n,) (None: all) for a "hit" or a ray of a kind."""
 
     def part(self, paths: slice) -> PathCosts:
         """The costs of some of the paths."""
 
-    def below(self, mean: Floats32, parts: int) -> Floats32:
-        """Colours (3, n * parts) of n pixels, with a fourth row: the mean cost of each pixel's paths."""
+    def with_row(self, mean: Floats32, parts: int) -> Floats32:
+        """(4, n * parts) from colours (3, n * parts) of n pixels: the last row is the mean cost of a pixel's paths."""
 
 
 @dataclass(frozen=True)
@@ -124,8 +128,8 @@ class Draws:
 
     Attributes
     ----------
-    cancelled : whether the render has been cancelled
-    costs : of the paths; None if nobody asks
+    cancelled : returns true if the render has been cancelled
+    costs : of the paths; None without adaptive sampling
     """
 
     sampler: Sampler
@@ -147,11 +151,10 @@ class Draws:
 
         Parameters
         ----------
-        name : one in ``dimensions``
-        path : (n,) the paths; None for all of the block, in order
+        path : (n,); None for all paths of the block, in order
         depth : number of bounces so far
-        width : None for the name's width
-        skip : number of the name's first dimensions to skip
+        width : number of dimensions; None for all of the name
+        skip : number of dimensions of the name before the first that is drawn
         """
         width = self.dimensions.width[name] if width is None else width
         dimension = self.dimensions.first(name, depth) + skip
@@ -159,7 +162,7 @@ class Draws:
             u = self.sampler.draw(self.block, dimension, width)
         else:
             u = self.sampler.draw_some(self.block, dimension, width, path)
-        self.counters.drew(name, u.size)
+        self.counters.numbers[name] += u.size
         return u
 
     def cast(
@@ -170,15 +173,15 @@ class Draws:
         which: Indices | None = None,
         cost: float | None = None,
     ) -> None:
-        """Count n rays that are cast.
+        """Count n rays of a kind.
 
         Parameters
         ----------
         path : of each hit; None for one hit per path, in order
-        which : (n,) the hits that cast a ray; None for all
+        which : (n,) the hits that cast the rays; None for all
         cost : of each ray; None for that of its kind
         """
-        self.counters.rays[kind] = self.counters.rays.get(kind, 0) + n
+        self.counters.rays[kind] += n
         if self.costs is not None:
             if which is not None:
                 path = which if path is None else path.take(which)

@@ -1,4 +1,4 @@
-"""Render: a schedule chooses the work, an executor does it, a film accumulates it."""
+"""Render a picture: a schedule chooses the work, an executor does it, and a film accumulates it."""
 
 from __future__ import annotations
 
@@ -13,22 +13,14 @@ from course.core.tiles import Work, passes
 from course.core.tracer import Tracer
 
 Progress = Callable[[float, bool], None]
-"""Called with the share done, and true once the whole picture has been covered."""
-
-
-class Run(Protocol):
-    """Does the work of one round; returns true if all of it was done."""
-
-    def __call__(self, work: Iterable[Work], done: float = 0.0, after: float = 1.0) -> bool:
-        """``done``, ``after``: approximate share of the whole render before and after this round."""
-
+"""Called with the share of the render that is done, and true once every pixel has a sample."""
 
 Tick = Callable[[int, int], None]
 """Called with the number of pieces of work done, and the number of those in the first pass."""
 
 
 class Executor(ABC):
-    """Renders work with ``Tracer.render_tile`` and adds it to a film, in any number of threads or processes.
+    """Renders work with ``Tracer.render_tile``, in any number of threads or processes, and adds it to a film.
 
     Attributes
     ----------
@@ -60,7 +52,14 @@ class Executor(ABC):
 
     @abstractmethod
     def run(self, work: Iterable[Work], film: AnyFilm, tick: Tick) -> bool:
-        """Do the work and add it to the film, the passes of a tile in order; returns true if all of it was done."""
+        """Do the work, and add the passes of each tile in order; returns true if all of it was done."""
+
+
+class Run(Protocol):
+    """Does the work of one round; returns true if all of it was done."""
+
+    def __call__(self, work: Iterable[Work], done: float = 0.0, after: float = 1.0) -> bool:
+        """``done``, ``after``: approximate share of the whole render before and after this round."""
 
 
 class Schedule(ABC):
@@ -83,7 +82,7 @@ def render(
 
     def run(work: Iterable[Work], done: float = 0.0, after: float = 1.0) -> bool:
         nonlocal covered
-        # Work of unknown length lasts until the deadline; then only the clock gives the share.
+        # The length of an iterator is unknown. It lasts until the deadline, so the share is that of the time limit.
         pieces = first_pass = inf
         if isinstance(work, Sequence):
             pieces, first_pass = max(len(work), 1), sum(item.order == 0 for item in work)
@@ -114,4 +113,4 @@ class UniformSchedule(Schedule):
     def _passes(self, executor: Executor) -> Iterator[Work]:
         tracer = self._tracer
         batches = executor.batches(tracer.batches)
-        return passes(tracer.settings, tracer.sampler, self._done, batches, executor.threads)
+        return passes(tracer.settings, tracer.sampler, self._done, batches)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+from typing import Any
 
 import numpy as np
 
@@ -22,9 +23,8 @@ class Boundary:
     Attributes
     ----------
     reflected, refracted : (n,) Fresnel reflectance and transmittance, 0 for opaque materials
-    cos_i, cos_t : (n,) cosines of incidence and refraction
-    eta : (n,) n_from / n_to
-    rough_direction : (3, n) directions refracted by rough glass, undefined at other hits; None for no rough glass
+    cos_i, cos_t, eta : (n,), see ``course.core.fresnel``
+    rough_direction : (3, n) directions refracted by rough glass, undefined at other hits; None without rough glass
     """
 
     reflected: Floats32
@@ -36,14 +36,9 @@ class Boundary:
 
     def of(self, which: Indices) -> Boundary:
         """The boundary at some of the hits."""
-        return Boundary(
-            self.reflected.take(which),
-            self.refracted.take(which),
-            self.cos_i.take(which),
-            self.cos_t.take(which),
-            self.eta.take(which),
-            None if self.rough_direction is None else self.rough_direction.take(which, axis=1),
-        )
+        arrays = (getattr(self, field.name) for field in fields(self))
+        some: list[Any] = [None if a is None else a.take(which, axis=-1) for a in arrays]
+        return Boundary(*some)
 
 
 @dataclass(frozen=True)
@@ -52,11 +47,11 @@ class Scatter:
 
     Attributes
     ----------
-    mirror : (3, M) mirror reflectance; a dielectric's Fresnel reflectance is added to it
+    mirror : (3, M) mirror reflectance, to which a dielectric's Fresnel reflectance is added
     index : (M,) refraction index, 0 for opaque materials; None if all are opaque
     gloss : jitters mirrored directions; None if nothing is glossy
-    absorbs : whether rays carry their medium
-    outside : (M,) material around each dielectric, -1 for vacuum; None if vacuum is around all
+    absorbs : true if rays carry their medium
+    outside : ``MaterialTable.outside``
     cutoff : rays are dropped unless their largest throughput channel is above this
     """
 
@@ -108,7 +103,7 @@ class Scatter:
         return join_rays([reflected, refracted])
 
     def reflectance(self, hits: Hits, which: Indices | None) -> Floats32:
-        """Mirror reflectance (3, m) or (3, 1) at the given hits (None: all); ``boundary`` has Fresnel's."""
+        """Mirror reflectance (3, m) or (3, 1) at the given hits (None: all), without Fresnel reflectance."""
         return self.mirror(hits.material if which is None else hits.material.take(which))
 
     def boundary(self, hits: Hits, which: Indices | None, depth: int) -> Boundary:
@@ -120,7 +115,6 @@ class Scatter:
             direction, ns = direction.take(which, axis=1), ns.take(which, axis=1)
         index = self.index(material)
         glass = index > 0
-        # The index is relative to the medium outside, whose index counts as 1.
         safe = np.where(glass, index, np.float32(1))
         eta = np.where(entering, 1 / safe, safe)
         cos_i = np.clip(-dot(direction, ns), 0, 1)
@@ -130,7 +124,7 @@ class Scatter:
     def mirrored(
         self, hits: Hits, which: Indices, path: Indices, depth: int, draws: Draws
     ) -> Floats32:
-        """Reflected directions (3, m) at the given hits (path: (m,)), never into the surface."""
+        """Reflected directions (3, m) at the given hits, above the surface; path: (m,)."""
         ng = hits.ng.take(which, axis=1)
         mirrored = self._mirror_images(hits, which, ng)
         if self.gloss is None:
@@ -155,7 +149,7 @@ class Scatter:
         refracted = refract(direction, ns, boundary.cos_i, boundary.cos_t, boundary.eta)
         return kept_above(refracted, -hits.ng.take(which, axis=1))
 
-    def beyond(self, hits: Hits, which: Indices) -> Media:
+    def medium_behind(self, hits: Hits, which: Indices) -> Media:
         """Medium (m,) of rays refracted at the given hits."""
         material = hits.material.take(which).astype(np.int16)
         outside = OPEN if self.outside is None else self.outside.take(material)
@@ -164,11 +158,10 @@ class Scatter:
     def origins(
         self, hits: Hits, which: Indices, near: int, after: Floats32
     ) -> tuple[Floats32, Floats32]:
-        """Origins and throughput, (3, m) each, of rays that leave the given hits.
+        """Origins and throughput, (3, m) each, of rays that leave hits ``which`` (m,).
 
         Parameters
         ----------
-        which : (m,) the hits
         near : the first ``near`` rays leave on the incoming side, the others on the far side
         after : (3, n) throughput after the bounce, at all hits
         """
@@ -201,7 +194,7 @@ class Scatter:
         draws.cast("reflection" if boundary is None else "refraction", len(which), path)
         start = None
         if medium is not None:
-            medium = medium.take(which) if boundary is None else self.beyond(hits, which)
+            medium = medium.take(which) if boundary is None else self.medium_behind(hits, which)
             start = hits.p.take(which, axis=1)
         time = None if hits.time is None else hits.time.take(which)
         excluded = self.surface.excluded_objects(hits, which, direction)
@@ -209,7 +202,7 @@ class Scatter:
 
 
 def kept_above(direction: Floats32, ng: Floats32) -> Floats32:
-    """Directions, reflected at the surface where an interpolated normal has sent them below it."""
+    """Directions (3, n) above surfaces with normals ng: those below, by an interpolated normal, are mirrored up."""
     below = np.minimum(dot(direction, ng), 0)
     if not below.any():
         return direction

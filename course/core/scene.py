@@ -31,7 +31,7 @@ class World:
     Attributes
     ----------
     surface : all triangles
-    lights : without those that light nothing
+    lights : those that illuminate anything
     ambient : (3,) float32, sum of the ambient lights
     environment : radiance of the rays that hit nothing
     lobes : of the glossy materials
@@ -75,10 +75,11 @@ def plan_dimensions(
     before_lights: Sequence[tuple[str, int]] = (),
     after_lights: Sequence[tuple[str, int]] = (),
 ) -> Dimensions:
-    """Dimensions of the sampler for all that is drawn.
+    """Dimensions of the sampler for all random numbers.
 
-    Without lens and time, gloss gets the second pair, which forms a net with the pixel's. Lights come later: mirror
-    images are sharper than soft shadows, so worth more. before_lights, after_lights: other numbers that a bounce draws.
+    The second pair is stratified together with the pixel's (``course.extras.samplers.sobol``). Without lens and motion
+    it goes to gloss, before the lights: mirror images are sharper than soft shadows, so noise is seen more in them.
+    before_lights, after_lights: names and widths of further numbers that a bounce draws.
     """
     of_path = [PIXEL, ("lens", 2 if camera.lens else 0), ("time", 1 if world.motion else 0)]
     gloss = ("gloss", max((lobe.width for lobe in world.lobes), default=0))
@@ -87,14 +88,14 @@ def plan_dimensions(
 
 
 def plan_direct_light(world: World) -> DirectLight | None:
-    """Direct light; None if there are no lights, or no material reflects them."""
+    """Direct light; None without lights, or if no material reflects any."""
     if not world.lights or not world.materials.shaded.any():
         return None
     return direct_light(world.surface, world.lights, world.motion, world.materials)
 
 
 def plan_scatter(world: World, max_depth: int, cutoff: float) -> Scatter | None:
-    """Reflection and refraction; None if no material does either, or ``max_depth`` is 0."""
+    """Reflection and refraction; None if no material does either, or if ``max_depth`` is 0."""
     materials = world.materials
     refracts = bool(materials.refracts.any())
     if max_depth == 0 or not (refracts or bool((materials.mirror.max(0) > cutoff).any())):
@@ -111,13 +112,9 @@ def plan_scatter(world: World, max_depth: int, cutoff: float) -> Scatter | None:
 
 
 def plan_integrator(
-    world: World,
-    camera: Camera,
-    depth: int,
-    direct: DirectLight | None,
-    scatter: Scatter | None,
+    world: World, camera: Camera, depth: int, direct: DirectLight | None, scatter: Scatter | None
 ) -> Integrator:
-    """The integrator, for at most ``depth`` bounces, without the stages that the scene doesn't need."""
+    """The integrator for at most ``depth`` bounces; stages that the scene doesn't need are None."""
     materials = world.materials
     ambient = materials.ambient * world.ambient[:, None]
     shows = materials.diffuses | ambient.any(0)
@@ -131,8 +128,8 @@ def plan_integrator(
         direct=direct,
         ambient=_unless_nothing(ambient),
         dark_inside=materials.refracts if (materials.refracts & shows).any() else None,
-        glow=_unless_nothing(materials.glowing),
-        emission=_unless_nothing(materials.shining),
+        glow=_unless_nothing(materials.other_emission),
+        emission=_unless_nothing(materials.light_emission),
         absorption=None,
         scatter=scatter,
         max_depth=depth,

@@ -1,17 +1,13 @@
 """The work of a render: tiles are rectangles of pixels that are rendered at once, passes are ranges of their samples.
 
-Every pass but the last has PASS samples. So the film's sums grow in the same steps, and memory stays the same, however
-many samples there are in all. A sampler that isn't extensible has one pass.
-
-A batch shares the cost of Python among its rays: the longer NumPy and Embree run per call, the less two threads wait
-for each other. Measured on two cores with 1 MB of second-level cache each, whole render / time inside Embree, medians
-of five: 1.85 with 32 thousand rays, 1.53 to 1.64 with 64 thousand, 1.59 with 128 thousand.
+Every pass but the last has PASS samples. So the film's sums grow in the same steps, and a pass takes the same memory,
+for any number of samples per pixel. A sampler that isn't extensible has one pass.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
@@ -24,20 +20,17 @@ from course.core.types import Floats32, Words
 PASS = 16
 """Samples per pixel in a whole pass of an extensible sampler."""
 
-SHARES = 2
-"""A piece of work is at most 1 / SHARES of a thread's share of the remaining work."""
-
-_PAGE, _APART = 1024, 64
-"""Both in numbers of four bytes. Addresses that differ by _PAGE share a place in the first-level cache. A good row
-length differs from every multiple of _PAGE by at least _APART."""
+PAGE, APART = 1024, 64
+"""Numbers of float32 values. Addresses that differ by a multiple of PAGE share a place in the first-level cache. Rows
+spread over the cache if their length differs from every multiple of PAGE by at least APART."""
 
 
 class Area(Protocol):
-    """Pixels that are rendered at once, under a number that is unique in the picture."""
+    """Pixels that are rendered at once: a tile of the picture, or any other pixels."""
 
     @property
     def number(self) -> int:
-        """Number of the area."""
+        """Unique in the picture."""
 
     @property
     def size(self) -> int:
@@ -91,16 +84,10 @@ class Tile:
 def spread_over_cache(rays: int) -> bool:
     """True if the rows of a (3, rays) array start at different addresses of the cache.
 
-    A loop over hits reads thirty rows in parallel. With 65536 rays, all rows start at the same place in the cache,
-    which holds only eight of them. Finding hits took twice the time, a whole render up to a tenth more.
+    A loop over hits reads thirty rows in parallel. With 65536 rays, all rows start at the same place of the cache,
+    which holds only eight of them there. Finding hits then took twice the time, a whole render up to 10% more.
     """
-    return bool(_APART <= rays % _PAGE <= _PAGE - _APART)
-
-
-def spread_pixels(pixels: int, samples: int, more: bool = False) -> int:
-    """Nearest number of pixels <= ``pixels`` (>= if ``more``) whose rays spread over the cache; else ``pixels``."""
-    numbers = range(pixels, pixels + _PAGE) if more else range(pixels, max(pixels - _PAGE, 0), -1)
-    return next((n for n in numbers if spread_over_cache(n * samples)), pixels)
+    return bool(APART <= rays % PAGE <= PAGE - APART)
 
 
 def tile_picture(width: int, height: int, samples: int, batches: int = 1) -> list[Tile]:
@@ -126,24 +113,9 @@ def _shape(pixels: int, samples: int) -> tuple[int, int]:
     return max(fitting or shapes[:1], key=lambda shape: shape[0] * shape[1])
 
 
-def halves(tile: Tile) -> tuple[Tile, Tile]:
-    """Both halves of a tile of at least two pixels; they keep its number."""
-    if tile.width > tile.height:
-        half = tile.width // 2
-        return (
-            replace(tile, width=half),
-            replace(tile, x=tile.x + half, width=tile.width - half),
-        )
-    half = tile.height // 2
-    return (
-        replace(tile, height=half),
-        replace(tile, y=tile.y + half, height=tile.height - half),
-    )
-
-
 @dataclass(frozen=True)
 class Work:
-    """One tile of one pass, or a piece of that tile.
+    """One pass of a tile, or of a piece of a tile.
 
     Attributes
     ----------
@@ -151,7 +123,7 @@ class Work:
     first, samples : first sample and number of samples of each pixel
     summed : true if the pass enters the film's sums
     parts : number of equal parts of each pixel's samples, each with its own mean
-    pixels : number of pixels in the whole tile; None if this work is the whole tile
+    pixels : number of pixels in the whole tile; None if this work is not a piece of one
     """
 
     tile: Area
@@ -163,56 +135,23 @@ class Work:
     pixels: int | None = None
 
 
-def fair_share(remaining: int, threads: int) -> int:
-    """Largest piece of work that a thread may take, in the unit of ``remaining``: pixels or rays."""
-    return remaining // (SHARES * max(threads, 1))
-
-
 def pass_size(settings: Settings, sampler: Sampler) -> int:
     """Samples per pixel in one pass."""
     return min(settings.samples, PASS) if sampler.extensible else settings.samples
 
 
-def passes(
-    settings: Settings, sampler: Sampler, done: int = 0, batches: int = 1, threads: int = 1
-) -> Iterator[Work]:
+def passes(settings: Settings, sampler: Sampler, done: int = 0, batches: int = 1) -> Iterator[Work]:
     """The work of a render, pass by pass.
-
-    When little work remains, tiles of several batches are split, so that no thread waits long for another.
 
     Parameters
     ----------
     done : samples per pixel that the film already holds, a multiple of PASS
     batches : most batches of rays in a tile
-    threads : number of threads that render
     """
     size = pass_size(settings, sampler)
     tiles = tile_picture(settings.width, settings.height, size, batches)
-    one = max(RAYS // size, 1)
-    starts = range(done, settings.samples, size)
-    remaining = settings.width * settings.height * len(starts)
-    for order, first in enumerate(starts):
+    for order, first in enumerate(range(done, settings.samples, size)):
         samples = min(size, settings.samples - first)
         summed = samples == PASS or not sampler.extensible
         for tile in tiles:
-            waiting: list[Tile] = [tile]
-            while waiting:
-                part = waiting.pop()
-                if batches > 1 and part.size > max(fair_share(remaining, threads), one):
-                    waiting += halves(part)[::-1]
-                    continue
-                remaining -= part.size
-                yield Work(part, order, first, samples, summed, pixels=tile.size)
-
-
-def preview(settings: Settings, samples: int) -> list[Work]:
-    """A quick pass over the whole picture, which later passes replace."""
-    return [
-        Work(tile, 0, 0, samples, False)
-        for tile in tile_picture(settings.width, settings.height, samples)
-    ]
-
-
-def kept_samples(samples: int) -> int:
-    """Samples per pixel that a longer render keeps: those of whole passes."""
-    return samples - samples % PASS
+            yield Work(tile, order, first, samples, summed)

@@ -21,8 +21,8 @@ class Tracer:
 
     Attributes
     ----------
-    batches : a tile has this times RAYS camera rays, or fewer in small pictures
-    costs : makes the costs of a number of paths; None if nobody asks
+    batches : most batches of RAYS camera rays in a tile
+    costs : returns the costs of n new paths, for adaptive sampling; None without it
     """
 
     settings: Settings
@@ -46,8 +46,8 @@ class Tracer:
 
         Parameters
         ----------
-        first, samples : number of each pixel's first sample, and how many samples
-        parts : number of equal parts of the samples, each with its own mean; a pixel's parts are adjacent columns
+        first, samples : number of each pixel's first sample, and number of its samples
+        parts : number of equal parts of the samples, each with its own mean; the parts of a pixel are adjacent columns
 
         Raises
         ------
@@ -69,4 +69,4 @@ class Tracer:
         pieces = (-1, tile.size * parts, samples // parts)
         mean, weight = self.reconstruction.pixels(radiance.reshape(pieces), offsets.reshape(pieces))
         counters.lap("film")
-        return mean if costs is None else costs.below(mean, parts), weight
+        return mean if costs is None else costs.with_row(mean, parts), weight

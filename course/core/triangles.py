@@ -5,8 +5,8 @@ The scene has already been moved and scaled to [-1, 1], in float64.
 Symbols: p0, p1, p2 corners; e1 = p1 - p0, e2 = p2 - p0; ng geometric normal; n0, n1, n2 corner normals;
 u, v barycentrics of p1 and p2, w = 1 - u - v.
 
-In a mesh that has been stretched unevenly, corner normals differ in length. Interpolated first and normalised last,
-they give the normals of the stretched surface: an ellipsoid if it was a sphere. Nothing else uses their lengths.
+Corner normals of a mesh that has been stretched unevenly differ in length. Interpolated first and normalised last, they
+give the normals of the stretched surface: an ellipsoid if it was a sphere.
 
 The bulge. A coarse mesh with smooth normals stands for a round surface above its flat triangles. Near the terminator,
 shadow rays from the flat triangles hit neighbouring facets, and the mesh shows black teeth. So shadow rays start
@@ -38,7 +38,7 @@ class Mesh:
     vertices : (V, 3) float64 [m]
     triangles : (T, 3) integer, counter-clockwise seen from outside: cross(p1 - p0, p2 - p0) points outwards
     normals : (V, 3) float64 shading normals, not 0; None for flat shading. Unit vectors, unless the mesh has been
-        stretched unevenly: longer ones then weigh more (`course.formats.meshes.transforms.apply`)
+        stretched unevenly (`course.formats.meshes.transforms.apply`)
     uv : (V, 2) float64 texture coordinates or None
     """
 
@@ -57,7 +57,7 @@ class Triangles:
     planes : (T, 8) float32, p0, ng (unit), the offset of leaving rays, and 1 if ng is also the shading normal, else 0
     edges : (T, 8) float32, e1, e2, the largest inset, and padding: NumPy gathers rows of 32 bytes in half the time
         of rows of 24 or 36
-    inset : (T, 3) float32, the barycentrics w, u, v below which a point counts as next to an edge
+    inset : (T, 3) float32, least barycentrics w, u, v: points nearer to an edge are moved inwards
     corner_normals : (T, 9) float32, n0, n1 - n0, n2 - n0, where the longest of n0, n1, n2 has length 1; None if no part
         has normals
     bulge : (T, 3) float32, k01 / 2, k02 / 2, k12 / 2; None if no part has normals or shadow rays ignore the bulge

@@ -31,6 +31,13 @@ def reflect(direction: Floats, normal: Floats) -> Floats:
     return direction - twice * normal
 
 
+def normalise(v: Floats32) -> None:
+    """Divide vectors (3, N) by their lengths, in place; lengths are clamped to 1e-10."""
+    squared = dot(v, v)
+    np.maximum(squared, np.float32(1e-20), out=squared)
+    v *= 1 / np.sqrt(squared)
+
+
 def repeated(values: Floats32, n: int) -> Floats32:
     """Values (k, n) as they are, or the one column (k, 1) n times."""
     return values if values.shape[1] == n else np.repeat(values, n, axis=1)

@@ -124,7 +124,7 @@ class PathBounce:
             refracted = self.scatter.refracted(hits, through, within, path[crossing:], depth, draws)
             directions.append(refracted)
             if medium is not None:
-                medium[crossing:] = self.scatter.beyond(hits, through)
+                medium[crossing:] = self.scatter.medium_behind(hits, through)
         direction = np.concatenate(directions, axis=1)
         excluded = self.surface.excluded_objects(hits, which, direction)
         rays = Rays(origin, direction, after, path, medium, time, excluded, start)

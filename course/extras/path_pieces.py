@@ -12,8 +12,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from course.core.rays import RAYS, Draws, Rays, join_rays
-from course.core.tiles import spread_pixels
 from course.core.types import Floats32, Mask
+from course.extras.work import spread_pixels
 
 
 @dataclass(frozen=True)

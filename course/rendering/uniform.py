@@ -8,14 +8,15 @@ from functools import partial
 from course.core.film import Film
 from course.core.render import Executor, Run, UniformSchedule
 from course.core.samplers import Sampler
-from course.core.tiles import kept_samples, pass_size, preview
+from course.core.tiles import PASS, pass_size
 from course.core.tracer import Tracer
 from course.effects import Bound
 from course.errors import CourseError
+from course.extras.work import DividedSchedule, preview
 from course.jobs.job import Job, Mode
 
 
-class TimedSchedule(UniformSchedule):
+class TimedSchedule(DividedSchedule):
     """Uniform passes until the executor's deadline."""
 
     def render(self, run: Run, executor: Executor) -> bool:
@@ -44,7 +45,7 @@ def make(
     return film, schedule(tracer, done)
 
 
-UNIFORM = Mode(partial(make, UniformSchedule))
+UNIFORM = Mode(partial(make, DividedSchedule))
 TIMED = Mode(partial(make, TimedSchedule))
 
 
@@ -62,6 +63,6 @@ def _film(job: Job, sampler: Sampler) -> tuple[Film, int]:
         raise CourseError(
             f"the {settings.sampler} sampler places all its samples at once; start afresh"
         )
-    done = kept_samples(start.settings.samples)
+    done = start.settings.samples - start.settings.samples % PASS  # whole passes
     assert isinstance(start.film, Film)
     return start.film.continued(done), done

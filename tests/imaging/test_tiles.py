@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from course.core.rays import RAYS
-from course.core.tiles import Tile, halves, spread_over_cache, spread_pixels, tile_picture
+from course.core.tiles import Tile, spread_over_cache, tile_picture
+from course.extras.work import halves, spread_pixels
 
 PICTURES = [(1, 1), (7, 5), (64, 64), (640, 480), (33, 200), (1, 1000), (1000, 1)]
 

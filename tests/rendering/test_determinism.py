@@ -11,12 +11,13 @@ import numpy as np
 import pytest
 
 from course import Picture, Scene, render
-from course.core import render as render_of_core
 from course.core.counters import Counters
 from course.core.film import Film
 from course.core.tiles import Tile, Work, passes
 from course.errors import CourseError
+from course.extras import work as extra_work
 from course.extras.samplers import FUNCTIONS
+from course.extras.work import divided_passes
 from course.rendering.binding import bind
 from course.rendering.threads import Pool
 
@@ -64,14 +65,14 @@ class Reordered:
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch, order: Callable[[list[Work]], None]):
         def reordered(*arguments: Any) -> Iterator[Work]:
-            work = list(passes(*arguments))
+            work = list(divided_passes(*arguments))
             before = list(work)
             order(work)
             self.changed = work != before
             return iter(work)
 
         self.changed = False
-        monkeypatch.setattr(render_of_core, "passes", reordered)
+        monkeypatch.setattr(extra_work, "divided_passes", reordered)
 
 
 def shuffled(work: list[Work]) -> None:

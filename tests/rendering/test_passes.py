@@ -10,9 +10,10 @@ import pytest
 from course import load_scene
 from course.core.film import Film
 from course.core.rays import RAYS
-from course.core.tiles import PASS, SHARES, Work, passes
+from course.core.tiles import PASS, Work
 from course.effects import PROJECT
 from course.extras.samplers.sobol import SobolSampler
+from course.extras.work import SHARES, divided_passes
 from course.rendering.threads import InOrder
 from course.scene.scene import Settings
 
@@ -25,7 +26,7 @@ def settings(samples: int = SAMPLES) -> Settings:
 
 
 def work_of(batches: int, threads: int, done: int = 0) -> list[Work]:
-    return list(passes(settings(), SobolSampler(seed=0), done, batches, threads))
+    return list(divided_passes(settings(), SobolSampler(seed=0), done, batches, threads))
 
 
 @pytest.mark.parametrize("threads", [1, 2, 9])

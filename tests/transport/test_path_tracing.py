@@ -17,10 +17,9 @@ import pytest
 from numpy.typing import NDArray
 
 from course import Scene, render, shapes
-from course.core import tiles
 from course.effects import PROJECT
 from course.errors import EffectError, SceneError
-from course.extras import path_pieces, path_tracing, plan
+from course.extras import path_pieces, path_tracing, plan, work
 from course.scene.scene import load_scene
 from tests.transport.over_a_floor import assert_mean
 
@@ -318,7 +317,7 @@ def test_batches_that_are_followed_together_give_the_same_bits(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     scene = load_scene(PROJECT / "scenes" / "path_tracing.yaml")
-    monkeypatch.setattr(tiles, "SHARES", 1)
+    monkeypatch.setattr(work, "SHARES", 1)
 
     def picture(batches: int, **settings: Any) -> bytes:
         monkeypatch.setattr(plan, "PIECES", batches)

@@ -6,13 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from course.core.lights.sample import (
-    TO_A_POINT,
-    TO_A_SURFACE,
-    TO_THE_LIGHT,
-    Sample,
-    Towards,
-)
+from course.core.lights.sample import TO_A_POINT, TO_A_SURFACE, TO_THE_LIGHT, Sample, Towards
 from course.core.types import Floats32
 
 
@@ -22,9 +16,9 @@ class PointLight:
 
     Attributes
     ----------
-    normal : (3,) float32 unit, if the light is a cell of a Lambertian emitter: I falls with its cosine; else None
-    two_sided, visible : of that emitter, see ``RectangleLight``
-    blockable : whether a surface on which the light lies blocks it
+    normal : (3,) float32 unit, if the light is one cell of a ``RectangleLight`` by radiance: I is times its cosine
+    two_sided, visible : of that light
+    blockable : true if a surface on which the light lies blocks it
     """
 
     name: str

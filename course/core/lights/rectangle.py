@@ -19,8 +19,8 @@ class RectangleLight:
     normal : (3,) float32 unit, on the emitting side of a light by radiance; None for a light by intensity
     color : (3,) float32, I / pi, or radiance times area / pi
     soft_shadows : functions of that module
-    two_sided : whether the back emits like the front
-    visible : whether a light by radiance is also a surface
+    two_sided : true if the back emits like the front
+    visible : true if a light by radiance is also a surface
     """
 
     name: str

@@ -1,37 +1,33 @@
-"""One point on a light for each shading point."""
+"""The interface of a light: it samples one point on itself for each shading point."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
 from course.core.types import Floats32
 from course.core.vectors import dot
 
-TO_A_POINT = 1 - 2.0**-20
-"""Length of a shadow ray to a point that belongs to no surface, as a share of the distance."""
-
-TO_A_SURFACE = 1 - 1e-4
-"""... to a point on the triangles of a visible light, which must not block their own light."""
-
-
-TO_THE_LIGHT = 1 + 2.0**-15
-"""... to a point light on a surface that shall block it. The excess is for rounding: at a distance of 1/50 of the
-scene's size and at 60 degrees, the distance to a surface is wrong by about half of the excess."""
+TO_A_POINT, TO_A_SURFACE, TO_THE_LIGHT = 1 - 2.0**-20, 1 - 1e-4, 1 + 2.0**-15
+"""Length of a shadow ray, as a share of the distance to the light. A ray to a point that belongs to no surface has the
+first, a ray to a visible light the second: its triangles must not block their own light. The third is for a point light
+on a surface that shall block it. At a distance of 1/50 of the scene's size and at 60 degrees, rounding changes the
+distance to that surface by about half of the excess."""
 
 
 @dataclass(frozen=True)
 class Sample:
-    """Points on a light, relative to the shading points.
+    """One point on a light for each shading point.
 
     Attributes
     ----------
     to_light : (3, n) or (3, 1) float32, from the shading point to the point on the light, not normalised
     inverse_length : (n,) or (1,) float32, 1 / its length
-    factor : (n,) or (1,) float32, irradiance of an unoccluded surface that faces the light, in units of the light's
-        ``color``; 0 if the light faces away
+    factor : (n,) or (1,) float32, irradiance of an unoccluded surface at right angles to ``to_light``, in units of the
+        light's ``color``; 0 if the light faces away
     """
 
     to_light: Floats32
@@ -40,19 +36,49 @@ class Sample:
 
 
 Towards = Callable[..., Sample]
-"""``towards``, or its compiled form."""
 
 CLOSEST = 1e-7
 """Distances [unit of the compiled scene] are clamped to at least this, so that no light is infinitely bright."""
 
 
+class Light(Protocol):
+    """The interface of a light."""
+
+    @property
+    def name(self) -> str:
+        """For receipts and error messages."""
+
+    @property
+    def color(self) -> Floats32:
+        """(3,) float32, irradiance / pi where ``Sample.factor`` is 1. The 1 / pi is that of the BRDF."""
+
+    @property
+    def width(self) -> int:
+        """Number of random numbers per sample, 0 for lights without extent."""
+
+    @property
+    def velocity(self) -> Floats32 | None:
+        """(3,) float32, displacement while the shutter is open; None at rest."""
+
+    @property
+    def limit(self) -> float:
+        """Length of the shadow rays as a share of the distance to the light."""
+
+    def sample(self, points: Floats32, u: Floats32 | None, towards: Towards) -> Sample:
+        """One point on the light for each shading point.
+
+        Parameters
+        ----------
+        points : (3, n) float32
+        u : (width, n) float32 in [0, 1), None where the width is 0
+        towards : the function of that name, or its compiled form
+        """
+
+
 def towards(
-    on_light: Floats32,
-    points: Floats32,
-    normal: Floats32 | None = None,
-    two_sided: bool = False,
+    on_light: Floats32, points: Floats32, normal: Floats32 | None = None, two_sided: bool = False
 ) -> Sample:
-    """Make the sample for shading points (3, n) from points on a light, (3, n) or (3, 1).
+    """The sample for shading points (3, n), towards points on a light, (3, n) or (3, 1).
 
     normal and two_sided are those of a Lambertian emitter (``RectangleLight``); a light by intensity has no normal.
     """
@@ -74,7 +100,7 @@ def inverse_square(to_light: Floats32) -> tuple[Floats32, Floats32]:
 def _emitted_cosine(
     normal: Floats32, to_light: Floats32, inverse_length: Floats32, two_sided: bool
 ) -> Floats32:
-    """Cosine (n,) between an emitter's normal (3,) and the emitted direction; if negative, its absolute value or 0."""
+    """Cosine (n,) between an emitter's normal (3,) and the emitted direction, 0 or two-sided on the back."""
     cosine = dot(normal[:, None], to_light)
     cosine *= -inverse_length
     if two_sided:

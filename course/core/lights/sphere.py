@@ -7,28 +7,22 @@ from dataclasses import dataclass
 import numpy as np
 
 from course.core.functions import Functions
-from course.core.lights.sample import (
-    TO_A_POINT,
-    TO_A_SURFACE,
-    Sample,
-    Towards,
-    inverse_square,
-)
+from course.core.lights.sample import TO_A_POINT, TO_A_SURFACE, Sample, Towards, inverse_square
 from course.core.types import Floats32
 from course.core.vectors import dot
 
 
 @dataclass(frozen=True)
 class SphereLight:
-    """Sampled uniformly by area or by volume.
+    """A sphere, sampled uniformly by area or by volume.
 
     Attributes
     ----------
     center : (3,) float32
     radius : float > 0; a sphere of radius 0 is built as a point light
-    emitter : whether it is a Lambertian emitter: points lie on its surface and emit outwards only
+    emitter : true if it is a Lambertian emitter, by radiance
     color : (3,) float32, I / pi, or radiance times area / pi
-    samples : where its points lie: on the "sphere", in the "ball", or on a "facing disk" for each shading point
+    samples : the points lie on the "sphere", in the "ball", or on a "facing disk" for each shading point
     soft_shadows : functions of that module
     """
 
@@ -55,7 +49,7 @@ class SphereLight:
         return towards(self._on_light(self.center, points, u), points)
 
     def _on_light(self, center: Floats32, points: Floats32, u: Floats32) -> Floats32:
-        """Points (3, n) of the light, with its centre moved to ``center``."""
+        """Points (3, n) of the light as if its centre were ``center``."""
         on_light: Floats32
         match self.samples:
             case "sphere":
@@ -68,7 +62,7 @@ class SphereLight:
         return on_light
 
     def _sample_emitter(self, points: Floats32, u: Floats32) -> Sample:
-        # Sampled about the origin: normals stay exact if the radius is a few float32 steps of the centre.
+        # Points about the origin give exact normals, even where float32 resolves the centre to a few radii.
         from_center = self._on_light(np.zeros(3, np.float32), points, u)
         to_light = from_center + self.center[:, None]
         to_light -= points

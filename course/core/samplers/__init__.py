@@ -1,7 +1,7 @@
 """Samplers: the numbers in [0, 1) that paths use.
 
-A block holds the same range of samples of several pixels. Path p of a block belongs to pixel p // samples and is its
-sample first + p % samples, so reshaping assigns rays to pixels.
+A block holds the same range of samples of several pixels. Path p of a block belongs to pixel p // samples, and is the
+pixel's sample first + p % samples. So an array (paths,), reshaped to (pixels, samples), has a row per pixel.
 """
 
 from __future__ import annotations
@@ -13,6 +13,9 @@ from typing import TYPE_CHECKING
 
 from course.core.types import Floats32, Indices, Words
 
+if TYPE_CHECKING:
+    from numpy.random import Generator
+
 
 @dataclass(frozen=True)
 class Block:
@@ -23,7 +26,7 @@ class Block:
     pixels : (n,) uint32, number of each pixel in the picture, row by row
     first : number of the first sample of each pixel
     samples : number of samples of each pixel
-    part : number of the tile or other area; seeds samplers that use a generator
+    part : number of the tile, which seeds the generators of samplers
     """
 
     pixels: Words
@@ -56,10 +59,6 @@ class Sampler(ABC):
     def draw_some(self, block: Block, dimension: int, width: int, path: Indices) -> Floats32:
         """The columns of ``draw`` for paths (m,)."""
         return self.draw(block, dimension, width).take(path, axis=1)
-
-
-if TYPE_CHECKING:
-    from numpy.random import Generator
 
 
 def generator(seed: int, dimension: int, block: Block) -> Generator:

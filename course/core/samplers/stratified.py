@@ -1,8 +1,8 @@
 """The classic samplers: random, jittered and regular points.
 
-The student's `supersampling` functions place the points in the pixel (dimensions 0 and 1). The engine draws points of
-the same kind for the other dimensions of a path, each in its own order. Otherwise, the pixel's corner would always be
-paired with the light's corner (Cook 1984, section 4.2).
+The functions of `supersampling` place the points in the pixel (dimensions 0 and 1). The other dimensions of a path have
+points of the same kind, each in its own random order. Otherwise the sample in the pixel's corner would always get the
+point in the light's corner (Cook 1984, section 4.2).
 """
 
 from __future__ import annotations
@@ -85,7 +85,7 @@ class RegularSampler(_ClassicSampler):
             return centers.reshape(2, block.size)
         strata = np.arange(block.samples)
         if block.samples > 1:
-            # All pixels have the same order, so that what one misses, all miss.
+            # The same order in all pixels: the error is the same in all, and seen as aliasing.
             rng = generator(self._seed, dimension, Block(block.pixels, 0, block.samples, 0))
             strata = rng.permuted(np.broadcast_to(strata, (width, block.samples)), axis=1)
         else:
