@@ -6,6 +6,7 @@ Close to the critical angle rounding decides, so no check comes nearer to it tha
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import partial
 from math import inf, nan
 from typing import Any
 
@@ -121,13 +122,7 @@ def _beyond(a: Arguments, r: Any) -> tuple[Any, ...]:
     return np.vstack(r), np.vstack((expected, _total(a))), size
 
 
-def _bent(name: str, title: str, hint: str, case: Case | None, **how: Any) -> Any:
-    usual: dict[str, Any] = {
-        "role": "corner",
-        "what": "direction (rows 0 to 2) or total (3):",
-        "case": case,
-    }
-    return close(name, title, _beyond, hint, **(usual | how))
+_bent = partial(close, compare=_beyond, what="direction (rows 0 to 2) or total (3):")
 
 
 REFRACT = function(
@@ -147,14 +142,15 @@ REFRACT = function(
         _bent(
             "ends",
             "Along the normal and between equal media nothing is bent, along the surface most",
-            "Straight on, or with eta 1, a ray stays as it was; along the surface sin_t = eta.",
-            _ends,
+            hint="Straight on, or with eta 1, a ray stays as it was; along the surface sin_t = eta.",
+            case=_ends,
         ),
         _bent(
             "snell",
             "Rays are bent by Snell's law, to the far side",
-            "sin_t = eta sin_i, in the plane of direction and normal, on the side where the normal does not point.",
-            lambda d: _boundary(*_one_eta(d), d),
+            hint="sin_t = eta sin_i, in the plane of direction and normal, "
+            "on the side where the normal does not point.",
+            case=lambda d: _boundary(*_one_eta(d), d),
             scales=(1.0,) * 4,
             role="core",
             whole=True,
@@ -162,14 +158,14 @@ REFRACT = function(
         _bent(
             "total",
             "Totally reflected rays hold the mirrored direction",
-            "Where no light gets through, all of it is reflected.",
-            lambda d: _boundary(*_one_eta(d, total=True), d),
+            hint="Where no light gets through, all of it is reflected.",
+            case=lambda d: _boundary(*_one_eta(d, total=True), d),
         ),
         _bent(
             "each",
             "Each ray may have an eta of its own",
-            "With an array of etas each ray is bent or mirrored by its own.",
-            lambda d: _boundary(*_each_eta(d), d),
+            hint="With an array of etas each ray is bent or mirrored by its own.",
+            case=lambda d: _boundary(*_each_eta(d), d),
         ),
     ),
     case=_through,
@@ -309,9 +305,7 @@ def _amplitudes(a: Arguments, r: Array) -> tuple[Any, ...]:
     return r, expected, (1 + a.eta) ** 2 / np.maximum(np.abs(cos_t), MARGIN)
 
 
-def _reflected(name: str, title: str, hint: str, case: Case, **how: Any) -> Any:
-    usual: dict[str, Any] = {"role": "corner", "what": "a reflectance of", "case": case}
-    return close(name, title, _amplitudes, hint, **(usual | how))
+_reflected = partial(close, compare=_amplitudes, what="a reflectance of")
 
 
 FRESNEL = function(
@@ -332,14 +326,14 @@ FRESNEL = function(
         _reflected(
             "ends",
             "Straight on, along the surface and between equal media the reflectance is right",
-            "Straight on both polarisations give ((n - 1) / (n + 1))^2; the surface seen flat is a mirror.",
-            _flat_or_straight,
+            hint="Straight on both polarisations give ((n - 1) / (n + 1))^2; the surface seen flat is a mirror.",
+            case=_flat_or_straight,
         ),
         _reflected(
             "exact",
             "The reflectance is exact at all angles at which light gets through",
-            "The mean of both polarisations' squared amplitudes.",
-            lambda d: _cosines(*_one_eta(d)),
+            hint="The mean of both polarisations' squared amplitudes.",
+            case=lambda d: _cosines(*_one_eta(d)),
             scales=(1.0,) * 4,
             role="core",
             whole=True,
@@ -347,14 +341,14 @@ FRESNEL = function(
         _reflected(
             "total",
             "Total internal reflection is total",
-            "In total internal reflection nothing gets through.",
-            lambda d: _cosines(*_one_eta(d, total=True)),
+            hint="In total internal reflection nothing gets through.",
+            case=lambda d: _cosines(*_one_eta(d, total=True)),
         ),
         _reflected(
             "each",
             "Each ray may have an eta of its own",
-            "With an array of etas each ray is reflected by its own, totally or not.",
-            lambda d: _cosines(*_each_eta(d)),
+            hint="With an array of etas each ray is reflected by its own, totally or not.",
+            case=lambda d: _cosines(*_each_eta(d)),
         ),
     ),
 )

@@ -7,6 +7,7 @@ all that is looked at is what stays the same whatever it chose.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import partial
 from math import nan
 from typing import Any
 
@@ -317,9 +318,7 @@ def _mirrored(a: Arguments, r: Array) -> tuple[Any, ...]:
     return r, a.direction - 2 * below * a.normal, 1.0
 
 
-def _above(name: str, title: str, hint: str, case: Case, **how: Any) -> Law:
-    usual: dict[str, Any] = {"what": "a direction of", "case": case, "role": "corner"}
-    return laws.close(name, title, _mirrored, hint, **usual | how)
+_above = partial(laws.close, compare=_mirrored, what="a direction of")
 
 
 KEEP_ABOVE = function(
@@ -329,27 +328,27 @@ KEEP_ABOVE = function(
         _above(
             "unchanged",
             "Directions above the surface come back as they were",
-            "Nothing is to be done above the surface; the normal is on the outgoing side.",
-            _sided(1),
+            hint="Nothing is to be done above the surface; the normal is on the outgoing side.",
+            case=_sided(1),
             within=0,
         ),
         _above(
             "mirrored",
             "Directions below the surface are mirrored in it, straight down becomes straight up",
-            "What is below is mirrored in the surface: it is as far above it afterwards.",
-            _sided(-1),
+            hint="What is below is mirrored in the surface: it is as far above it afterwards.",
+            case=_sided(-1),
         ),
         _above(
             "grazing",
             "Just above the surface directions stay, just below it they are mirrored",
-            "Does the cosine's sign alone decide, a hundred thousandth from the surface, too?",
-            _grazing,
+            hint="Does the cosine's sign alone decide, a hundred thousandth from the surface, too?",
+            case=_grazing,
         ),
         _above(
             "batch",
             "In one batch, directions above stay and directions below are mirrored",
-            "Is each direction decided on by itself, with its own normal?",
-            _sided(0),
+            hint="Is each direction decided on by itself, with its own normal?",
+            case=_sided(0),
             role="core",
             whole=True,
         ),

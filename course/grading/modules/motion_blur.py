@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import partial
 from math import inf, nan
 from typing import Any
 
@@ -10,7 +11,7 @@ import numpy as np
 
 from course.grading.checks import declare
 from course.grading.checks.check import Array, Trial
-from course.grading.checks.declare import Arguments, Law, Made, Module, function
+from course.grading.checks.declare import Arguments, Made, Module, function
 from course.grading.checks.drawing import Draw
 from course.grading.checks.evenness import evenly
 from course.grading.checks.laws import close
@@ -129,17 +130,11 @@ def _way(a: Arguments) -> Array:
     return np.outer(a.velocity, a.time)
 
 
-def _gone(name: str, title: str, hint: str, **how: Any) -> Law:
-    return close(
-        name,
-        title,
-        lambda a, r: (r, _way(a), np.abs(_way(a))),
-        hint,
-        what="the way gone, along an axis,",
-        within=4,
-        scales=SCALES,
-        **how,
-    )
+def _went(a: Arguments, r: Array) -> tuple[Any, ...]:
+    return r, _way(a), np.abs(_way(a))
+
+
+_gone = partial(close, compare=_went, what="the way gone, along an axis,", within=4, scales=SCALES)
 
 
 DISPLACEMENT = function(
@@ -149,32 +144,30 @@ DISPLACEMENT = function(
         _gone(
             "one-second",
             "In one second an object goes its velocity",
-            "Velocity is the way gone in one second.",
+            hint="Velocity is the way gone in one second.",
             case=lambda d: {"time": np.ones(d.n)},
         ),
         _gone(
             "any-time",
             "Long and short times have their ways, before the start as well, and time 0 has none",
-            "At a constant velocity twice the time is twice the way.",
+            hint="At a constant velocity twice the time is twice the way.",
             case=_any_time,
         ),
         _gone(
             "linear",
             "Each ray gets the way of its own time",
-            "At a constant velocity twice the time is twice the way; each ray has a time of its own.",
+            hint="At a constant velocity twice the time is twice the way; each ray has a time of its own.",
             whole=True,
         ),
     ),
 )
 
 
-def _seen(name: str, title: str, hint: str, **how: Any) -> Law:
-    def compare(a: Arguments, r: Array) -> tuple[Any, ...]:
-        way = _way(a)
-        return r, a.origins - way, np.abs(a.origins) + np.abs(way)
+def _stood(a: Arguments, r: Array) -> tuple[Any, ...]:
+    return r, a.origins - _way(a), np.abs(a.origins) + np.abs(_way(a))
 
-    settings: dict[str, Any] = {"what": "an origin's coordinate of", "within": 4, "scales": SCALES}
-    return close(name, title, compare, hint, **settings | how)
+
+_seen = partial(close, compare=_stood, what="an origin's coordinate of", within=4, scales=SCALES)
 
 
 def _unmoved(draw: Draw) -> Mapping[str, Any]:
@@ -202,21 +195,21 @@ TO_OBJECT_SPACE = function(
         _seen(
             "at-rest",
             "Rays are where they are seen beside an object that stands still, and at time 0",
-            "What has gone no way sees every ray where it is; at time 0 nothing has moved yet.",
+            hint="What has gone no way sees every ray where it is; at time 0 nothing has moved yet.",
             case=_unmoved,
             scales=SCALES * 2,
         ),
         _seen(
             "travels-along",
             "What travels along with the object stays at one place of it",
-            "Whoever travels along with the object stays at the same place of it.",
+            hint="Whoever travels along with the object stays at the same place of it.",
             what="a ray that starts on the object, seen from the object, at",
             case=_aboard,
         ),
         _seen(
             "own-time",
             "Each ray is moved by the way of its own time",
-            "The ray, less the way that the object has gone by the ray's own time.",
+            hint="The ray, less the way that the object has gone by the ray's own time.",
             # Whether the last places are kept near 0 is asked above.
             floor=1e-5,
             scales=(1.0, 1e3),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from functools import partial
 from math import nan
 from typing import Any
 
@@ -11,7 +12,6 @@ import numpy as np
 from course.grading.checks.check import Array, Failure, Trial
 from course.grading.checks.declare import (
     Arguments,
-    Case,
     Function,
     Law,
     Made,
@@ -378,8 +378,7 @@ def _mean(a: Arguments, r: Array) -> tuple[Any, ...]:
     return r, (a.radiance * weights).sum(axis=2) / total, largest
 
 
-def _resolved(name: str, title: str, hint: str, case: Case | None = None, **how: Any) -> Law:
-    return close(name, title, _mean, hint, case=case, what="a weighted mean of", within=32, **how)
+_resolved = partial(close, compare=_mean, what="a weighted mean of", within=32)
 
 
 RESOLVE = function(
@@ -400,26 +399,26 @@ RESOLVE = function(
         _resolved(
             "zero-weights",
             "Weights of zero give the plain mean",
-            "Where the weights of a pixel sum to zero, and only there, all samples count alike.",
-            _some_zero,
+            hint="Where the weights of a pixel sum to zero, and only there, all samples count alike.",
+            case=_some_zero,
         ),
         _resolved(
             "scale",
             "The weights' scale does not matter",
-            "Weights that are all a hundred times larger or smaller mean the same.",
-            _of_any_scale,
+            hint="Weights that are all a hundred times larger or smaller mean the same.",
+            case=_of_any_scale,
         ),
         _resolved(
             "negative-weights",
             "Weights may be negative",
-            "A filter may have lobes below 0: such a sample is taken away from the others.",
-            _some_negative,
+            hint="A filter may have lobes below 0: such a sample is taken away from the others.",
+            case=_some_negative,
         ),
         _resolved(
             "bright",
             "Radiance may have any size and sign",
-            "Radiance is light, not a screen's colour: lamps are far brighter than 1.",
-            _bright,
+            hint="Radiance is light, not a screen's colour: lamps are far brighter than 1.",
+            case=_bright,
             scales=(1.0, 1e-3, 1e3, 1e5),
             points=0.5,
             role="core",
@@ -427,8 +426,8 @@ RESOLVE = function(
         _resolved(
             "mean",
             "Samples count by their weights",
-            "Samples count by their weights, and equal samples give their own colour.",
-            _samples,
+            hint="Samples count by their weights, and equal samples give their own colour.",
+            case=_samples,
             role="core",
         ),
     ),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import partial
 from math import inf, nan
 from typing import Any
 
@@ -10,7 +11,7 @@ import numpy as np
 
 from course.grading.checks import declare
 from course.grading.checks.check import Array
-from course.grading.checks.declare import Arguments, Case, Law, Made, Module, function
+from course.grading.checks.declare import Arguments, Case, Made, Module, function
 from course.grading.checks.drawing import Draw
 from course.grading.checks.laws import close, unit_length
 from course.grading.checks.vectors import dot, normalized
@@ -169,9 +170,8 @@ def _at_limits(draw: Draw) -> Mapping[str, Any]:
     return {"focal_length": focal, "object_distance": draw.rng.choice((focal, inf)).item()}
 
 
-def _image(name: str, title: str, hint: str, case: Case, **how: Any) -> Law:
-    """The formula on lenses of a kind, twenty of them at each of three scales."""
-    return close(name, title, _formula, hint, case=case, within=1e-2, scales=SCALES * 7, **how)
+_image = partial(close, compare=_formula, within=1e-2, scales=SCALES * 7)
+"""The formula on lenses of a kind, twenty of them at each of three scales."""
 
 
 IMAGE_DISTANCE = function(
@@ -184,22 +184,22 @@ IMAGE_DISTANCE = function(
         _image(
             "real",
             "Objects beyond the focal length have their image where the lens formula says",
-            "The reciprocals of both distances add up to that of the focal length.",
-            _lenses(near=False),
+            hint="The reciprocals of both distances add up to that of the focal length.",
+            case=_lenses(near=False),
             role="core",
         ),
         _image(
             "virtual",
             "Nearer objects have a virtual image, at a negative distance",
-            "The same formula holds there; the sign says on which side of the lens the image is.",
-            _lenses(near=True),
+            hint="The same formula holds there; the sign says on which side of the lens the image is.",
+            case=_lenses(near=True),
             role="core",
         ),
         _image(
             "limits",
             "The image of an object at the focal length is at infinity, and the other way round",
-            "At the focal length rays leave the lens parallel; from infinity they come so.",
-            _at_limits,
+            hint="At the focal length rays leave the lens parallel; from infinity they come so.",
+            case=_at_limits,
         ),
     ),
     contract="focal_length, object_distance -> the distance: floating infinite",
@@ -233,9 +233,7 @@ def _sharp_points(draw: Draw) -> Mapping[str, Any]:
     return {"depth": np.full(draw.n, 2.5), "focus_distance": 2.5}
 
 
-def _spread(name: str, title: str, hint: str, case: Case, **how: Any) -> Law:
-    usual: dict[str, Any] = {"case": case, "scales": SCALES * 3, "what": "a diameter of"}
-    return close(name, title, _circle, hint, **usual | how)
+_spread = partial(close, compare=_circle, what="a diameter of", scales=SCALES * 3)
 
 
 CIRCLE_OF_CONFUSION = function(
@@ -256,28 +254,28 @@ CIRCLE_OF_CONFUSION = function(
         _spread(
             "behind",
             "Points behind the plane in focus spread as far as they should",
-            "Two similar triangles: lens and point, circle and point.",
-            _depths(1.01, 50),
+            hint="Two similar triangles: lens and point, circle and point.",
+            case=_depths(1.01, 50),
             role="core",
         ),
         _spread(
             "in_front",
             "Points in front of the plane in focus spread as far as they should",
-            "The circle grows without limit towards the lens: which depth is divided by? No sign is left.",
-            _depths(0.02, 0.99),
+            hint="The circle grows without limit towards the lens: which depth is divided by? No sign is left.",
+            case=_depths(0.02, 0.99),
             role="core",
         ),
         _spread(
             "limits",
             "Nothing spreads in focus, nor without an aperture",
-            "The diameter is proportional to the aperture, and to how far from focus a point is.",
-            _sharp_points,
+            hint="The diameter is proportional to the aperture, and to how far from focus a point is.",
+            case=_sharp_points,
         ),
         _spread(
             "far",
             "Far points spread over the lens's diameter",
-            "Very far points spread over a circle as wide as the lens: no matter how much farther.",
-            lambda d: {"depth": np.geomspace(1e5, 1e6, d.n), "focus_distance": 1.5},
+            hint="Very far points spread over a circle as wide as the lens: no matter how much farther.",
+            case=lambda d: {"depth": np.geomspace(1e5, 1e6, d.n), "focus_distance": 1.5},
         ),
     ),
     contract="depth: N, aperture_radius, focus_distance -> the diameters: N",
