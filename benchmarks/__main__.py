@@ -18,20 +18,19 @@ from benchmarks.adaptive import measure_adaptive
 from benchmarks.adaptive_sampling import measure_adaptive_sampling
 from benchmarks.bounding_volumes import measure_bounding_volumes
 from benchmarks.convergence import measure_convergence
-from benchmarks.curve_files import publish
 from benchmarks.degenerate import measure_degenerate
 from benchmarks.dragons import measure_dragons
 from benchmarks.effects import measure_effects
 from benchmarks.engine import measure_engine
-from benchmarks.figures import Figure, table
+from benchmarks.figures import Figure, table, write_ratios
 from benchmarks.grading import measure_grading
 from benchmarks.importance_sampling import measure_importance_sampling
 from benchmarks.path_tracing import measure_path_tracing
 from benchmarks.process import measure_processes
 from benchmarks.quasi_monte_carlo import measure_quasi_monte_carlo
 from benchmarks.radiosity import measure_radiosity
-from benchmarks.ratios import write_ratios
 from benchmarks.reached_error import measure_quickly, measure_reached_error
+from benchmarks.report import publish
 from benchmarks.sampling import measure_sampling
 from course.benchmarking.machine import machine
 from course.benchmarking.tables import print_tables

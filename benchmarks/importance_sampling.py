@@ -16,9 +16,9 @@ from pathlib import Path
 
 import numpy as np
 
+from benchmarks.error_curves import median_seconds
 from benchmarks.figures import Figure, summary
 from benchmarks.report import OUT, report
-from benchmarks.timing import median_seconds
 from course.benchmarking.plot_data import Plot, Series
 from course.benchmarking.plots import COLORS, STYLE, draw_lines, sheet, write
 from course.benchmarking.tables import NONE, Table

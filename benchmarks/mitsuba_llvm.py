@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from benchmarks.mitsuba_export import LOBES, Exported, NotExportableError
-from benchmarks.mitsuba_sensors import Sensors
+from benchmarks.mitsuba_variants import Sensors
 
 
 def make_mesh(

@@ -18,7 +18,7 @@ import numpy as np
 
 from benchmarks.mitsuba_export import LOBES, Exported, NotExportableError, Part
 from benchmarks.mitsuba_llvm import make_mesh
-from benchmarks.mitsuba_sensors import Sensors
+from benchmarks.mitsuba_variants import Sensors
 from course.formats.yaml import description as d
 from course.formats.yaml.description import rgb
 from course.formats.yaml.loading import load_description

@@ -19,8 +19,7 @@ from benchmarks.mitsuba_agreement import Agreement, Converged, compare, converge
 from benchmarks.mitsuba_export import export
 from benchmarks.mitsuba_scalar import NativeScene
 from benchmarks.mitsuba_variants import start_fastest
-from benchmarks.picture_sheet import draw_sheet
-from benchmarks.report import OUT, report
+from benchmarks.report import OUT, draw_sheet, report
 from course import Scene, render
 from course.benchmarking.estimators import SAMPLERS, Estimator, Module
 from course.benchmarking.measuring import Effort as CurveEffort

@@ -33,8 +33,7 @@ from benchmarks.mitsuba_agreement import Converged, compare, converge, save_diff
 from benchmarks.mitsuba_export import export, write
 from benchmarks.mitsuba_llvm import LlvmScene
 from benchmarks.mitsuba_scalar import ALIKE, NativeScene, native_overrides
-from benchmarks.mitsuba_sensors import SAMPLERS
-from benchmarks.mitsuba_variants import find_llvm, start_fastest, start_llvm, start_scalar
+from benchmarks.mitsuba_variants import SAMPLERS, find_llvm, start_fastest, start_llvm, start_scalar
 from benchmarks.peer_cases import (
     EFFECTS,
     FORMS,

@@ -16,8 +16,7 @@ from typing import Any
 import numpy as np
 
 from benchmarks.figures import Figure, summary
-from benchmarks.picture_sheet import Cell, draw_sheet
-from benchmarks.report import OUT, report
+from benchmarks.report import OUT, Cell, draw_sheet, report
 from course import Scene, load_scene, render
 from course.benchmarking.plot_data import Plot, Series
 from course.benchmarking.tables import Columns, Table, table_of
@@ -26,9 +25,8 @@ from course.effects import PROJECT
 from course.radiosity.hemicubes import Views, make_hemicube
 from course.radiosity.patches import Functions, Patches, make_patches
 from course.radiosity.radiosity import PATCHES, TOLERANCE, as_solution
-from course.radiosity.solution import Solution
 from course.radiosity.solving import GATHERED, Shooting, Solved, form_factors, with_ambient
-from course.radiosity.viewing import look, own_view
+from course.radiosity.viewing import Solution, look, own_view
 
 SCENE = PROJECT / "scenes" / "radiosity.yaml"
 SHOWN = (1, 32, 320)

@@ -25,7 +25,7 @@ from course.formats.pictures.reading import read_picture
 from course.grading.classes.roster import read_roster
 from course.grading.references import read_references
 from course.inputs import Bound, opened, read_arrays, read_input
-from course.radiosity.solution import load_solution
+from course.radiosity.viewing import load_solution
 
 pytestmark = pytest.mark.skipif(
     sys.platform == "win32", reason="has no pipes, devices and links like these"
@@ -255,8 +255,7 @@ def test_a_folder_of_functions_with_a_name_that_is_too_long_is_refused(tmp_path:
 
 
 OWN_FILES = {
-    "cluster/kept_scenes.py": "the course's sources",
-    "cluster/parcel.py": "files of a scene that has been compiled here",
+    "cluster/parcel.py": "the course's sources, and files of a scene that has been compiled here",
     "formats/metu/converting.py": "the scene that it has written",
 }
 """What reads files by itself all the same, and which."""

@@ -12,11 +12,8 @@ from rich.progress import Progress
 from benchmarks.stress import room
 from benchmarks.stress.axes import AXES, level
 from benchmarks.stress.cells import STAGES, Cell, all_cells, cell_named, short_form
-from benchmarks.stress.page import PAGE, write_page
-from benchmarks.stress.report import print_report, print_verdict
-from benchmarks.stress.rows import rows_of
-from benchmarks.stress.running import judge_all, judge_some
-from benchmarks.stress.shrinking import shrunk, wild_levels
+from benchmarks.stress.report import PAGE, print_report, print_verdict, rows_of, write_page
+from benchmarks.stress.running import judge_all, judge_some, shrunk, wild_levels
 from benchmarks.stress.verdict import SCENES, Verdict
 
 KEPT = Path("out/stress")

@@ -7,8 +7,7 @@ from typing import Any
 
 from benchmarks.stress.axes import NOTHING, VISIBLE_TWIN
 from benchmarks.stress.cells import Cell
-from benchmarks.stress.files import SceneFiles
-from benchmarks.stress.placement import Placement
+from benchmarks.stress.files import Placement, SceneFiles
 
 BACKGROUND = [0.3, 0.4, 0.5]
 """Radiance of the environment, where it is constant, and of the ambient light."""

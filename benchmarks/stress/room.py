@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from benchmarks.stress.cells import AROUND, Cell
-from benchmarks.stress.files import SceneFiles, square
+from benchmarks.stress.files import Placement, SceneFiles, square
 from benchmarks.stress.parts import (
     BACKGROUND,
     CUTOFF,
@@ -25,7 +25,6 @@ from benchmarks.stress.parts import (
     picture,
     placement,
 )
-from benchmarks.stress.placement import Placement
 
 HEIGHT = 1.2
 CLEARANCE = LIGHT[1] - HEIGHT

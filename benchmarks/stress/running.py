@@ -1,4 +1,4 @@
-"""Judge many cells, on as many processes as there are cores."""
+"""Cells judged in processes, and failed cells made as tame as they may be while they fail."""
 
 from __future__ import annotations
 
@@ -10,7 +10,8 @@ from functools import partial
 from itertools import groupby
 from pathlib import Path
 
-from benchmarks.stress.cells import Cell
+from benchmarks.stress.axes import TAME
+from benchmarks.stress.cells import Cell, legal
 from benchmarks.stress.verdict import Judge, Verdict
 from course.rendering.threads import default_threads
 
@@ -68,3 +69,23 @@ def _tasks(cells: Sequence[Cell]) -> Iterator[list[Cell]]:
         else:
             rest = list(there)
             yield from (rest[k : k + AT_ONCE] for k in range(0, len(rest), AT_ONCE))
+
+
+def shrunk(cell: Cell, compiled: bool | None = None) -> Cell:
+    """A cell that fails too, and in which no level can be made tame without its passing."""
+    left = list(cell.levels)
+    while True:
+        for axis in left:
+            tamer = cell.with_level(axis, TAME[axis])
+            if tamer.levels[axis] == cell.levels[axis] or not legal(tamer):
+                continue
+            if not judge_some([tamer], compiled)[0].passed:
+                cell = tamer
+                break
+        else:
+            return cell
+
+
+def wild_levels(cell: Cell) -> dict[str, str]:
+    """The levels that are not the tame ones."""
+    return {axis: each.name for axis, each in cell.levels.items() if each.name != TAME[axis]}

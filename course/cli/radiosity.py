@@ -17,8 +17,7 @@ from course.cli.progress import progress_bar
 from course.errors import CourseError
 
 if TYPE_CHECKING:
-    from course.radiosity.solution import Solution
-    from course.radiosity.viewing import View
+    from course.radiosity.viewing import Solution, View
 
 NUMBER = r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
 POINT = rf"\s*({NUMBER})\s*,\s*({NUMBER})\s*,\s*({NUMBER})\s*"
@@ -135,7 +134,7 @@ def radiosity(
 
 
 def _solution(scene: Path, effects: str | None, given: dict[str, Any]) -> Solution:
-    from course.radiosity.solution import load_solution
+    from course.radiosity.viewing import load_solution
 
     if scene.suffix.lower() == ".npz":
         return load_solution(scene)

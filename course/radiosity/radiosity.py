@@ -11,8 +11,8 @@ from course.core.types import Mask
 from course.radiosity.accepting import check_accepted
 from course.radiosity.corners import at_corners
 from course.radiosity.patches import Functions, Patches, make_patches
-from course.radiosity.solution import Solution
 from course.radiosity.solving import GATHERED, Report, Shooting, Solved, gathered
+from course.radiosity.viewing import Solution
 from course.scene.scene import Scene
 
 FINEST = 1e-3

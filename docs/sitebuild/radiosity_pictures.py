@@ -17,8 +17,7 @@ from sitebuild.picture_grid import Cell, grid
 from sitebuild.place import Place
 
 if TYPE_CHECKING:
-    from course.radiosity.solution import Solution
-    from course.radiosity.viewing import View
+    from course.radiosity.viewing import Solution, View
 
 STEPS = (1, 32, 320)
 GATHERED = 1000

@@ -12,12 +12,12 @@ import pytest
 from benchmarks import (
     adaptive_sampling,
     bounding_volumes,
+    error_curves,
     importance_sampling,
     path_tracing,
     quasi_monte_carlo,
     radiosity,
     sampling,
-    timing,
 )
 from course.benchmarking.measuring import Effort
 from course.benchmarking.plot_data import Plot, comparisons
@@ -67,9 +67,9 @@ def test_times_are_medians_of_rounds_in_turn(monkeypatch: pytest.MonkeyPatch) ->
 
         return work
 
-    monkeypatch.setattr(timing, "perf_counter", lambda: clock[0])
+    monkeypatch.setattr(error_curves, "perf_counter", lambda: clock[0])
     ways = {"one": way("one", 1.0), "two": way("two", 2.0)}
-    found = timing.median_seconds(ways, (4, 16), 5)
+    found = error_curves.median_seconds(ways, (4, 16), 5)
     assert found == {"one": (4.0, 16.0), "two": (8.0, 32.0)}
     # Each once for what it makes only then, and then in turn.
     assert calls[:6] == [("one", 4, 0), ("two", 4, 0)] * 2 + [("one", 4, 1), ("two", 4, 1)]

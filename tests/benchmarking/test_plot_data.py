@@ -10,9 +10,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from benchmarks.curve_files import keep, publish
-from benchmarks.figures import Figure
-from benchmarks.ratios import write_ratios
+from benchmarks.figures import Figure, write_ratios
+from benchmarks.report import keep, publish
 from course.benchmarking.measuring import FULL, QUICK, Effort
 from course.benchmarking.plot_data import (
     STYLES,

@@ -10,15 +10,14 @@ import pytest
 from PIL import Image
 
 from benchmarks import path_tracing, radiosity
-from benchmarks.picture_sheet import CAPTION, GAP, Cell, draw_sheet
+from benchmarks.report import CAPTION, GAP, Cell, draw_sheet
 from course import load_scene, render
 from course.core.types import Floats32
 from course.formats.pictures.display import linear_to_srgb8
 from course.radiosity.patches import Patches, make_patches
 from course.radiosity.radiosity import solve
-from course.radiosity.solution import Solution
 from course.radiosity.solving import Shooting, with_ambient
-from course.radiosity.viewing import look, own_view
+from course.radiosity.viewing import Solution, look, own_view
 from course.scene.scene import Scene, load_variant
 from tests.radiosity.rooms import FUNCTIONS, hollow_sphere
 

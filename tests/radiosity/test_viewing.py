@@ -16,8 +16,7 @@ from course.core.embree import QueryStats
 from course.effects import PROJECT
 from course.errors import CourseError
 from course.radiosity.radiosity import solve
-from course.radiosity.solution import Solution, load_solution
-from course.radiosity.viewing import View, flight, look, own_view, radiance
+from course.radiosity.viewing import Solution, View, flight, load_solution, look, own_view, radiance
 
 BOX = PROJECT / "scenes" / "radiosity.yaml"
 SIZE = 64

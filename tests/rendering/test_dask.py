@@ -20,7 +20,6 @@ import pytest
 from course import Picture, Scene, load_scene, render
 from course.cluster import connection as connection_module
 from course.cluster import executor as cluster_module
-from course.cluster import kept_scenes
 from course.cluster.executor import PIECE, next_piece
 from course.cluster.parcel import KeptScenes, Order, edition, pack, unpack
 from course.core.film import Film
@@ -418,7 +417,7 @@ def test_a_worker_compiles_a_scene_once_and_keeps_two(
         folders.append(folder)
         return unpack(content, folder)
 
-    monkeypatch.setattr(kept_scenes, "unpack", counted)
+    monkeypatch.setattr("course.cluster.parcel.unpack", counted)
     scene = every_stage()
     order = Order(scene.settings, False, edition())
     parcels = [pack(every_stage(seed=seed)) for seed in range(3)]

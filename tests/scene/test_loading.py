@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from course.formats.yaml.expected import SYNONYMS, meant_by
+from course.formats.yaml.checking import SYNONYMS, meant_by
 from course.formats.yaml.loading import Loaded, load_description
 from course.formats.yaml.schema import json_schema
 

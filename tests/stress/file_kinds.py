@@ -26,7 +26,7 @@ from course.grading.classes.roster import read_roster
 from course.grading.classes.submitted import read_one
 from course.grading.references import read_references
 from course.inputs import Bound
-from course.radiosity.solution import load_solution
+from course.radiosity.viewing import load_solution
 from tests.imaging import picture_files
 
 MODULES = ("motion_blur", "glossy")

@@ -31,13 +31,10 @@ from benchmarks.stress.cells import (
     short_form,
     tame,
 )
-from benchmarks.stress.files import SceneFiles
-from benchmarks.stress.page import BEGIN, END, write_page
-from benchmarks.stress.placement import Placement
+from benchmarks.stress.files import Placement, SceneFiles
 from benchmarks.stress.probes import Response, probe
-from benchmarks.stress.rows import rows_of
-from benchmarks.stress.running import judge_all, judge_some
-from benchmarks.stress.shrinking import shrunk, wild_levels
+from benchmarks.stress.report import BEGIN, END, rows_of, write_page
+from benchmarks.stress.running import judge_all, judge_some, shrunk, wild_levels
 from benchmarks.stress.triangles import cut
 from benchmarks.stress.verdict import (
     CLOSED_FORMS,
