@@ -2,27 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
-from contextlib import AbstractContextManager, ExitStack, nullcontext
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import ExitStack, contextmanager, nullcontext
 from functools import partial
 from pathlib import Path
 from time import perf_counter
+from typing import Any
 
 from course import __version__
 from course.grading.catalog import module_checks
 from course.grading.checks.check import Caller, Check
 from course.grading.checks.preparing import References
 from course.grading.checks.result import Result, Status
-from course.grading.checks.running import Standard, run_checks, unusable
+from course.grading.checks.running import Lenders, run_checks, unusable
 from course.grading.errors import StudentError
 from course.grading.pictures.whole import ALL, NAME, Together
 from course.grading.references import SOLUTIONS, reference
 from course.grading.report import Report
 from course.grading.submissions import why_absent
-from course.grading.worker.budget import Budget
 from course.grading.worker.client import Worker
-from course.grading.worker.limits import Limits
-from course.grading.worker.patience import Patience
+from course.grading.worker.limits import Budget, Limits, Patience
 from course.grading.worker.sandbox import Sandbox, sandbox
 from course.modules import COURSE
 
@@ -58,70 +57,56 @@ def grade(
     printed: dict[str, str] = {}
     chosen = tuple(modules)
     budget = Budget(limits)
+    # Of some checks alone the first may be a large one.
+    patience = {module: Patience(limits.call_seconds, only is None) for module in chosen}
+
+    def worker(module: str, **more: Any) -> Worker:
+        source, shared = sources.get(module, b""), patience[module]
+        return Worker(module, source, limits, shut_in, patience=shared, budget=budget, **more)
+
+    def right(module: str, budget: Budget | None = None) -> Worker:
+        return Worker(module, _solution(module).read_bytes(), limits, shut_in, budget=budget)
+
+    def tell(result: Result) -> None:
+        results.append(result)
+        if each is not None:
+            each(result)
+
     with ExitStack() as stack:
         # A worker's process starts at its first call, so those of modules that nobody asks cost nothing.
-        # Of some checks alone the first may be a large one.
-        patience = {module: Patience(limits.call_seconds, only is None) for module in chosen}
         workers = {
             module: stack.enter_context(
-                Worker(
-                    module,
-                    sources.get(module, b""),
-                    limits,
-                    shut_in,
-                    patience=patience[module],
-                    budget=budget,
-                    trouble=why_absent(module, sources.get(module), folder),
-                )
+                worker(module, trouble=why_absent(module, sources.get(module), folder))
             )
             for module in chosen
         }
-
-        def tell(result: Result) -> None:
-            results.append(result)
-            if each is not None:
-                each(result)
-
         for module in (*chosen, *([NAME] if set(ALL) <= set(chosen) else [])):
             checks = module_checks(module)
-            caller: Caller
-            if module in workers:
-                caller = workers[module]
-                error = (
-                    _loaded(workers[module])
-                    if any(only is None or only(check) for check in checks.checks)
-                    else None
-                )
-                if error is not None:
-                    for result in unusable(checks, error, only):
-                        tell(result)
-                    printed |= _ended(workers[module])
-                    continue
-            else:
-                caller = Together(
-                    workers,
-                    {f"{r.module}.{r.function}" for r in results if r.status is Status.TIMEOUT},
-                )
+            own = workers.get(module)
+            caller: Caller | None = own
+            if caller is None:
+                late = {f"{r.module}.{r.function}" for r in results if r.status is Status.TIMEOUT}
+                caller = Together(workers, late)
+            asked = any(only is None or only(check) for check in checks.checks)
+            error = _unloaded(own) if own is not None and asked else None
+            needed = ALL if module == NAME else (module,)
+            standard = partial(reference, module) if all(map(_is_solved, needed)) else None
             with (
-                _yardstick(module, limits, shut_in) as yardstick,
-                _Lenders(
-                    module, sources.get(module, b""), limits, shut_in, patience.get(module), budget
-                ) as lenders,
+                right(module) if _is_solved(module) else nullcontext() as yardstick,
+                _lenders(module, worker, partial(right, module, budget)) as lenders,
             ):
-                for result in run_checks(
-                    checks,
-                    caller,
-                    references,
-                    seed,
-                    only,
-                    yardstick,
-                    lenders,
-                    _standard(module),
+                for result in (
+                    unusable(checks, error, only)
+                    if error is not None
+                    else run_checks(
+                        checks, caller, references, seed, only, yardstick, lenders, standard
+                    )
                 ):
                     tell(result)
-            if module in workers:
+            if own is not None:
                 # No module's code goes on while another's is checked; the picture of all starts it again.
-                printed |= _ended(workers[module])
+                own.close()
+                printed |= {module: own.printed} if own.printed else {}
     return Report(
         student,
         tuple(results),
@@ -133,89 +118,50 @@ def grade(
     )
 
 
-class _Lenders:
+@contextmanager
+def _lenders(
+    module: str, worker: Callable[..., Worker], right: Callable[[], Worker]
+) -> Iterator[Lenders]:
     """The student's module again, for each function with the reference's in place of those before it.
 
     Only the latest is there: its processes end when another function is asked for, and at the end of the context.
+    Nobody is there where no function comes before the one that is asked for, or there is no solution.
     """
+    latest: dict[str, Worker] = {}
 
-    def __init__(
-        self,
-        module: str,
-        source: bytes,
-        limits: Limits,
-        shut_in: Sandbox,
-        patience: Patience | None,
-        budget: Budget,
-    ) -> None:
-        self._module, self._source = module, source
-        self._limits, self._shut_in = limits, shut_in
-        self._patience, self._budget = patience, budget
-        self._function = ""
-        self._worker: Worker | None = None
+    def close() -> None:
+        while latest:
+            latest.popitem()[1].close()
 
-    def __enter__(self) -> _Lenders:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self._close()
-
-    def __call__(self, function: str) -> Caller | None:
-        """None where no function comes before it, or there is no solution."""
-        functions = COURSE.get(self._module, ())
+    def lend(function: str) -> Caller | None:
+        functions = COURSE.get(module, ())
         before = functions[: functions.index(function)] if function in functions else ()
-        path = SOLUTIONS / f"{self._module}.py"
-        if not before or not path.is_file():
+        if not before or not _is_solved(module):
             return None
-        if function != self._function or self._worker is None:
-            self._close()
+        if function not in latest:
+            close()
             # What is lent is worked out where it can hold up or fill up nobody but the one who asks for it.
-            right = Worker(
-                self._module, path.read_bytes(), self._limits, self._shut_in, budget=self._budget
-            )
-            self._worker = Worker(
-                self._module,
-                self._source,
-                self._limits,
-                self._shut_in,
-                lender=right,
-                lent=before,
-                patience=self._patience,
-                budget=self._budget,
-            )
-            self._function = function
-        return self._worker
+            latest[function] = worker(module, lender=right(), lent=before)
+        return latest[function]
 
-    def _close(self) -> None:
-        if self._worker is not None:
-            self._worker.close()
+    try:
+        yield lend
+    finally:
+        close()
 
 
-def _standard(module: str) -> Standard | None:
-    """The reference in this process; None where there is no solution."""
-    needed = ALL if module == NAME else (module,)
-    there = all((SOLUTIONS / f"{name}.py").is_file() for name in needed)
-    return partial(reference, module) if there else None
+def _solution(module: str) -> Path:
+    return SOLUTIONS / f"{module}.py"
 
 
-def _loaded(worker: Worker) -> StudentError | None:
+def _is_solved(module: str) -> bool:
+    return _solution(module).is_file()
+
+
+def _unloaded(worker: Worker) -> StudentError | None:
     """Why the module can't be used; None if it can."""
     try:
         worker.load()
     except StudentError as error:
         return error
     return None
-
-
-def _ended(worker: Worker) -> dict[str, str]:
-    """What a worker has printed, by module, now that it is closed; nothing if it hasn't."""
-    worker.close()
-    return {worker.module: worker.printed} if worker.printed else {}
-
-
-def _yardstick(
-    module: str, limits: Limits, shut_in: Sandbox
-) -> AbstractContextManager[Worker | None]:
-    """The reference solution in a worker of its own, where there is one."""
-    path = SOLUTIONS / f"{module}.py"
-    return Worker(module, path.read_bytes(), limits, shut_in) if path.is_file() else nullcontext()

@@ -27,7 +27,7 @@ from course.grading.checks.preparing import References, generator
 from course.grading.checks.result import NOT_WRITTEN, Result, Status, broken, result_of, troubled
 from course.grading.checks.slips import SLIPS
 from course.grading.errors import StudentError
-from course.grading.worker.patience import NOT_RUN
+from course.grading.worker.limits import NOT_RUN
 from course.grading.worker.wording import said, told
 
 Lenders = Callable[[str], Caller | None]

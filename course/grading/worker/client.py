@@ -6,21 +6,32 @@ import threading
 from collections import Counter
 from collections.abc import Sequence
 from time import monotonic
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from course.grading.errors import StudentError
-from course.grading.worker.budget import Budget
 from course.grading.worker.framing import BrokenMessage, generator, pack
-from course.grading.worker.limits import Limits
-from course.grading.worker.patience import Patience
+from course.grading.worker.limits import Budget, Limits, Patience
 from course.grading.worker.process import Process
 from course.grading.worker.sandbox import Sandbox, sandbox
 from course.grading.worker.wording import no_such, not_loaded, replied, said
 
 LARGEST_SOURCE = 1_000_000
 """Bytes; a file that is larger was not written by a student."""
+
+
+class _Call(NamedTuple):
+    """What is asked of a worker; to look is to have the arguments sent back."""
+
+    function: str
+    arguments: tuple[Any, ...]
+    named: dict[str, Any]
+    look: bool = False
+
+
+_Reply = tuple[list[Any], dict[str, Any]]
+"""Values and head."""
 
 
 class Worker:
@@ -87,30 +98,18 @@ class Worker:
         return self._process.printed
 
     def load(self) -> None:
-        """Import the file, if it hasn't been.
-
-        Raises
-        ------
-        StudentError
-            It can't be; no call will do better, and none tries again.
-        """
+        """Import the file, if it hasn't been; ``StudentError`` where it can't be, and then no call tries again."""
         with self._lock:
             self._ready()
 
     def call(self, function: str, *arguments: Any, **named: Any) -> Any:
-        """The function's value.
-
-        Raises
-        ------
-        StudentError
-            There is none; its ``kind`` says why.
-        """
-        values, _ = self._ask(function, arguments, named, look=False)
+        """The function's value; ``StudentError`` where there is none, whose ``kind`` says why."""
+        values, _ = self._ask(_Call(function, arguments, named))
         return values[0]
 
     def call_and_look(self, function: str, *arguments: Any) -> tuple[Any, list[Any], bool]:
         """The value, the arguments as they are after the call, and whether NumPy's global random state moved."""
-        values, head = self._ask(function, arguments, {}, look=True)
+        values, head = self._ask(_Call(function, arguments, {}, look=True))
         pairs = zip(arguments, values[1:], strict=True)
         try:
             after = [
@@ -131,7 +130,7 @@ class Worker:
         """
         with self._lock:
             self._ready()
-            return self._once(function, arguments, named, False, deadline)[0][0]
+            return self._once(_Call(function, arguments, named), deadline)[0][0]
 
     def calls(self, function: str, other: str) -> bool:
         """Whether the student's function calls another of the same file; as the worker says, so good for a hint."""
@@ -143,9 +142,7 @@ class Worker:
         if self._lender is not None:
             self._lender.close()
 
-    def _ask(
-        self, function: str, arguments: tuple[Any, ...], named: dict[str, Any], *, look: bool
-    ) -> tuple[list[Any], dict[str, Any]]:
+    def _ask(self, call: _Call) -> _Reply:
         """The values and the head of a reply.
 
         A call that ends its process is made once more in a fresh one, for something else may have ended it: where
@@ -153,27 +150,25 @@ class Worker:
         """
         with self._lock:
             try:
-                return self._counted(function, arguments, named, look)
+                return self._counted(call)
             except StudentError as error:
                 if error.kind != "crashed" or error.module_wide or self._process.ended:
                     raise
-                if self._deaths[function] >= self.limits.deaths:
+                if self._deaths[call.function] >= self.limits.deaths:
                     raise
-                return self._counted(function, arguments, named, look)
+                return self._counted(call)
 
-    def _counted(
-        self, function: str, arguments: tuple[Any, ...], named: dict[str, Any], look: bool
-    ) -> tuple[list[Any], dict[str, Any]]:
+    def _counted(self, call: _Call) -> _Reply:
         """One call, and what it costs: of the function's deaths and of the module's patience."""
-        if self._deaths[function] >= self.limits.deaths:
+        function = call.function
+        if (deaths := self._deaths[function]) >= self.limits.deaths:
             raise StudentError(
-                "crashed",
-                f"it has ended its process {self._deaths[function]} times; it isn't called again",
+                "crashed", f"it has ended its process {deaths} times; it isn't called again"
             )
         self._ready()
         limit = self._budget.at_most(self._patience.limit(function in self._answered))
         try:
-            values, head = self._once(function, arguments, named, look, monotonic() + limit)
+            reply = self._once(call, monotonic() + limit)
         except StudentError as error:
             if error.kind == "crashed":
                 self._deaths[function] += 1
@@ -186,18 +181,14 @@ class Worker:
             self._patience.lose(limit)
             raise StudentError("timeout", f"no answer within {limit:.3g} s{why}") from None
         self._answered.add(function)
-        return values, head
+        return reply
 
-    def _once(
-        self,
-        function: str,
-        arguments: tuple[Any, ...],
-        named: dict[str, Any],
-        look: bool,
-        deadline: float,
-    ) -> tuple[list[Any], dict[str, Any]]:
-        head = {"function": function, "names": [*named], "look": look}
-        head, values = self._exchange(pack(head, [*arguments, *named.values()]), deadline)
+    def _once(self, call: _Call, deadline: float) -> _Reply:
+        function, arguments, named, look = call
+        message = pack(
+            {"function": function, "names": [*named], "look": look}, [*arguments, *named.values()]
+        )
+        head, values = self._exchange(message, deadline)
         if head.get("error") == "missing":
             raise no_such(self.module, function, self._names)
         if "error" in head:
@@ -231,7 +222,6 @@ class Worker:
 
     def _started(self, seconds: float) -> dict[str, Any]:
         """What a new process says when it has imported the file."""
-        self._process.close()
         self._start()
         head, _ = self._process.read(monotonic() + seconds)
         self._raise(head)
@@ -239,6 +229,7 @@ class Worker:
 
     def _start(self) -> None:
         """Start the process, up to where it imports the file: that is not the student's time."""
+        self._process.close()
         self._process.start()
         source = np.frombuffer(self._source, np.uint8)
         self._exchange(

@@ -28,14 +28,6 @@ _FILE_RIGHTS = {1: 13, 2: 14, 3: 15, 5: 16}
 _NETWORK_SINCE, _SCOPES_SINCE = 4, 6
 
 
-class _Ruleset(ctypes.Structure):
-    _fields_ = [
-        ("files", ctypes.c_uint64),
-        ("network", ctypes.c_uint64),
-        ("scopes", ctypes.c_uint64),
-    ]
-
-
 class _Beneath(ctypes.Structure):
     _pack_ = 1
     _layout_ = "ms"
@@ -44,10 +36,6 @@ class _Beneath(ctypes.Structure):
 
 class _Program(ctypes.Structure):
     _fields_ = [("length", ctypes.c_ushort), ("instructions", ctypes.c_char_p)]
-
-
-class _Header(ctypes.Structure):
-    _fields_ = [("version", ctypes.c_uint32), ("process", ctypes.c_int)]
 
 
 def confine(wall: dict[str, Any]) -> None:
@@ -112,18 +100,16 @@ def limit_threads(count: int) -> None:
 
 def _drop_capabilities(library: Any) -> None:
     """Root without capabilities is a user like any other, but for what belongs to it."""
-    header, none = _Header(0x20080522, 0), (ctypes.c_uint32 * 6)()
+    # The version of the call and this process; no right effective, permitted or inheritable.
+    header, none = (ctypes.c_uint32 * 2)(0x20080522, 0), (ctypes.c_uint32 * 6)()
     _must(library.capset(ctypes.byref(header), none))
 
 
 def _close_files(library: Any, readable: Iterable[str]) -> None:
     version = landlock_version()
     rights = max((count for since, count in _FILE_RIGHTS.items() if version >= since), default=0)
-    ruleset = _Ruleset(
-        (1 << rights) - 1,
-        3 if version >= _NETWORK_SINCE else 0,
-        3 if version >= _SCOPES_SINCE else 0,
-    )
+    network, scopes = (3 if version >= since else 0 for since in (_NETWORK_SINCE, _SCOPES_SINCE))
+    ruleset = (ctypes.c_uint64 * 3)((1 << rights) - 1, network, scopes)
     rules = _must(library.syscall(_CREATE, ctypes.byref(ruleset), ctypes.sizeof(ruleset), 0))
     for path in readable:
         try:

@@ -30,20 +30,10 @@ DEEPEST = 8
 LARGEST_INTEGER = 1 << 64
 
 DTYPES = {
-    np.dtype(kind).name: np.dtype(kind)
-    for kind in (
-        *(
-            np.bool_,
-            np.int8,
-            np.int16,
-            np.int32,
-            np.int64,
-            np.uint8,
-            np.uint16,
-            np.uint32,
-            np.uint64,
-        ),
-        *(np.float16, np.float32, np.float64, np.longdouble),
+    np.dtype(name).name: np.dtype(name)
+    for name in (
+        *(f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)),
+        *("bool", "float16", "float32", "float64", "longdouble"),
     )
 }
 """All that an array may be of, by name."""
@@ -137,13 +127,7 @@ def unpack(
 
 
 def generator(passed: Any) -> np.random.Generator:
-    """The generator whose state has come back, where one was sent.
-
-    Raises
-    ------
-    BrokenMessage
-        It is none.
-    """
+    """The generator whose state has come back, where one was sent; ``BrokenMessage`` if it is none."""
     _expect(type(passed) is Passed, "a generator that went has not come back")
     with _decoding():
         return _generator(passed.state)

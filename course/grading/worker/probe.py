@@ -29,10 +29,10 @@ def main() -> None:
 
     np.ones(3) @ np.ones((3, 3))
     found = {
-        "read": any(_works(_open, path) for path in settings["secrets"]),
+        "read": any(_works(_open, path, os.O_RDONLY) for path in settings["secrets"]),
         "write": any(_works(_create, path) for path in settings["folders"])
         or any(_works(_change_mode, path) for path in settings["secrets"])
-        or any(_works(_open_to_write, path) for path in settings["files"]),
+        or any(_works(_open, path, os.O_WRONLY) for path in settings["files"]),
         # What has a network of its own may have sockets: they lead nowhere.
         "network": _works(_connect, settings["port"])
         or (not settings["own_world"] and _works(_socket)),
@@ -70,12 +70,8 @@ def _bounded(threads: int) -> bool:
     return threads - 4 <= started < threads
 
 
-def _open(path: str) -> None:
-    os.close(os.open(path, os.O_RDONLY))
-
-
-def _open_to_write(path: str) -> None:
-    os.close(os.open(path, os.O_WRONLY))
+def _open(path: str, flags: int) -> None:
+    os.close(os.open(path, flags))
 
 
 def _create(folder: str) -> None:

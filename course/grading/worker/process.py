@@ -10,17 +10,16 @@ import select
 import signal
 import subprocess
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from time import monotonic
 from typing import Any
 
 from course.grading.errors import StudentError
-from course.grading.worker.budget import Budget
 from course.grading.worker.framing import BrokenMessage, unpack
-from course.grading.worker.limits import Limits
-from course.grading.worker.sandbox import Sandbox, program, worker_user
+from course.grading.worker.limits import Budget, Limits
+from course.grading.worker.sandbox import Sandbox, worker_user
 
 _STARTER = ThreadPoolExecutor(1, thread_name_prefix="starts-workers")
 """All workers are started from one thread that lives as long as this process: a sandbox dies with the *thread* that
@@ -74,7 +73,6 @@ class Process:
         """Start it; there must be none."""
         self._replies, theirs = os.pipe()
         user = worker_user(next(_NUMBERS))
-        starts_as = user if self._sandbox.becomes == "command" else None
         settings = {
             "path": self._sandbox.path,
             "readable": self._sandbox.readable if self._sandbox.hooked else (),
@@ -88,20 +86,21 @@ class Process:
                 "NOFILE": 64,
             },
         }
+        popen: Callable[..., subprocess.Popen[bytes]] = subprocess.Popen
         try:
             self._process = _STARTER.submit(
-                subprocess.Popen,
-                [*self._sandbox.command, program(self._sandbox), json.dumps(settings)],
+                popen,
+                [
+                    *self._sandbox.command,
+                    f"{self._sandbox.path[0]}/program.py",
+                    json.dumps(settings),
+                ],
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 stderr=subprocess.STDOUT,
                 pass_fds=(theirs,),
                 start_new_session=True,
-                cwd="/" if os.name == "posix" else None,
-                env={"OPENBLAS_NUM_THREADS": "1", "PYTHONHASHSEED": "0"},
-                user=starts_as,
-                group=starts_as,
-                extra_groups=None if starts_as is None else (),
+                **self._sandbox.starting(user),
             ).result()
         finally:
             os.close(theirs)
@@ -156,9 +155,7 @@ class Process:
         pipe = self._process.stdin.fileno()
         clock = _Clock(deadline)
         while data:
-            _, ready, _ = select.select([], [pipe], [], clock.left())
-            if not ready or clock.over():
-                raise self._late()
+            self._wait(clock, write=[pipe])
             try:
                 data = data[os.write(pipe, data) :]
             except BlockingIOError:
@@ -199,9 +196,11 @@ class Process:
             meaning = f"; {self._ended}"
         return StudentError("crashed", f"{why}{meaning}")
 
-    def _late(self) -> StudentError:
-        self.close()
-        return StudentError("timeout", "no answer in time")
+    def _wait(self, clock: _Clock, read: Sequence[int] = (), write: Sequence[int] = ()) -> None:
+        """Until there is something to read, or room to write; the process is ended where that takes too long."""
+        if not any(select.select(read, write, [], clock.left())) or clock.over():
+            self.close()
+            raise StudentError("timeout", "no answer in time")
 
     def _reader(self, deadline: float) -> Callable[[int], bytearray]:
         clock = _Clock(deadline)
@@ -210,9 +209,7 @@ class Process:
             data = bytearray(count)
             rest = memoryview(data)
             while rest:
-                ready, _, _ = select.select([self._replies], [], [], clock.left())
-                if not ready or clock.over():
-                    raise self._late()
+                self._wait(clock, read=[self._replies])
                 got = os.readv(self._replies, [rest])
                 if not got:
                     raise self.lost("the process has ended")

@@ -186,34 +186,14 @@ def _limit(limits: dict[str, int]) -> None:
 
 
 _FORBIDDEN = (
-    "ctypes.",
-    "ftplib.",
-    "gc.",
-    "http.",
-    "mmap.",
-    "os.",
-    "pty.",
-    "resource.",
-    "shutil.",
-    "signal.",
-    "smtplib.",
-    "socket.",
-    "sqlite3.",
-    "subprocess.",
-    "tempfile.",
-    "urllib.",
-    "webbrowser.",
+    *("ctypes.", "gc.", "mmap.", "os.", "pty.", "resource.", "shutil.", "signal.", "subprocess."),
+    *("ftplib.", "http.", "smtplib.", "socket.", "urllib.", "webbrowser."),
+    *("sqlite3.", "tempfile."),
 )
 _HARMLESS = {"os.listdir", "os.scandir", "os.add_dll_directory", "os.putenv", "os.unsetenv"}
 _NO_IMPORT = {
-    "_posixsubprocess",
-    "_ctypes",
-    "ctypes",
-    "_socket",
-    "_multiprocessing",
-    "resource",
-    "course",
-    "solutions",
+    *("_posixsubprocess", "_ctypes", "ctypes", "_socket", "_multiprocessing", "resource"),
+    *("course", "solutions"),
 }
 
 

@@ -15,7 +15,7 @@ import shutil
 import socket
 import subprocess
 import sys
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
@@ -26,7 +26,6 @@ import numpy as np
 from course.effects import PROJECT
 from course.errors import CourseError
 from course.grading.report import UNPROTECTED
-from course.grading.worker.bubblewrap import ISOLATED, bubblewrap_options
 from course.grading.worker.confine import landlock_version
 from course.grading.worker.syscalls import filter_program
 
@@ -48,6 +47,14 @@ THREADS = 64
 
 _OF_THE_KERNEL = ("/proc/sys/kernel/core_pattern", "/proc/sysrq-trigger")
 """Files that only root may write, wherever it is."""
+
+_NOBODY = ("--unshare-user", "--uid", "65534", "--gid", "65534")
+ISOLATED: tuple[Sequence[str], ...] = (
+    (*_NOBODY, "--disable-userns", "--cap-drop", "ALL"),
+    (*_NOBODY, "--cap-drop", "ALL"),
+    ("--cap-drop", "ALL"),
+)
+"""Options from what the newest bubblewrap can do down: no capabilities ever, for root keeps them all otherwise."""
 
 
 class NotProtected(CourseError):  # noqa: N818 - a state of the machine
@@ -87,6 +94,22 @@ class Sandbox:
     lacks: tuple[str, ...] = ()
     hooked: bool = True
 
+    def starting(self, user: int) -> dict[str, Any]:
+        """What ``subprocess`` is told.
+
+        Parameters
+        ----------
+        user : of this worker alone
+        """
+        starts_as = user if self.becomes == "command" else None
+        return {
+            "env": {"OPENBLAS_NUM_THREADS": "1", "PYTHONHASHSEED": "0"},
+            "cwd": "/" if os.name == "posix" else None,
+            "user": starts_as,
+            "group": starts_as,
+            "extra_groups": None if starts_as is None else (),
+        }
+
     def wall(self, user: int) -> dict[str, Any]:
         """What ``confine`` is told.
 
@@ -107,11 +130,6 @@ _ALWAYS = (
     "separate process without the grader's data",
     "limits on processor time, wall clock, memory and output",
 )
-
-
-def program(shut_in: Sandbox) -> str:
-    """The worker program, as the worker sees it."""
-    return f"{shut_in.path[0]}/program.py"
 
 
 @lru_cache(maxsize=1)
@@ -246,12 +264,42 @@ def _with_bubblewrap(bwrap: str, isolated: Sequence[str]) -> Sandbox:
     shown |= {f"/worker/{name}": str(HERE / name) for name in WORKER_FILES}
     return replace(
         outside,
-        command=(bwrap, *bubblewrap_options(isolated, shown), str(python), "-I", "-S"),
+        command=(bwrap, *_bubblewrap_options(isolated, shown), str(python), "-I", "-S"),
         path=("/worker", "/site"),
         readable=(str(library), "/site", "/usr/lib", "/usr/lib64", "/lib", "/lib64"),
         own_world=True,
         threads=THREADS,
     )
+
+
+def _bubblewrap_options(isolated: Sequence[str], shown: Mapping[str, str]) -> list[str]:
+    """So that a worker sees Python, NumPy and its own files, and nothing else.
+
+    Parameters
+    ----------
+    isolated : one of ``ISOLATED``
+    shown : path inside -> file or folder that is seen there, if it is there
+    """
+    options = ["--unshare-all", *isolated, "--die-with-parent", "--new-session", "--clearenv"]
+    options += ["--setenv", "OPENBLAS_NUM_THREADS", "1", "--setenv", "PYTHONHASHSEED", "0"]
+    for name in ("/usr/lib", "/usr/lib64", "/usr/lib32", "/lib", "/lib64"):
+        folder = Path(name)
+        if folder.is_symlink():
+            options += ["--symlink", str(folder.readlink()), name]
+        elif folder.is_dir():
+            options += ["--ro-bind", name, name]
+    if Path("/etc/ld.so.cache").exists():
+        options += ["--ro-bind", "/etc/ld.so.cache", "/etc/ld.so.cache"]
+    # Of Python itself its program, its library and nothing else that may lie beside them.
+    for path in Path(sys.base_prefix).resolve().glob("lib/libpython*"):
+        options += ["--ro-bind", str(path), str(path)]
+    for inside, outside in shown.items():
+        if Path(outside).exists():
+            options += ["--ro-bind", outside, inside]
+    options += ["--proc", "/proc", "--dev", "/dev"]
+    # Without the last, root outside could still write what root may in /proc/sys, capabilities or not.
+    options += ["--remount-ro", "/dev", "--remount-ro", "/", "--remount-ro", "/proc"]
+    return [*options, "--chdir", "/"]
 
 
 def _found(shut_in: Sandbox, secrets: Sequence[Path]) -> list[str] | None:
@@ -260,7 +308,6 @@ def _found(shut_in: Sandbox, secrets: Sequence[Path]) -> list[str] | None:
         listening.bind(("127.0.0.1", 0))
         listening.listen()
         number = worker_user(63)
-        starts_as = number if shut_in.becomes == "command" else None
         settings = {
             "path": shut_in.path,
             "wall": shut_in.wall(number),
@@ -278,11 +325,7 @@ def _found(shut_in: Sandbox, secrets: Sequence[Path]) -> list[str] | None:
                 check=True,
                 capture_output=True,
                 timeout=30,
-                env={"OPENBLAS_NUM_THREADS": "1"},
-                cwd="/",
-                user=starts_as,
-                group=starts_as,
-                extra_groups=None if starts_as is None else (),
+                **shut_in.starting(number),
             )
             found: list[str] = json.loads(run.stdout)
         except (OSError, subprocess.SubprocessError, ValueError):

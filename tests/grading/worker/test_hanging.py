@@ -23,8 +23,7 @@ from course.grading.pictures.whole import Together
 from course.grading.references import references
 from course.grading.report import Report
 from course.grading.worker.client import Worker
-from course.grading.worker.limits import Limits
-from course.grading.worker.patience import ALTOGETHER, NOT_RUN, Patience
+from course.grading.worker.limits import ALTOGETHER, NOT_RUN, Limits, Patience
 from course.modules import COURSE
 
 MODULE = "motion_blur"

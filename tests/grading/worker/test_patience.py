@@ -8,7 +8,7 @@ from itertools import product
 import pytest
 
 from course.grading.errors import StudentError
-from course.grading.worker.patience import ALTOGETHER, LEAST, NOT_RUN, Patience
+from course.grading.worker.limits import ALTOGETHER, LEAST, NOT_RUN, Patience
 
 
 @pytest.mark.parametrize("answered", list(product((False, True), repeat=6)))

@@ -21,10 +21,8 @@ from course.grading.checks.trusted import TrustedModule
 from course.grading.errors import StudentError
 from course.grading.grading import grade
 from course.grading.references import references
-from course.grading.worker.budget import Budget
 from course.grading.worker.client import Worker
-from course.grading.worker.limits import Limits
-from course.grading.worker.patience import NOT_RUN
+from course.grading.worker.limits import NOT_RUN, Budget, Limits
 from course.grading.worker.process import MOST_PRINTED, Process
 
 LONG = 60.0

@@ -12,8 +12,7 @@ from course.grading.checks.check import Check
 from course.grading.checks.result import troubled
 from course.grading.errors import StudentError
 from course.grading.worker.client import Worker
-from course.grading.worker.remedies import remedy
-from course.grading.worker.wording import said, told
+from course.grading.worker.wording import remedy, said, told
 
 U = np.ones((2, 17))
 V = np.ones((3, 17))
