@@ -20,7 +20,7 @@ from benchmarks.report import report
 from course import Picture, Scene, load_scene, render
 from course.benchmarking.plot_data import Plot, Series
 from course.benchmarking.tables import NONE, Table, digits
-from course.compiled.packets import available
+from course.compiled.library import available
 from course.core.types import Floats64
 from course.effects import PROJECT
 from course.scene.scene import load_variant

@@ -27,7 +27,7 @@ from course.benchmarking.measuring import Measured, measure
 from course.benchmarking.plot_data import comparisons
 from course.benchmarking.references import scene_hash
 from course.benchmarking.tables import summary_table
-from course.compiled.packets import available
+from course.compiled.library import available
 from course.effects import PROJECT
 from course.scene.scene import load_variant
 

@@ -254,7 +254,7 @@ def our_settings(case: Case, target: float) -> list[Setting]:
     known = inspect.signature(render).parameters
     engines: dict[str, dict[str, Any]] = {"": {"compiled": False} if "compiled" in known else {}}
     if "compiled" in known:
-        from course.compiled.packets import available
+        from course.compiled.library import available
 
         if available():  # the fastest first: it finds the family's errors
             engines = {", compiled": {"compiled": True}, **engines}

@@ -24,7 +24,7 @@ import numpy as np
 
 from course.atomic import write_text
 from course.benchmarking.machine import machine
-from course.compiled.packets import available
+from course.compiled.library import available
 from course.effects import PROJECT
 from course.errors import CourseError
 from course.extras.samplers import FUNCTIONS

@@ -7,7 +7,7 @@ from contextlib import closing
 from time import monotonic
 
 from course import __version__
-from course.compiled.packets import available as packets_available
+from course.compiled.library import available as packets_available
 from course.core.film import AnyFilm
 from course.core.render import Progress, Schedule
 from course.core.render import render as render_film

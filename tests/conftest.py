@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from course import Scene, load_scene
 from course import render_scene as rendering
-from course.compiled import packets
+from course.compiled import library
 from tests.once import Once, made_once, shared_folder
 
 MakeScene = Callable[..., Scene]
@@ -59,7 +59,7 @@ def make_scene(tmp_path: Path) -> MakeScene:
         pytest.param(
             True,
             marks=pytest.mark.skipif(
-                not packets.available(), reason="Numba is not installed (pip install .[fast])"
+                not library.available(), reason="Numba is not installed (pip install .[fast])"
             ),
         ),
     ],

@@ -8,7 +8,7 @@ from importlib.metadata import version
 from pathlib import Path
 
 from course import __version__
-from course.compiled.packets import available
+from course.compiled.library import available
 from course.rendering.threads import default_threads
 
 

@@ -14,7 +14,7 @@ from course.benchmarking.curves import Converged, Curve
 from course.benchmarking.errors import dissimilarity, relative_mse, rmse
 from course.benchmarking.estimators import Estimator, Module
 from course.benchmarking.references import FOLDER, Reference, reference
-from course.compiled.packets import available
+from course.compiled.library import available
 from course.core.types import Floats64
 from course.effects import Effects
 from course.formats.yaml.overriding import Overrides

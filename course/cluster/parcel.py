@@ -22,7 +22,7 @@ import msgspec
 
 from course import __version__
 from course.building.world import compile_scene
-from course.compiled.packets import available as packets_available
+from course.compiled.library import available as packets_available
 from course.core.tracer import Tracer
 from course.effects import Effects
 from course.errors import CourseError

@@ -47,6 +47,11 @@ class PacketAccelerator(EmbreeAccelerator):
     convex: ConvexObjects | None = None
     apart: bool = False
 
+    @property
+    def scene(self) -> int:
+        """Embree's scene, for a compiled loop; 0 where there are no triangles."""
+        return 0 if self.packets is None else self.packets.scene
+
     def intersect(
         self,
         origin: Floats32,

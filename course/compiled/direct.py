@@ -2,21 +2,43 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
-from course.compiled import direct_kernels, light_kernels
-from course.core.direct import Candidates
+from course.compiled import direct_kernels, light_kernels, shadow_kernels
+from course.compiled.accelerator import PacketAccelerator
+from course.core.direct import ROUNDING, Candidates
 from course.core.hits import Hits
 from course.core.lights import Light, Sample
-from course.core.materials import Lookup
+from course.core.rays import Draws
 from course.core.types import Floats32, Indices
 from course.extras.direct import FullDirectLight
 from course.extras.mesh_light import MeshLight
 
 _NO_NORMAL = np.empty(0, np.float32)
 _ALL_MATERIALS = np.empty((0, 0), np.bool_)
+_NO_BULGE = np.empty((0, 3), np.float32)
+_UNASKED, _UNASKED_MASK = np.empty(0, np.float32), np.empty(0, np.bool_)
+_NO_COLUMNS = np.empty((3, 0), np.float32)
+
+
+@dataclass(frozen=True)
+class PointsOnLight(Sample):
+    """Points on a light in the place of ``to_light``; the loop works out the rest, which is empty."""
+
+    normal: Floats32
+    two_sided: bool
+
+
+def points_on_light(
+    on_light: Floats32, _points: Floats32, normal: Floats32 | None = None, two_sided: bool = False
+) -> PointsOnLight:
+    """Stand in for ``course.core.lights.sample.towards``."""
+    normal = _NO_NORMAL if normal is None else normal
+    return PointsOnLight(on_light, _UNASKED, _UNASKED, normal, two_sided)
 
 
 def towards(
@@ -52,7 +74,82 @@ def on_triangles(light: MeshLight, points: Floats32, u: Floats32) -> Sample:
 class CompiledDirectLight(FullDirectLight):
     """What lights and the environment make visible at hits."""
 
-    def _sample(self, light: Light, points: Floats32, u: Floats32 | None) -> Sample:
+    def _from_lights(
+        self, hits: Hits, path: Indices | None, depth: int, draws: Draws
+    ) -> tuple[Floats32 | None, Floats32 | None]:
+        """In one loop a light, where all triangles stand still."""
+        accelerator = self.surface.accelerator
+        if self.lifted or not isinstance(accelerator, PacketAccelerator) or not accelerator.scene:
+            return super()._from_lights(hits, path, depth, draws)
+        diffuse: Floats32 | None = None
+        specular: Floats32 | None = None
+        for light in self.lights:
+            u = draws(light.name, path, depth) if light.width else None
+            irradiance, shiny = self._illuminate(accelerator.scene, light, hits, u, path, draws)
+            if irradiance is None:
+                continue
+            added = irradiance * light.color[:, None]
+            diffuse = added if diffuse is None else np.add(diffuse, added, out=diffuse)
+            if shiny is not None:
+                highlight = self._highlight(hits, shiny, shiny.irradiance)
+                specular = self._accumulated(specular, hits, shiny, highlight, light.color)
+        return diffuse, specular
+
+    def _illuminate(
+        self,
+        scene: int,
+        light: Light,
+        hits: Hits,
+        u: Floats32 | None,
+        path: Indices | None,
+        draws: Draws,
+    ) -> tuple[Floats32 | None, Candidates | None]:
+        """Irradiance (n,) from a light, and what it reaches of materials with highlights; None for none."""
+        points, triangles, n = self._points(hits, light), self.surface.triangles, hits.size
+        sample = self._sample(light, points, u, points_on_light)
+        irradiance, counts = np.empty(n, np.float32), np.zeros(4, np.int64)
+        shiny = _UNASKED_MASK
+        if self.specular is not None:
+            shiny = np.asarray(self.specular.rows.any(axis=0))
+        k = n if len(shiny) else 0
+        which, towards = np.empty(k, np.int64), np.empty((6, k), np.float32)
+        asked = _UNASKED_MASK if draws.costs is None else np.empty(n, np.bool_)
+        arrays = hits.near_origin, points, hits.ns, hits.ng, hits.material, hits.side
+        places = hits.triangle, hits.u, hits.v, sample.to_light
+        shadow_kernels.illuminate(
+            scene,
+            *map(np.ascontiguousarray, (*arrays, *places, sample.inverse_length, sample.factor)),
+            *(
+                (sample.normal, sample.two_sided)
+                if isinstance(sample, PointsOnLight)
+                else (_NO_NORMAL, False)
+            ),
+            _ALL_MATERIALS if self.shaded is None else self.shaded,
+            _NO_BULGE if triangles.bulge is None else triangles.bulge,
+            *(np.float32(triangles.largest_sine + ROUNDING), np.float32(light.limit)),
+            *(shiny, irradiance, which, towards, asked, counts),
+        )
+        shadow, above, nanoseconds, k = counts.tolist()
+        draws.counters.embree.seconds += 1e-9 * shadow_kernels.TIMED * nanoseconds
+        draws.counters.rays["shadow"] += above
+        draws.cast("shadow", shadow, path, np.flatnonzero(asked) if len(asked) else None)
+        if shadow == 0:
+            return None, None
+        if k == 0:
+            return irradiance, None
+        which, towards = which[:k], towards[:, :k]
+        return irradiance, Candidates(
+            *(which, which, None, towards[0], towards[1], hits.near_origin),
+            *(towards[3:], towards[2]),
+        )
+
+    def _sample(
+        self,
+        light: Light,
+        points: Floats32,
+        u: Floats32 | None,
+        towards: Callable[..., Any] = towards,
+    ) -> Any:
         if isinstance(light, MeshLight) and u is not None:
             return on_triangles(light, points, u)
         return light.sample(points, u, towards)
@@ -114,5 +211,11 @@ class CompiledDirectLight(FullDirectLight):
         direct_kernels.spread(candidates.index, *map(np.ascontiguousarray, (values, color)), total)
         return total
 
-    def _scale(self, total: Floats32, hits: Hits, lookup: Lookup) -> None:
-        direct_kernels.scale(total, np.ascontiguousarray(hits.material), lookup.rows)
+    def _reflected(self, hits: Hits, diffuse: Floats32, specular: Floats32 | None) -> Floats32:
+        highlights = _NO_COLUMNS, _NO_COLUMNS
+        if specular is not None and self.specular is not None:
+            highlights = self.specular.rows, specular
+        tint = _NO_COLUMNS if hits.tint is None else hits.tint
+        arrays = hits.material, self.diffuse.rows, tint, *highlights
+        direct_kernels.reflect(*map(np.ascontiguousarray, arrays), diffuse)
+        return diffuse

@@ -99,12 +99,27 @@ def spread(which, values, color, total):
             total[c, which[i]] += values[i] * color[c]
 
 
-@njit(types.void(COLUMNS, types.uint16[::1], COLUMNS), **OPTIONS)
-def scale(total, material, rows):
-    """Multiply (3, n) of all hits by a property (3, M) of their materials, in place."""
+@njit(types.void(types.uint16[::1], *(COLUMNS,) * 5), **OPTIONS)
+def reflect(material, rows, tint, specular_rows, specular, diffuse):
+    """Multiply what arrives at n hits by their materials' reflectances, into ``diffuse``.
+
+    Parameters
+    ----------
+    material : (n,) of the hits
+    rows, specular_rows : (3, M) reflectances
+    tint : (3, n) of textures; (3, 0) for none
+    specular : (3, n) sums of highlights; (3, 0) for none
+    diffuse : (3, n) sums of irradiance, replaced by radiance
+    """
+    tints, highlights = tint.shape[1] > 0, specular.shape[1] > 0
     for c in range(3):
         for i in range(len(material)):
-            total[c, i] *= rows[c, material[i]]
+            radiance = diffuse[c, i] * rows[c, material[i]]
+            if tints:
+                radiance *= tint[c, i]
+            if highlights:
+                radiance += specular[c, i] * specular_rows[c, material[i]]
+            diffuse[c, i] = radiance
 
 
 @njit(types.void(types.float32[:, :], types.int64[::1], COLUMNS, COLUMNS), **OPTIONS)

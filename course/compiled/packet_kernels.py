@@ -1,4 +1,4 @@
-"""Loops over packets of 16 rays, compiled by Numba; imported by ``course.compiled.packets`` alone, when they are used.
+"""Loops over packets of 16 rays, compiled by Numba; imported by ``course.compiled.packets``, when they are used.
 
 They are compiled when this module is first imported on a machine, and kept on disk from then on.
 
@@ -11,7 +11,10 @@ from __future__ import annotations
 import numpy as np
 from numba import njit, types
 
+from course.compiled.library import name_queries
 from course.compiled.options import COLUMNS, OPTIONS, ROW
+
+name_queries()
 
 WIDTH = 16
 _TNEAR, _TIME, _TFAR, _MASK, _ID, _FLAGS = 3, 7, 8, 9, 10, 11
@@ -21,12 +24,12 @@ _U, _V, _PRIMITIVE, _GEOMETRY = 15, 16, 17, 18
 _ALL_ROWS = 24
 
 _query = types.void(*[types.uintp] * 4)
-_intersect16 = types.ExternalFunction("rtcIntersect16", _query)
-_occluded16 = types.ExternalFunction("rtcOccluded16", _query)
+intersect16 = types.ExternalFunction("rtcIntersect16", _query)
+occluded16 = types.ExternalFunction("rtcOccluded16", _query)
 
 
 @njit(**OPTIONS)
-def _aligned(rows):
+def aligned(rows):
     """Memory for rows of 16 floats at an address that 64 divides, as Embree wants it."""
     memory = np.empty((rows + 1) * WIDTH, np.float32)
     start = (-memory.ctypes.data & 63) // 4
@@ -79,7 +82,7 @@ def _found(packet, whole, i, triangle, uvt, j):
 
 
 @njit(**OPTIONS)
-def _arguments(hint):
+def arguments_of(hint):
     """RTCIntersectArguments: flags, features (all of them), then context and callbacks (none)."""
     arguments = np.zeros(16, np.uint32)
     arguments[0] = hint
@@ -102,12 +105,12 @@ def intersect(scene, origin, direction, limit, which, every, hint, triangle, uvt
     which : (n,) the rays that are asked, in ascending order; of no meaning where ``every`` one is
     """
     n = direction.shape[1] if every else len(which)
-    packet = _aligned(_ALL_ROWS)
+    packet = aligned(_ALL_ROWS)
     whole = packet.view(np.int32)
     _begin(packet, whole, origin)
-    valid = _aligned(1).view(np.int32)
+    valid = aligned(1).view(np.int32)
     valid[:] = -1
-    arguments = _arguments(hint)
+    arguments = arguments_of(hint)
     if not every:
         triangle[:] = -1
         uvt[:2] = 0
@@ -129,7 +132,7 @@ def intersect(scene, origin, direction, limit, which, every, hint, triangle, uvt
             for i in range(count):
                 packet[_TFAR, i] = limit[0] if len(limit) == 1 else limit[which[first + i]]
                 whole[_GEOMETRY, i] = -1
-        _intersect16(valid.ctypes.data, scene, packet.ctypes.data, arguments.ctypes.data)
+        intersect16(valid.ctypes.data, scene, packet.ctypes.data, arguments.ctypes.data)
         if every:
             for i in range(count):
                 _found(packet, whole, i, triangle, uvt, first + i)
@@ -142,19 +145,19 @@ def intersect(scene, origin, direction, limit, which, every, hint, triangle, uvt
 def unoccluded(scene, origin, direction, limit, free):
     """Whether the ways are free, into ``free`` (N,); see ``PacketScene.unoccluded``."""
     n = direction.shape[1]
-    packet = _aligned(_RAY_ROWS)
+    packet = aligned(_RAY_ROWS)
     whole = packet.view(np.int32)
     _begin(packet, whole, origin)
-    valid = _aligned(1).view(np.int32)
+    valid = aligned(1).view(np.int32)
     valid[:] = -1
-    arguments = _arguments(0)
+    arguments = arguments_of(0)
     for first in range(0, n, WIDTH):
         count = min(WIDTH, n - first)
         valid[0, count:] = 0
         _fill(packet, origin, direction, first, count)
         for i in range(count):
             packet[_TFAR, i] = limit
-        _occluded16(valid.ctypes.data, scene, packet.ctypes.data, arguments.ctypes.data)
+        occluded16(valid.ctypes.data, scene, packet.ctypes.data, arguments.ctypes.data)
         # Embree sets tfar to minus infinity where something is in the way.
         for i in range(count):
             free[first + i] = packet[_TFAR, i] >= 0

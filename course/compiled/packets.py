@@ -11,15 +11,10 @@ without.
 
 from __future__ import annotations
 
-import ctypes
-from functools import cache
-from importlib.util import find_spec
-from pathlib import Path
-from typing import Any
-
 import numpy as np
 
 from course.compiled.convex import roomy_box
+from course.compiled.library import device, library
 from course.core.types import Floats32, Indices, Mask, Numbers
 
 _TRIANGLES, _INDICES, _VERTICES = 0, 0, 1
@@ -27,62 +22,6 @@ _THREE_UINTS, _THREE_FLOATS = 0x5003, 0x9003
 _ROBUST = 4
 _COHERENT = 1 << 16
 _EVERY = np.empty(0, np.int64)
-
-QUERIES = ("rtcIntersect16", "rtcOccluded16")
-"""What the compiled loops call by name."""
-
-
-@cache
-def available() -> bool:
-    """Whether Numba is installed and embreex's library has what is needed."""
-    return find_spec("numba") is not None and _library() is not None
-
-
-@cache
-def _library() -> ctypes.CDLL | None:
-    """The library that embreex has loaded, with its functions declared."""
-    spec = find_spec("embreex")
-    if spec is None or spec.origin is None:
-        return None
-    home = Path(spec.origin).parent
-    # Where the tools that repair wheels put libraries on Linux, Windows and macOS.
-    folders = (home.parent / "embreex.libs", home, home / ".dylibs")
-    found = [file for folder in folders if folder.is_dir() for file in folder.glob("*embree4*")]
-    if not found:
-        return None
-    library = ctypes.CDLL(str(found[0]))
-    pointer, size = ctypes.c_void_p, ctypes.c_size_t
-    declarations: dict[str, tuple[Any, list[Any]]] = {
-        "rtcNewDevice": (pointer, [ctypes.c_char_p]),
-        "rtcGetDeviceError": (ctypes.c_int, [pointer]),
-        "rtcNewScene": (pointer, [pointer]),
-        "rtcSetSceneFlags": (None, [pointer, ctypes.c_int]),
-        "rtcNewGeometry": (pointer, [pointer, ctypes.c_int]),
-        "rtcSetSharedGeometryBuffer": (
-            None,
-            [pointer, ctypes.c_int, ctypes.c_uint, ctypes.c_int, pointer, size, size, size],
-        ),
-        "rtcCommitGeometry": (None, [pointer]),
-        "rtcAttachGeometry": (ctypes.c_uint, [pointer, pointer]),
-        "rtcReleaseGeometry": (None, [pointer]),
-        "rtcCommitScene": (None, [pointer]),
-        "rtcReleaseScene": (None, [pointer]),
-        **dict.fromkeys(QUERIES, (None, [pointer] * 4)),
-    }
-    try:
-        for name, (result, arguments) in declarations.items():
-            function = getattr(library, name)
-            function.restype, function.argtypes = result, arguments
-    except AttributeError:
-        return None
-    return library
-
-
-@cache
-def _device() -> int:
-    library = _library()
-    assert library is not None
-    return int(library.rtcNewDevice(None))
 
 
 class PacketScene:
@@ -100,36 +39,38 @@ class PacketScene:
     """
 
     def __init__(self, vertices: Floats32, triangles: Numbers) -> None:
-        library = _library()
-        assert library is not None
-        self._library = library
+        embree = library()
+        assert embree is not None
+        self._library = embree
         # Embree reads 16 bytes of the last vertex, and reads the arrays for as long as the scene lives.
         self._vertices = np.zeros((len(vertices) + 2, 3), np.float32)
         self._vertices[: len(vertices)] = vertices
         self._triangles = np.ascontiguousarray(triangles, np.uint32)
-        geometry = library.rtcNewGeometry(_device(), _TRIANGLES)
+        geometry = embree.rtcNewGeometry(device(), _TRIANGLES)
         for kind, layout, array, count in (
             (_VERTICES, _THREE_FLOATS, self._vertices, len(vertices)),
             (_INDICES, _THREE_UINTS, self._triangles, len(triangles)),
         ):
-            library.rtcSetSharedGeometryBuffer(
+            embree.rtcSetSharedGeometryBuffer(
                 geometry, kind, 0, layout, array.ctypes.data, 0, 12, count
             )
-        library.rtcCommitGeometry(geometry)
-        self._scene = library.rtcNewScene(_device())
-        library.rtcSetSceneFlags(self._scene, _ROBUST)
-        library.rtcAttachGeometry(self._scene, geometry)
-        library.rtcReleaseGeometry(geometry)
-        library.rtcCommitScene(self._scene)
-        error = library.rtcGetDeviceError(_device())
+        embree.rtcCommitGeometry(geometry)
+        self.scene = embree.rtcNewScene(device())
+        embree.rtcSetSceneFlags(self.scene, _ROBUST)
+        embree.rtcAttachGeometry(self.scene, geometry)
+        embree.rtcReleaseGeometry(geometry)
+        embree.rtcCommitScene(self.scene)
+        error = embree.rtcGetDeviceError(device())
         if error:
             raise RuntimeError(f"Embree's error {error}")
-        self._intersect, self._unoccluded = _kernels()
+        from course.compiled import packet_kernels
+
+        self._intersect, self._unoccluded = packet_kernels.intersect, packet_kernels.unoccluded
         self._box = roomy_box(vertices)
 
     def __del__(self) -> None:
         """Give the hierarchy's memory back."""
-        scene = getattr(self, "_scene", None)
+        scene = getattr(self, "scene", None)
         if scene:
             self._library.rtcReleaseScene(scene)
 
@@ -157,14 +98,14 @@ class PacketScene:
         arrays = map(np.ascontiguousarray, (origin, direction, limit))
         chosen = _EVERY if which is None else which, which is None
         hint = _COHERENT if coherent else 0
-        self._intersect(self._scene, *arrays, *chosen, hint, triangle, uvt)
+        self._intersect(self.scene, *arrays, *chosen, hint, triangle, uvt)
         return triangle, *uvt
 
     def unoccluded(self, origin: Floats32, direction: Floats32, limit: float) -> Mask:
         """Whether nothing lies between origin and origin + limit * direction, (N,) bool."""
         free = np.empty(direction.shape[1], np.bool_)
         arrays = map(np.ascontiguousarray, (origin, direction))
-        self._unoccluded(self._scene, *arrays, np.float32(limit), free)
+        self._unoccluded(self.scene, *arrays, np.float32(limit), free)
         return free
 
     def entering(self, origin: Floats32, direction: Floats32, limit: Floats32) -> Indices:
@@ -182,17 +123,3 @@ class PacketScene:
         which = np.empty(direction.shape[1], np.int64)
         arrays = map(np.ascontiguousarray, (origin, direction, limit))
         return which[: box_kernels.entering(*arrays, self._box, which)]
-
-
-@cache
-def _kernels() -> tuple[Any, Any]:
-    """The compiled loops, which find Embree's queries by their names."""
-    import llvmlite.binding
-
-    library = _library()
-    for name in QUERIES:
-        address = ctypes.cast(getattr(library, name), ctypes.c_void_p).value
-        llvmlite.binding.add_symbol(name, address)
-    from course.compiled import packet_kernels
-
-    return packet_kernels.intersect, packet_kernels.unoccluded

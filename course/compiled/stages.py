@@ -10,6 +10,7 @@ import numpy as np
 from course.compiled import direct_kernels, draw_kernels, sky_kernels
 from course.compiled.accelerator import in_packets
 from course.compiled.direct import CompiledDirectLight
+from course.compiled.environment import compiled_environment
 from course.compiled.scatter import CompiledPathBounce, CompiledScatter
 from course.compiled.surface import CompiledSurface
 from course.core.hits import Surface
@@ -29,11 +30,13 @@ def compiled(tracer: Tracer) -> Tracer:
     """The tracer with compiled stages, where there are any."""
     integrator = tracer.integrator
     surface = compiled_surface(integrator.surface)
-    changed: dict[str, Any] = {"surface": surface}
+    environment = compiled_environment(integrator.environment)
+    changed: dict[str, Any] = {"surface": surface, "environment": environment}
     if (direct := integrator.direct) is not None:
         known = same_fields(direct) | {"surface": surface}
         if isinstance(direct.sky, Sky):
-            known["sky"] = CompiledSky(**same_fields(direct.sky) | {"surface": surface})
+            seen = {"surface": surface, "environment": compiled_environment(direct.sky.environment)}
+            known["sky"] = CompiledSky(**same_fields(direct.sky) | seen)
         changed["direct"] = CompiledDirectLight(**known)
     if (scatter := integrator.scatter) is not None:
         changed["scatter"] = CompiledScatter(**same_fields(scatter) | {"surface": surface})

@@ -90,6 +90,16 @@ class DirectLight:
         self, hits: Hits, path: Indices | None, depth: int, draws: Draws
     ) -> Floats32 | None:
         """Radiance (3, n) that hits of paths (n,) reflect; None if no light faces any of them."""
+        diffuse, specular = self._from_lights(hits, path, depth, draws)
+        sky = None if self.sky is None else self.sky(hits, path, depth, draws)
+        if sky is not None:
+            diffuse = sky if diffuse is None else np.add(diffuse, sky, out=diffuse)
+        return None if diffuse is None else self._reflected(hits, diffuse, specular)
+
+    def _from_lights(
+        self, hits: Hits, path: Indices | None, depth: int, draws: Draws
+    ) -> tuple[Floats32 | None, Floats32 | None]:
+        """Sums of irradiance and of highlights (3, n) over all lights, before reflectances; None for 0."""
         diffuse: Floats32 | None = None
         specular: Floats32 | None = None
         for light in self.lights:
@@ -107,18 +117,7 @@ class DirectLight:
             if self.specular is not None:
                 highlight = self._highlight(hits, candidates, irradiance)
                 specular = self._accumulated(specular, hits, candidates, highlight, light.color)
-        sky = None if self.sky is None else self.sky(hits, path, depth, draws)
-        if sky is not None:
-            diffuse = sky if diffuse is None else np.add(diffuse, sky, out=diffuse)
-        if diffuse is None:
-            return None
-        self._scale(diffuse, hits, self.diffuse)
-        if hits.tint is not None:
-            diffuse *= hits.tint
-        if specular is not None and self.specular is not None:
-            specular *= self.specular(hits.material)
-            diffuse += specular
-        return diffuse
+        return diffuse, specular
 
     def _points(self, hits: Hits, light: Light) -> Floats32:
         """Shading points (3, n) for which the light is sampled: the origins of the shadow rays."""
@@ -240,8 +239,15 @@ class DirectLight:
         total += added
         return total
 
-    def _scale(self, total: Floats32, hits: Hits, lookup: Lookup) -> None:
-        total *= lookup(hits.material)
+    def _reflected(self, hits: Hits, diffuse: Floats32, specular: Floats32 | None) -> Floats32:
+        """Sums of irradiance and highlights (3, n) times the reflectances, in place."""
+        diffuse *= self.diffuse(hits.material)
+        if hits.tint is not None:
+            diffuse *= hits.tint
+        if specular is not None and self.specular is not None:
+            specular *= self.specular(hits.material)
+            diffuse += specular
+        return diffuse
 
 
 def direct_light(

@@ -1,19 +1,21 @@
-"""The compiled loop draws the same directions, bit for bit."""
+"""Compiled loops look up cube maps, and draw directions towards their light, with the same bits."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
 
-from course.compiled import packets
-from course.core.environment import ConstantEnvironment
+from course.compiled import library
+from course.core.environment import ConstantEnvironment, CubeEnvironment
 from course.core.types import Floats32
+from course.effects import Bound, Effects
 from course.extras.environment_sampling import ProductSampling, product_sampling
 from course.extras.surface import build_surface
 
-if not packets.available():
+if not library.available():
     pytest.skip("Numba is not installed (pip install .[fast])", allow_module_level=True)
 
+from course.compiled.environment import CompiledCubeEnvironment, compiled_environment
 from course.compiled.stages import CompiledSky
 
 
@@ -59,3 +61,32 @@ def test_directions_and_weights(size: int) -> None:
     direction, weight = by_loop(product).directions(normals(n), u)
     assert len(np.unique(direction.round(2), axis=1).T) > 1000
     assert (weight > 0).mean() > 0.9
+
+
+def looked_up_by(folder: str | None, size: int, seamless: bool) -> CubeEnvironment:
+    faces = np.random.default_rng(size).random((6, size, size, 3), np.float32)
+    names = "lookup", "lookup_seamless"
+    functions = Bound(Effects(folder)).functions("cube_map", *names, asked_by=())
+    return CubeEnvironment(faces, functions, seamless)
+
+
+@pytest.mark.parametrize("seamless", [False, True])
+@pytest.mark.parametrize("size", [1, 2, 3, 16, 100])
+def test_cube_maps_are_looked_up(size: int, seamless: bool) -> None:
+    passes = looked_up_by(None, size, seamless)
+    loop = compiled_environment(passes)
+    assert isinstance(loop, CompiledCubeEnvironment)
+    # Along the axes and diagonals, next to the edges of faces, and all over.
+    direction = normals(20_000)[:, 27:]
+    direction[:, :5000] *= np.array([[1.0], [0.01], [1.0]], np.float32)
+    direction[0, :2500] = np.abs(direction[2, :2500])
+    for columns in (slice(None), slice(0, 0), slice(None, None, 3)):
+        mine, theirs = (each.radiance(direction[:, columns]) for each in (passes, loop))
+        assert (mine.shape, mine.dtype) == (theirs.shape, theirs.dtype)
+        assert mine.tobytes() == theirs.tobytes()
+
+
+def test_functions_of_other_folders_are_called() -> None:
+    """A student's function has no twin."""
+    environment = looked_up_by("assignments", 4, seamless=True)
+    assert compiled_environment(environment) is environment

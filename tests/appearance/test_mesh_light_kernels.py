@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from course import shapes
-from course.compiled import packets
+from course.compiled import library
 from course.core.lights.sample import towards
 from course.core.triangles import Mesh
 from tests.appearance.mesh_lamps import BALL, KNOT, around, lamp, moved, without
 
-if not packets.available():
+if not library.available():
     pytest.skip("Numba is not installed (pip install .[fast])", allow_module_level=True)
 
 from course.compiled.direct import on_triangles

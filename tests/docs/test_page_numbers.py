@@ -21,7 +21,7 @@ from benchmarks.path_tracing import SCENE as CORNELL_BOX
 from course import load_scene, render
 from course.benchmarking.estimators import FURTHER_BENCHED
 from course.benchmarking.plot_data import Plot, read_records
-from course.compiled.packets import available
+from course.compiled.library import available
 from course.effects import PROJECT
 from course.radiosity.radiosity import PATCHES
 from course.radiosity.solving import GATHERED, KEPT_BYTES

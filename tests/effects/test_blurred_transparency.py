@@ -17,7 +17,7 @@ import pytest
 import yaml
 
 from course import EffectError, Scene, load_scene, render
-from course.compiled import packets
+from course.compiled import library
 from course.effects import PROJECT
 from course.modules import COURSE
 from tests.drawn import numbers_drawn, rows
@@ -29,7 +29,7 @@ MODULE = "blurred_transparency"
 FUNCTIONS = {f"{MODULE}.{name}" for name in COURSE[MODULE]}
 TRACERS = ["distribution", "path"]
 needs_numba = pytest.mark.skipif(
-    not packets.available(), reason="Numba is not installed (pip install .[fast])"
+    not library.available(), reason="Numba is not installed (pip install .[fast])"
 )
 INDEX = 1.5
 PLATE = {"shape": "quad", "material": "glass", "width": 200, "depth": 200}

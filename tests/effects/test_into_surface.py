@@ -17,7 +17,7 @@ import numpy as np
 import pytest
 
 from course import Scene, render
-from course.compiled import packets
+from course.compiled import library
 from course.core.triangles import Mesh
 from course.formats.meshes.files import save_ply
 
@@ -28,7 +28,7 @@ COMPILED = (
     pytest.param(
         True,
         marks=pytest.mark.skipif(
-            not packets.available(), reason="Numba is not installed (pip install .[fast])"
+            not library.available(), reason="Numba is not installed (pip install .[fast])"
         ),
     ),
 )

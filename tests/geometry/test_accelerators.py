@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from course.compiled import packets
+from course.compiled import library
 from course.compiled.accelerator import PacketAccelerator, in_packets
 from course.core.embree import Accelerator, EmbreeAccelerator, QueryStats
 from course.core.functions import Functions
@@ -23,7 +23,7 @@ KINDS = (
     pytest.param(
         PacketAccelerator,
         marks=pytest.mark.skipif(
-            not packets.available(), reason="Numba is not installed (pip install .[fast])"
+            not library.available(), reason="Numba is not installed (pip install .[fast])"
         ),
     ),
 )
@@ -69,7 +69,7 @@ def test_who_knows_the_interface_alone_gets_the_same_answers(kind: type) -> None
     assert accelerator.unoccluded(origin, direction, 1.5, stats, time).tolist() == [True, True]
 
 
-@pytest.mark.skipif(not packets.available(), reason="Numba is not installed (pip install .[fast])")
+@pytest.mark.skipif(not library.available(), reason="Numba is not installed (pip install .[fast])")
 def test_packets_take_the_place_of_embree_alone() -> None:
     for kind, other in (
         (EmbreeAccelerator, PacketAccelerator),

@@ -9,7 +9,7 @@ import pytest
 
 from course import shapes
 from course.building.objects import CONVEX
-from course.compiled import packets
+from course.compiled import library
 from course.compiled.convex import ConvexObjects, convex_objects
 from course.core.embree import NO_HIT, EmbreeAccelerator, Intersections, QueryStats
 from course.core.functions import Functions
@@ -21,7 +21,7 @@ from course.formats.meshes import transforms
 from course.formats.yaml import description as d
 
 compiled = pytest.mark.skipif(
-    not packets.available(), reason="Numba is not installed (pip install .[fast])"
+    not library.available(), reason="Numba is not installed (pip install .[fast])"
 )
 
 TURN = transforms.compose(
@@ -235,6 +235,6 @@ def test_without_compiled_loops_nobody_asks_either() -> None:
     hits, which, way = left_behind(surface, 5)
     assert surface.excluded_objects(hits, which, way) is None
     # Nor once they have been used for the same triangles.
-    if packets.available():
+    if library.available():
         assert in_loops(surface).excluded_objects(hits, which, way) is not None
     assert surface.excluded_objects(hits, which, way) is None

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from course import shapes
-from course.compiled import packets
+from course.compiled import library
 from course.core.embree import Intersections
 from course.core.hits import Hits
 from course.core.materials import Lookup
@@ -17,7 +17,7 @@ from course.extras.scatter import FullScatter
 from course.extras.surface import FullPart, FullSurface, build_surface
 from course.formats.meshes import transforms
 
-if not packets.available():
+if not library.available():
     pytest.skip("Numba is not installed (pip install .[fast])", allow_module_level=True)
 
 from course.compiled.scatter import CompiledScatter

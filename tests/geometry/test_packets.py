@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 
 from course.compiled import accelerator as compiled_accelerator
-from course.compiled import packets
+from course.compiled import library, packets
 from course.compiled.accelerator import PacketAccelerator, in_packets
 from course.core import embree
 from course.core.embree import NO_HIT, Accelerator, EmbreeAccelerator, QueryStats
 
-if not packets.available():
+if not library.available():
     pytest.skip("Numba is not installed (pip install .[fast])", allow_module_level=True)
 
 
@@ -115,16 +115,16 @@ def test_nothing_and_a_single_triangle() -> None:
 def test_hierarchies_that_nobody_uses_give_their_memory_back(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    library = packets._library()
-    assert library is not None
+    queries = library.library()
+    assert queries is not None
     gc.collect()
     released = []
-    release = library.rtcReleaseScene
+    release = queries.rtcReleaseScene
     monkeypatch.setattr(
-        library, "rtcReleaseScene", lambda scene: (released.append(scene), release(scene))
+        queries, "rtcReleaseScene", lambda scene: (released.append(scene), release(scene))
     )
     scene = packets.PacketScene(*soup(10, 2))
-    number = scene._scene
+    number = scene.scene
     del scene
     gc.collect()
     assert released == [number]

@@ -9,12 +9,12 @@ import pytest
 
 from course import Scene, render
 from course import render_scene as rendering
-from course.compiled import packets
+from course.compiled import library
 from course.errors import CourseError
 
 EveryStage = Callable[..., Scene]
 needs_numba = pytest.mark.skipif(
-    not packets.available(), reason="Numba is not installed (pip install .[fast])"
+    not library.available(), reason="Numba is not installed (pip install .[fast])"
 )
 
 

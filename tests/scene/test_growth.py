@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from course import Scene, render
-from course.compiled import packets
+from course.compiled import library
 from course.errors import SceneError
 
 MakeScene = Callable[..., Scene]
@@ -30,7 +30,7 @@ def _room(make_scene: MakeScene, max_depth: int, diffuse: float, **more: Any) ->
 
 @pytest.fixture(params=[False, True], ids=["arrays", "loops"])
 def compiled(request: pytest.FixtureRequest) -> bool:
-    if request.param and not packets.available():
+    if request.param and not library.available():
         pytest.skip("Numba is not installed (pip install .[fast])")
     return bool(request.param)
 

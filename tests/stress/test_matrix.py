@@ -46,7 +46,7 @@ from benchmarks.stress.verdict import (
     most_of,
 )
 from course import render
-from course.compiled.packets import available as packets_available
+from course.compiled.library import available as packets_available
 from course.core import ray_offset
 from course.shapes import displaced_sphere
 

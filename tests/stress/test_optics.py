@@ -12,7 +12,7 @@ import pytest
 from benchmarks.stress import optics
 from benchmarks.stress.cells import Cell, tame
 from benchmarks.stress.running import judge_some
-from course.compiled import packets
+from course.compiled import library
 from course.core import scatter
 from course.extras import conductors, rough_glass
 
@@ -20,7 +20,7 @@ FORMS = [
     False,
     pytest.param(
         True,
-        marks=pytest.mark.skipif(not packets.available(), reason="Numba is not installed"),
+        marks=pytest.mark.skipif(not library.available(), reason="Numba is not installed"),
     ),
 ]
 
@@ -69,7 +69,7 @@ def test_a_wrong_reflectance_of_glass_is_told(
     assert failed(cells, compiled=False) >= max(1, len(cells) - 1)
 
 
-@pytest.mark.skipif(not packets.available(), reason="Numba is not installed (pip install .[fast])")
+@pytest.mark.skipif(not library.available(), reason="Numba is not installed (pip install .[fast])")
 @pytest.mark.parametrize("substance", ["glass", "thin", "diamond", "coloured glass"])
 def test_a_wrong_reflectance_of_glass_is_told_of_the_compiled_loops(
     substance: str, monkeypatch: pytest.MonkeyPatch

@@ -8,7 +8,7 @@ import pytest
 
 from course import Picture, render
 from course.adaptive import costs
-from course.compiled import packets
+from course.compiled import library
 from course.extras import path_tracing, sky
 from tests.conftest import MakeScene
 
@@ -17,7 +17,7 @@ LOOPS = [
     pytest.param(
         True,
         marks=pytest.mark.skipif(
-            not packets.available(), reason="Numba is not installed (pip install .[fast])"
+            not library.available(), reason="Numba is not installed (pip install .[fast])"
         ),
     ),
 ]

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import fields
+from dataclasses import fields, replace
 from typing import Any
 
 import numpy as np
 import pytest
 
-from course.compiled import packets
+from course.compiled import library
 from course.compiled.direct import CompiledDirectLight
 from course.compiled.direct import towards as compiled_towards
 from course.compiled.stages import CompiledIntegrator, CompiledSobolSampler
@@ -23,7 +23,7 @@ from course.core.samplers import Block
 from course.extras.samplers.sobol import SobolSampler
 from tests.transport.coarse_sphere import hits_on_a_coarse_sphere
 
-if not packets.available():
+if not library.available():
     pytest.skip("Numba is not installed (pip install .[fast])", allow_module_level=True)
 
 N = 5000
@@ -186,15 +186,22 @@ def test_lights_add_up(hits: Hits) -> None:
     assert (totals[1] > 0).any()
 
 
+@pytest.mark.parametrize("tinted", [False, True], ids=["plain", "textures"])
+@pytest.mark.parametrize("shiny", [False, True], ids=["matt", "highlights"])
 @pytest.mark.parametrize("alike", [False, True], ids=["four colours", "one colour"])
-def test_colours_of_materials(hits: Hits, alike: bool) -> None:
+def test_colours_of_materials(hits: Hits, alike: bool, shiny: bool, tinted: bool) -> None:
     rng = np.random.default_rng(12)
-    colors = rng.random((3, 4), np.float32)
+    colors, specular = rng.random((2, 3, 4), np.float32)
     if alike:
         colors[:] = colors[:, :1]
-    totals = rng.random((1, 3, N), np.float32).repeat(2, axis=0)
-    for total, form in zip(totals, (PASSES, LOOPS), strict=True):
-        form._scale(total, hits, Lookup(colors))
+    if tinted:
+        hits = replace(hits, tint=rng.random((3, N), np.float32))
+    arriving = rng.random((2, 3, N), np.float32)
+    totals = []
+    for form in (PASSES, LOOPS):
+        stage = replace(form, diffuse=Lookup(colors), specular=Lookup(specular) if shiny else None)
+        diffuse, highlights = arriving.copy()
+        totals.append(stage._reflected(hits, diffuse, highlights if shiny else None))
     same(*totals)
 
 

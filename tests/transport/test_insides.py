@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from course import Scene, render
-from course.compiled import packets
+from course.compiled import library
 
 MakeScene = Callable[..., Scene]
 LIGHTS: dict[str, dict[str, Any]] = {
@@ -43,7 +43,7 @@ def seen(make_scene: MakeScene, light: str, front: bool, **parts: Any) -> Any:
 def test_only_the_outside_shows_light(
     make_scene: MakeScene, light: str, integrator: dict[str, Any], compiled: bool
 ) -> None:
-    if compiled and not packets.available():
+    if compiled and not library.available():
         pytest.skip("Numba is not installed (pip install .[fast])")
     outside, inside = (
         seen(make_scene, light, front, integrator=integrator, compiled=compiled)

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from course import Scene, render
-from course.compiled import accelerator, convex, packets
+from course.compiled import accelerator, convex, library
 from course.core import integrator
 
-if not packets.available():
+if not library.available():
     pytest.skip("Numba is not installed (pip install .[fast])", allow_module_level=True)
 
 MakeScene = Callable[..., Scene]

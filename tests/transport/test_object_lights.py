@@ -15,7 +15,7 @@ import pytest
 
 from benchmarks.mitsuba_export import NotExportableError, export
 from course import render
-from course.compiled.packets import available
+from course.compiled.library import available
 from course.radiosity.patches import make_patches
 from tests.conftest import MakeScene
 from tests.transport.over_a_floor import (

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from course import Scene, render
-from course.compiled import packets
+from course.compiled import library
 from course.compiled.scatter import CompiledPathBounce, CompiledScatter
 from course.core.materials import Lookup
 from course.core.scatter import Scatter
@@ -23,7 +23,7 @@ from course.extras.path_bounce import (
 from course.extras.plan import same_fields
 from tests.transport.coarse_sphere import hits_on_a_coarse_sphere
 
-if not packets.available():
+if not library.available():
     pytest.skip("Numba is not installed (pip install .[fast])", allow_module_level=True)
 
 MakeScene = Callable[..., Scene]

@@ -13,7 +13,7 @@ import pytest
 from numpy.typing import NDArray
 
 from course import Scene, load_scene, render
-from course.compiled import packets
+from course.compiled import library
 from course.formats.metu.converting import convert
 
 Tree = dict[str, Any]
@@ -119,6 +119,6 @@ def xml(tmp_path: Path) -> Metu:
 @pytest.fixture(params=[False, True], ids=["numpy", "compiled"])
 def compiled(request: pytest.FixtureRequest) -> bool:
     """Whether compiled loops are used: each of the two is looked at by itself."""
-    if request.param and not packets.available():
+    if request.param and not library.available():
         pytest.skip("Numba is not installed (pip install .[fast])")
     return bool(request.param)

@@ -1,0 +1,42 @@
+"""Cube maps looked up by a loop, in the place of the course's own functions and of no others."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from course.compiled import environment_kernels
+from course.core.environment import CubeEnvironment, Environment
+from course.core.types import Floats32
+from course.effects import PROJECT
+from course.extras.plan import same_fields
+
+
+@dataclass(frozen=True)
+class CompiledCubeEnvironment(CubeEnvironment):
+    """A cube map that the course's own functions look up."""
+
+    def radiance(self, direction: Floats32) -> Floats32:
+        """See ``Environment``."""
+        n = direction.shape[1]
+        radiance, across = np.empty((3, n), np.float32), np.empty(n, np.int64)
+        found = environment_kernels.lookup(
+            self.faces, np.ascontiguousarray(direction), self.seamless, radiance, across
+        )
+        if found:
+            beyond = across[:found]
+            radiance[:, beyond] = super().radiance(direction.take(beyond, axis=1))
+        return radiance
+
+
+def compiled_environment(environment: Environment | None) -> Environment | None:
+    """An environment in compiled form, where the course's own functions look it up; else as it is."""
+    if not isinstance(environment, CubeEnvironment):
+        return environment
+    name = "lookup_seamless" if environment.seamless else "lookup"
+    code = getattr(getattr(environment.cube_map, name), "__code__", None)
+    if code is None or Path(code.co_filename).resolve().parent != PROJECT / "solutions":
+        return environment
+    return CompiledCubeEnvironment(**same_fields(environment))

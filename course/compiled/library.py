@@ -1,0 +1,79 @@
+"""Embree's own interface, in the library that embreex brings along.
+
+This is the one file that calls Embree without embreex. Where library or Numba is missing, ``available`` says so.
+"""
+
+from __future__ import annotations
+
+import ctypes
+from functools import cache
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+QUERIES = ("rtcIntersect16", "rtcOccluded16")
+"""What the compiled loops call by name."""
+
+
+@cache
+def available() -> bool:
+    """Whether Numba is installed and embreex's library has what is needed."""
+    return find_spec("numba") is not None and library() is not None
+
+
+@cache
+def library() -> ctypes.CDLL | None:
+    """The library that embreex has loaded, with its functions declared."""
+    spec = find_spec("embreex")
+    if spec is None or spec.origin is None:
+        return None
+    home = Path(spec.origin).parent
+    # Where the tools that repair wheels put libraries on Linux, Windows and macOS.
+    folders = (home.parent / "embreex.libs", home, home / ".dylibs")
+    found = [file for folder in folders if folder.is_dir() for file in folder.glob("*embree4*")]
+    if not found:
+        return None
+    embree = ctypes.CDLL(str(found[0]))
+    pointer, size = ctypes.c_void_p, ctypes.c_size_t
+    declarations: dict[str, tuple[Any, list[Any]]] = {
+        "rtcNewDevice": (pointer, [ctypes.c_char_p]),
+        "rtcGetDeviceError": (ctypes.c_int, [pointer]),
+        "rtcNewScene": (pointer, [pointer]),
+        "rtcSetSceneFlags": (None, [pointer, ctypes.c_int]),
+        "rtcNewGeometry": (pointer, [pointer, ctypes.c_int]),
+        "rtcSetSharedGeometryBuffer": (
+            None,
+            [pointer, ctypes.c_int, ctypes.c_uint, ctypes.c_int, pointer, size, size, size],
+        ),
+        "rtcCommitGeometry": (None, [pointer]),
+        "rtcAttachGeometry": (ctypes.c_uint, [pointer, pointer]),
+        "rtcReleaseGeometry": (None, [pointer]),
+        "rtcCommitScene": (None, [pointer]),
+        "rtcReleaseScene": (None, [pointer]),
+        **dict.fromkeys(QUERIES, (None, [pointer] * 4)),
+    }
+    try:
+        for name, (result, arguments) in declarations.items():
+            function = getattr(embree, name)
+            function.restype, function.argtypes = result, arguments
+    except AttributeError:
+        return None
+    return embree
+
+
+@cache
+def device() -> int:
+    """Embree's device, one for the process."""
+    embree = library()
+    assert embree is not None
+    return int(embree.rtcNewDevice(None))
+
+
+def name_queries() -> None:
+    """Let compiled loops find the queries by their names."""
+    import llvmlite.binding
+
+    embree = library()
+    for name in QUERIES:
+        address = ctypes.cast(getattr(embree, name), ctypes.c_void_p).value
+        llvmlite.binding.add_symbol(name, address)
