@@ -17,7 +17,7 @@ from course.cli.progress import progress_bar
 from course.cli.tables import count
 
 if TYPE_CHECKING:
-    from course.grading.classes.grading import ClassEngine, ClassResult, Finished, Way
+    from course.grading.classes.grading import ClassEngine, ClassResult, Finished, Runner
 
 MOST_REMARKS = 12
 """Lines on submissions that are printed; class.html has them all."""
@@ -105,13 +105,13 @@ class ClassOptions:
         return partial(on_cluster, address=self.address)
 
     @contextmanager
-    def way(self) -> Iterator[Way]:
+    def runner(self) -> Iterator[Runner]:
         """How to grade, with a progress bar; raises ``UsageError`` as `class_engine` does."""
-        from course.grading.classes.grading import Way
+        from course.grading.classes.grading import Runner
 
         engine = self.class_engine()
         with class_progress() as progress:
-            yield Way(engine, self.address is not None, self.trusted, progress)
+            yield Runner(engine, self.address is not None, self.trusted, progress)
 
 
 def class_options(command: Callable[..., None]) -> Callable[..., None]:

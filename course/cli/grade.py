@@ -39,8 +39,8 @@ def grade(
 
     settings = Settings(seed, modules, submission_seconds=options.submission_seconds)
     settings = settings.instead(options.policy, options.roster, options.title)
-    with options.way() as way:
-        result = grade_class(submissions, out, settings, way)
+    with options.runner() as runner:
+        result = grade_class(submissions, out, settings, runner)
     _tell(result)
 
 

@@ -42,8 +42,8 @@ def regrade(submissions: Path, out: Path, dry_run: bool, options: ClassOptions) 
     settings = settings.instead(options.policy, options.roster, options.title)
     # Before hours of grading.
     settings.read()
-    with options.way() as way:
-        regraded = grade_again(submissions, out, settings, way)
+    with options.runner() as runner:
+        regraded = grade_again(submissions, out, settings, runner)
     tell_submissions(regraded.result)
     for student in regraded.gone:
         click.echo(f"{student}: graded before, and there is no submission now", err=True)

@@ -18,13 +18,7 @@ from course.modules import COURSE
 
 @cache
 def module_checks(module: str) -> ModuleChecks:
-    """The checks of a module, function by function in the order of the course.
-
-    Raises
-    ------
-    CourseError
-        There is no such module.
-    """
+    """A module's checks, by function in the order of the course; ``CourseError`` where no module has that name."""
     if module == NAME:
         return WHOLE
     if module not in COURSE:

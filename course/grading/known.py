@@ -57,13 +57,7 @@ def trusted(submission: Known) -> TrustedModule:
 
 
 def known(module: str, folder: Path = PROJECT / "solutions") -> list[Known]:
-    """All known submissions of a module, the right ones first.
-
-    Raises
-    ------
-    CourseError
-        A file of the collection lacks its docstring or a constant.
-    """
+    """A module's known submissions, the right ones first; ``CourseError`` where one lacks docstring or constant."""
     solution = (folder / f"{module}.py").read_text(encoding="utf-8")
     return [
         _read(path, module, solution, right=kind == "right")

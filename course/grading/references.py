@@ -5,7 +5,7 @@ A student's copy has no solutions; ``course references`` writes there what the c
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from functools import cache
 from importlib.resources import as_file, files
 from pathlib import Path
@@ -28,13 +28,7 @@ SOLUTIONS = PROJECT / "solutions"
 
 
 def reference(module: str) -> Caller:
-    """The reference solution of a module.
-
-    Raises
-    ------
-    EffectError
-        It isn't there.
-    """
+    """The reference solution of a module; ``EffectError`` where it isn't there."""
     effects = Effects(SOLUTIONS)
     if module == NAME:
         return Together({name: reference(name) for name in ALL})
@@ -58,13 +52,7 @@ def make_references(modules: Iterable[str], seed: int, out: Path) -> int:
 
 
 def read_references(path: Path, seed: int) -> References:
-    """References from such a file.
-
-    Raises
-    ------
-    CourseError
-        The file can't be read, or was made for another seed.
-    """
+    """References from such a file; ``CourseError`` where it can't be read, or was made for another seed."""
     arrays = read_arrays(path, "file of references")
     found = arrays.pop("seed", np.zeros(0)).tolist()
     if not isinstance(found, int) or any(name.count("/") < 2 for name in arrays):
@@ -77,16 +65,7 @@ def read_references(path: Path, seed: int) -> References:
         parts = name.split("/", 2)
         by_check.setdefault("/".join(parts[:2]), {})[parts[2]] = array
 
-    def find(module: str, check: Check) -> Mapping[str, Array]:
-        if check.prepare is None:
-            return {}
-        if _key(module, check) not in by_check:
-            raise CourseError(
-                f"{path}: has no references for {_key(module, check)}; make them anew"
-            )
-        return by_check[_key(module, check)]
-
-    return find
+    return _kept(by_check, lambda key: f"{path}: has no references for {key}; make them anew")
 
 
 def references(seed: int = USUAL_SEED) -> References:
@@ -111,7 +90,9 @@ def references(seed: int = USUAL_SEED) -> References:
                 "this copy has neither solutions nor references; get the course's archive anew"
             )
         if seed != USUAL_SEED:
-            return _missing(seed)
+            told = f"this copy has those for the seed {USUAL_SEED} only, not {seed}"
+            # Only for checks that need none.
+            return _kept({}, lambda key: f"{key} compares with a reference, and {told}")
         return read_references(path, seed)
 
 
@@ -120,16 +101,14 @@ def has_references(seed: int) -> bool:
     return SOLUTIONS.is_dir() or seed == USUAL_SEED
 
 
-def _missing(seed: int) -> References:
-    """References of a seed for which there are none: only for checks that need none."""
+def _kept(by_check: Mapping[str, Mapping[str, Array]], missing: Callable[[str], str]) -> References:
+    """References that were made before; ``missing`` is told of a check that has none and needs some."""
 
     def find(module: str, check: Check) -> Mapping[str, Array]:
-        if check.prepare is None:
-            return {}
-        raise CourseError(
-            f"{_key(module, check)} compares with a reference, and this copy has those for the seed "
-            f"{USUAL_SEED} only, not {seed}"
-        )
+        key = _key(module, check)
+        if check.prepare is not None and key not in by_check:
+            raise CourseError(missing(key))
+        return by_check.get(key, {})
 
     return find
 

@@ -67,18 +67,14 @@ def find_modules(folder: Path, modules: Iterable[str] = tuple(COURSE)) -> dict[s
         top = folder / f"{module}.py"
         with readable(folder):
             # A file at the top is meant, whatever lies deeper.
-            paths = [top] if os.path.lexists(top) else _below(folder, top.name)
+            paths = [top] if os.path.lexists(top) else sorted(folder.rglob(top.name))
+            paths = [path for path in paths if path == top or "__MACOSX" not in path.parts]
         if len(paths) > 1:
-            raise SubmissionError(
-                f"{folder}: {module}.py is in it more than once: {_listed(paths)}"
-            )
+            listed = ", ".join(map(str, paths[:3]))
+            raise SubmissionError(f"{folder}: {module}.py is in it more than once: {listed}")
         if paths:
             found[module] = paths[0]
     return found
-
-
-def _below(folder: Path, name: str) -> list[Path]:
-    return sorted(path for path in folder.rglob(name) if "__MACOSX" not in path.parts)
 
 
 def read_found(folder: Path, paths: Mapping[str, Path]) -> dict[str, bytes]:
@@ -108,7 +104,3 @@ def readable(folder: Path) -> Iterator[None]:
         raise SubmissionError(
             f"{error.filename or folder}: can't be read: {error.strerror}"
         ) from error
-
-
-def _listed(paths: list[Path]) -> str:
-    return ", ".join(str(path) for path in paths[:3])

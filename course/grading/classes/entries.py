@@ -14,6 +14,7 @@ import tarfile
 import zipfile
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
 from io import BytesIO
 from pathlib import Path, PurePosixPath
 
@@ -183,25 +184,22 @@ def _zip_entries(name: str, content: bytes, budget: Budget) -> list[Entry]:
         budget.spend(name, info.file_size)
         if not info.is_dir():
             link = (info.external_attr >> 28) == 0xA
-            path = PurePosixPath(info.filename.replace("\\", "/"))
-            found.append(Entry(path, _zip_reader(name, archive, info, link)))
+            path, shown = (
+                PurePosixPath(info.filename.replace("\\", "/")),
+                f"{name}: {info.filename!r}",
+            )
+            reader = _refuse(f"{shown} is a link; submit the file itself")
+            found.append(Entry(path, reader if link else partial(_unzip, archive, info, shown)))
     return found
 
 
-def _zip_reader(
-    name: str, archive: zipfile.ZipFile, info: zipfile.ZipInfo, link: bool
-) -> Callable[[int], bytes]:
-    def read(limit: int) -> bytes:
-        if link:
-            raise SubmissionError(f"{name}: {info.filename!r} is a link; submit the file itself")
-        try:
-            with archive.open(info) as file:
-                # What the directory says of sizes may be a lie: no more than this is unpacked.
-                return file.read(limit)
-        except Exception as error:
-            raise SubmissionError(f"{name}: {info.filename!r} can't be read: {error}") from error
-
-    return read
+def _unzip(archive: zipfile.ZipFile, info: zipfile.ZipInfo, shown: str, limit: int) -> bytes:
+    try:
+        with archive.open(info) as file:
+            # What the directory says of sizes may be a lie: no more than this is unpacked.
+            return file.read(limit)
+    except Exception as error:
+        raise SubmissionError(f"{shown} can't be read: {error}") from error
 
 
 def _tar_entries(name: str, content: bytes, budget: Budget) -> list[Entry]:
@@ -213,23 +211,23 @@ def _tar_entries(name: str, content: bytes, budget: Budget) -> list[Entry]:
     with tarfile.open(fileobj=BytesIO(data), mode="r:") as archive:
         for member in archive:
             budget.spend(name, member.size)
-            if member.isfile():
-                start = member.offset_data
-                piece = data[start : start + member.size] if not member.issparse() else None
-                reader = _tar_reader(name, member.name, piece)
-            elif member.isdir():
+            if member.isdir():
                 continue
-            else:
-                reader = _tar_reader(name, member.name, None)
+            reader = _refuse(f"{name}: {member.name!r} is a link or no ordinary file")
+            if member.isfile() and not member.issparse():
+                piece = data[member.offset_data : member.offset_data + member.size]
+                reader = partial(_beginning, piece)
             found.append(Entry(PurePosixPath(member.name), reader))
     return found
 
 
-def _tar_reader(name: str, member: str, content: bytes | None) -> Callable[[int], bytes]:
-    def read(limit: int) -> bytes:
-        if content is None:
-            raise SubmissionError(f"{name}: {member!r} is a link or no ordinary file")
-        return content[:limit]
+def _beginning(content: bytes, limit: int) -> bytes:
+    return content[:limit]
+
+
+def _refuse(why: str) -> Callable[[int], bytes]:
+    def read(_: int) -> bytes:
+        raise SubmissionError(why)
 
     return read
 

@@ -40,8 +40,6 @@ FAULT = "grader error"
 TOTAL = 100.0
 """Of the score where no policy says another."""
 
-CANVAS, MOODLE = "canvas.csv", "moodle.csv"
-
 NOT_CERTAIN = "not_protected_"
 """Before the names of tables for learning systems in which a grade may be forged. Canvas makes an assignment of every
 column that it doesn't know, Moodle refuses such a table or asks for a meaning, and any line is a student's: so only the
@@ -51,8 +49,8 @@ ClassEngine = Engine[Job, Path | bytes, Graded]
 
 
 @dataclass(frozen=True)
-class Way:
-    """How a class is graded, whatever is checked.
+class Runner:
+    """What grades a class, whatever is checked.
 
     Attributes
     ----------
@@ -121,7 +119,7 @@ class ClassResult:
         return [report.student for report in self.reports if report.broken]
 
 
-def grade_class(folder: Path, out: Path, settings: Settings, way: Way) -> ClassResult:
+def grade_class(folder: Path, out: Path, settings: Settings, runner: Runner) -> ClassResult:
     """Grade every submission in a folder.
 
     Parameters
@@ -139,16 +137,16 @@ def grade_class(folder: Path, out: Path, settings: Settings, way: Way) -> ClassR
     if folder.resolve() in (out.resolve(), out.resolve().parent):
         raise CourseError(f"{out}: lies where the submissions are; choose a folder elsewhere")
     # Before hours of grading.
-    way.check(folder, out)
+    runner.check(folder, out)
     terms = settings.read()
-    result = grade_all(find_submissions(folder, settings.modules), out, settings, way)
+    result = grade_all(find_submissions(folder, settings.modules), out, settings, runner)
     finished = finish(result.submissions, result.reports, out, settings, terms)
     settings.write(out)
     return replace(result, finished=finished)
 
 
 def grade_all(
-    submissions: Sequence[Submission], out: Path, settings: Settings, way: Way, code: str = ""
+    submissions: Sequence[Submission], out: Path, settings: Settings, runner: Runner, code: str = ""
 ) -> ClassResult:
     """Grade submissions, and write a folder for each student.
 
@@ -165,24 +163,24 @@ def grade_all(
     reports = {
         student: report
         for student, report in found.items()
-        if report is not None and (way.trusted or not report.unprotected)
+        if report is not None and (runner.trusted or not report.unprotected)
     }
     jobs = [
-        Job(one.student, one.sources, one.trouble, settings, way.trusted)
+        Job(one.student, one.sources, one.trouble, settings, runner.trusted)
         for one in submissions
         if one.student not in reports
     ]
-    way.progress(len(reports), len(submissions))
+    runner.progress(len(reports), len(submissions))
     if jobs:
         references = out / INSTRUCTOR / f"references_{settings.seed}.npz"
         make_references(with_whole(settings.modules), settings.seed, references)
-        shared = references.read_bytes() if way.send_references else references
-        outcomes = way.engine(grade_job, jobs, shared)
+        shared = references.read_bytes() if runner.send_references else references
+        outcomes = runner.engine(grade_job, jobs, shared)
         try:
             for outcome in outcomes:
                 student = outcome.item.student
                 reports[student] = _keep(out, outcome, marks[student])
-                way.progress(len(reports), len(submissions))
+                runner.progress(len(reports), len(submissions))
         finally:
             outcomes.close()
     ordered = tuple(reports[one.student] for one in submissions)
@@ -296,16 +294,16 @@ def _write_for_systems(
     title: str,
 ) -> list[Path]:
     """Write what learning systems import; tables of an earlier run are not left behind."""
-    from course.grading.reports.classes import write_canvas, write_moodle
+    from course.grading.reports.classes import SYSTEMS, write_gradebook
 
-    for name in (CANVAS, MOODLE):
+    for name in SYSTEMS:
         for path in (out / name, out / f"{NOT_CERTAIN}{name}"):
             path.unlink(missing_ok=True)
     if matched is None:
         return []
-    canvas, moodle = out / f"{before}{CANVAS}", out / f"{before}{MOODLE}"
     of_students = matched.students
     grades = [(of_students[one], score) for one, score in scores.items() if one in of_students]
-    write_canvas(grades, TOTAL if total is None else total, title, canvas)
-    write_moodle(grades, title, moodle)
-    return [canvas, moodle]
+    tables = {name: out / f"{before}{name}" for name in SYSTEMS}
+    for name, path in tables.items():
+        write_gradebook(name, grades, TOTAL if total is None else total, title, path)
+    return [*tables.values()]

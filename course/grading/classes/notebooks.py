@@ -20,13 +20,7 @@ _MAGIC = re.compile(r"\s*(?:%{1,2}[A-Za-z]|!(?!=)|\?)")
 
 
 def notebook_source(module: str, name: str, content: bytes) -> bytes:
-    """The file of a module that a notebook holds.
-
-    Raises
-    ------
-    SubmissionError
-        It is no notebook, or none of the module's functions is defined in it.
-    """
+    """The file of a module that a notebook holds; ``SubmissionError`` where it is none, or defines no function."""
     (source,) = apart(_converted, [(module, content)]).values()
     if not source:
         why = (

@@ -23,8 +23,7 @@ from course.formats.yaml.description import about
 from course.formats.yaml.document import Document, KeyPath, show, suggest
 from course.formats.yaml.tree import read_document
 from course.grading.classes.names import same_name
-from course.grading.report import Report
-from course.grading.reports.grouping import grouped
+from course.grading.report import Report, grouped
 from course.inputs import LARGEST_SCENE, Bound, read_input, shown
 
 MODIFIED = "modified"

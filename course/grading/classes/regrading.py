@@ -14,7 +14,7 @@ from pathlib import Path
 
 from course.effects import PROJECT
 from course.grading.checks.result import Result
-from course.grading.classes.grading import FAULT, ClassResult, Finished, Way, finish, grade_all
+from course.grading.classes.grading import FAULT, ClassResult, Finished, Runner, finish, grade_all
 from course.grading.classes.keeping import fingerprint, keep, kept, kept_files, recorded
 from course.grading.classes.settings import INSTRUCTOR, Settings
 from course.grading.classes.submitted import find_submissions
@@ -59,7 +59,7 @@ class Regraded:
     gone: tuple[str, ...] = ()
 
 
-def regrade(folder: Path, out: Path, settings: Settings, way: Way) -> Regraded:
+def regrade(folder: Path, out: Path, settings: Settings, runner: Runner) -> Regraded:
     """Grade a class again, beside what was graded before.
 
     Parameters
@@ -67,10 +67,10 @@ def regrade(folder: Path, out: Path, settings: Settings, way: Way) -> Regraded:
     folder, out : as for `grade_class`
     settings : of the grading before, with what is to change
     """
-    way.check(folder, out)
+    runner.check(folder, out)
     submissions = find_submissions(folder, settings.modules)
     before = {one.student: kept(out, one.student) for one in submissions}
-    result = grade_all(submissions, _staging(out), settings, way, _code())
+    result = grade_all(submissions, _staging(out), settings, runner, _code())
     changes = (_change(before[report.student], report) for report in result.reports)
     gone = tuple(student for student in recorded(out) if student not in before)
     return Regraded(result, tuple(one for one in changes if one is not None), settings, gone)

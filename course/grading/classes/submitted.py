@@ -47,6 +47,9 @@ MOST_READ = 50
 MOST_LISTED = 4
 
 _DEFINED = re.compile(rb"^(?:async\s+)?def\s+(\w+)", re.MULTILINE)
+_Sources = dict[str, bytes]
+"""Module -> the file."""
+
 _IGNORED = ("__MACOSX", "__pycache__", "Thumbs.db", "desktop.ini")
 
 
@@ -209,8 +212,7 @@ def _read(student: str, handed: _Handed, modules: tuple[str, ...]) -> Submission
     trouble = handed.trouble
     try:
         if not trouble:
-            chosen = choose([*unfolded(_entries(handed), remarks)], modules, remarks)
-            sources, remarks = chosen.sources, chosen.remarks
+            sources = choose([*unfolded(_entries(handed), remarks)], modules, remarks)
     except CourseError as error:
         trouble, remarks = str(error), []
     trouble, *told = (_without_folders(text, handed) for text in (trouble, *remarks))
@@ -239,44 +241,28 @@ def _without_folders(text: str, handed: _Handed) -> str:
     return text
 
 
-@dataclass
-class Chosen:
-    """What of a submission is graded.
-
-    Attributes
-    ----------
-    sources : module -> the file
-    remarks : what was guessed, and what was left out
-    """
-
-    sources: dict[str, bytes] = field(default_factory=dict)
-    remarks: list[str] = field(default_factory=list)
-
-
-def choose(entries: Sequence[Entry], modules: Iterable[str], remarks: Sequence[str]) -> Chosen:
-    """The modules among the files of a submission.
+def choose(entries: Sequence[Entry], modules: tuple[str, ...], remarks: list[str]) -> _Sources:
+    """The modules among the files of a submission, by name.
 
     Parameters
     ----------
-    remarks : what is already known to be left out
+    remarks : what is already known to be left out; gets what is guessed, and what else is left out
 
     Raises
     ------
     SubmissionError
         There are two files for one module, none for any, or one that can't be read.
     """
-    modules = tuple(modules)
-    chosen = Chosen(remarks=[*remarks])
+    sources: _Sources = {}
     named = [(entry, read_name(entry.path.name, modules)) for entry in entries]
     for module in modules:
         candidates = [(entry, name) for entry, name in named if name.module == module]
         if candidates:
-            _take(module, candidates, chosen)
-    if not chosen.sources:
-        _take_by_content(entries, modules, chosen)
-    if not chosen.sources:
-        raise SubmissionError(_nothing(entries, modules, chosen.remarks))
-    return chosen
+            sources[module] = _taken(module, candidates, remarks)
+    sources = sources or _taken_by_content(entries, modules, remarks)
+    if not sources:
+        raise SubmissionError(_nothing(entries, modules, remarks))
+    return sources
 
 
 def module_defined(source: bytes, modules: Iterable[str]) -> str:
@@ -288,7 +274,7 @@ def module_defined(source: bytes, modules: Iterable[str]) -> str:
     return found[0] if len(found) == 1 else ""
 
 
-def _take(module: str, candidates: list[tuple[Entry, Named]], chosen: Chosen) -> None:
+def _taken(module: str, candidates: list[tuple[Entry, Named]], remarks: list[str]) -> bytes:
     def rank(candidate: tuple[Entry, Named]) -> tuple[bool, bool, int]:
         entry, name = candidate
         # A name that is exact goes before one that isn't, a file at the top before one that lies deeper.
@@ -299,23 +285,27 @@ def _take(module: str, candidates: list[tuple[Entry, Named]], chosen: Chosen) ->
     if len(first) > 1:
         raise SubmissionError(f"{module}.py is in it more than once: {_listed(first)}")
     entry = first[0]
-    chosen.sources[module] = _source(module, entry)
+    source = _source(module, entry)
     if entry.path.name != f"{module}.py":
         how = " from its cells" if entry.path.name.lower().endswith(NOTEBOOK) else ""
-        chosen.remarks.append(f"{entry.path} was graded{how} as {module}.py")
+        remarks.append(f"{entry.path} was graded{how} as {module}.py")
     others = [other for other, _ in candidates if other is not entry]
     if others:
-        chosen.remarks.append(f"not graded, for {entry.path} was: {_listed(others)}")
+        remarks.append(f"not graded, for {entry.path} was: {_listed(others)}")
+    return source
 
 
-def _take_by_content(entries: Sequence[Entry], modules: Sequence[str], chosen: Chosen) -> None:
+def _taken_by_content(
+    entries: Sequence[Entry], modules: Sequence[str], remarks: list[str]
+) -> _Sources:
+    sources: _Sources = {}
     files = [entry for entry in entries if read_name(entry.path.name, ()).suffix == PYTHON]
     by_module: dict[str, list[tuple[Entry, bytes]]] = {}
     for entry in files[:MOST_READ]:
         try:
             source = entry.read(LARGEST_FILE)
         except SubmissionError as error:
-            chosen.remarks.append(str(error))
+            remarks.append(str(error))
             continue
         if module := module_defined(source, modules):
             by_module.setdefault(module, []).append((entry, source))
@@ -324,8 +314,9 @@ def _take_by_content(entries: Sequence[Entry], modules: Sequence[str], chosen: C
             listed = _listed([entry for entry, _ in found])
             raise SubmissionError(f"{listed} define functions of {module}; name one {module}.py")
         ((entry, source),) = found
-        chosen.sources[module] = source
-        chosen.remarks.append(f"{entry.path} was graded as {module}.py, whose functions it defines")
+        sources[module] = source
+        remarks.append(f"{entry.path} was graded as {module}.py, whose functions it defines")
+    return sources
 
 
 def _source(module: str, entry: Entry) -> bytes:

@@ -103,13 +103,7 @@ def reference_file(modules: Iterable[str], seed: int) -> bytes:
 
 
 def write_zip(contents: Mapping[str, bytes], out: Path) -> int:
-    """Write a .zip file, in which scripts can be executed; the number of its files.
-
-    Raises
-    ------
-    OutputError
-        The file can't be written.
-    """
+    """Write a .zip file, in which scripts can be executed; the number of its files, or ``OutputError``."""
     with replacing(out) as temporary, zipfile.ZipFile(temporary, "w") as file:
         for name, content in contents.items():
             # A fixed date: the same course gives the same archive, byte for byte.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from io import StringIO
 from pathlib import Path
@@ -17,9 +17,8 @@ from course.atomic import write_text
 from course.grading.checks.result import Result, Status
 from course.grading.classes.policy import Mark
 from course.grading.classes.roster import Listed, Matched
-from course.grading.report import Report, ending
+from course.grading.report import Report, ending, grouped
 from course.grading.reports.formats import clean, finite
-from course.grading.reports.grouping import grouped
 from course.grading.reports.page import render
 
 MARKS = ("raw", "adjusted", "final")
@@ -32,16 +31,17 @@ _BAR_HEIGHT = 165
 _FORMULA = tuple("=+-@\t\r\n\uff1d\uff0b\uff0d\uff20")
 """What makes a spreadsheet take a text for a formula: the four signs, full-width ones too, and blanks before them."""
 
-_Columns = Mapping[str, tuple[str, ...]]
-_CANVAS: _Columns = dict.fromkeys(("Student", "ID", "SIS User ID", "SIS Login ID", "Section"), ())
-_MOODLE: _Columns = {
-    "Identifier": (),
-    "Full name": (),
-    "Username": ("login", "sis login id", "netid"),
-    "ID number": ("idnumber", "student id", "sis user id"),
-    "Email address": ("email", "e-mail"),
+SYSTEMS: Mapping[str, Mapping[str, tuple[str, ...]]] = {
+    "canvas.csv": dict.fromkeys(("Student", "ID", "SIS User ID", "SIS Login ID", "Section"), ()),
+    "moodle.csv": {
+        "Identifier": (),
+        "Full name": (),
+        "Username": ("login", "sis login id", "netid"),
+        "ID number": ("idnumber", "student id", "sis user id"),
+        "Email address": ("email", "e-mail"),
+    },
 }
-"""Column of a system -> columns of a roster that say the same where it has none of that name."""
+"""Table of a learning system -> its columns -> columns of a roster that say the same where it has none of that name."""
 
 
 @dataclass(frozen=True)
@@ -107,43 +107,33 @@ def write_grades(
     _write_table(rows, path)
 
 
-def write_canvas(
-    grades: Sequence[tuple[Listed, float]], total: float, title: str, path: Path
+def write_gradebook(
+    system: str, grades: Iterable[tuple[Listed, float]], total: float, title: str, path: Path
 ) -> None:
-    """Write a gradebook that Canvas imports: columns of the roster, and one of grades.
+    """Write what Canvas imports into its gradebook, or Moodle, also as an upload of a grading worksheet.
 
     Parameters
     ----------
+    system : of ``SYSTEMS``; the table has its columns, as the roster says them, and one of grades
     total : points of who has earned all
-    title : the assignment as Canvas calls it, such as "Lens (12345)"; a new name makes a new assignment
+    title : the assignment as the system calls it, such as "Lens (12345)"; on Canvas a new name makes a new assignment
 
     Raises
     ------
     OutputError
         The file can't be written.
     """
-    possible = ["    Points Possible", "", "", "", "", _number(total)]
-    _write_table([[*_CANVAS, clean(title)], possible, *_gradebook(grades, _CANVAS)], path)
-
-
-def write_moodle(grades: Sequence[tuple[Listed, float]], title: str, path: Path) -> None:
-    """Write a table that Moodle imports, as an upload of a grading worksheet or into the gradebook.
-
-    Raises
-    ------
-    OutputError
-        The file can't be written.
-    """
-    _write_table([[*_MOODLE, clean(title)], *_gradebook(grades, _MOODLE)], path)
-
-
-def _gradebook(grades: Iterable[tuple[Listed, float]], columns: _Columns) -> Iterator[list[str]]:
-    """What the roster says in these columns: it is the system's own, so no text is changed that it knows by."""
+    columns = SYSTEMS[system]
+    rows = [[*columns, clean(title)]]
+    if "Student" in columns:
+        rows.append(["    Points Possible", "", "", "", "", _number(total)])
     for listed, grade in grades:
+        # The roster is the system's own, so no text is changed that it knows by.
         own = {name: listed.get(name.casefold(), *others) for name, others in columns.items()}
         for name in {"Student", "Full name"} & own.keys():
             own[name] = own[name] or listed.name
-        yield [*map(clean, own.values()), _number(grade)]
+        rows.append([*map(clean, own.values()), _number(grade)])
+    _write_table(rows, path)
 
 
 def _number(value: float) -> str:

@@ -382,13 +382,7 @@ def _rgb(picture: Floats64, row: int, column: int) -> str:
 
 
 def draw_points(figure: Figure) -> Drawing:
-    """Draw ``yours`` and, if it is there, ``expected``: (2, N) numbers in the unit square or disk.
-
-    Raises
-    ------
-    NotDrawable
-        Neither of the two is points.
-    """
+    """Draw ``yours`` and ``expected``, (2, N) in the unit square or disk; ``NotDrawable`` where neither is points."""
     sets, notes = _sets(figure, _points, "there are no points")
     # The reference if it is there, else the student's.
     disk = bool(([*sets.values()][-1] < 0).mean() > 0.05)

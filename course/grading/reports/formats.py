@@ -14,6 +14,7 @@ from xml.etree import ElementTree as ET
 
 from course.grading.checks.result import Result, Status
 from course.grading.report import (
+    ModuleResults,
     Report,
     as_points,
     broke,
@@ -21,10 +22,10 @@ from course.grading.report import (
     ending,
     findings,
     for_students,
+    grouped,
     reproduce,
     unstarted,
 )
-from course.grading.reports.grouping import ModuleResults, grouped
 
 FORMAT = 1
 """Of our own JSON; goes up when a key changes its meaning or goes away."""

@@ -14,9 +14,8 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup, escape
 
 from course.grading.checks.result import Status
-from course.grading.report import Report, docs_page, ending, findings, reproduce, unstarted
+from course.grading.report import Report, docs_page, ending, findings, grouped, reproduce, unstarted
 from course.grading.reports.formats import clean
-from course.grading.reports.grouping import grouped
 
 
 def as_page(report: Report) -> str:

@@ -27,7 +27,7 @@ from course.grading.checks.result import Status
 from course.grading.classes import grading
 from course.grading.classes.bundles import totals
 from course.grading.classes.engines import Outcome
-from course.grading.classes.grading import ClassResult, Way, grade_class
+from course.grading.classes.grading import ClassResult, Runner, grade_class
 from course.grading.classes.job import Graded, Job, grade_job, with_whole
 from course.grading.classes.keeping import _record
 from course.grading.classes.settings import Settings, read_settings
@@ -117,7 +117,9 @@ class Here:
 def grade(
     folder: Path, engine: Any, seed: int = 0, modules: Sequence[str] = ("motion_blur",)
 ) -> ClassResult:
-    return grade_class(folder, folder.parent / "out", Settings(seed, tuple(modules)), Way(engine))
+    return grade_class(
+        folder, folder.parent / "out", Settings(seed, tuple(modules)), Runner(engine)
+    )
 
 
 def test_a_class_from_folders_and_zip_files(tmp_path: Path) -> None:
@@ -279,7 +281,7 @@ def test_results_may_not_lie_among_submissions(tmp_path: Path) -> None:
     folder = hand_in(tmp_path / "class", ada=STUB)
     for out in (folder, folder / "out"):
         with pytest.raises(CourseError, match="choose a folder elsewhere"):
-            grade_class(folder, out, Settings(0, ("motion_blur",)), Way(Here()))
+            grade_class(folder, out, Settings(0, ("motion_blur",)), Runner(Here()))
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ import pytest
 
 from course.errors import CourseError
 from course.grading.classes.roster import match, read_roster
-from course.grading.reports.classes import write_canvas, write_moodle
+from course.grading.reports.classes import write_gradebook
 
 CANVAS = """\
 Student,ID,SIS User ID,SIS Login ID,Section,Old (1)
@@ -90,7 +90,8 @@ def test_a_table_that_is_no_roster(tmp_path: Path, text: str, told: str) -> None
 
 def test_what_canvas_imports(tmp_path: Path) -> None:
     listed = read_roster(roster(tmp_path, CANVAS))
-    write_canvas([(listed[0], 87.5), (listed[2], 0.0)], 100.0, "Lens (77)", tmp_path / "c.csv")
+    grades = [(listed[0], 87.5), (listed[2], 0.0)]
+    write_gradebook("canvas.csv", grades, 100.0, "Lens (77)", tmp_path / "c.csv")
     with (tmp_path / "c.csv").open(newline="", encoding="utf-8") as file:
         rows = [*csv.reader(file)]
     assert rows == [
@@ -103,7 +104,7 @@ def test_what_canvas_imports(tmp_path: Path) -> None:
 
 def test_what_moodle_imports(tmp_path: Path) -> None:
     listed = read_roster(roster(tmp_path, MOODLE))
-    write_moodle([(listed[1], 12.25)], "Lens", tmp_path / "m.csv")
+    write_gradebook("moodle.csv", [(listed[1], 12.25)], 100.0, "Lens", tmp_path / "m.csv")
     with (tmp_path / "m.csv").open(newline="", encoding="utf-8") as file:
         (row,) = csv.DictReader(file)
     assert row["Identifier"] == "Participant 12"

@@ -14,7 +14,7 @@ from course.cli.main import commands
 from course.effects import PROJECT
 from course.grading.classes import grading, job
 from course.grading.classes.engines import Outcome
-from course.grading.classes.grading import Way, grade_class
+from course.grading.classes.grading import Runner, grade_class
 from course.grading.classes.settings import Settings
 from course.grading.report import UNPROTECTED
 from course.grading.worker.sandbox import NotProtected, Sandbox, plain
@@ -61,7 +61,7 @@ def test_a_class_is_refused_before_anything_is_graded(submissions: Path, tmp_pat
 
 def test_every_format_says_that_nothing_was_protected(submissions: Path, tmp_path: Path) -> None:
     out = tmp_path / "graded"
-    grade_class(submissions, out, SETTINGS, Way(here, trusted=True))
+    grade_class(submissions, out, SETTINGS, Runner(here, trusted=True))
     written = {path.name: path for path in out.rglob("*") if path.is_file()}
     for name in (
         "grades.csv",
@@ -104,11 +104,11 @@ def test_what_was_graded_unprotected_is_graded_again_when_it_can_be(
     submissions: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     out = tmp_path / "graded"
-    first = grade_class(submissions, out, SETTINGS, Way(here, trusted=True))
-    again = grade_class(submissions, out, SETTINGS, Way(here, trusted=True))
+    first = grade_class(submissions, out, SETTINGS, Runner(here, trusted=True))
+    again = grade_class(submissions, out, SETTINGS, Runner(here, trusted=True))
     assert (first.graded, again.graded) == (1, 0)
     for module in (grading, job):
         monkeypatch.setattr(module, "protected", lambda *_: plain())
-    last = grade_class(submissions, out, SETTINGS, Way(here))
+    last = grade_class(submissions, out, SETTINGS, Runner(here))
     assert last.graded == 1
     assert COULD_READ not in (out / "grades.csv").read_text("utf-8")
