@@ -61,7 +61,9 @@ check: $(STAMP)
 	"$(RUN)" -m course release --check
 	"$(RUN)" -m pytest -q tests/test_layers.py
 
-# Each process begins with half of the tests; who is done takes over.
+# Each process begins with half of the tests; who is done takes over. Bytecode is kept even where the environment says
+# otherwise: hundreds of processes would compile the same files again.
+test quick stress: export PYTHONDONTWRITEBYTECODE :=
 test: $(STAMP)
 	"$(RUN)" -m pytest -q -n auto --dist worksteal
 

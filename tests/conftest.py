@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import gc
 import json
 import signal
-from collections.abc import Callable
+from collections.abc import Callable, Generator
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -24,6 +25,16 @@ PixelRays = Callable[[Scene], tuple[NDArray[np.float64], NDArray[np.float64]]]
 # A shell's background jobs begin with Ctrl-C ignored, and so would every process that a test interrupts.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_collection() -> Generator[None, object, object]:
+    """Collect without Python's collector of garbage: it takes half of the time, and 14,000 tests are none."""
+    gc.disable()
+    try:
+        return (yield)
+    finally:
+        gc.enable()
 
 
 @pytest.fixture(scope="session")
