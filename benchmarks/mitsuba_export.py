@@ -16,7 +16,7 @@ from typing import Any
 import msgspec
 import numpy as np
 
-from course.building.gloss import lobe_function
+from course.building.gloss import lobe_of
 from course.building.materials import base_color
 from course.building.motion import shutter_of
 from course.building.objects import object_mesh
@@ -264,28 +264,17 @@ def _materials(scene: Scene, names: list[str]) -> Materials:
         material = description.materials[name]
         glass = material.dielectric
         color = base_color(material) * (glass is None)
-        lobe = lobe_function(material, description.integrator.cutoff) or ""
+        _, lobe, parameter = lobe_of(material, description.integrator.cutoff) or ("", "", 0.0)
         rows["ambient"].append(color * material.ambient * arriving)
         rows["diffuse"].append(color * material.diffuse)
         rows["specular"].append(rgb(material.specular))
         rows["mirror"].append(rgb(material.mirror))
         rows["exponent"].append(material.exponent)
         rows["lobe"].append(LOBES.index(lobe))
-        rows["parameter"].append(_parameter(material.gloss) if lobe else 0.0)
+        rows["parameter"].append(parameter)
         rows["refraction_index"].append(glass.refraction_index if glass else 0.0)
         rows["absorption"].append(rgb(glass.absorption) if glass else np.zeros(3))
     return Materials(**{key: np.array(values, np.float32) for key, values in rows.items()})
-
-
-def _parameter(gloss: d.Gloss | None) -> float:
-    match gloss:
-        case d.PlaneLobe():
-            return gloss.roughness
-        case d.BallLobe():
-            return gloss.glossiness
-        case d.PhongLobe():
-            return gloss.exponent
-    return 0.0
 
 
 def _lit_object(description: d.SceneDescription, columns: Columns, number: int) -> dict[str, Any]:

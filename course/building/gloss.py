@@ -18,22 +18,21 @@ FLAT = 1e6
 """A roughness from which a square's directions lie in its plane, to rounding; the functions are asked for no more."""
 
 
-def lobe_function(material: d.MaterialDescription, cutoff: float) -> str | None:
-    """Name of the glossy function that a material calls; None where its reflection is a mirror's, or too weak to see.
+def lobe_of(material: d.MaterialDescription, cutoff: float) -> tuple[str, str, float] | None:
+    """A lobe's kind, the glossy function that it calls, and its parameter.
 
-    ``cutoff``: throughputs up to this are dropped.
+    None where a material's reflection is a mirror's, or too weak to see: throughputs up to ``cutoff`` are dropped.
     """
     # In float32, as the rays' throughputs are; a dielectric reflects more than its mirror.
     strongest = rgb(material.mirror).astype(np.float32).max()
-    if strongest <= cutoff and (strongest == 0 or material.dielectric is None):
-        return None
-    match material.gloss:
-        case d.PlaneLobe(roughness=roughness) if roughness > 0:
-            return "jitter_on_plane"
-        case d.BallLobe(glossiness=glossiness) if glossiness > 0:
-            return "jitter_in_ball"
-        case d.PhongLobe():
-            return "sample_phong_lobe"
+    if strongest > cutoff or (strongest > 0 and material.dielectric is not None):
+        match material.gloss:
+            case d.PlaneLobe(roughness=roughness) if roughness > 0:
+                return "plane", "jitter_on_plane", min(roughness, FLAT)
+            case d.BallLobe(glossiness=glossiness) if glossiness > 0:
+                return "ball", "jitter_in_ball", glossiness
+            case d.PhongLobe(exponent=exponent):
+                return "phong", "sample_phong_lobe", exponent
     return None
 
 
@@ -50,17 +49,10 @@ def compile_lobes(
     """One lobe for each glossy material; none where the depth allows no reflection."""
     lobes: list[Lobe] = []
     for number, (which, material) in enumerate(materials):
-        name = lobe_function(material, integrator.cutoff)
-        if name is None or integrator.max_depth == 0:
+        lobe = lobe_of(material, integrator.cutoff)
+        if lobe is None or integrator.max_depth == 0:
             continue
-        parameter: float
-        match material.gloss:
-            case d.PlaneLobe(roughness=roughness):
-                kind, parameter = "plane", min(roughness, FLAT)
-            case d.BallLobe(glossiness=parameter):
-                kind = "ball"
-            case d.PhongLobe(exponent=parameter):
-                kind = "phong"
+        kind, name, parameter = lobe
         keeps = integrator.into_surface != "mirror"
         turned = not calls_module(material.gloss)
         called = [*([] if keeps else ["keep_above"]), *([] if turned else [name])]

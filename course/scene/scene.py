@@ -9,16 +9,12 @@ from course.building.world import Compiled, compile_scene
 from course.core import scene as core
 from course.effects import Effects
 from course.formats.pictures.display import SRGB, Display
+from course.formats.yaml.description import SubdivisionDescription
 from course.formats.yaml.loading import Loaded, load_description
 from course.formats.yaml.overriding import Overrides
 
-
-@dataclass(frozen=True)
-class Subdivision:
-    """Where pixels are divided: ``threshold`` [radiance] between two corners, down to ``depth`` times."""
-
-    threshold: float
-    depth: int
+Subdivision = SubdivisionDescription
+"""Where pixels are divided, as the file says."""
 
 
 @dataclass(frozen=True)
@@ -66,7 +62,6 @@ class Scene:
     def settings(self) -> Settings:
         """How the file wants to be rendered."""
         scene = self.loaded.description
-        division = scene.film.subdivision
         return Settings(
             width=scene.film.width,
             height=scene.film.height,
@@ -77,9 +72,7 @@ class Scene:
             cutoff=scene.integrator.cutoff,
             error=scene.film.error,
             display=Display(scene.film.white, scene.film.encoding),
-            subdivision=None
-            if division is None
-            else Subdivision(division.threshold, division.depth),
+            subdivision=scene.film.subdivision,
         )
 
 

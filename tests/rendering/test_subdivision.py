@@ -105,7 +105,9 @@ def test_no_contrast_is_over_a_threshold_beyond_all_light(
     picture = render(ground(make_scene, (6, 4), film=film(3, threshold)))
     assert picture.receipt.rays["camera"] == 7 * 5
     bright = np.float32(3e38) * np.array([0, 1, 0, 0], np.float32)
-    functions = Functions(Bound(Effects(PROJECT / "solutions")), Subdivision(threshold, 0))
+    functions = Functions(
+        Bound(Effects(PROJECT / "solutions")), Subdivision(threshold=threshold, depth=0)
+    )
     assert functions.divides(np.tile(bright[:, None], (3, 1, 1))) == (threshold < 3e38)
 
 
@@ -311,7 +313,9 @@ def test_a_function_that_is_not_written_is_told_with_the_line_that_asks(
 def test_a_level_that_is_interrupted_leaves_the_one_before() -> None:
     # The first round brings a step between columns, the second is broken off.
     corners = CornerFilm(2, 1, 3, 1)
-    functions = Functions(Bound(Effects(PROJECT / "solutions")), Subdivision(0.1, 3))
+    functions = Functions(
+        Bound(Effects(PROJECT / "solutions")), Subdivision(threshold=0.1, depth=3)
+    )
     rounds = []
 
     def run(work: list[Work], done: float, after: float) -> bool:

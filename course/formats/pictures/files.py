@@ -7,9 +7,7 @@ OpenImageIO, one that fails loads neither.
 from __future__ import annotations
 
 import io
-from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,8 +16,7 @@ from course.atomic import check_writable, replacing
 from course.errors import OutputError
 from course.formats.pictures.display import SRGB, Display
 
-if TYPE_CHECKING:
-    from PIL import Image, PngImagePlugin
+SUFFIXES = (".png", ".exr")
 
 COMPRESS_LEVEL = 4
 """zlib level of a PNG: half the time of level 6 on a noisy picture, at the same size."""
@@ -36,10 +33,10 @@ def save(path: Path, linear: NDArray[np.float32], display: Display = SRGB) -> No
     linear : (3, H, W) float32, linear RGB
     display : how a PNG shows it; other formats hold the values themselves
     """
-    if path.suffix.lower() == ".png":
+    if _suffix(path) == ".png":
         write_png(path, linear, display)
     else:
-        _writer(path)(path, linear)
+        write_exr(path, linear)
 
 
 def check_picture_path(path: Path) -> None:
@@ -47,7 +44,7 @@ def check_picture_path(path: Path) -> None:
 
     Raises OutputError as `save` would.
     """
-    _writer(path)
+    _suffix(path)
     check_writable(path)
 
 
@@ -57,16 +54,19 @@ def write_png(path: Path, linear: NDArray[np.float32], display: Display = SRGB) 
     Raises OutputError: the file can't be written.
     """
     with replacing(path) as temporary:
-        image, options = _image(linear, display), _options(display)
-        with temporary.open("wb") as file:
-            image.save(file, compress_level=COMPRESS_LEVEL, pnginfo=options)
+        temporary.write_bytes(encode_png(linear, display))
 
 
 def encode_png(linear: NDArray[np.float32], display: Display = SRGB) -> bytes:
     """Return the bytes of the file that `write_png` writes."""
-    file = io.BytesIO()
-    options = _options(display)
-    _image(linear, display).save(file, "PNG", compress_level=COMPRESS_LEVEL, pnginfo=options)
+    from PIL import Image, PngImagePlugin
+
+    info = PngImagePlugin.PngInfo()
+    if display.encoding == "srgb":
+        # Its values are sRGB (PNG specification, 11.3.2.5; perceptual).
+        info.add(b"sRGB", b"\0")
+    file, image = io.BytesIO(), Image.fromarray(display.codes(linear))
+    image.save(file, "PNG", compress_level=COMPRESS_LEVEL, pnginfo=info)
     return file.getvalue()
 
 
@@ -93,31 +93,8 @@ def write_exr(path: Path, linear: NDArray[np.float32]) -> None:
             raise OSError(trouble or file.geterror())
 
 
-def _image(linear: NDArray[np.float32], display: Display) -> Image.Image:
-    from PIL import Image
-
-    return Image.fromarray(display.codes(linear))
-
-
-def _options(display: Display) -> PngImagePlugin.PngInfo:
-    """Say in the file that its values are sRGB, if they are (PNG specification, 11.3.2.5; perceptual)."""
-    from PIL import PngImagePlugin
-
-    info = PngImagePlugin.PngInfo()
-    if display.encoding == "srgb":
-        info.add(b"sRGB", b"\0")
-    return info
-
-
-WRITERS: dict[str, Callable[[Path, NDArray[np.float32]], None]] = {
-    ".png": write_png,
-    ".exr": write_exr,
-}
-
-
-def _writer(path: Path) -> Callable[[Path, NDArray[np.float32]], None]:
-    try:
-        return WRITERS[path.suffix.lower()]
-    except KeyError:
-        known = " or ".join(WRITERS)
-        raise OutputError(f"{path}: the name of a picture must end in {known}") from None
+def _suffix(path: Path) -> str:
+    suffix = path.suffix.lower()
+    if suffix not in SUFFIXES:
+        raise OutputError(f"{path}: the name of a picture must end in {' or '.join(SUFFIXES)}")
+    return suffix
