@@ -181,16 +181,14 @@ def _attempt(
     def trial_of(whose: Caller) -> Trial:
         return Trial(check.function, whose, generator(seed, module, check), yardstick=yardstick)
 
-    trial = trial_of(Gate(module, caller))
-    try:
-        return _ended(module, check, trial, references)
-    except Exception:  # noqa: BLE001 - it may be that memory or disk were short: once more tells
+    # It may be that memory or disk were short: once more tells.
+    for _ in range(2):
         gate = Gate(module, caller)
         trial = trial_of(gate)
-    try:
-        return _ended(module, check, trial, references)
-    except Exception:  # noqa: BLE001 - what breaks a check must not end the grading of others
-        how = traceback.format_exc()
+        try:
+            return _ended(module, check, trial, references)
+        except Exception:  # noqa: BLE001 - what breaks a check must not end the grading of others
+            how = traceback.format_exc()
     try:
         right = None if standard is None else standard()
     except Exception:  # noqa: BLE001 - nobody to compare with
@@ -219,9 +217,6 @@ def _ended(module: str, check: Check, trial: Trial, references: References) -> _
             found=failure.found,
             where=failure.where,
             hint=failure.hint,
-        )
-        result = replace(
-            result,
             example=failure.example or failure.where,
             mistake=failure.slip,
             says=SLIPS.get(failure.slip, ""),
