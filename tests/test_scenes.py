@@ -11,6 +11,7 @@ import subprocess
 import sys
 from functools import cache
 from pathlib import Path
+from typing import NamedTuple
 
 import pytest
 import yaml
@@ -37,18 +38,31 @@ MAY_DIFFER = {
 }
 
 
+class Shown(NamedTuple):
+    """A small picture of a scene, and what is known of the scene: to load it takes most of the time."""
+
+    picture: Picture
+    said: str
+    """What `course info` says."""
+    triangles: int
+    pieces: int
+    """Triangles more, where large ones are cut."""
+    reach: float
+
+
 @cache
-def rendered(path: Path) -> tuple[Picture, str]:
-    """A small picture of a scene, and what `course info` says of the scene: to load it takes most of the time."""
+def rendered(path: Path) -> Shown:
     samples = yaml.safe_load(path.read_text(encoding="utf-8")).get("sampler", {}).get("samples", 16)
     scene = load_scene(path)
     picture = render(scene, size=(16, 12), spp=1 if samples == 1 else 4)
-    return picture, str(summary_sections(summarize(scene)))
+    world = scene.compiled
+    said = str(summary_sections(summarize(scene)))
+    return Shown(picture, said, sum(world.triangles), world.pieces, world.frame.reach)
 
 
 def called(path: Path) -> set[str]:
     """The student functions that a small picture of a scene calls."""
-    return set(rendered(path)[0].receipt.to_dict()["effects"]["called"])
+    return set(rendered(path).picture.receipt.to_dict()["effects"]["called"])
 
 
 def modules(functions: set[str]) -> set[str]:
@@ -73,11 +87,14 @@ def document(path: Path) -> dict[str, object]:
 
 @pytest.mark.parametrize("path", ALL, ids=lambda path: str(path.relative_to(SCENES)))
 def test_every_scene_renders_to_something_that_is_not_black_and_can_be_described(path):
-    picture, said = rendered(path)
-    assert picture.linear.max() > 0.05
-    assert picture.linear.std() > 0.01
-    assert "triangles" in said
-    assert "supersampling" in said
+    shown = rendered(path)
+    assert shown.picture.linear.max() > 0.05
+    assert shown.picture.linear.std() > 0.01
+    assert "triangles" in shown.said
+    assert "supersampling" in shown.said
+    if path.parent == SCENES:
+        # Their sizes are ordinary: nothing is cut, and the origin is not put near something small.
+        assert (shown.pieces, shown.reach) == (0, 1)
 
 
 def test_every_effect_has_a_pair_of_scenes():
@@ -135,7 +152,7 @@ def test_the_gallery_shows_every_effect():
 def test_everything_has_every_effect_at_once_on_many_triangles():
     path = SCENES / "gallery" / "everything.yaml"
     assert modules(called(path)) == set(MODULES)
-    assert sum(load_scene(path).compiled.triangles) > 200_000
+    assert rendered(path).triangles > 200_000
 
 
 def test_the_environments_are_what_their_script_paints(tmp_path):

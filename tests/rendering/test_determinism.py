@@ -45,8 +45,7 @@ def test_any_number_of_threads_gives_the_same_bits(
     one = render(scene, sampler=sampler, spp=samples, threads=1)
     assert np.isfinite(one.linear).all()
     assert one.linear.std() > 0
-    for threads in (2, 4):
-        assert same(one, render(scene, sampler=sampler, spp=samples, threads=threads))
+    assert same(one, render(scene, sampler=sampler, spp=samples, threads=3))
 
 
 @pytest.mark.parametrize("sampler", SAMPLERS)
@@ -93,19 +92,16 @@ def anyhow(work: list[Work]) -> None:
     random.Random(4).shuffle(work)
 
 
-@pytest.mark.parametrize("order", [shuffled, backwards, tile_by_tile, anyhow])
 @pytest.mark.parametrize("sampler", ["sobol", "random"])
 def test_any_order_of_tiles_gives_the_same_bits(
-    every_stage: EveryStage,
-    monkeypatch: pytest.MonkeyPatch,
-    sampler: str,
-    order: Callable[[list[Work]], None],
+    every_stage: EveryStage, monkeypatch: pytest.MonkeyPatch, sampler: str
 ) -> None:
     scene = every_stage(film=film_of("gaussian"))
     expected = render(scene, sampler=sampler, spp=40, threads=1)
-    reordered = Reordered(monkeypatch, order)
-    assert same(expected, render(scene, sampler=sampler, spp=40, threads=1))
-    assert reordered.changed
+    for order in (shuffled, backwards, tile_by_tile, anyhow):
+        reordered = Reordered(monkeypatch, order)
+        assert same(expected, render(scene, sampler=sampler, spp=40, threads=1)), order
+        assert reordered.changed, order
 
 
 def test_a_tile_does_not_know_which_tiles_came_before(every_stage: EveryStage) -> None:
