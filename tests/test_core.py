@@ -18,7 +18,14 @@ COURSE = ROOT / "course"
 CORE = COURSE / "core"
 
 FILES = sorted(path for path in CORE.rglob("*.py") if path.read_text(encoding="utf-8"))
-MOST_FILES, MOST_LINES, LONGEST_FUNCTION = 30, 3226, 60
+MOST_FILES, MOST_LINES, LONGEST_FUNCTION = 30, 3144, 60
+
+FROM_RAY_TO_COLOUR = (
+    *("tracer", "integrator", "camera", "hits", "direct"),
+    *("lights/sample", "lights/sphere", "materials", "scatter", "environment"),
+)
+MOST_LINES_TO_COLOUR = 1400
+"""What is to be read to understand how one camera ray becomes a colour."""
 
 UNUSED = {
     "glossy.orthonormal_basis",
@@ -51,6 +58,26 @@ def _lines(path: Path) -> list[str]:
 def test_the_core_is_small_enough_to_be_read() -> None:
     assert len(FILES) <= MOST_FILES
     assert sum(len(_lines(path)) for path in FILES) <= MOST_LINES
+
+
+def test_from_a_camera_ray_to_a_colour_little_is_to_be_read() -> None:
+    """Every other file of the core is a tool or has one effect: a name says enough to read on."""
+    paths = [CORE / f"{name}.py" for name in FROM_RAY_TO_COLOUR]
+    assert sum(len(_lines(path)) for path in paths) <= MOST_LINES_TO_COLOUR
+    assert len(paths) <= 10
+    assert (
+        tuple(re.findall(r"`([a-z/]+)\.py`", _paragraph("From a camera ray to its colour")))
+        == FROM_RAY_TO_COLOUR
+    )
+
+
+def _paragraph(begins: str) -> str:
+    (found,) = (
+        text
+        for text in (ROOT / "docs" / "architecture.md").read_text("utf-8").split("\n\n")
+        if text.startswith(begins)
+    )
+    return found
 
 
 def test_the_readme_says_how_long_the_core_is() -> None:

@@ -16,13 +16,7 @@ from course.core.vectors import dot
 
 @dataclass(frozen=True)
 class Lens:
-    """A thin lens with a round aperture.
-
-    Attributes
-    ----------
-    aperture_radius, focus_distance : [unit of the compiled scene]
-    thin_lens : functions of the module
-    """
+    """A thin lens with a round aperture; radius and distance [unit of the compiled scene]."""
 
     aperture_radius: float
     focus_distance: float

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TypeVar
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from course.core.hits import Hits, Surface, bulge
+from course.core.hits import Hits, Surface
 from course.core.lights import Light, Sample
 from course.core.lights.sample import TO_THE_LIGHT, towards
-from course.core.materials import Lookup, MaterialTable, blinn_phong_highlight
+from course.core.materials import Lookup, blinn_phong_highlight
 from course.core.motion import Motion
+from course.core.ray_offset import bulge
 from course.core.rays import Draws
 from course.core.types import Floats32, Indices, Mask
 from course.core.vectors import dot, repeated
@@ -25,8 +26,6 @@ faster than copying those of the candidates: median times relative to copying, o
 
 ROUNDING = 1e-4
 """Added to a float32 sine before it is compared with a float32 cosine."""
-
-_Scalar = TypeVar("_Scalar", bound=np.generic)
 
 
 @dataclass(frozen=True)
@@ -56,7 +55,7 @@ class Candidates:
     to_light: Floats32
     inverse_length: Floats32
 
-    def of(self, values: NDArray[_Scalar]) -> NDArray[_Scalar]:
+    def of(self, values: NDArray[Any]) -> NDArray[Any]:
         """Values (k,) or (3, k) of the columns, from values (n,) or (3, n) of all hits."""
         return values if self.columns is None else values.take(self.columns, axis=-1)
 
@@ -159,7 +158,7 @@ class DirectLight:
         """Visibility of the light, (k,); undefined for hits that are no candidates.
 
         A facet of a smooth mesh may face away from a light that its shading normal faces. Its shadow ray starts at the
-        round surface above the facet (``Triangles.bulge``). A second ray, from the facet up to that point, must be
+        round surface above the facet (``bulge``). A second ray, from the facet up to that point, must be
         unblocked too.
         """
         triangles, unoccluded = self.surface.triangles, self.surface.accelerator.unoccluded
@@ -169,8 +168,8 @@ class DirectLight:
         to_light = self._to_light(light, hits, candidates)
         if triangles.bulge is None:
             return unoccluded(origin, to_light, light.limit, stats, time, active=mask)
-        # A facet faces away only where the light's angle above the shading normal's horizon is at most the
-        # angle between both normals: where the cosine to the light is at most the sine of that angle.
+        # A facet can face away from the light only if the light is lower above the shading normal's horizon than
+        # the angle between both normals: the cosine to the light is then at most the sine of that angle.
         most = np.float32(triangles.largest_sine + ROUNDING)
         column = self._turned_away(hits, candidates, to_light, most)
         height = bulge(triangles, hits, candidates.hit(column))
@@ -248,18 +247,3 @@ class DirectLight:
             specular *= self.specular(hits.material)
             diffuse += specular
         return diffuse
-
-
-def direct_light(
-    surface: Surface, lights: tuple[Light, ...], motion: Motion | None, materials: MaterialTable
-) -> DirectLight:
-    """Direct light of a scene."""
-    return DirectLight(
-        surface,
-        lights,
-        motion,
-        None if materials.shaded_sides.all() else materials.shaded_sides,
-        Lookup(materials.diffuse),
-        Lookup(materials.specular) if materials.specular.any() else None,
-        Lookup(materials.exponent),
-    )

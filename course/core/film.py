@@ -36,17 +36,12 @@ class Reconstruction:
     sigma: float | None
 
     def pixels(self, radiance: Floats32, offsets: Floats32) -> tuple[Floats32, Floats32 | float]:
-        """Colour and weight of each pixel of a block.
+        """Means (3, n) float32 over the samples of n pixels, and the sums of their weights, (n,) float32 or one number.
 
         Parameters
         ----------
-        radiance : (3, n, s) float32 of s samples in each of n pixels
+        radiance : (3, n, s) float32 of s samples in each pixel
         offsets : (2, n, s) float32 [pixels], positions of the samples in their pixels
-
-        Returns
-        -------
-        mean : (3, n) float32
-        weight : (n,) float32 or one number, the sum of the samples' weights
         """
         n, s = radiance.shape[1:]
         weights: Floats32 = np.ones((n, s), np.float32)

@@ -12,17 +12,9 @@ from course.core.types import Floats32
 
 
 def fresnel_and_cos_t(cos_i: Floats32, eta: Floats32) -> tuple[Floats32, Floats32]:
-    """Exact unpolarised Fresnel reflectance, and the cosine of the refracted ray.
+    """Exact unpolarised Fresnel reflectance and cos_t, from cos_i in [0, 1] and eta; all (n,) float32.
 
-    Parameters
-    ----------
-    cos_i : (n,) float32 in [0, 1]
-    eta : (n,) float32, n_from / n_to
-
-    Returns
-    -------
-    reflectance : (n,) float32 in [0, 1], exactly 1 for total internal reflection
-    cos_t : (n,) float32, 0 for total internal reflection
+    For total internal reflection the reflectance is exactly 1, and cos_t is 0.
     """
     # 1 - sin_t^2 loses digits at the critical angle; (1 - eta sin_i)(1 + eta sin_i) keeps them.
     sin_t = np.sqrt((1 - cos_i) * (1 + cos_i))

@@ -65,12 +65,9 @@ class Gloss:
         depth: int,
         draws: Draws,
     ) -> Floats32:
-        """Reflected directions (3, n) of paths (n,), jittered for glossy materials.
+        """Reflected directions (3, n) of paths (n,), jittered where ``material`` (n,) is glossy.
 
-        Parameters
-        ----------
-        material : (n,) of the reflecting surface
-        mirrored, ng : (3, n) mirrored directions, which may be overwritten, and geometric normals
+        Mirrored directions (3, n) may be overwritten; ng (3, n) are the geometric normals.
         """
         for lobe in self.lobes:
             which = np.flatnonzero(material == lobe.material)

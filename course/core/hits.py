@@ -9,10 +9,10 @@ import numpy as np
 
 from course.core.embree import Accelerator, Intersections, QueryStats
 from course.core.motion import MovingAccelerator
-from course.core.ray_offset import OFFSET
+from course.core.ray_offset import pull_off_edges
 from course.core.triangles import Triangles
 from course.core.types import Floats32, Indices, Mask, Materials, Numbers
-from course.core.vectors import cross, dot, gather, normalise
+from course.core.vectors import dot, gather, normalise
 
 
 @dataclass(frozen=True)
@@ -81,11 +81,6 @@ class Surface:
         """True if ``turn_to_viewer`` turns interpolated shading normals."""
         return True
 
-    @property
-    def camera_accelerator(self) -> Any:
-        """The accelerator of camera rays; its ``intersect`` is that of ``Accelerator``."""
-        return self.accelerator
-
     def intersect_camera(
         self,
         origin: Floats32,
@@ -95,20 +90,7 @@ class Surface:
         coherent: bool,
     ) -> Intersections:
         """Nearest hits of camera rays; see ``Accelerator.intersect``."""
-        found: Intersections = self.camera_accelerator.intersect(
-            origin, direction, stats, time, coherent=coherent
-        )
-        # If the camera lies exactly on a surface, rays hit it at once. They begin again, one offset on.
-        stuck = np.flatnonzero((found.t <= 0) & (found.triangle >= 0))
-        if len(stuck) == 0:
-            return found
-        onward = direction.take(stuck, axis=1)
-        start = origin if origin.shape[1] == 1 else origin.take(stuck, axis=1)
-        when = None if time is None else time.take(stuck)
-        step = self.triangles.planes[found.triangle.take(stuck), 6]
-        start = start + onward * np.maximum(step, np.float32(OFFSET))
-        found.put(stuck, self.camera_accelerator.intersect(start, onward, stats, when))
-        return found
+        return self.accelerator.intersect(origin, direction, stats, time, coherent=coherent)
 
     def hits(
         self,
@@ -155,7 +137,7 @@ class Surface:
         along_2 *= v
         p += along_2
         p += corner
-        _pull_off_edges(triangles, p, triangle, u, v, widest)
+        pull_off_edges(triangles, p, triangle, u, v, widest)
 
         # ---- normals
         facing = dot(ng, direction)
@@ -199,47 +181,6 @@ class Surface:
     def excluded_objects(self, hits: Hits, which: Indices, direction: Floats32) -> Any:
         """Objects that rays (3, m) from hits ``which`` (m,) can't hit; None if the accelerator doesn't use them."""
         return None
-
-
-def bulge(triangles: Triangles, hits: Hits, which: Indices) -> Floats32:
-    """Height (m,) float32 >= 0 of the bulge above hits ``which`` (m,), on the incoming side; see ``Triangles``."""
-    if triangles.bulge is None:
-        return np.zeros(len(which), np.float32)
-    u, v = hits.u.take(which), hits.v.take(which)
-    w = 1 - u - v
-    height = dot(
-        gather(triangles.bulge, hits.triangle.take(which)), np.stack((w * u, w * v, u * v))
-    )
-    height *= hits.side.take(which)
-    return np.maximum(height, 0, out=height)
-
-
-def _pull_off_edges(
-    triangles: Triangles, p: Floats32, triangle: Numbers, u: Floats32, v: Floats32, widest: Floats32
-) -> None:
-    """Move points next to an edge inwards, at right angles to it, in place."""
-    w = 1 - u
-    w -= v
-    smallest = np.minimum(u, v)
-    np.minimum(smallest, w, out=smallest)
-    # Most points are farther inside than the triangle's largest inset; only the others look up all three.
-    near = np.flatnonzero(smallest < widest)
-    inset = gather(triangles.inset, triangle.take(near))
-    close = (w.take(near) < inset[0]) | (u.take(near) < inset[1]) | (v.take(near) < inset[2])
-    near, inset = near[close], inset[:, close]
-    if len(near) == 0:
-        return
-    edges = triangles.edges[triangle.take(near), :6].T.astype(np.float64)
-    e1, e2 = edges[:3], edges[3:]
-    ng = triangles.planes[triangle.take(near), 3:6].T.astype(np.float64)
-    twice_area = dot(cross(e1, e2), ng)
-    moved = p[:, near].astype(np.float64)
-    for edge, barycentric, least in zip((e2 - e1, -e2, e1), (w, u, v), inset, strict=True):
-        # The distance is lacking * height, and height = twice the area / |edge|. The vector cross(ng, edge) points
-        # inwards and has the length |edge|.
-        lacking = np.maximum(least - barycentric.take(near), 0)
-        moved += cross(ng, edge) * (lacking * twice_area / dot(edge, edge))
-    p[:, near] = moved
 
 
 def turn_to_viewer(ns: Floats32, direction: Floats32) -> None:

@@ -27,7 +27,7 @@ LARGEST_BATCH = 4 * RAYS
 
 
 Absorption = Callable[[Rays, Hits, Floats32 | None, Media | None, bool], Floats32 | None]
-"""Returns the throughput at the hits from rays, hits, throughput and medium of the hits, and true for camera rays."""
+"""Takes rays, hits, throughput and medium at the hits, and true for camera rays; returns the reduced throughput."""
 
 
 class CancelledError(Exception):
@@ -73,8 +73,7 @@ class Integrator:
         u = draws("lens") if self.camera.lens is not None else None
         time = moved = None
         if self.motion is not None:
-            motion_blur = self.motion.motion_blur
-            time = motion_blur.shutter_times(0.0, 1.0, draws("time")[0])
+            time = self.motion.motion_blur.shutter_times(0.0, 1.0, draws("time")[0])
             if self.motion.camera_velocity is not None:
                 moved = self.motion.moved(self.motion.camera_velocity, time)
         origin, direction = self.camera.rays(x, y, u, moved)
@@ -83,10 +82,7 @@ class Integrator:
     def radiance(self, camera_rays: Rays, draws: Draws) -> Floats32:
         """Radiance (3, paths) along the camera rays, the sum over all rays of their trees.
 
-        Raises
-        ------
-        CancelledError
-            Soon after ``draws.cancelled()`` becomes true.
+        Raises CancelledError soon after ``draws.cancelled()`` becomes true.
         """
         path_radiance = np.zeros((3, draws.block.size), np.float32)
         # Glass may double the rays at each depth, so batches that outgrow the cache are split. The
@@ -133,8 +129,7 @@ class Integrator:
     ) -> tuple[Hits, Floats32 | None, Indices | None, Media | None]:
         """Hits of the rays, with throughput, path and medium of the rays that hit.
 
-        Rays that hit nothing add the environment's radiance. ``adds_lights``, (N,) or one bool, excepts those where it
-        is false.
+        Rays that hit nothing add the environment's radiance, except where ``adds_lights``, (N,) or one bool, is false.
         """
         counters, surface, of_camera = draws.counters, self.surface, depth == 0
         arrays = rays.origin, rays.direction, counters.embree, rays.time

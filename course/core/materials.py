@@ -97,15 +97,8 @@ def blinn_phong_highlight(
 ) -> Floats32:
     """(n . h)^exponent, (k,), with h the half vector of the directions to the light and to the viewer.
 
-    Parameters
-    ----------
-    to_light, direction : (3, k) float32, unit length, to the light and from the viewer
-    normal : (3, k) float32, unit length
-    exponent : (k,) or (1,) float32
-
-    Notes
-    -----
-    J. Blinn, "Models of light reflection for computer synthesized pictures", 1977.
+    Unit vectors (3, k) float32 point to the light, from the viewer, and along the normal; exponent is (k,) or (1,)
+    float32. (J. Blinn, "Models of light reflection for computer synthesized pictures", 1977.)
     """
     half = to_light - direction
     squared = dot(half, half)

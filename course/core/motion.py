@@ -23,13 +23,7 @@ MOSTLY_UNBLOCKED = 0.9
 
 @dataclass(frozen=True)
 class Motion:
-    """Motion while the shutter is open.
-
-    Attributes
-    ----------
-    motion_blur : functions of the module
-    camera_velocity : (3,) float32 [units of the compiled scene / exposure], or None
-    """
+    """Motion while the shutter is open; ``camera_velocity`` (3,) float32 [units of the compiled scene / exposure]."""
 
     motion_blur: Functions
     camera_velocity: Floats32 | None = None

@@ -1,10 +1,30 @@
-"""How far from a triangle its rays begin, so that rounding never lets a triangle block its own rays."""
+"""How far from a triangle its rays begin, so that rounding never lets a triangle block its own rays.
+
+Symbols as in ``course.core.triangles``.
+
+The bulge. A coarse mesh with smooth normals stands for a round surface above its flat triangles. Near the terminator,
+shadow rays from the flat triangles hit neighbouring facets, and the mesh shows black teeth. So shadow rays start
+from the round surface, higher by
+
+    h(u, v) = 1/2 (w u k01 + w v k02 + u v k12),    k_ij = (p_j - p_i) . (n_j - n_i)
+
+Along an edge, h is a parabola with the corner normals at its ends. An edge of length L on a sphere of radius R has
+k = L^2 / R, and h at its middle is the sagitta L^2 / (8 R). (Hanika, "Hacking the shadow terminator", Ray Tracing
+Gems II, ch. 4, moves the point to the tangent planes instead, twice as high.)
+"""
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
-from course.core.types import Floats64
+from course.core.triangles import Triangles
+from course.core.types import Floats32, Floats64, Indices, Numbers
+from course.core.vectors import cross, dot, gather
+
+if TYPE_CHECKING:
+    from course.core.hits import Hits
 
 OFFSET = 2.0**-19
 """Height above a surface at which rays begin, as a share of the largest coordinate of its triangle.
@@ -14,8 +34,7 @@ coordinates; measured in tests/geometry/test_surface.py.
 """
 
 TILT, SLIVER, MOST = 0.5, 8.0, 1024.0
-"""The offset of a long, thin triangle is at least OFFSET * TILT * (length / height - SLIVER) lengths, and that bound is
-at most OFFSET * MOST lengths.
+"""A long, thin triangle has an offset of at least OFFSET * min(TILT * (length / height - SLIVER), MOST) lengths.
 
 Embree's plane of such a triangle is tilted: it rounds a cross product of nearly parallel edges, taken relative to the
 ray's origin. The hit's error in height is about 2^-24 length^2 / height.
@@ -46,3 +65,44 @@ def offset_and_inset(
     offset = OFFSET * np.maximum(np.abs(p).max(axis=(0, 1), initial=0), tilt)
     # A barycentric is the distance from the edge / height, and height = twice the area / edge length.
     return offset, np.minimum(INSET * offset * lengths / twice_area, 1 / 3)
+
+
+def pull_off_edges(
+    triangles: Triangles, p: Floats32, triangle: Numbers, u: Floats32, v: Floats32, widest: Floats32
+) -> None:
+    """Move points next to an edge inwards, at right angles to it, in place."""
+    w = 1 - u
+    w -= v
+    smallest = np.minimum(u, v)
+    np.minimum(smallest, w, out=smallest)
+    # Most points are farther inside than the triangle's largest inset; only the others look up all three.
+    near = np.flatnonzero(smallest < widest)
+    inset = gather(triangles.inset, triangle.take(near))
+    close = (w.take(near) < inset[0]) | (u.take(near) < inset[1]) | (v.take(near) < inset[2])
+    near, inset = near[close], inset[:, close]
+    if len(near) == 0:
+        return
+    edges = triangles.edges[triangle.take(near), :6].T.astype(np.float64)
+    e1, e2 = edges[:3], edges[3:]
+    ng = triangles.planes[triangle.take(near), 3:6].T.astype(np.float64)
+    twice_area = dot(cross(e1, e2), ng)
+    moved = p[:, near].astype(np.float64)
+    for edge, barycentric, least in zip((e2 - e1, -e2, e1), (w, u, v), inset, strict=True):
+        # The distance is lacking * height, and height = twice the area / |edge|. The vector cross(ng, edge) points
+        # inwards and has the length |edge|.
+        lacking = np.maximum(least - barycentric.take(near), 0)
+        moved += cross(ng, edge) * (lacking * twice_area / dot(edge, edge))
+    p[:, near] = moved
+
+
+def bulge(triangles: Triangles, hits: Hits, which: Indices) -> Floats32:
+    """Height (m,) float32 >= 0 of the bulge above hits ``which`` (m,), on the incoming side."""
+    if triangles.bulge is None:
+        return np.zeros(len(which), np.float32)
+    u, v = hits.u.take(which), hits.v.take(which)
+    w = 1 - u - v
+    height = dot(
+        gather(triangles.bulge, hits.triangle.take(which)), np.stack((w * u, w * v, u * v))
+    )
+    height *= hits.side.take(which)
+    return np.maximum(height, 0, out=height)

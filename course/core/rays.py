@@ -37,7 +37,7 @@ class Rays:
     medium : (n,) int16, material that the ray travels in, or OPEN; None if nothing absorbs, and for camera rays
     time : (n,) float32, share of the exposure since the shutter opened; None if nothing moves
     excluded : objects that the rays can't hit, see ``Surface.excluded_objects``
-    start : (3, n) float32, the hit points that the rays leave, without the offset of ``origin``; None if no medium is
+    start : (3, n) float32, the hit points that the rays leave, without the offset of ``origin``; None without a medium
     """
 
     origin: Floats32
@@ -85,7 +85,7 @@ class Dimensions:
     """Assigns dimensions of the sampler to names, such as "lens" or the name of a light.
 
     Samplers stratify pairs of dimensions (0, 1), (2, 3), ..., so every name begins a new pair. A path draws ``of_path``
-    once and ``of_bounce`` at each depth; both have pairs (name, number of dimensions), and the number may be 0.
+    once and ``of_bounce`` at each depth. Both have pairs (name, number of dimensions); a name may have none.
     """
 
     def __init__(
@@ -113,7 +113,7 @@ class PathCosts(Protocol):
     """The cost of each path of a block, for adaptive sampling."""
 
     def add(self, kind: str, path: Indices | None, cost: float | None = None) -> None:
-        """Add ``cost`` (None: that of the kind) to paths (n,) (None: all) for a "hit" or a ray of a kind."""
+        """Add the cost of a "hit" or of a kind of ray to paths (n,); None for all paths, or for the kind's own cost."""
 
     def part(self, paths: slice) -> PathCosts:
         """The costs of some of the paths."""
@@ -124,12 +124,9 @@ class PathCosts(Protocol):
 
 @dataclass(frozen=True)
 class Draws:
-    """Draws random numbers for the paths of a block on demand, and counts them.
+    """Draws random numbers for the paths of a block on demand, and counts them and their rays.
 
-    Attributes
-    ----------
-    cancelled : returns true if the render has been cancelled
-    costs : of the paths; None without adaptive sampling
+    ``cancelled`` returns true if the render has been cancelled; ``costs`` is None without adaptive sampling.
     """
 
     sampler: Sampler

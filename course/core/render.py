@@ -22,10 +22,7 @@ Tick = Callable[[int, int], None]
 class Executor(ABC):
     """Renders work with ``Tracer.render_tile``, in any number of threads or processes, and adds it to a film.
 
-    Attributes
-    ----------
-    counters : of all runs so far
-    interrupted : true after Ctrl-C
+    ``counters`` are those of all runs so far; ``interrupted`` is true after Ctrl-C.
     """
 
     counters: Counters
@@ -82,7 +79,7 @@ def render(
 
     def run(work: Iterable[Work], done: float = 0.0, after: float = 1.0) -> bool:
         nonlocal covered
-        # The length of an iterator is unknown. It lasts until the deadline, so the share is that of the time limit.
+        # An iterator has no length: it ends at the deadline, and the share done is that of the time.
         pieces = first_pass = inf
         if isinstance(work, Sequence):
             pieces, first_pass = max(len(work), 1), sum(item.order == 0 for item in work)

@@ -77,14 +77,7 @@ class Scatter:
         depth: int,
         draws: Draws,
     ) -> Rays | None:
-        """Rays of the next depth; None if there are none.
-
-        Parameters
-        ----------
-        throughput : (3, n) float32 of the incoming rays; None for 1
-        path : (n,); None for all paths, in order
-        medium : (n,) of the incoming rays; None if nothing absorbs, and for camera rays
-        """
+        """Rays of the next depth, or None; throughput, path and medium are those of the incoming rays (``Rays``)."""
         if self.absorbs and medium is None:
             medium = np.full(hits.size, OPEN)
         weight = repeated(self.reflectance(hits, None), hits.size)
@@ -160,10 +153,8 @@ class Scatter:
     ) -> tuple[Floats32, Floats32]:
         """Origins and throughput, (3, m) each, of rays that leave hits ``which`` (m,).
 
-        Parameters
-        ----------
-        near : the first ``near`` rays leave on the incoming side, the others on the far side
-        after : (3, n) throughput after the bounce, at all hits
+        The first ``near`` rays leave on the incoming side, the others on the far side. ``after`` (3, n) is the
+        throughput after the bounce at all hits.
         """
         origin = hits.near_origin.take(which[:near], axis=1)
         if near < len(which):
@@ -202,7 +193,7 @@ class Scatter:
 
 
 def kept_above(direction: Floats32, ng: Floats32) -> Floats32:
-    """Directions (3, n) above surfaces with normals ng: those below, by an interpolated normal, are mirrored up."""
+    """Directions (3, n); those below the surface with geometric normals ng (3, n) are mirrored to the side above."""
     below = np.minimum(dot(direction, ng), 0)
     if not below.any():
         return direction

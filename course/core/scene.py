@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from course.core.camera import Camera
-from course.core.direct import DirectLight, direct_light
+from course.core.direct import DirectLight
 from course.core.environment import Environment
 from course.core.gloss import Gloss, Lobe
 from course.core.hits import Surface
@@ -79,7 +79,7 @@ def plan_dimensions(
 
     The second pair is stratified together with the pixel's (``course.extras.samplers.sobol``). Without lens and motion
     it goes to gloss, before the lights: mirror images are sharper than soft shadows, so noise is seen more in them.
-    before_lights, after_lights: names and widths of further numbers that a bounce draws.
+    ``before_lights`` and ``after_lights`` are names and widths of further numbers that a bounce draws.
     """
     of_path = [PIXEL, ("lens", 2 if camera.lens else 0), ("time", 1 if world.motion else 0)]
     gloss = ("gloss", max((lobe.width for lobe in world.lobes), default=0))
@@ -91,7 +91,21 @@ def plan_direct_light(world: World) -> DirectLight | None:
     """Direct light; None without lights, or if no material reflects any."""
     if not world.lights or not world.materials.shaded.any():
         return None
-    return direct_light(world.surface, world.lights, world.motion, world.materials)
+    return direct_light(world)
+
+
+def direct_light(world: World) -> DirectLight:
+    """Direct light, even if it is only that of the environment."""
+    materials = world.materials
+    return DirectLight(
+        world.surface,
+        world.lights,
+        world.motion,
+        None if materials.shaded_sides.all() else materials.shaded_sides,
+        Lookup(materials.diffuse),
+        Lookup(materials.specular) if materials.specular.any() else None,
+        Lookup(materials.exponent),
+    )
 
 
 def plan_scatter(world: World, max_depth: int, cutoff: float) -> Scatter | None:

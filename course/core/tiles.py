@@ -123,7 +123,7 @@ class Work:
     first, samples : first sample and number of samples of each pixel
     summed : true if the pass enters the film's sums
     parts : number of equal parts of each pixel's samples, each with its own mean
-    pixels : number of pixels in the whole tile; None if this work is not a piece of one
+    pixels : number of pixels in the whole tile; None if this work has them all
     """
 
     tile: Area
@@ -141,12 +141,9 @@ def pass_size(settings: Settings, sampler: Sampler) -> int:
 
 
 def passes(settings: Settings, sampler: Sampler, done: int = 0, batches: int = 1) -> Iterator[Work]:
-    """The work of a render, pass by pass.
+    """The work of a render, pass by pass, in tiles of at most ``batches`` batches of rays.
 
-    Parameters
-    ----------
-    done : samples per pixel that the film already holds, a multiple of PASS
-    batches : most batches of rays in a tile
+    The film already holds ``done`` samples per pixel, a multiple of PASS.
     """
     size = pass_size(settings, sampler)
     tiles = tile_picture(settings.width, settings.height, size, batches)

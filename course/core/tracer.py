@@ -17,12 +17,9 @@ from course.core.types import Floats32
 
 @dataclass(frozen=True)
 class Tracer:
-    """Renders tiles. All threads share it.
+    """Renders tiles of at most ``batches`` batches of camera rays. All threads share it.
 
-    Attributes
-    ----------
-    batches : most batches of RAYS camera rays in a tile
-    costs : returns the costs of n new paths, for adaptive sampling; None without it
+    ``costs`` returns the costs of n new paths, for adaptive sampling; None without it.
     """
 
     settings: Settings
@@ -44,15 +41,8 @@ class Tracer:
     ) -> tuple[Floats32, Floats32 | float]:
         """Colours (3, n * parts), or (4, n * parts) with a row of costs, and weights of a tile's n pixels.
 
-        Parameters
-        ----------
-        first, samples : number of each pixel's first sample, and number of its samples
-        parts : number of equal parts of the samples, each with its own mean; the parts of a pixel are adjacent columns
-
-        Raises
-        ------
-        CancelledError
-            Soon after ``cancelled()`` becomes true.
+        Each pixel gets ``samples`` samples from number ``first`` on. They are divided into equal parts, each with its
+        own mean, in adjacent columns. Raises CancelledError soon after ``cancelled()`` becomes true.
         """
         counters.start()
         block = Block(tile.pixel_numbers(self.settings.width), first, samples, tile.number)

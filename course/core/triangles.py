@@ -7,16 +7,6 @@ u, v barycentrics of p1 and p2, w = 1 - u - v.
 
 Corner normals of a mesh that has been stretched unevenly differ in length. Interpolated first and normalised last, they
 give the normals of the stretched surface: an ellipsoid if it was a sphere.
-
-The bulge. A coarse mesh with smooth normals stands for a round surface above its flat triangles. Near the terminator,
-shadow rays from the flat triangles hit neighbouring facets, and the mesh shows black teeth. So shadow rays start
-from the round surface, higher by
-
-    h(u, v) = 1/2 (w u k01 + w v k02 + u v k12),    k_ij = (p_j - p_i) . (n_j - n_i)
-
-Along an edge, h is a parabola with the corner normals at its ends. An edge of length L on a sphere of radius R has
-k = L^2 / R, and h at its middle is the sagitta L^2 / (8 R). (Hanika, "Hacking the shadow terminator", Ray Tracing
-Gems II, ch. 4, moves the point to the tangent planes instead, twice as high.)
 """
 
 from __future__ import annotations
@@ -60,7 +50,8 @@ class Triangles:
     inset : (T, 3) float32, least barycentrics w, u, v: points nearer to an edge are moved inwards
     corner_normals : (T, 9) float32, n0, n1 - n0, n2 - n0, where the longest of n0, n1, n2 has length 1; None if no part
         has normals
-    bulge : (T, 3) float32, k01 / 2, k02 / 2, k12 / 2; None if no part has normals or shadow rays ignore the bulge
+    bulge : (T, 3) float32, k01 / 2, k02 / 2, k12 / 2 of ``course.core.ray_offset``; None if no part has normals, or if
+        shadow rays ignore the bulge
     largest_sine : sine of the largest angle between ng and a corner normal, 0 if every triangle is flat
     material : (T,) uint16 material numbers
     parts : (vertices, triangles, convex) of each object: two counts and a bool, in the order of the triangles

@@ -8,13 +8,19 @@ from typing import Any
 import numpy as np
 
 from course.core.camera import Camera
-from course.core.direct import DirectLight, direct_light
+from course.core.direct import DirectLight
 from course.core.integrator import Integrator
 from course.core.materials import Lookup, MaterialTable
 from course.core.rays import Dimensions
 from course.core.samplers import Sampler
 from course.core.scatter import Scatter
-from course.core.scene import plan_dimensions, plan_direct_light, plan_integrator, plan_scatter
+from course.core.scene import (
+    direct_light,
+    plan_dimensions,
+    plan_direct_light,
+    plan_integrator,
+    plan_scatter,
+)
 from course.extras.absorption import Absorption
 from course.extras.conductors import Conductors
 from course.extras.direct import FullDirectLight
@@ -98,7 +104,7 @@ def _direct_light(world: FullWorld, sky: Sky | None) -> DirectLight | None:
     plain = materials.plain if isinstance(materials, FullMaterials) else None
     if sky is None and (direct is None or (plain is None and not world.lifted)):
         return direct
-    direct = direct or direct_light(world.surface, world.lights, world.motion, materials)
+    direct = direct or direct_light(world)
     known = same_fields(direct) | {"sky": sky}
     return FullDirectLight(**known, plain=plain, lifted=world.lifted)
 

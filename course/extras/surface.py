@@ -8,9 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from course.core.embree import Accelerator, EmbreeAccelerator, Intersections
+from course.core.embree import Accelerator, EmbreeAccelerator, Intersections, QueryStats
 from course.core.functions import Functions
 from course.core.hits import Hits, Surface, turn_to_viewer
+from course.core.ray_offset import OFFSET
 from course.core.types import Floats32, Floats64, Mask
 from course.core.vectors import dot
 from course.extras.behind import Behind, SeenThrough, keep_normals
@@ -58,8 +59,32 @@ class FullSurface(Surface):
 
     @property
     def camera_accelerator(self) -> Any:
-        """See ``Surface``."""
+        """The accelerator of camera rays; its ``intersect`` is that of ``Accelerator``."""
         return self.accelerator if self.through is None else self.through
+
+    def intersect_camera(
+        self,
+        origin: Floats32,
+        direction: Floats32,
+        stats: QueryStats,
+        time: Floats32 | None,
+        coherent: bool,
+    ) -> Intersections:
+        """See ``Surface``; a camera that lies exactly on a surface sees what is before it."""
+        found: Intersections = self.camera_accelerator.intersect(
+            origin, direction, stats, time, coherent=coherent
+        )
+        # Rays of a camera on a surface hit that at once. They begin again, one offset on.
+        stuck = np.flatnonzero((found.t <= 0) & (found.triangle >= 0))
+        if len(stuck) == 0:
+            return found
+        onward = direction.take(stuck, axis=1)
+        start = origin if origin.shape[1] == 1 else origin.take(stuck, axis=1)
+        when = None if time is None else time.take(stuck)
+        step = self.triangles.planes[found.triangle.take(stuck), 6]
+        start = start + onward * np.maximum(step, np.float32(OFFSET))
+        found.put(stuck, self.camera_accelerator.intersect(start, onward, stats, when))
+        return found
 
     def hits(
         self,

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from course import Scene, render, shapes
 from course.core.embree import QueryStats
-from course.core.hits import Hits, bulge
+from course.core.hits import Hits
+from course.core.ray_offset import bulge
 from course.core.triangles import Mesh, Triangles
 from course.extras.surface import FullPart, FullSurface, build_surface
 from course.formats.meshes import transforms
@@ -283,12 +284,14 @@ def test_a_coarse_smooth_ball_is_lit_like_a_round_one(
 def test_without_the_bulge_a_coarse_ball_has_teeth(
     make_scene: MakeScene, pixel_rays: PixelRays, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    from course import render_scene
     from course.core import direct
 
     def flat(_triangles: Triangles, _hits: Hits, which: NDArray[np.intp]) -> NDArray[np.float32]:
         return np.zeros(len(which), np.float32)
 
     monkeypatch.setattr(direct, "bulge", flat)
+    monkeypatch.setattr(render_scene, "packets_available", lambda: False)
     light = {"type": "directional", "direction": [-1, -0.2, -0.1], "irradiance": np.pi}
     scene, found = lit_ball(make_scene, 16, light)
     normal, to_viewer = round_ball(scene, pixel_rays)

@@ -16,7 +16,7 @@ class PointLight:
 
     Attributes
     ----------
-    normal : (3,) float32 unit, if the light is one cell of a ``RectangleLight`` by radiance: I is times its cosine
+    normal : (3,) float32 unit, if the light is a cell of a ``RectangleLight`` by radiance: I is times the cosine to it
     two_sided, visible : of that light
     blockable : true if a surface on which the light lies blocks it
     """

@@ -12,10 +12,9 @@ from course.core.types import Floats32
 from course.core.vectors import dot
 
 TO_A_POINT, TO_A_SURFACE, TO_THE_LIGHT = 1 - 2.0**-20, 1 - 1e-4, 1 + 2.0**-15
-"""Length of a shadow ray, as a share of the distance to the light. A ray to a point that belongs to no surface has the
-first, a ray to a visible light the second: its triangles must not block their own light. The third is for a point light
-on a surface that shall block it. At a distance of 1/50 of the scene's size and at 60 degrees, rounding changes the
-distance to that surface by about half of the excess."""
+"""Lengths of shadow rays, as shares of the distance to the light: to a point that belongs to no surface; to a visible
+light, whose triangles must not block their own light; and to a point light on a surface that shall block it. At 1/50 of
+the scene's size and at 60 degrees, rounding changes the distance to that surface by about half of the last excess."""
 
 
 @dataclass(frozen=True)
@@ -100,7 +99,7 @@ def inverse_square(to_light: Floats32) -> tuple[Floats32, Floats32]:
 def _emitted_cosine(
     normal: Floats32, to_light: Floats32, inverse_length: Floats32, two_sided: bool
 ) -> Floats32:
-    """Cosine (n,) between an emitter's normal (3,) and the emitted direction, 0 or two-sided on the back."""
+    """Cosine (n,) between an emitter's normal (3,) and the emitted direction; behind it 0, or positive if two-sided."""
     cosine = dot(normal[:, None], to_light)
     cosine *= -inverse_length
     if two_sided:

@@ -43,10 +43,7 @@ class Block:
 class Sampler(ABC):
     """Draws numbers for the paths of a block; blocks may come in any order.
 
-    Attributes
-    ----------
-    name : its name in scene files
-    extensible : true if n samples can be continued to 2n
+    ``name`` is that in scene files; ``extensible`` is true if n samples can be continued to 2n.
     """
 
     name: str
