@@ -6,8 +6,6 @@ and rounded.
 
 from __future__ import annotations
 
-import csv
-import io
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -23,8 +21,8 @@ from course.formats.yaml.description import about
 from course.formats.yaml.document import Document, KeyPath, show, suggest
 from course.formats.yaml.tree import read_document
 from course.grading.classes.names import same_name
+from course.grading.classes.roster import read_table
 from course.grading.report import Report, grouped
-from course.inputs import LARGEST_SCENE, Bound, read_input, shown
 
 MODIFIED = "modified"
 """What ``times`` says for the times of the files themselves."""
@@ -249,18 +247,14 @@ def _zoned(text: str) -> datetime | None:
 
 
 def _read_times(path: Path) -> dict[str, Handed]:
-    try:
-        text = read_input(path, "table of times", Bound(LARGEST_SCENE)).decode("utf-8-sig")
-        rows = csv.DictReader(io.StringIO(text, newline=""))
-        if not {"student", "submitted"} <= {*(rows.fieldnames or ())}:
-            raise CourseError(f"{path}:1: expected the columns student and submitted")
-        return {row["student"]: _handed(row, f"{path}:{rows.line_num}") for row in rows}
-    except (UnicodeError, csv.Error) as error:
-        raise CourseError(f"{shown(path)}: can't be read: {error}") from None
+    columns, rows = read_table(path, "table of times")
+    if not {"student", "submitted"} <= {*columns}:
+        raise CourseError(f"{path}:1: expected the columns student and submitted")
+    return {row["student"]: _handed(row, f"{path}:{line}") for line, row in rows}
 
 
-def _handed(row: Mapping[str, str | None], where: str) -> Handed:
-    text, number = (row.get("submitted") or "").strip(), (row.get("attempts") or "").strip()
+def _handed(row: Mapping[str, str], where: str) -> Handed:
+    text, number = row["submitted"], row.get("attempts", "")
     submitted = _zoned(text)
     if text and submitted is None:
         raise CourseError(f"{where}: submitted is {show(text)}: expected {_TIME}")

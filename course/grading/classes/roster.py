@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 import re
 import unicodedata
 from collections.abc import Mapping, Sequence
@@ -67,19 +68,29 @@ def read_roster(path: Path) -> list[Listed]:
     CourseError
         The file can't be read, or has no column that names anybody.
     """
-    try:
-        text = read_input(path, "roster", Bound(LARGEST_SCENE)).decode("utf-8-sig")
-        rows = csv.DictReader(text.splitlines(keepends=True), delimiter=_delimiter(text))
-        columns = [column for column in rows.fieldnames or () if column]
-        found = [_listed({c: (row.get(c) or "").strip() for c in columns}) for row in rows]
-    except (UnicodeError, csv.Error) as error:
-        raise CourseError(f"{shown(path)}: can't be read: {error}") from None
+    columns, rows = read_table(path, "roster")
     known = {*_NAMES, *_FIRST, *_LAST, *_NUMBERS, *_LOGINS, *_EMAILS}
     if not known & {_folded(column) for column in columns}:
         raise CourseError(
             f"{path}:1: no column names students: expected one such as Student, Name, Login, ID or Email"
         )
+    found = (_listed(row) for _, row in rows)
     return [one for one in found if one is not None]
+
+
+def read_table(path: Path, what: str) -> tuple[list[str], list[tuple[int, dict[str, str]]]]:
+    """Columns of a CSV file, and its rows with the numbers of their lines; ``CourseError`` where it can't be read."""
+    try:
+        text = read_input(path, what, Bound(LARGEST_SCENE)).decode("utf-8-sig")
+        delimiter = max(",;\t", key=text.partition("\n")[0].count)
+        rows = csv.DictReader(io.StringIO(text, newline=""), delimiter=delimiter)
+        columns = [column for column in rows.fieldnames or () if column]
+        return columns, [
+            (rows.line_num, {column: (row.get(column) or "").strip() for column in columns})
+            for row in rows
+        ]
+    except (UnicodeError, csv.Error) as error:
+        raise CourseError(f"{shown(path)}: can't be read: {error}") from None
 
 
 def match(roster: Sequence[Listed], submissions: Mapping[str, Sequence[str]]) -> Matched:
@@ -148,8 +159,3 @@ def _squashed(name: str) -> str:
     """A name without what systems write in different ways: accents, case, blanks and signs."""
     plain = unicodedata.normalize("NFKD", name).casefold()
     return re.sub(r"[\W_]", "", "".join(c for c in plain if not unicodedata.combining(c)))
-
-
-def _delimiter(text: str) -> str:
-    head = text.partition("\n")[0]
-    return max(",;\t", key=head.count)
