@@ -46,8 +46,7 @@ def read_cameras(
     cameras: list[MetuCamera] = []
     for element in parent.all("Camera"):
         camera = _camera(element, steps, notes)
-        if any(camera.name == other.name for other in cameras):
-            raise element.error(f"its id is given twice: expected another than {camera.name}")
+        element.id([other.name for other in cameras])
         taken = {other.image for other in cameras}
         if camera.image in taken:
             # Another camera may have been given even that name.
@@ -140,9 +139,8 @@ def _window(element: Element, notes: Notes) -> dict[str, Any]:
 
 
 def _lens(element: Element) -> dict[str, Any]:
-    aperture, focus = element.maybe("ApertureSize"), element.maybe("FocusDistance")
-    distance = None if focus is None else focus.number(0)
-    edge = 0.0 if aperture is None else aperture.number(0)
+    distance = element.number_of("FocusDistance", 0.0)
+    edge = element.number_of("ApertureSize", 0.0)
     if edge == 0:
         return {}
     if not distance:

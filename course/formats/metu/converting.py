@@ -132,11 +132,7 @@ def _common(
     """What all cameras see."""
     _pass_over_empty(scene)
     # Hits are found by Embree, which has no tolerance to set.
-    tolerance = scene.maybe("IntersectionTestEpsilon")
-    if tolerance is not None:
-        tolerance.number(0)
-    offset = scene.maybe("ShadowRayEpsilon")
-    background = scene.maybe("BackgroundColor")
+    scene.number_of("IntersectionTestEpsilon", 0.0)
     materials = read_materials(scene, notes)
     objects = Objects(
         read_vertices(scene),
@@ -147,7 +143,6 @@ def _common(
         notes,
         eyes,
     )
-    radiance = [0.0, 0.0, 0.0] if background is None else list(background.color())
     return {
         "integrator": {
             "max_depth": _depth(scene, notes),
@@ -156,9 +151,13 @@ def _common(
             "into_surface": "keep",
             "terminator": "facets",
             "shading_normals": "interpolated",
-            "surface_offset": OFFSET if offset is None else offset.number(0),
+            "surface_offset": scene.number_of("ShadowRayEpsilon", OFFSET),
         },
-        "environment": {"type": "constant", "radiance": radiance, "seen_by": "camera"},
+        "environment": {
+            "type": "constant",
+            "radiance": scene.color_of("BackgroundColor"),
+            "seen_by": "camera",
+        },
         "materials": {material_name(number): keys for number, keys in materials.items()},
         "lights": read_lights(scene, steps),
         "objects": objects.read(scene),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Container, Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -52,12 +52,14 @@ class Element:
         value = self.attributes.get(name)
         return None if value is None else value.strip()
 
-    def id(self) -> str:
-        """The attribute `id`; SceneError where it is missing."""
+    def id(self, taken: Container[str] = ()) -> str:
+        """The attribute `id`; SceneError where it is missing, or one of those that are taken."""
         name = self.attribute("id")
         if not name:
             self._check_map()
             raise self.error('id is missing: expected an attribute such as id="1"')
+        if name in taken:
+            raise self.error(f"its id is given twice: expected another than {name}")
         return name
 
     def flag(self, name: str) -> bool:
@@ -118,6 +120,23 @@ class Element:
             bound = f" to {most:g}" if most < math.inf else ""
             raise self.unexpected(f"3 numbers from 0{bound}")
         return values
+
+    def direction(self, expected: str = "a direction that is not 0 0 0") -> Floats64:
+        """Its text as three numbers, (3,), that are not all 0."""
+        direction = np.array(self.vector())
+        if not direction.any():
+            raise self.unexpected(expected)
+        return direction
+
+    def number_of(self, tag: str, default: float) -> float:
+        """The text of a child as one number from 0 on; the default where there is none."""
+        found = self.maybe(tag)
+        return default if found is None else found.number(0)
+
+    def color_of(self, tag: str) -> list[float]:
+        """The text of a child as red, green and blue from 0 on; black where there is none."""
+        found = self.maybe(tag)
+        return [0.0, 0.0, 0.0] if found is None else list(found.color())
 
     def number(self, least: float, above: bool = False) -> float:
         """Its text as one number, not below (or only ``above``) a bound."""

@@ -46,10 +46,7 @@ def _point(element: Element, matrix: Floats64) -> dict[str, Any]:
 def _area(element: Element, matrix: Floats64) -> dict[str, Any]:
     element.attribute("id")
     position = np.array(element.child("Position", "such as 0 5 0").vector())
-    where = element.child("Normal", "such as 0 -1 0")
-    normal = np.array(where.vector())
-    if not normal.any():
-        raise where.unexpected("a direction that is not 0 0 0")
+    normal = element.child("Normal", "such as 0 -1 0").direction()
     size = element.child("Size", "such as 2").number(0, above=True)
     # Some files call it an intensity.
     radiance = element.maybe("Radiance") or element.child(

@@ -26,9 +26,7 @@ def read_materials(scene: Element, notes: Notes) -> dict[str, dict[str, Any]]:
     """The materials of a scene by id."""
     materials: dict[str, dict[str, Any]] = {}
     for element in scene.child("Materials", "materials for the objects").all("Material"):
-        number = element.id()
-        if number in materials:
-            raise element.error(f"its id is given twice: expected another than {number}")
+        number = element.id(materials)
         materials[number] = _material(element, notes)
     return materials
 
@@ -37,11 +35,10 @@ def _material(element: Element, notes: Notes) -> dict[str, Any]:
     kind = element.attribute("type")
     if kind and kind not in TYPES:
         raise element.error(f"type is {kind!r}: expected {', '.join(TYPES)} or none")
-    ambient, diffuse = (_color(element, f"{name}Reflectance") for name in ("Ambient", "Diffuse"))
+    ambient, diffuse = (element.color_of(f"{name}Reflectance") for name in ("Ambient", "Diffuse"))
     material = _body(ambient, diffuse)
-    specular = _color(element, "SpecularReflectance")
-    exponent = element.maybe("PhongExponent")
-    power = 1.0 if exponent is None else exponent.number(0)
+    specular = element.color_of("SpecularReflectance")
+    power = element.number_of("PhongExponent", 1.0)
     if any(specular):
         material |= {"specular": specular, "exponent": power, "highlight": "plain"}
     if kind in ("mirror", "conductor"):
@@ -58,7 +55,7 @@ def _material(element: Element, notes: Notes) -> dict[str, Any]:
         index = element.child("RefractionIndex", "such as 1.5").number(0, above=True)
         material["dielectric"] = {
             "refraction_index": index,
-            "absorption": _color(element, "AbsorptionCoefficient"),
+            "absorption": element.color_of("AbsorptionCoefficient"),
         }
         if any(diffuse) or any(ambient):
             material["dielectric"]["shaded"] = True
@@ -66,15 +63,14 @@ def _material(element: Element, notes: Notes) -> dict[str, Any]:
         idle = None if kind in kinds else element.maybe(tag)
         if idle is not None and idle.many("numbers, such as 0.5").any():
             notes.add(idle, f"counts only with type {' or '.join(kinds)}, and was left out")
-    roughness = element.maybe("Roughness")
-    if roughness is not None and roughness.number(0):
-        if kind:
-            edge = roughness.number(0)
-            material["gloss"] = {"lobe": "plane", "roughness": edge, "basis": "smallest"}
-            if kind == "dielectric":
-                material["dielectric"]["roughness"] = roughness.number(0)
-        else:
-            notes.add(roughness, "counts only with a type, and was left out")
+    edge = element.number_of("Roughness", 0.0)
+    if edge and kind:
+        material["gloss"] = {"lobe": "plane", "roughness": edge, "basis": "smallest"}
+        if kind == "dielectric":
+            material["dielectric"]["roughness"] = edge
+    elif edge:
+        roughness = element.child("Roughness", "a number")
+        notes.add(roughness, "counts only with a type, and was left out")
     return material
 
 
@@ -86,8 +82,3 @@ def _body(ambient: list[float], diffuse: list[float]) -> dict[str, Any]:
         material["ambient_color"] = [value / of for value in ambient]
     factors = {"diffuse": by, "ambient": of}
     return material | {key: factor for key, factor in factors.items() if factor > 1}
-
-
-def _color(element: Element, tag: str, most: float = float("inf")) -> list[float]:
-    found = element.maybe(tag)
-    return [0.0, 0.0, 0.0] if found is None else list(found.color(most))

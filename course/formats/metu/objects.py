@@ -92,9 +92,7 @@ class Objects:
             thing["from_behind"] = "unseen" if thing.get("shading") == "flat" else "kept"
 
     def _mesh(self, element: Element) -> dict[str, Any]:
-        number = element.id()
-        if number in self._bases:
-            raise element.error(f"its id is given twice: expected another than {number}")
+        number = element.id(self._bases)
         given = element.attribute("shadingMode")
         mode = given or "flat"
         if mode not in ("flat", "smooth"):
@@ -219,13 +217,9 @@ class Objects:
         for count, element in enumerate(elements, start=1):
             element.attribute("id")
             point = self._vertex(element.child("Point", "the number of a vertex"))
-            where = element.child("Normal", "such as 0 1 0")
-            if not any(where.vector()):
-                raise where.unexpected("a direction that is not 0 0 0")
+            normal = element.child("Normal", "such as 0 1 0").direction()
             matrix = matrix_of(element, self.steps)
-            mesh = plane_mesh(
-                moved(matrix, point), transformed_normal(matrix, np.array(where.vector())), corners
-            )
+            mesh = plane_mesh(moved(matrix, point), transformed_normal(matrix, normal), corners)
             path = self.meshes.add_own(mesh, f"plane-{count}", element)
             keys = self._common(element) | {"transform": []}
             things.append({"shape": "mesh", "file": path, "shading": "flat", **keys})

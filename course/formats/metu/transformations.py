@@ -25,13 +25,12 @@ def read_steps(scene: Element) -> dict[str, dict[str, Any]]:
     """The steps of a scene by letter and id, such as t1."""
     parent = scene.maybe("Transformations")
     steps: dict[str, dict[str, Any]] = {}
-    for kind, letter in KINDS.items() if parent is not None else ():
+    for kind, letter in KINDS.items() if parent else ():
         assert parent is not None
+        own: dict[str, dict[str, Any]] = {}
         for element in parent.all(kind):
-            name = letter + element.id()
-            if name in steps:
-                raise element.error(f"its id is given twice: expected another than {name[1:]}")
-            steps[name] = _step(kind, element)
+            own[element.id(own)] = _step(kind, element)
+        steps |= {letter + number: step for number, step in own.items()}
     return steps
 
 
