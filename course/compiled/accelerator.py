@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from time import perf_counter
 from typing import Any
 from weakref import WeakKeyDictionary
 
 import numpy as np
+from numpy.typing import NDArray
 
+from course.compiled import moving_kernels
 from course.compiled.convex import ConvexObjects, convex_objects
-from course.compiled.packets import PacketScene
+from course.compiled.own import courses_own
+from course.compiled.packets import COHERENT, PacketScene
 from course.core.embree import (
     NO_HIT,
     Accelerator,
@@ -19,17 +23,45 @@ from course.core.embree import (
     QueryStats,
     no_hits,
 )
-from course.core.motion import MovingAccelerator
+from course.core.motion import Mover, MovingAccelerator
 from course.core.types import Floats32, Indices, Mask
+from course.extras.plan import same_fields
 
 WORTH_CHOOSING = 0.75
 """Share of a batch up to which copying the rays in question costs less than asking all."""
 
-_FAR = np.full(1, NO_HIT, np.float32)
+_FAR, _ALL = np.full(1, NO_HIT, np.float32), np.empty(0, np.bool_)
 
 _BUILT: WeakKeyDictionary[EmbreeAccelerator, tuple[PacketScene, ConvexObjects | None]]
 _BUILT = WeakKeyDictionary()
 """What has been built: a scene is rendered more than once."""
+
+
+@dataclass(frozen=True)
+class SceneTables:
+    """What stands still and K movers, as ``moving_kernels`` has them.
+
+    Attributes
+    ----------
+    scenes : (1 + K,) uint64, Embree's; 0 where there are no triangles
+    velocity, boxes : (K, 3) and (K, 2, 3) float32 of the movers
+    """
+
+    scenes: NDArray[np.uintp]
+    velocity: Floats32
+    boxes: Floats32
+
+    @classmethod
+    def of(
+        cls, static: PacketScene | None, movers: Sequence[tuple[PacketScene, Floats32]]
+    ) -> SceneTables:
+        """Tables of scenes, of the movers with their velocities."""
+        scenes = [0 if static is None else static.scene, *(scene.scene for scene, _ in movers)]
+        velocity = np.zeros((len(movers), 3), np.float32)
+        boxes = np.zeros((len(movers), 2, 3), np.float32)
+        for number, (scene, each) in enumerate(movers):
+            velocity[number], boxes[number] = each, scene.box
+        return cls(np.array(scenes, np.uintp), velocity, boxes)
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,9 +80,9 @@ class PacketAccelerator(EmbreeAccelerator):
     apart: bool = False
 
     @property
-    def scene(self) -> int:
-        """Embree's scene, for a compiled loop; 0 where there are no triangles."""
-        return 0 if self.packets is None else self.packets.scene
+    def tables(self) -> SceneTables:
+        """For loops over packets."""
+        return SceneTables.of(self.packets, ())
 
     def intersect(
         self,
@@ -129,6 +161,65 @@ class PacketAccelerator(EmbreeAccelerator):
         return free
 
 
+@dataclass(frozen=True)
+class MovingPackets(MovingAccelerator):
+    """Static triangles and movers; origins are shifted as the course's own function does.
+
+    Attributes
+    ----------
+    tables : of all
+    numbers : (1 + K,) the first triangle of each
+    """
+
+    tables: SceneTables
+    numbers: Indices
+
+    def intersect(
+        self,
+        origin: Floats32,
+        direction: Floats32,
+        stats: QueryStats,
+        time: Floats32 | None = None,
+        *,
+        coherent: bool = False,
+        excluded: Any = None,
+    ) -> Intersections:
+        """See ``MovingAccelerator``."""
+        assert time is not None
+        start, n = perf_counter(), direction.shape[1]
+        triangle, uvt = np.empty(n, np.int32), np.empty((3, n), np.float32)
+        tables = self.tables
+        moving_kernels.intersect(
+            *(tables.scenes, tables.velocity, tables.boxes, self.numbers),
+            *map(np.ascontiguousarray, (origin, direction, time)),
+            *(COHERENT if coherent else 0, np.float32(NO_HIT), triangle, uvt),
+        )
+        stats.seconds += perf_counter() - start
+        return Intersections(triangle, *uvt)
+
+    def unoccluded(
+        self,
+        origin: Floats32,
+        direction: Floats32,
+        limit: float,
+        stats: QueryStats,
+        time: Floats32 | None = None,
+        *,
+        active: Mask | None = None,
+    ) -> Mask:
+        """See ``MovingAccelerator``."""
+        assert time is not None
+        start, free = perf_counter(), np.empty(direction.shape[1], np.bool_)
+        tables = self.tables
+        moving_kernels.unoccluded(
+            *(tables.scenes, tables.velocity, tables.boxes),
+            *map(np.ascontiguousarray, (origin, direction, time)),
+            *(np.float32(limit), _ALL if active is None else active, free),
+        )
+        stats.seconds += perf_counter() - start
+        return free
+
+
 def in_packets(
     accelerator: Accelerator, parts: tuple[tuple[int, int, bool], ...] = ()
 ) -> Accelerator:
@@ -147,8 +238,29 @@ def in_packets(
             replace(mover, accelerator=_packets(mover.accelerator, (), apart=True))
             for mover in accelerator.movers
         )
-        return replace(accelerator, static=_packets(accelerator.static, (), False), movers=movers)
+        static = _packets(accelerator.static, (), apart=False)
+        moving = replace(accelerator, static=static, movers=movers)
+        motion_blur = accelerator.motion.motion_blur
+        if not courses_own(motion_blur.to_object_space):
+            return moving
+        return _moving_packets(moving, static, movers)
     return accelerator
+
+
+def _moving_packets(
+    accelerator: MovingAccelerator, static: PacketAccelerator, movers: tuple[Mover, ...]
+) -> MovingPackets:
+    pairs = [
+        (mover.accelerator.packets, mover.velocity)
+        for mover in movers
+        if isinstance(mover.accelerator, PacketAccelerator) and mover.accelerator.packets
+    ]
+    assert len(pairs) == len(movers)
+    return MovingPackets(
+        **same_fields(accelerator),
+        tables=SceneTables.of(static.packets, pairs),
+        numbers=np.array([0, *(mover.first for mover in movers)], np.int64),
+    )
 
 
 def _packets(

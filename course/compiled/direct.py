@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from course.compiled import direct_kernels, light_kernels, shadow_kernels
-from course.compiled.accelerator import PacketAccelerator
+from course.compiled.accelerator import MovingPackets, PacketAccelerator, SceneTables
 from course.core.direct import ROUNDING, Candidates
 from course.core.hits import Hits
 from course.core.lights import Light, Sample
@@ -77,15 +77,15 @@ class CompiledDirectLight(FullDirectLight):
     def _from_lights(
         self, hits: Hits, path: Indices | None, depth: int, draws: Draws
     ) -> tuple[Floats32 | None, Floats32 | None]:
-        """In one loop a light, where all triangles stand still."""
+        """In one loop a light."""
         accelerator = self.surface.accelerator
-        if self.lifted or not isinstance(accelerator, PacketAccelerator) or not accelerator.scene:
+        if self.lifted or not isinstance(accelerator, PacketAccelerator | MovingPackets):
             return super()._from_lights(hits, path, depth, draws)
         diffuse: Floats32 | None = None
         specular: Floats32 | None = None
         for light in self.lights:
             u = draws(light.name, path, depth) if light.width else None
-            irradiance, shiny = self._illuminate(accelerator.scene, light, hits, u, path, draws)
+            irradiance, shiny = self._illuminate(accelerator.tables, light, hits, u, path, draws)
             if irradiance is None:
                 continue
             added = irradiance * light.color[:, None]
@@ -97,7 +97,7 @@ class CompiledDirectLight(FullDirectLight):
 
     def _illuminate(
         self,
-        scene: int,
+        scenes: SceneTables,
         light: Light,
         hits: Hits,
         u: Floats32 | None,
@@ -116,8 +116,9 @@ class CompiledDirectLight(FullDirectLight):
         asked = _UNASKED_MASK if draws.costs is None else np.empty(n, np.bool_)
         arrays = hits.near_origin, points, hits.ns, hits.ng, hits.material, hits.side
         places = hits.triangle, hits.u, hits.v, sample.to_light
+        time = _UNASKED if hits.time is None else np.ascontiguousarray(hits.time)
         shadow_kernels.illuminate(
-            scene,
+            *(scenes.scenes, scenes.velocity, scenes.boxes, time),
             *map(np.ascontiguousarray, (*arrays, *places, sample.inverse_length, sample.factor)),
             *(
                 (sample.normal, sample.two_sided)

@@ -23,6 +23,11 @@ _U, _V, _PRIMITIVE, _GEOMETRY = 15, 16, 17, 18
 # Hits end with the instances' numbers, one row or two by how Embree was built; more room does no harm.
 _ALL_ROWS = 24
 
+TO, TFAR, U, V, PRIMITIVE, GEOMETRY = (
+    row * WIDTH for row in (4, _TFAR, _U, _V, _PRIMITIVE, _GEOMETRY)
+)
+"""Where rows begin in a packet that is one array: the direction's first, and others."""
+
 _query = types.void(*[types.uintp] * 4)
 intersect16 = types.ExternalFunction("rtcIntersect16", _query)
 occluded16 = types.ExternalFunction("rtcOccluded16", _query)
@@ -34,6 +39,13 @@ def aligned(rows):
     memory = np.empty((rows + 1) * WIDTH, np.float32)
     start = (-memory.ctypes.data & 63) // 4
     return memory[start : start + rows * WIDTH].reshape(rows, WIDTH)
+
+
+@njit(**OPTIONS)
+def begin(s, whole):
+    """What all rays of a packet that is one array have in common; ``whole`` is the same memory as integers."""
+    s[:] = 0
+    whole[_MASK * WIDTH : (_MASK + 1) * WIDTH] = -1
 
 
 @njit(**OPTIONS)

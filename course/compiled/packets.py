@@ -20,7 +20,7 @@ from course.core.types import Floats32, Indices, Mask, Numbers
 _TRIANGLES, _INDICES, _VERTICES = 0, 0, 1
 _THREE_UINTS, _THREE_FLOATS = 0x5003, 0x9003
 _ROBUST = 4
-_COHERENT = 1 << 16
+COHERENT = 1 << 16
 _EVERY = np.empty(0, np.int64)
 
 
@@ -66,7 +66,7 @@ class PacketScene:
         from course.compiled import packet_kernels
 
         self._intersect, self._unoccluded = packet_kernels.intersect, packet_kernels.unoccluded
-        self._box = roomy_box(vertices)
+        self.box = roomy_box(vertices)
 
     def __del__(self) -> None:
         """Give the hierarchy's memory back."""
@@ -97,7 +97,7 @@ class PacketScene:
         uvt = np.empty((3, n), np.float32)
         arrays = map(np.ascontiguousarray, (origin, direction, limit))
         chosen = _EVERY if which is None else which, which is None
-        hint = _COHERENT if coherent else 0
+        hint = COHERENT if coherent else 0
         self._intersect(self.scene, *arrays, *chosen, hint, triangle, uvt)
         return triangle, *uvt
 
@@ -122,4 +122,4 @@ class PacketScene:
 
         which = np.empty(direction.shape[1], np.int64)
         arrays = map(np.ascontiguousarray, (origin, direction, limit))
-        return which[: box_kernels.entering(*arrays, self._box, which)]
+        return which[: box_kernels.entering(*arrays, self.box, which)]

@@ -12,17 +12,16 @@ import numpy as np
 from numba import njit, types
 
 from course.compiled.clock_kernels import nanoseconds
+from course.compiled.moving_kernels import BOXES, ROWS, SCENES, occlude
 from course.compiled.options import COLUMNS, OPTIONS, ROW
-from course.compiled.packet_kernels import WIDTH, aligned, arguments_of, occluded16
+from course.compiled.packet_kernels import TFAR, WIDTH, aligned, arguments_of, begin
 from course.core.lights.sample import CLOSEST, TO_THE_LIGHT
 
-_ORIGIN, _TNEAR, _TO_LIGHT, _TIME, _TFAR, _MASK, _ID, _FLAGS = (
-    row * WIDTH for row in (0, 3, 4, 7, 8, 9, 10, 11)
-)
+_ORIGIN, _TO_LIGHT = 0, 4 * WIDTH
 _NORMAL, _POINT, _INVERSE, _FACTOR, _COSINE, _IRRADIANCE = (
-    row * WIDTH for row in (12, 15, 18, 19, 20, 21)
+    (ROWS + row) * WIDTH for row in (0, 3, 6, 7, 8, 9)
 )
-_ROWS = 22
+_ALL_ROWS = ROWS + 10
 _X, _Y, _Z = 0, WIDTH, 2 * WIDTH
 
 _NOTHING, _ONE = np.float32(0), np.float32(1)
@@ -106,17 +105,9 @@ def _height(s, i, j, ng, triangle, u, v, side, bulge):
     return height if height > 0 else _NOTHING
 
 
-@njit(**OPTIONS)
-def _begin(s, whole):
-    """What all rays have in common; ``whole`` is the same memory as integers. Embree leaves it as it is."""
-    s[:] = 0
-    for i in range(WIDTH):
-        whole[_MASK + i] = -1
-
-
 @njit(
     types.void(
-        *(types.uintp, COLUMNS, COLUMNS, COLUMNS, COLUMNS),
+        *(SCENES, COLUMNS, BOXES, ROW, COLUMNS, COLUMNS, COLUMNS, COLUMNS),
         *(types.uint16[::1], ROW, types.int32[::1], ROW, ROW),
         *(COLUMNS, ROW, ROW, ROW, types.boolean),
         *(types.boolean[:, ::1], COLUMNS, types.float32, types.float32),
@@ -125,7 +116,10 @@ def _begin(s, whole):
     **OPTIONS,
 )
 def illuminate(
-    scene,
+    scenes,
+    velocity,
+    boxes,
+    time,
     origin,
     points,
     ns,
@@ -155,7 +149,7 @@ def illuminate(
 
     Parameters
     ----------
-    scene : Embree's
+    scenes, velocity, boxes, time : of the shadow rays, see ``moving_kernels.occlude``
     origin, ns, ng, material, side, triangle, u, v : of the ``Hits``
     points : (3, n) for which the light is sampled
     on_light : (3, n) or (3, 1) points on the light; the ``to_light`` of a ``Sample`` if the next two are not empty
@@ -174,16 +168,13 @@ def illuminate(
         hits in ``which``
     """
     n = len(material)
-    memory = aligned(_ROWS + 12 + 2).reshape((_ROWS + 12 + 2) * WIDTH)
-    s, above = memory[: _ROWS * WIDTH], memory[_ROWS * WIDTH : (_ROWS + 12) * WIDTH]
-    valid = memory[(_ROWS + 12) * WIDTH :].view(np.int32)
-    whole, above_whole = s.view(np.int32), above.view(np.int32)
-    _begin(s, whole)
-    _begin(above, above_whole)
-    at, at_above, at_valid = s.ctypes.data, above.ctypes.data, valid.ctypes.data
-    at_valid_above = at_valid + 4 * WIDTH
+    memory = aligned(_ALL_ROWS + ROWS + 3).reshape((_ALL_ROWS + ROWS + 3) * WIDTH)
+    s, above = memory[: _ALL_ROWS * WIDTH], memory[_ALL_ROWS * WIDTH : (_ALL_ROWS + ROWS) * WIDTH]
+    masks = memory[(_ALL_ROWS + ROWS) * WIDTH :].view(np.int32)
+    asked_above, valid, others = masks[:WIDTH], masks[WIDTH : 2 * WIDTH], masks[2 * WIDTH :]
+    begin(s, s.view(np.int32))
+    begin(above, above.view(np.int32))
     arguments = arguments_of(0)
-    at_arguments = arguments.ctypes.data
     sampled, apart = len(inverse_length) > 0, points.ctypes.data != origin.ctypes.data
     for number in range((n + WIDTH - 1) // WIDTH):
         first = number * WIDTH
@@ -225,14 +216,14 @@ def illuminate(
         raised = 0
         if len(bulge):
             for i in range(WIDTH):
-                valid[WIDTH + i] = 0
+                asked_above[i] = 0
             for i in range(count):
                 if valid[i] != 0 and s[_COSINE + i] <= most:
                     height = _height(s, i, first + i, ng, triangle, u, v, side, bulge)
                     if height > 0:
                         raised += 1
-                        valid[WIDTH + i] = -1
-                        above[_TFAR + i] = _ONE
+                        asked_above[i] = -1
+                        above[TFAR + i] = _ONE
                         for c in range(0, 3 * WIDTH, WIDTH):
                             # The highlight looks at the light from the facet.
                             s[_POINT + c + i] = s[_TO_LIGHT + c + i]
@@ -245,21 +236,23 @@ def illuminate(
             counts[1] += raised
         # ---- shadow rays
         for i in range(WIDTH):
-            s[_TFAR + i] = limit
+            s[TFAR + i] = limit
         if number % TIMED == 0:
             counts[2] -= nanoseconds()
         if raised:
-            occluded16(at_valid_above, scene, at_above, at_arguments)
-        occluded16(at_valid, scene, at, at_arguments)
+            occlude(
+                scenes, velocity, boxes, time, first, count, above, asked_above, others, arguments
+            )
+        occlude(scenes, velocity, boxes, time, first, count, s, valid, others, arguments)
         if number % TIMED == 0:
             counts[2] += nanoseconds()
         # Embree sets tfar to minus infinity where something is in the way.
         for i in range(WIDTH):
-            free = (valid[i] != 0) & (s[_TFAR + i] >= 0)
+            free = (valid[i] != 0) & (s[TFAR + i] >= 0)
             s[_IRRADIANCE + i] = s[_IRRADIANCE + i] if free else _NOTHING
         if raised:
             for i in range(count):
-                if valid[WIDTH + i] != 0 and not above[_TFAR + i] >= 0:
+                if asked_above[i] != 0 and not above[TFAR + i] >= 0:
                     s[_IRRADIANCE + i] = _NOTHING
         for i in range(count):
             irradiance[first + i] = s[_IRRADIANCE + i]
@@ -267,7 +260,7 @@ def illuminate(
             for i in range(count):
                 if s[_IRRADIANCE + i] > 0 and shiny[material[first + i]]:
                     k = counts[3]
-                    to_light = _POINT if raised and valid[WIDTH + i] != 0 else _TO_LIGHT
+                    to_light = _POINT if raised and asked_above[i] != 0 else _TO_LIGHT
                     which[k] = first + i
                     towards[0, k] = s[_IRRADIANCE + i]
                     towards[1, k] = s[_COSINE + i]

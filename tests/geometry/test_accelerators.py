@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from course.compiled import library
-from course.compiled.accelerator import PacketAccelerator, in_packets
+from course.compiled.accelerator import MovingPackets, PacketAccelerator, in_packets
 from course.core.embree import Accelerator, EmbreeAccelerator, QueryStats
 from course.core.functions import Functions
 from course.core.motion import Motion, MovingAccelerator
@@ -20,11 +20,14 @@ KINDS = (
     EmbreeAccelerator,
     MovingAccelerator,
     HierarchyAccelerator,
-    pytest.param(
-        PacketAccelerator,
-        marks=pytest.mark.skipif(
-            not library.available(), reason="Numba is not installed (pip install .[fast])"
-        ),
+    *(
+        pytest.param(
+            kind,
+            marks=pytest.mark.skipif(
+                not library.available(), reason="Numba is not installed (pip install .[fast])"
+            ),
+        )
+        for kind in (PacketAccelerator, MovingPackets)
     ),
 )
 QUERIES = ("intersect", "unoccluded")
@@ -38,8 +41,9 @@ def made(kind: type) -> Accelerator:
     if kind is HierarchyAccelerator:
         return HierarchyAccelerator(VERTICES, TRIANGLES, Functions(vars(bounding_volumes)), 4)
     still = EmbreeAccelerator(VERTICES, TRIANGLES)
-    if kind is MovingAccelerator:
-        return MovingAccelerator(still, (), Motion(Functions(vars(motion_blur))))
+    if kind in (MovingAccelerator, MovingPackets):
+        moving = MovingAccelerator(still, (), Motion(Functions(vars(motion_blur))))
+        return moving if kind is MovingAccelerator else in_packets(moving)
     return in_packets(still) if kind is PacketAccelerator else still
 
 
@@ -73,7 +77,7 @@ def test_who_knows_the_interface_alone_gets_the_same_answers(kind: type) -> None
 def test_packets_take_the_place_of_embree_alone() -> None:
     for kind, other in (
         (EmbreeAccelerator, PacketAccelerator),
-        (MovingAccelerator, MovingAccelerator),
+        (MovingAccelerator, MovingPackets),
         (HierarchyAccelerator, HierarchyAccelerator),
     ):
         accelerator: Any = made(kind)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -13,9 +14,11 @@ from course.adaptive.costs import RowOfCosts
 from course.compiled import library
 from course.core.counters import Counters
 from course.core.direct import direct_light
+from course.core.functions import Functions
 from course.core.hits import Hits
 from course.core.lights import DirectionalLight, Light, PointLight, RectangleLight, SphereLight
 from course.core.materials import MaterialTable
+from course.core.motion import Motion, MovingAccelerator
 from course.core.rays import Dimensions, Draws
 from course.core.samplers import Block
 from course.effects import Effects
@@ -26,6 +29,7 @@ from course.extras.surface import FullPart, FullSurface, build_surface
 if not library.available():
     pytest.skip("Numba is not installed (pip install .[fast])", allow_module_level=True)
 
+from course.compiled.accelerator import MovingPackets, in_packets
 from course.compiled.direct import CompiledDirectLight
 from course.compiled.stages import compiled_surface
 
@@ -35,12 +39,14 @@ FUNCTIONS: Any = Effects().function
 
 
 class Course:
-    """Functions of soft_shadows."""
+    """Functions of the course."""
 
     point_on_sphere = staticmethod(FUNCTIONS("soft_shadows", "point_on_sphere"))
     point_in_ball = staticmethod(FUNCTIONS("soft_shadows", "point_in_ball"))
     point_on_facing_disk = staticmethod(FUNCTIONS("soft_shadows", "point_on_facing_disk"))
     point_on_rectangle = staticmethod(FUNCTIONS("soft_shadows", "point_on_rectangle"))
+    displacement = staticmethod(FUNCTIONS("motion_blur", "displacement"))
+    to_object_space = staticmethod(FUNCTIONS("motion_blur", "to_object_space"))
 
 
 def vector(*values: float) -> Any:
@@ -66,24 +72,44 @@ LIGHTS: dict[str, Light] = {
 }
 
 
-@pytest.fixture(scope="module")
-def surface() -> FullSurface:
-    """A coarse ball over a floor, of two materials and three."""
+@pytest.fixture(scope="module", params=["still", "moving"])
+def surface(request: pytest.FixtureRequest) -> FullSurface:
+    return scene_of(request.param)
+
+
+def scene_of(kind: str) -> FullSurface:
+    """A coarse ball over a floor, and two that move away from each other, of two materials."""
     floor = shapes.quad(1.8, 1.8)
-    floor = replace(floor, vertices=floor.vertices - vector(0, 0.7, 0))
-    return build_surface([FullPart(floor, 1), FullPart(shapes.sphere(0.6, 10), 3)])
+    parts = [
+        FullPart(replace(floor, vertices=floor.vertices - vector(0, 0.7, 0)), 1),
+        FullPart(shapes.sphere(0.6, 10), 3),
+    ]
+    if kind == "still":
+        return build_surface(parts)
+    small = shapes.sphere(0.2, 6)
+    for side in (-0.7, 0.7):
+        moved = replace(small, vertices=small.vertices + vector(side, -0.3, 0))
+        parts.append(FullPart(moved, 3, (0.0, 0.3, side / 2)))
+    return build_surface(parts, FUNCTIONS_OF)
 
 
-def hits_of(surface: FullSurface) -> Hits:
+def rays_to(surface: FullSurface) -> tuple[Any, Any, Any]:
+    """Origins, directions and times; all are the same moment where nothing moves."""
     rng = np.random.default_rng(5)
     origin = rng.normal(size=(3, 2 * N))
     origin[1] = np.abs(origin[1]) * 0.7
     origin *= 2.5 / np.linalg.norm(origin, axis=0)
     direction = rng.uniform(-0.6, 0.6, (3, 2 * N)) - origin
     direction /= np.linalg.norm(direction, axis=0)
-    origin, direction = origin.astype(np.float32), direction.astype(np.float32)
-    found = surface.accelerator.intersect(origin, direction, Counters().embree)
-    return surface.hits(found, direction)
+    moves = isinstance(surface.accelerator, MovingAccelerator)
+    time = rng.random(2 * N, np.float32) if moves else None
+    return origin.astype(np.float32), direction.astype(np.float32), time
+
+
+def hits_of(surface: FullSurface) -> Hits:
+    origin, direction, time = rays_to(surface)
+    found = surface.accelerator.intersect(origin, direction, Counters().embree, time)
+    return surface.hits(found, direction, time)
 
 
 def materials(specular: bool) -> MaterialTable:
@@ -131,3 +157,38 @@ def test_the_loop_finds_the_same_light(
     # Some are lit, some turn away or lie in shadow, and some facets turn away below round surfaces that don't.
     assert 0.04 < (mine.max(axis=0) > 0).mean() < 0.95
     assert rays["shadow"] > 500
+
+
+def test_rays_among_movers_meet_the_same() -> None:
+    surface = scene_of("moving")
+    passes = surface.accelerator
+    loop = compiled_surface(surface).accelerator
+    assert isinstance(loop, MovingPackets)
+    origin, direction, time = rays_to(surface)
+    stats = Counters().embree
+    for start in (origin, origin[:, :1]):
+        mine, theirs = (each.intersect(start, direction, stats, time) for each in (passes, loop))
+        for name in ("triangle", "u", "v", "t"):
+            assert getattr(mine, name).tobytes() == getattr(theirs, name).tobytes()
+    met = np.unique(mine.triangle)
+    assert all(((met >= mover.first) & (met < mover.last)).any() for mover in passes.movers)
+    active = np.random.default_rng(8).random(2 * N) < 0.7
+    for limit, some in ((2.5, None), (1e30, active)):
+        free = [
+            each.unoccluded(origin, direction, limit, stats, time, active=some)
+            for each in (passes, loop)
+        ]
+        assert free[0].tobytes() == free[1].tobytes()
+        assert 0.02 < free[0].mean() < 0.98
+
+
+def test_movers_that_a_students_function_shifts_are_asked_one_after_the_other() -> None:
+    surface = scene_of("moving")
+    own = Functions(
+        {
+            "displacement": Course.displacement,
+            "to_object_space": partial(Course.to_object_space),
+        }
+    )
+    accelerator = replace(surface.accelerator, motion=Motion(own))
+    assert type(in_packets(accelerator)) is MovingAccelerator

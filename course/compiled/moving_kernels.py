@@ -1,0 +1,201 @@
+"""Loops over packets among triangles of which some move, compiled by Numba; see ``packet_kernels`` for the layout.
+
+Each mover has a scene of its own. A packet asks first what stands still, and then each mover whose box one of its rays
+may meet, from origins that are shifted into the mover's frame.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit, types
+
+from course.compiled.options import COLUMNS, OPTIONS, ROW
+from course.compiled.packet_kernels import (
+    GEOMETRY,
+    PRIMITIVE,
+    TFAR,
+    TO,
+    WIDTH,
+    U,
+    V,
+    aligned,
+    arguments_of,
+    begin,
+    intersect16,
+    occluded16,
+)
+
+# Rows of our own behind those of the packet: origins that are not shifted, 1 / direction, time.
+_ORIGIN, _INVERSE, _TIME = 24 * WIDTH, 27 * WIDTH, 30 * WIDTH
+ROWS = 31
+_X, _Y, _Z = 0, WIDTH, 2 * WIDTH
+_ONE, _NOTHING = np.float32(1), np.float32(0)
+_LESS, _MORE = np.float32(1 - 1e-6), np.float32(1 + 1e-6)
+
+SCENES = types.uintp[::1]
+"""What stands still, then each mover; 0 for no triangles."""
+BOXES = types.float32[:, :, ::1]
+"""(K, 2, 3) of the movers, as ``convex.roomy_box`` makes them."""
+
+
+@njit(**OPTIONS)
+def keep(s, time, first, count):
+    """Keep a packet's origins before they are shifted, with its times and 1 / direction."""
+    for i in range(3 * WIDTH):
+        s[_ORIGIN + i] = s[i]
+        s[_INVERSE + i] = _ONE / s[TO + i]
+    for i in range(count):
+        s[_TIME + i] = time[first + i]
+
+
+@njit(**OPTIONS)
+def restore(s):
+    """Undo the shift."""
+    for i in range(3 * WIDTH):
+        s[i] = s[_ORIGIN + i]
+
+
+@njit(**OPTIONS)
+def shift(s, velocity, box, asked, valid):
+    """Shift a packet's origins into a mover's frame, and fill which of the rays that are asked may meet its box.
+
+    The slabs are those of ``box_kernels``. Returns how many may meet it.
+    """
+    for c in range(3):
+        for i in range(WIDTH):
+            s[c * WIDTH + i] = s[_ORIGIN + c * WIDTH + i] - velocity[c] * s[_TIME + i]
+    x0, y0, z0, x1, y1, z1 = box[0, 0], box[0, 1], box[0, 2], box[1, 0], box[1, 1], box[1, 2]
+    count = 0
+    for i in range(WIDTH):
+        near, far = _NOTHING, s[TFAR + i]
+        a = (x0 - s[_X + i]) * s[_INVERSE + _X + i]
+        b = (x1 - s[_X + i]) * s[_INVERSE + _X + i]
+        low, high = a if a < b else b, b if a < b else a
+        near, far = low if low > near else near, high if high < far else far
+        a = (y0 - s[_Y + i]) * s[_INVERSE + _Y + i]
+        b = (y1 - s[_Y + i]) * s[_INVERSE + _Y + i]
+        low, high = a if a < b else b, b if a < b else a
+        near, far = low if low > near else near, high if high < far else far
+        a = (z0 - s[_Z + i]) * s[_INVERSE + _Z + i]
+        b = (z1 - s[_Z + i]) * s[_INVERSE + _Z + i]
+        low, high = a if a < b else b, b if a < b else a
+        near, far = low if low > near else near, high if high < far else far
+        meets = (asked[i] != 0) & (s[TFAR + i] >= 0) & (not near * _LESS > far * _MORE)
+        valid[i] = -1 if meets else 0
+        count += meets
+    return count
+
+
+@njit(**OPTIONS)
+def occlude(scenes, velocity, boxes, time, first, count, s, asked, valid, arguments):
+    """Set ``tfar`` of the rays that are asked to minus infinity where something is in the way.
+
+    Parameters
+    ----------
+    scenes, velocity, boxes : (1 + K,), (K, 3) and (K, 2, 3)
+    time : (n,) of all rays, of which the packet's ``count`` begin at ``first``; (0,) without movers
+    s : the packet, with ROWS rows
+    asked, valid : (16,) int32, -1 for the rays that are asked; the second is overwritten
+    """
+    if scenes[0]:
+        occluded16(asked.ctypes.data, scenes[0], s.ctypes.data, arguments.ctypes.data)
+    if len(velocity):
+        keep(s, time, first, count)
+        for k in range(len(velocity)):
+            if shift(s, velocity[k], boxes[k], asked, valid):
+                occluded16(valid.ctypes.data, scenes[1 + k], s.ctypes.data, arguments.ctypes.data)
+        restore(s)
+
+
+@njit(**OPTIONS)
+def _fill(s, origin, direction, first, count):
+    for c in range(3):
+        if origin.shape[1] == 1:
+            for i in range(WIDTH):
+                s[c * WIDTH + i] = origin[c, 0]
+        else:
+            for i in range(count):
+                s[c * WIDTH + i] = origin[c, first + i]
+        for i in range(count):
+            s[TO + c * WIDTH + i] = direction[c, first + i]
+
+
+@njit(
+    types.void(
+        *(SCENES, COLUMNS, BOXES, types.int64[::1], COLUMNS, COLUMNS, ROW),
+        *(types.int64, types.float32, types.int32[::1], COLUMNS),
+    ),
+    **OPTIONS,
+)
+def intersect(scenes, velocity, boxes, numbers, origin, direction, time, hint, far, triangle, uvt):
+    """Nearest hits into ``triangle`` (N,) and ``uvt`` (3, N), as ``MovingAccelerator.intersect`` finds them.
+
+    Parameters
+    ----------
+    scenes, velocity, boxes : (1 + K,), (K, 3) and (K, 2, 3)
+    numbers : (1 + K,) the first triangle of each scene
+    origin, direction, time : (3, N) or (3, 1), (3, N), (N,)
+    far : t of what hits nothing
+    """
+    n = direction.shape[1]
+    memory = aligned(ROWS + 2).reshape((ROWS + 2) * WIDTH)
+    s, masks = memory[: ROWS * WIDTH], memory[ROWS * WIDTH :].view(np.int32)
+    whole = s.view(np.int32)
+    asked, valid = masks[:WIDTH], masks[WIDTH:]
+    begin(s, whole)
+    arguments = arguments_of(hint)
+    for first in range(0, n, WIDTH):
+        count = min(WIDTH, n - first)
+        _fill(s, origin, direction, first, count)
+        keep(s, time, first, count)
+        for i in range(WIDTH):
+            asked[i] = -1 if i < count else 0
+            s[TFAR + i] = far
+            whole[GEOMETRY + i] = -1
+        for k in range(len(scenes)):
+            if k:
+                if not shift(s, velocity[k - 1], boxes[k - 1], asked, valid):
+                    continue
+                for i in range(WIDTH):
+                    whole[GEOMETRY + i] = -1
+                intersect16(valid.ctypes.data, scenes[k], s.ctypes.data, arguments.ctypes.data)
+            elif scenes[0]:
+                intersect16(asked.ctypes.data, scenes[0], s.ctypes.data, arguments.ctypes.data)
+            for i in range(count):
+                j = first + i
+                hit = whole[GEOMETRY + i] >= 0
+                if k == 0 or hit:
+                    triangle[j] = whole[PRIMITIVE + i] + numbers[k] if hit else -1
+                    uvt[0, j] = s[U + i] if hit else _NOTHING
+                    uvt[1, j] = s[V + i] if hit else _NOTHING
+                    uvt[2, j] = s[TFAR + i]
+
+
+@njit(
+    types.void(
+        *(SCENES, COLUMNS, BOXES, COLUMNS, COLUMNS, ROW, types.float32),
+        *(types.boolean[::1], types.boolean[::1]),
+    ),
+    **OPTIONS,
+)
+def unoccluded(scenes, velocity, boxes, origin, direction, time, limit, active, free):
+    """Whether nothing lies between origin and origin + limit * direction, into ``free`` (N,).
+
+    ``active`` (N,) are the rays that are asked, (0,) for all; the others are not free.
+    """
+    n = direction.shape[1]
+    memory = aligned(ROWS + 2).reshape((ROWS + 2) * WIDTH)
+    s, masks = memory[: ROWS * WIDTH], memory[ROWS * WIDTH :].view(np.int32)
+    asked, valid = masks[:WIDTH], masks[WIDTH:]
+    begin(s, s.view(np.int32))
+    arguments = arguments_of(0)
+    for first in range(0, n, WIDTH):
+        count = min(WIDTH, n - first)
+        _fill(s, origin, direction, first, count)
+        for i in range(WIDTH):
+            wanted = i < count and (len(active) == 0 or active[first + i])
+            asked[i] = -1 if wanted else 0
+            s[TFAR + i] = limit
+        occlude(scenes, velocity, boxes, time, first, count, s, asked, valid, arguments)
+        for i in range(count):
+            free[first + i] = (asked[i] != 0) & (s[TFAR + i] >= 0)

@@ -1,0 +1,15 @@
+"""Which functions of the course have compiled twins: its own, and no student's."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from course.effects import PROJECT
+
+
+def courses_own(function: Callable[..., Any]) -> bool:
+    """Whether a function is the project's own solution."""
+    code = getattr(function, "__code__", None)
+    return code is not None and Path(code.co_filename).resolve().parent == PROJECT / "solutions"
