@@ -13,7 +13,7 @@ from course import shapes
 from course.adaptive.costs import RowOfCosts
 from course.compiled import library
 from course.core.counters import Counters
-from course.core.direct import direct_light
+from course.core.environment import ConstantEnvironment
 from course.core.functions import Functions
 from course.core.hits import Hits
 from course.core.lights import DirectionalLight, Light, PointLight, RectangleLight, SphereLight
@@ -21,6 +21,7 @@ from course.core.materials import MaterialTable
 from course.core.motion import Motion, MovingAccelerator
 from course.core.rays import Dimensions, Draws
 from course.core.samplers import Block
+from course.core.scene import World, direct_light
 from course.effects import Effects
 from course.extras.plan import same_fields
 from course.extras.samplers.sobol import SobolSampler
@@ -134,7 +135,9 @@ def test_the_loop_finds_the_same_light(
     hits = hits_of(surface)
     block = Block(np.arange(2 * N // 16 + 1, dtype=np.uint32), 0, 16, 0)
     lights = tuple(LIGHTS[name] for name in names)
-    stage = direct_light(surface, lights, None, materials(specular))
+    black = ConstantEnvironment(np.zeros(3, np.float32))
+    none = np.zeros(3, np.float32)
+    stage = direct_light(World(surface, materials(specular), lights, none, black))
     loop = CompiledDirectLight(**same_fields(stage) | {"surface": compiled_surface(surface)})
     results = []
     for each in (stage, loop):
