@@ -18,7 +18,7 @@ COURSE = ROOT / "course"
 CORE = COURSE / "core"
 
 FILES = sorted(path for path in CORE.rglob("*.py") if path.read_text(encoding="utf-8"))
-MOST_FILES, MOST_LINES, LONGEST_FUNCTION = 30, 3144, 60
+MOST_FILES, MOST_LINES, LONGEST_FUNCTION = 30, 3128, 60
 
 FROM_RAY_TO_COLOUR = (
     *("tracer", "integrator", "camera", "hits", "direct"),

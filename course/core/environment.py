@@ -38,13 +38,9 @@ class ConstantEnvironment:
 
 @dataclass(frozen=True)
 class CubeEnvironment:
-    """A cube map.
+    """A cube map; ``seamless`` is true to interpolate across the cube's edges.
 
-    Attributes
-    ----------
-    faces : (6, S, S, 3) float32 linear radiance, rows from the top
-    cube_map : functions of that module
-    seamless : true to interpolate across the cube's edges
+    ``faces`` are (6, S, S, 3) float32 linear radiance, rows from the top.
     """
 
     faces: Floats32

@@ -26,7 +26,6 @@ class Reconstruction:
 
     Attributes
     ----------
-    supersampling : functions of that module
     single : true if each pixel has one sample, whose radiance is its colour
     sigma : standard deviation of the Gaussian [pixels]; None for the box filter
     """
@@ -55,13 +54,7 @@ class Reconstruction:
 
 
 class AnyFilm(Protocol):
-    """Interface of a film.
-
-    Attributes
-    ----------
-    linear : (3, H, W) linear radiance, row 0 at the top
-    samples : (H, W) samples of each pixel
-    """
+    """The interface of a film; see ``Film``."""
 
     linear: Floats32
     samples: Numbers
@@ -79,7 +72,7 @@ class Film:
         self.width = width
         self.height = height
         self.linear = np.zeros((3, height, width), np.float32)
-        """(3, H, W) linear radiance, valid where a pass was added."""
+        """(3, H, W) linear radiance, row 0 at the top, valid where a pass was added."""
         self.samples = np.zeros((height, width), np.int32)
         """(H, W) samples of each pixel of ``linear``."""
         self._sum = np.zeros((3, height, width))

@@ -19,7 +19,6 @@ class Lobe:
     ----------
     material : its number
     kind, parameter : "plane" and roughness, "ball" and glossiness, or "phong" and exponent
-    glossy : functions of that module
     """
 
     material: int

@@ -42,13 +42,11 @@ class Integrator:
     ----------
     environment : radiance of the rays that hit nothing
     environment_depth : largest depth at which such rays add radiance, -1 for none
-    direct : direct light
     ambient : (3, M) reflected ambient radiance
     dark_inside : (M,) bool, the dielectrics, whose insides reflect neither ambient nor diffuse light
     glow : (3, M) radiance emitted from both sides by surfaces that are no lights
     emission : (3, M) radiance emitted from the fronts of the surfaces of lights
     absorption : along rays in dielectrics (``course.extras.absorption``)
-    scatter : reflects and refracts rays
     max_depth : largest number of bounces in this scene
     coherent_depth : largest depth at which neighbouring rays have similar directions, -1 for none
     """

@@ -18,7 +18,6 @@ class RectangleLight:
     corner, edge_u, edge_v : (3,) float32
     normal : (3,) float32 unit, on the emitting side of a light by radiance; None for a light by intensity
     color : (3,) float32, I / pi, or radiance times area / pi
-    soft_shadows : functions of that module
     two_sided : true if the back emits like the front
     visible : true if a light by radiance is also a surface
     """

@@ -23,7 +23,6 @@ class SphereLight:
     emitter : true if it is a Lambertian emitter, by radiance
     color : (3,) float32, I / pi, or radiance times area / pi
     samples : the points lie on the "sphere", in the "ball", or on a "facing disk" for each shading point
-    soft_shadows : functions of that module
     """
 
     name: str
