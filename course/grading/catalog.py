@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import cache
 
@@ -12,7 +13,7 @@ from course.grading.checks.declarations import declarations
 from course.grading.checks.declare import Module
 from course.grading.checks.weights import weighted
 from course.grading.pictures.catalog import PICTURES
-from course.grading.pictures.whole import NAME, WHOLE
+from course.grading.pictures.whole import ALL, NAME, WHOLE
 from course.modules import COURSE
 
 
@@ -29,3 +30,8 @@ def module_checks(module: str) -> ModuleChecks:
         (*own.checks, *PICTURES.get(module, ())), key=lambda check: place[check.function]
     )
     return replace(own, checks=weighted(checks))
+
+
+def with_whole(modules: Sequence[str]) -> tuple[str, ...]:
+    """The modules whose checks are run: with all of the course's comes the one for all of them together."""
+    return (*modules, *([NAME] if set(ALL) <= set(modules) else []))

@@ -10,7 +10,7 @@ from time import perf_counter
 from typing import Any
 
 from course import __version__
-from course.grading.catalog import module_checks
+from course.grading.catalog import module_checks, with_whole
 from course.grading.checks.check import Caller, Check
 from course.grading.checks.preparing import References
 from course.grading.checks.result import Result, Status
@@ -80,7 +80,7 @@ def grade(
             )
             for module in chosen
         }
-        for module in (*chosen, *([NAME] if set(ALL) <= set(chosen) else [])):
+        for module in with_whole(chosen):
             checks = module_checks(module)
             own = workers.get(module)
             caller: Caller | None = own

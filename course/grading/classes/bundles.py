@@ -15,8 +15,7 @@ from typing import Any
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
-from course.grading.catalog import module_checks
-from course.grading.classes.job import with_whole
+from course.grading.catalog import module_checks, with_whole
 from course.grading.release.archive import project_files, reference_file
 from course.modules import COURSE
 

@@ -21,11 +21,11 @@ from typing import Any
 from course import __version__
 from course.atomic import replacing
 from course.errors import CourseError
-from course.grading.catalog import module_checks
+from course.grading.catalog import module_checks, with_whole
 from course.grading.checks.preparing import References
 from course.grading.checks.result import Result, Status, result_of
 from course.grading.classes.bundles import REFERENCES
-from course.grading.classes.job import troubled, with_whole
+from course.grading.classes.job import troubled
 from course.grading.classes.submitted import read_one
 from course.grading.grading import grade
 from course.grading.references import read_references, references

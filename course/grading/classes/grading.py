@@ -14,16 +14,9 @@ from pathlib import Path
 
 from course import __version__
 from course.errors import CourseError, OutputError
+from course.grading.catalog import with_whole
 from course.grading.classes.engines import Engine, Outcome
-from course.grading.classes.job import (
-    RESULTS,
-    Graded,
-    Job,
-    grade_job,
-    report_files,
-    troubled,
-    with_whole,
-)
+from course.grading.classes.job import RESULTS, Graded, Job, grade_job, report_files, troubled
 from course.grading.classes.keeping import fingerprint, keep, kept
 from course.grading.classes.policy import MODIFIED, Mark, Rules, mark
 from course.grading.classes.roster import Listed, Matched, match

@@ -7,7 +7,7 @@ name or, for another machine, the file's bytes.
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
@@ -16,7 +16,6 @@ from course import __version__
 from course.grading.checks.preparing import References
 from course.grading.classes.settings import Settings
 from course.grading.grading import grade
-from course.grading.pictures.whole import ALL, NAME
 from course.grading.references import read_references
 from course.grading.report import Report, for_students
 from course.grading.worker.sandbox import protected, sandbox
@@ -82,11 +81,6 @@ def grade_job(job: Job, references: Path | bytes) -> Graded:
     # Arrays to draw are most of a report's bytes.
     results = tuple(replace(result, figures=()) for result in report.results)
     return Graded(replace(report, results=results), report_files(report))
-
-
-def with_whole(modules: Sequence[str]) -> tuple[str, ...]:
-    """The modules whose checks are run: with all of the course's comes the one for all of them together."""
-    return (*modules, *([NAME] if set(ALL) <= set(modules) else []))
 
 
 def troubled(student: str, trouble: str, seed: int) -> Report:

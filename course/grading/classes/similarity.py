@@ -65,14 +65,12 @@ class Similar:
     module : str
     first, second : the students, in the order of the alphabet
     share : of the smaller one's shingles that the other one has, 0 to 1
-    shingles : of the smaller one
     """
 
     module: str
     first: str
     second: str
     share: float
-    shingles: int
 
 
 @dataclass(frozen=True)
@@ -188,11 +186,10 @@ def find_similar(
     starts = np.concatenate([[0], np.cumsum(size)])
     has = csr_array((np.ones(columns.size, np.int32), columns, starts))
     shared = (has @ has.T).toarray()
-    smaller = np.minimum(size[:, None], size)
-    share = np.triu(shared / smaller, 1)
+    share = np.triu(shared / np.minimum(size[:, None], size), 1)
     return sorted(
         (
-            Similar(module, students[i], students[j], float(share[i, j]), int(smaller[i, j]))
+            Similar(module, students[i], students[j], float(share[i, j]))
             for i, j in zip(*np.nonzero(share >= threshold), strict=True)
         ),
         key=lambda pair: (-pair.share, pair.first, pair.second),

@@ -20,72 +20,49 @@ LONGEST_TRACEBACK = 3000
 
 ONE_EACH = "(a * b).sum(axis=0) gives the dot product of each column"
 
-REMEDIES: tuple[tuple[str, str], ...] = (
-    (
-        rf"No module named '({'|'.join(COURSE)})'",
-        (
-            "Each module is checked by itself, without the files beside it: copy the helper into this file."
-        ),
+REMEDIES = {
+    rf"No module named '({'|'.join(COURSE)})'": (
+        "Each module is checked by itself, without the files beside it: "
+        "copy the helper into this file."
+    ),
+    r"shapes? .* not aligned|mismatch in its core dimension": (
+        f"np.dot and @ multiply matrices, not the columns of two batches: {ONE_EACH}."
+    ),
+    r"truth value of an array": (
+        "if, and, or, not, min and max take one number, and this is a batch: np.where chooses for each column, "
+        "& and | join conditions, np.minimum and np.maximum compare."
+    ),
+    r"only (length-1|size-1|0-dimensional) arrays can be converted": (
+        "float() and the functions of math take one number, and this is a batch: those of NumPy (np.sqrt, np.cos) "
+        "take all of it."
+    ),
+    r"invalid index to scalar|array is 0-dimensional|object is not subscriptable": (
+        "A number came where an array was meant: np.linalg.norm, sum, min and max without axis give one number for "
+        "the whole batch; with axis=0 they give one for each column."
     ),
     (
-        r"shapes? .* not aligned|mismatch in its core dimension",
-        f"np.dot and @ multiply matrices, not the columns of two batches: {ONE_EACH}.",
+        r"index \d+ is out of bounds for axis 0|too many indices|not enough values to unpack"
+        r"|too many values to unpack|cannot unpack non-iterable"
+    ): (
+        "The first axis has the coordinates and the last one the columns: u[0] and u[1] are the rows of (2, N), "
+        "and u[:, 0] is its first column."
     ),
-    (
-        r"truth value of an array",
-        (
-            "if, and, or, not, min and max take one number, and this is a batch: np.where chooses for each column, "
-            "& and | join conditions, np.minimum and np.maximum compare."
-        ),
+    r"index -?\d+ is out of bounds for axis [1-9]": (
+        "The last axis has N columns, and N may be 0 or 1: no column can be counted on."
     ),
-    (
-        r"only (length-1|size-1|0-dimensional) arrays can be converted",
-        (
-            "float() and the functions of math take one number, and this is a batch: those of NumPy (np.sqrt, np.cos) "
-            "take all of it."
-        ),
+    r"zero-size array to reduction|attempt to get arg(max|min) of an empty": (
+        "N = 0 is a batch, too: the largest or smallest of no columns doesn't exist."
     ),
-    (
-        r"invalid index to scalar|array is 0-dimensional|object is not subscriptable",
-        (
-            "A number came where an array was meant: np.linalg.norm, sum, min and max without axis give one number for "
-            "the whole batch; with axis=0 they give one for each column."
-        ),
+    r"Cannot cast ufunc": (
+        "An operation in place (+=, *=, out=) keeps its array's dtype, and the result is of another: "
+        "write a = a * b, and cast to the dtype of the batch in the end."
     ),
-    (
-        (
-            r"index \d+ is out of bounds for axis 0|too many indices|not enough values to unpack"
-            r"|too many values to unpack|cannot unpack non-iterable"
-        ),
-        (
-            "The first axis has the coordinates and the last one the columns: u[0] and u[1] are the rows of (2, N), "
-            "and u[:, 0] is its first column."
-        ),
+    r"must have the same shape|must match exactly|inhomogeneous shape": (
+        "np.stack and np.array take rows of one shape: a number beside batches has to become a batch first, "
+        "as np.zeros_like or np.full make one."
     ),
-    (
-        r"index -?\d+ is out of bounds for axis [1-9]",
-        "The last axis has N columns, and N may be 0 or 1: no column can be counted on.",
-    ),
-    (
-        r"zero-size array to reduction|attempt to get arg(max|min) of an empty",
-        "N = 0 is a batch, too: the largest or smallest of no columns doesn't exist.",
-    ),
-    (
-        r"Cannot cast ufunc",
-        (
-            "An operation in place (+=, *=, out=) keeps its array's dtype, and the result is of another: "
-            "write a = a * b, and cast to the dtype of the batch in the end."
-        ),
-    ),
-    (
-        r"must have the same shape|must match exactly|inhomogeneous shape",
-        (
-            "np.stack and np.array take rows of one shape: a number beside batches has to become a batch first, "
-            "as np.zeros_like or np.full make one."
-        ),
-    ),
-)
-"""(what the exception's text holds, what to do); the first that fits is told."""
+}
+"""What the exception's text holds -> what to do; the first that fits is told."""
 
 _SHAPE = re.compile(r"\(([0-9, ]{1,80})\)")
 
@@ -192,7 +169,7 @@ def remedy(message: str) -> str:
     """What to do about an exception with this text; empty where that isn't known."""
     if "could not be broadcast" in message:
         return _broadcast([_sizes(shape) for shape in _SHAPE.findall(message)])
-    return next((text for pattern, text in REMEDIES if re.search(pattern, message)), "")
+    return next((text for pattern, text in REMEDIES.items() if re.search(pattern, message)), "")
 
 
 def _sizes(shape: str) -> tuple[int, ...]:

@@ -23,12 +23,13 @@ from click.testing import CliRunner, Result
 from course.cli.classes import ClassOptions
 from course.cli.main import commands
 from course.errors import CourseError
+from course.grading.catalog import with_whole
 from course.grading.checks.result import Status
 from course.grading.classes import grading
 from course.grading.classes.bundles import totals
 from course.grading.classes.engines import Outcome
 from course.grading.classes.grading import ClassResult, Runner, grade_class
-from course.grading.classes.job import Graded, Job, grade_job, with_whole
+from course.grading.classes.job import Graded, Job, grade_job
 from course.grading.classes.keeping import _record
 from course.grading.classes.settings import Settings, read_settings
 from course.grading.known import known
