@@ -17,7 +17,7 @@ import msgspec
 import numpy as np
 
 from course.building.gloss import lobe_of
-from course.building.materials import base_color
+from course.building.materials import Columns, base_color, material_columns
 from course.building.motion import shutter_of
 from course.building.objects import object_mesh
 from course.core.environment import CubeEnvironment
@@ -25,7 +25,6 @@ from course.core.triangles import Mesh
 from course.formats.meshes.parts import same
 from course.formats.yaml import description as d
 from course.formats.yaml.description import rgb
-from course.formats.yaml.object_lights import Columns, material_columns
 from course.scene.scene import Scene
 
 LOBES = ("", "jitter_on_plane", "jitter_in_ball", "sample_phong_lobe")

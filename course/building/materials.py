@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -13,7 +14,7 @@ from course.core.types import Floats64, Mask
 from course.extras.conductors import Conductors
 from course.extras.materials import FullMaterials
 from course.extras.world import FullWorld
-from course.formats.yaml.description import MaterialDescription, rgb
+from course.formats.yaml.description import MaterialDescription, ObjectLight, SceneDescription, rgb
 from course.formats.yaml.loading import Loaded
 
 DEFAULT_COLOR = 0.8
@@ -168,3 +169,45 @@ def _brightest(world: FullWorld) -> float:
         *(light.color for light in world.lights),
     )
     return max(float(color.max()) for color in colors)
+
+
+@dataclass(frozen=True)
+class Columns:
+    """Columns of the material table: one for each material that objects have, then one for each object that is a light.
+
+    Attributes
+    ----------
+    names : of their materials
+    of_objects : the column of each object
+    of_lights : the column of each light that is an object, by the number of the light
+    """
+
+    names: tuple[str, ...]
+    of_objects: tuple[int, ...]
+    of_lights: dict[int, int]
+
+
+def material_columns(description: SceneDescription) -> Columns:
+    """Which columns there are; materials that no object has are as good as not there."""
+    numbers = {thing.name: number for number, thing in enumerate(description.objects)}
+    lit = {
+        index: numbers[light.object]
+        for index, light in enumerate(description.lights)
+        if isinstance(light, ObjectLight)
+    }
+    columns = dict.fromkeys(lit.values(), -1)
+    names: list[str] = []
+    for number, thing in enumerate(description.objects):
+        if number in columns:
+            continue
+        if thing.material not in names:
+            names.append(thing.material)
+        columns[number] = names.index(thing.material)
+    for number in lit.values():
+        columns[number] = len(names)
+        names.append(description.objects[number].material)
+    return Columns(
+        tuple(names),
+        tuple(columns[number] for number in range(len(description.objects))),
+        {light: columns[number] for light, number in lit.items()},
+    )

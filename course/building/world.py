@@ -13,7 +13,7 @@ from course.building.frame import Frame, bounds_of, in_range, in_reach
 from course.building.gloss import compile_lobes, compile_rough_glass, reflecting
 from course.building.hierarchy import compile_acceleration
 from course.building.lights import Lit, compile_lights, emitter_parts
-from course.building.materials import check_growth, compile_materials
+from course.building.materials import check_growth, compile_materials, material_columns
 from course.building.motion import check_sweeps, compile_motion, shutter_of
 from course.building.objects import CONVEX, object_mesh
 from course.building.path_tracing import compile_paths
@@ -34,7 +34,6 @@ from course.extras.world import FullWorld
 from course.formats.yaml import description as d
 from course.formats.yaml.description import rgb
 from course.formats.yaml.loading import Loaded
-from course.formats.yaml.object_lights import material_columns
 from course.formats.yaml.surroundings import in_its_surroundings, outsides, warn_of_nested
 
 

@@ -16,8 +16,7 @@ from course.errors import SceneError
 from course.formats.yaml import description as d
 from course.formats.yaml.description import MOST_KNOT_SEGMENTS, Vector, rgb
 from course.formats.yaml.document import Document, KeyPath, suggest
-from course.formats.yaml.object_lights import check_object_lights
-from course.formats.yaml.surroundings import check_surroundings, in_its_surroundings
+from course.formats.yaml.surroundings import in_its_surroundings
 
 # Below these sines two directions are held to be one: a picture turned by a rounding error, or a
 # light without area.
@@ -53,8 +52,8 @@ def check_consistency(description: d.SceneDescription, document: Document) -> No
         _check_light(light, scene.at("lights", index))
     for index, thing in enumerate(description.objects):
         _check_object(thing, scene.at("objects", index), description)
-    check_object_lights(description, document)
-    check_surroundings(description, document)
+    _check_object_lights(description, scene)
+    _check_surroundings(description, scene)
     for name, material in description.materials.items():
         glass = in_its_surroundings(material, description.materials).dielectric
         scene.at("materials", name, "dielectric").check(
@@ -182,6 +181,50 @@ def _check_object(thing: d.Object, here: _Place, description: d.SceneDescription
             _check_knot(thing, here)
     for index, step in enumerate(thing.transform):
         _check_step(step, here.at("transform", index))
+
+
+def _check_object_lights(description: d.SceneDescription, scene: _Place) -> None:
+    """Every light of type object names one object of its own, which emits."""
+    names = [thing.name for thing in description.objects if thing.name]
+    lit: dict[str, int] = {}
+    for index, light in enumerate(description.lights):
+        if not isinstance(light, d.ObjectLight):
+            continue
+        here = scene.at("lights", index)
+        if light.object not in names:
+            hint = suggest(light.object, dict.fromkeys(names))
+            here.check(False, "object", f"the name of one of the objects; {hint}")
+        earlier = lit.setdefault(light.object, index)
+        expected = f"another object than that of lights[{earlier}]: one light is enough"
+        here.check(earlier == index, "object", expected)
+        first, *others = (n for n, o in enumerate(description.objects) if o.name == light.object)
+        scene.at("objects", *others[:1]).check(
+            not others,
+            "name",
+            f"another name than that of objects[{first}], for lights[{index}] means one of them",
+        )
+        material = description.objects[first].material
+        here.check(
+            rgb(description.materials[material].emission).any(),
+            "object",
+            f'an object that shines; give its material an emission, such as "{material}: {{emission: 5}}"',
+        )
+
+
+def _check_surroundings(description: d.SceneDescription, scene: _Place) -> None:
+    """What surrounds a dielectric is another one."""
+    glasses = {name: m.dielectric for name, m in description.materials.items() if m.dielectric}
+    for name, glass in glasses.items():
+        here = scene.at("materials", name, "dielectric")
+        met, outer = [name], glass.surrounded_by
+        while outer is not None:
+            if outer not in glasses:
+                hint = suggest(outer, [each for each in glasses if each != name])
+                here.check(False, "surrounded_by", f"the name of a dielectric; {hint}")
+            expected = f"another medium: {name} would lie in itself"
+            here.check(outer not in met, "surrounded_by", expected)
+            met.append(outer)
+            outer = glasses[outer].surrounded_by
 
 
 def _check_less(small: tuple[str, float], large: tuple[str, float], here: _Place) -> None:

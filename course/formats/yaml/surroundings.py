@@ -17,7 +17,7 @@ import numpy as np
 from course.core.types import Floats64, Media
 from course.errors import CourseWarning
 from course.formats.yaml.description import MaterialDescription, SceneDescription
-from course.formats.yaml.document import Document, suggest
+from course.formats.yaml.document import Document
 
 if TYPE_CHECKING:
     # The core imports embreex, which a scene that is only read needs not.
@@ -28,25 +28,6 @@ NOWHERE = np.int16(-1)
 
 MOST_LOOKED_AT = 256
 """Dielectric objects of which every two are compared, and pairs of them in which boxes are not enough to tell."""
-
-
-def check_surroundings(description: SceneDescription, document: Document) -> None:
-    """Check that what surrounds a dielectric is another one.
-
-    Raises SceneError for the first that isn't, or that lies in itself; names the key to change.
-    """
-    glasses = {name: m.dielectric for name, m in description.materials.items() if m.dielectric}
-    for name, glass in glasses.items():
-        path = ("materials", name, "dielectric", "surrounded_by")
-        met, outer = [name], glass.surrounded_by
-        while outer is not None:
-            if outer not in glasses:
-                hint = suggest(outer, [each for each in glasses if each != name])
-                raise document.unexpected(path, f"the name of a dielectric; {hint}")
-            if outer in met:
-                raise document.unexpected(path, f"another medium: {name} would lie in itself")
-            met.append(outer)
-            outer = glasses[outer].surrounded_by
 
 
 def in_its_surroundings(
