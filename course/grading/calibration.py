@@ -88,7 +88,7 @@ def _calibrated(module: str, check: Check, submissions: list[Known], seeds: int)
 
 
 def _tolerance(right: float, wrong: Mapping[str, float]) -> dict[str, Any]:
-    """What comes of the least similar right picture, and of the most similar one of each wrong submission."""
+    """A check's entry, from the least similar right picture and the most similar one of each wrong submission."""
     least = max(1 - right, ROUNDING)
     seen = {name: value for name, value in wrong.items() if 1 - value > APART * least}
     nearest = max(seen, key=lambda name: seen[name], default="")

@@ -1,4 +1,4 @@
-"""What can go wrong with student code: each is a result of grading, not a fault of the grader."""
+"""Errors of student code: each is a result of grading, not a fault of the grader."""
 
 from __future__ import annotations
 

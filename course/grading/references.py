@@ -97,7 +97,7 @@ def references(seed: int = USUAL_SEED) -> References:
 
 
 def has_references(seed: int) -> bool:
-    """Whether checks that need references can be made here: with any seed where the solutions are, else with one."""
+    """True if checks that need references can be made here: with any seed where the solutions are, else with one."""
     return SOLUTIONS.is_dir() or seed == USUAL_SEED
 
 

@@ -1,4 +1,4 @@
-"""What grading one submission gives, before anybody writes it down; by module and function, too.
+"""The report of one submission, before anybody writes it down; its results by module and function, too.
 
 The checks of one function need not run one after the other: those that judge pictures come last in a module.
 """
@@ -29,10 +29,10 @@ State = Literal["right", "wrong", "to do", "undecided"]
 
 
 class Total:
-    """What has parts, and of points what they have together."""
+    """A sum: its points are those of its parts."""
 
     def parts(self) -> Sequence[Result | Total]:
-        """What the points are of."""
+        """The parts whose points are summed."""
         raise NotImplementedError
 
     @property
@@ -82,7 +82,7 @@ class Report(Total):
 
     @property
     def unprotected(self) -> str:
-        """What the code could have done to the grader, and so to this report; empty if nothing."""
+        """The harm that the code could have done to the grader, and so to this report; empty if none."""
         return next((one for one in self.protections if one.startswith(UNPROTECTED)), "")
 
     @property
@@ -115,7 +115,7 @@ class FunctionResults(Total):
 
     @property
     def state(self) -> State:
-        """What the function is; undecided where nothing but the grader itself has failed."""
+        """The state of the function; undecided where nothing but the grader itself has failed."""
         statuses = {result.status for result in self.results}
         if statuses <= {Status.PASSED}:
             return "right"
@@ -135,7 +135,7 @@ class FunctionResults(Total):
 
     @property
     def told(self) -> tuple[Result, ...]:
-        """Those of the others that have something of their own to say, the most telling ones first."""
+        """The others that have something of their own to say, the most telling ones first."""
         told = [result for result in self.others if not result.same_as]
         # A stub comes with its refusals: what is wrong with the mathematics is what a student wants to know.
         return tuple(
@@ -147,7 +147,7 @@ class FunctionResults(Total):
 
     @property
     def repeated(self) -> tuple[tuple[str, tuple[Result, ...]], ...]:
-        """Those that say what an earlier one has said, by what they have found."""
+        """The others that say what an earlier one has said, by what they have found."""
         found: dict[str, list[Result]] = {}
         for result in self.others:
             if result.same_as:
@@ -209,7 +209,7 @@ RUNGS = 3
 
 
 def findings(result: Result, rungs: int = RUNGS) -> list[tuple[str, str]]:
-    """What a check that didn't pass has found, as labels with their text; what is empty is left out.
+    """The findings of a check that didn't pass, as labels with their text; what is empty is left out.
 
     Parameters
     ----------

@@ -97,7 +97,7 @@ def read_found(folder: Path, paths: Mapping[str, Path]) -> dict[str, bytes]:
 
 @contextmanager
 def readable(folder: Path) -> Iterator[None]:
-    """What the system can't read is told as a mistake of the submission."""
+    """An error of the system in reading is told as a mistake of the submission."""
     try:
         yield
     except OSError as error:

@@ -143,7 +143,7 @@ def _grader(project: Path, seed: int, modules: Sequence[str]) -> dict[str, bytes
 
 
 def _renderer(seed: int, modules: Sequence[str], *, trusted: bool = False, **values: Any) -> Any:
-    """What makes a file of its template's name."""
+    """A function that makes a file of its template's name."""
     environment = Environment(
         loader=PackageLoader("course.grading.classes"),
         undefined=StrictUndefined,

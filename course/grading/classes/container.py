@@ -147,7 +147,7 @@ def unreached(modules: Sequence[str], done: Iterable[Result]) -> tuple[Result, .
 
 
 def _references(path: Path, seed: int) -> References:
-    """Those that came with the bundle, or made now."""
+    """The references that came with the bundle, or made now."""
     try:
         return read_references(path, seed)
     except CourseError:

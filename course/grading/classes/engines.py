@@ -166,7 +166,7 @@ def _end(pool: ProcessPoolExecutor, processes: set[multiprocessing.process.BaseP
 def _left(
     processes: set[multiprocessing.process.BaseProcess], seconds: float
 ) -> set[multiprocessing.process.BaseProcess]:
-    """Those that still run after that many seconds at most.
+    """The processes that still run after that many seconds at most.
 
     They are not joined: the pool's own thread joins them too, and one whose end that thread was told of looks alive
     to any other until that thread has noted it.
@@ -206,7 +206,7 @@ def apart(
     jobs: int = 1,
     seconds: float = SECONDS,
 ) -> dict[int, Value | None]:
-    """What a function gives for each item of students' text: by the item's place, None where it came to no end.
+    """A function's values for items of students' text: by the item's place, None where it came to no end.
 
     A parser can be made to take long, or to die. A process that takes more time or memory than it may is ended, and
     costs its own item only. Nothing of the text is run.

@@ -58,7 +58,7 @@ class Entry:
 
 @dataclass
 class Budget:
-    """What the archives of one submission may still list and unpack to."""
+    """Entries and bytes that the archives of one submission may still list and unpack to."""
 
     entries: int = MOST_ENTRIES
     bytes: int = MOST_BYTES
@@ -72,7 +72,7 @@ class Budget:
 
 
 def too_large(name: str) -> SubmissionError:
-    """What is said of an archive over the bounds."""
+    """The error of an archive over the bounds."""
     return SubmissionError(f"{name}: is too large to be a submission")
 
 
@@ -83,7 +83,7 @@ def archive_suffix(name: str) -> str:
 
 
 def is_nobodys(path: PurePosixPath) -> bool:
-    """Whether a file is hidden or a program's own, such as a file manager's."""
+    """True if a file is hidden or a program's own, such as a file manager's."""
     return any(part.startswith(".") or part in _NOBODYS for part in path.parts)
 
 
@@ -103,7 +103,7 @@ def folder_entries(folder: Path) -> Iterator[Entry]:
 
 
 def file_reader(path: Path) -> Callable[[int], bytes]:
-    """What reads a file on the disk that nobody trusts."""
+    """A reader of a file on the disk that nobody trusts."""
 
     def read(limit: int) -> bytes:
         with readable(path):

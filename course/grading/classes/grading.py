@@ -43,7 +43,7 @@ ClassEngine = Engine[Job, Path | bytes, Graded]
 
 @dataclass(frozen=True)
 class Runner:
-    """What grades a class, whatever is checked.
+    """An engine and how it is used, whatever is checked.
 
     Attributes
     ----------
@@ -66,7 +66,7 @@ class Runner:
 
 @dataclass(frozen=True)
 class Finished:
-    """What came of a class as a whole.
+    """Results of a class as a whole.
 
     Attributes
     ----------
@@ -86,7 +86,7 @@ class Finished:
 
 @dataclass(frozen=True)
 class ClassResult:
-    """What grading a class gave.
+    """Results of grading a class.
 
     Attributes
     ----------

@@ -26,7 +26,7 @@ RESULTS = "results.json"
 
 @dataclass(frozen=True)
 class Job:
-    """What is to be graded.
+    """A submission that is to be graded.
 
     Attributes
     ----------
@@ -46,7 +46,7 @@ class Job:
 
 @dataclass(frozen=True)
 class Graded:
-    """What came of a job.
+    """The result of a job.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What is kept of each student: reports to hand out, and a record by which a later run finds them.
+"""Files that are kept of each student: reports to hand out, and a record by which a later run finds them.
 
 ``STUDENT/`` may be handed out. The record is the instructor's: it holds the seed, and a fingerprint of what was graded
 from which the seed could be found by trying. It comes last; where it stands, all the other files stand too, and a run
@@ -84,7 +84,7 @@ def recorded(out: Path) -> tuple[str, ...]:
 
 
 def kept_files(out: Path, report: Report) -> Graded:
-    """What an earlier run has kept of a student, to be kept elsewhere."""
+    """The files that an earlier run has kept of a student, to be kept elsewhere."""
     files = {path.name: path.read_bytes() for path in (out / report.student).iterdir()}
     return Graded(report, files)
 

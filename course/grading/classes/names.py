@@ -31,7 +31,7 @@ _OUTPUTS = ("grades.csv", "canvas.csv", "moodle.csv", "class.html", "references_
 
 @dataclass(frozen=True)
 class Sent:
-    """What a learning system has put before the name of a file or folder.
+    """The prefix of a learning system before the name of a file or folder, read.
 
     Attributes
     ----------
@@ -47,12 +47,12 @@ class Sent:
 
     @property
     def owner(self) -> str:
-        """What tells this student from all others."""
+        """A name that tells this student from all others."""
         return f"{self.name}_{self.id}"
 
 
 def sent(name: str) -> Sent | None:
-    """What Canvas or Moodle says by the name that it gave a download; None if neither gave it."""
+    """The meaning of a name that Canvas or Moodle gave a download; None if neither gave it."""
     if found := _MOODLE.fullmatch(name):
         text = "typed into Moodle" if found["kind"] == "onlinetext" else ""
         return Sent(found["name"], found["id"], found["file"] or "", text)
@@ -64,7 +64,7 @@ def sent(name: str) -> Sent | None:
 
 @dataclass(frozen=True)
 class Named:
-    """What the name of a file says.
+    """The meaning of a file's name.
 
     Attributes
     ----------
@@ -113,7 +113,7 @@ def _folded(stem: str) -> str:
 
 
 def same_name(name: str) -> str:
-    """What two names share that some file system takes for the same: they differ in case or in accents' spelling."""
+    """The same text for two names that a file system may take for one: they differ in case or in accents' spelling."""
     return unicodedata.normalize("NFC", name).casefold()
 
 

@@ -1,4 +1,4 @@
-"""What makes a grade of points: one small YAML file of weights, late days, attempts and exceptions.
+"""Grades from points, by one small YAML file of weights, late days, attempts and exceptions.
 
 A mistake in it is told by file, line and key. A student's score by it is raw, after what lateness and attempts cost,
 and rounded.
@@ -42,7 +42,7 @@ _Count = Annotated[int, msgspec.Meta(ge=0)]
 
 
 class Late(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """What coming late costs.
+    """The cost of coming late.
 
     Attributes
     ----------
@@ -61,7 +61,7 @@ class Late(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Attempts(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """What more attempts than are free cost: so many percent of what was earned each, so many at most."""
+    """The cost of more attempts than are free: so many percent of what was earned each, so many at most."""
 
     free: _Count
     percent_each: _Percent
@@ -76,7 +76,7 @@ class Rounding(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Student(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """What holds for one student.
+    """Exceptions for one student.
 
     Attributes
     ----------
@@ -99,7 +99,7 @@ class Student(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
 
 
 class Policy(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """What makes a grade.
+    """Rules that make a grade of points.
 
     Attributes
     ----------
@@ -157,7 +157,7 @@ class Rules:
         return _named(self.policy.students, names, ("", Student()))
 
     def handed(self, names: Sequence[str]) -> Handed:
-        """What the CSV file says of whoever goes by one of these names."""
+        """The CSV file's entry of whoever goes by one of these names."""
         return _named(self.times, names, ("", Handed()))[1]
 
 

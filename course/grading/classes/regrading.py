@@ -25,7 +25,7 @@ _CODE = (("course", "*.py"), ("course", "*.json"), ("solutions", "*.py"))
 
 @dataclass(frozen=True)
 class Change:
-    """What a new grading changes for a student.
+    """The changes of a new grading for a student.
 
     Attributes
     ----------
@@ -124,7 +124,7 @@ def _staging(out: Path) -> Path:
 
 
 def _code() -> str:
-    """What changes whenever the grader's own code, its data or a solution does."""
+    """A hash that changes whenever the grader's own code, its data or a solution does."""
     found = hashlib.sha256()
     for folder, pattern in _CODE:
         for path in sorted((PROJECT / folder).rglob(pattern)):

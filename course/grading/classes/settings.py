@@ -52,7 +52,7 @@ class Settings(msgspec.Struct, frozen=True):
 
     @property
     def limits(self) -> Limits:
-        """What the code of one submission may use."""
+        """Limits of the code of one submission."""
         return Limits(submission_seconds=self.submission_seconds)
 
     def write(self, out: Path) -> None:

@@ -75,7 +75,7 @@ class Similar:
 
 @dataclass(frozen=True)
 class Compared:
-    """What came of comparing a class.
+    """The result of comparing a class.
 
     Attributes
     ----------
@@ -131,7 +131,7 @@ def _key(text: _Text) -> str:
 
 
 def _of_texts(texts: Mapping[str, _Text], kept: Path, jobs: int) -> dict[str, Shingles]:
-    """What texts are compared by, from earlier runs or made now; those that took too long are left out."""
+    """Shingles of texts, from earlier runs or made now; texts that took too long are left out."""
     found = {key: own for key, own in _read(kept).items() if key in texts}
     new = [text for key, text in texts.items() if key not in found]
     for place, own in apart(_compared_by, new, jobs).items():
@@ -204,7 +204,7 @@ def statements(stub: str) -> Given:
 
 
 def shingles(module: str, source: bytes, given: Given) -> set[int]:
-    """What a submission is compared by: hashes of runs of nodes in what the student wrote.
+    """Shingles of a submission: hashes of runs of nodes in what the student wrote.
 
     Parameters
     ----------
@@ -254,7 +254,7 @@ def _tokens(top: ast.stmt, hashes: Mapping[int, int], given: Given) -> Iterator[
 
 
 def _counts(node: ast.AST) -> bool:
-    """Whether a node is something that its author has thought of."""
+    """True if a node is something that its author has thought of."""
     if isinstance(node, ast.expr_context | ast.arguments | ast.alias):
         return False
     if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):

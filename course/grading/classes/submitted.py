@@ -55,7 +55,7 @@ _IGNORED = ("__MACOSX", "__pycache__", "Thumbs.db", "desktop.ini")
 
 @dataclass(frozen=True)
 class Submission:
-    """What one student has handed in.
+    """The submission of one student.
 
     Attributes
     ----------
@@ -77,7 +77,7 @@ class Submission:
 
 @dataclass
 class _Handed:
-    """What lies in the folder of a class under one student's name, before it is read.
+    """Files and folders of a class under one student's name, before they are read.
 
     Attributes
     ----------
@@ -143,7 +143,7 @@ def _is_file_manager_s(name: str) -> bool:
 
 
 def _handed(path: Path, modules: tuple[str, ...]) -> tuple[tuple[str, str], _Handed]:
-    """What lies at one path, and what tells whose it is: parts of one submission have the same."""
+    """The submission at one path, and a key of its student: parts of one submission have the same."""
     if by := sent(path.name):
         handed = _Handed(by.owner, [(path, by.file)], names=(by.name, by.id))
         handed.remarks += [f"{by.file or path.name}: {by.remark}"] if by.remark else []

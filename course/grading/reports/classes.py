@@ -46,7 +46,7 @@ SYSTEMS: Mapping[str, Mapping[str, tuple[str, ...]]] = {
 
 @dataclass(frozen=True)
 class Line:
-    """What there is to say of a student besides what was found.
+    """Remarks and mark of a student, besides what was found.
 
     Attributes
     ----------

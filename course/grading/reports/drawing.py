@@ -145,7 +145,7 @@ def _sets(
     otherwise: str,
     names: Sequence[str] = ("yours", "expected"),
 ) -> tuple[dict[str, Floats64], list[str]]:
-    """What can be drawn of a figure's arrays, by name, and what there is to say about them.
+    """Arrays of a figure that can be drawn, by name, and notes about them.
 
     Parameters
     ----------
@@ -289,7 +289,7 @@ def _compared(
 
 
 def _largest(values: Floats64) -> Floats64:
-    """Of the three colours of each pixel the value furthest from 0; NaN where any is not finite."""
+    """The value furthest from 0 of each pixel's three colours; NaN where any is not finite."""
     magnitude = np.where(np.isfinite(values), np.abs(values), np.inf)
     picked = np.take_along_axis(values, magnitude.argmax(axis=0)[None], axis=0)[0]
     return np.where(np.isfinite(values).all(axis=0), picked, np.nan)
@@ -410,7 +410,7 @@ def _points(array: Array, label: str, notes: list[str]) -> Floats64:
 
 
 def _within(values: Floats64, label: str, what: str, notes: list[str]) -> Floats64:
-    """Those that can be drawn, of values along the last axis."""
+    """The values along the last axis that can be drawn."""
     fine = (np.abs(np.nan_to_num(values, nan=np.inf)) < FURTHEST).reshape(-1, values.shape[-1])
     kept = fine.all(axis=0)
     if not kept.all():

@@ -111,7 +111,7 @@ def as_json(report: Report) -> dict[str, Any]:
 
 
 def gradescope(report: Report) -> dict[str, Any]:
-    """What Gradescope reads: its ``results.json``.
+    """The ``results.json`` that Gradescope reads.
 
     A check that was not attempted is a failed test with 0 points: left out, it would raise the score. Students read
     this file, so a hidden seed is left out.
@@ -158,7 +158,7 @@ def _gradescope_tests(report: Report) -> Iterator[dict[str, Any]]:
 
 
 def prairielearn(report: Report) -> dict[str, Any]:
-    """What PrairieLearn reads of an external grader.
+    """The results that PrairieLearn reads of an external grader.
 
     A submission that could not be graded is not gradable and says why. Students read this file, so a hidden seed is
     left out.
@@ -271,7 +271,7 @@ def _suite(module: ModuleResults, report: Report) -> ET.Element:
 
 
 def _tag(result: Result) -> str:
-    """What the test case of a result holds; empty for a check that passed."""
+    """The element in a result's test case; empty for a check that passed."""
     if result.status is Status.PASSED:
         return ""
     if result.status is Status.NOT_ATTEMPTED:
@@ -285,7 +285,7 @@ def _element(tag: str, parent: ET.Element | None = None, **attributes: object) -
 
 
 def _summary(report: Report, more: str) -> str:
-    """What a system shows above all tests."""
+    """The lines that a system shows above all tests."""
     told = f"This submission could not be graded: {report.trouble}"
     if not report.trouble:
         passed = report.count(Status.PASSED)
@@ -294,7 +294,7 @@ def _summary(report: Report, more: str) -> str:
 
 
 def explained(result: Result) -> str:
-    """What a check that didn't pass has to say, as lines of plain text."""
+    """The findings of a check that didn't pass, as lines of plain text."""
     return "\n".join(f"{label}: {text.rstrip()}" for label, text in findings(result))
 
 

@@ -22,7 +22,7 @@ LARGEST_SOURCE = 1_000_000
 
 
 class _Call(NamedTuple):
-    """What is asked of a worker; to look is to have the arguments sent back."""
+    """A call as it is asked of a worker; to look is to have the arguments sent back."""
 
     function: str
     arguments: tuple[Any, ...]
@@ -94,7 +94,7 @@ class Worker:
 
     @property
     def printed(self) -> str:
-        """What the student's code has printed so far, cut."""
+        """The text that the student's code has printed so far, cut."""
         return self._process.printed
 
     def load(self) -> None:
@@ -133,7 +133,7 @@ class Worker:
             return self._once(_Call(function, arguments, named), deadline)[0][0]
 
     def calls(self, function: str, other: str) -> bool:
-        """Whether the student's function calls another of the same file; as the worker says, so good for a hint."""
+        """True if the student's function calls another of the same file; as the worker says, so good for a hint."""
         return f"{function}>{other}" in self._calls
 
     def close(self) -> None:
@@ -221,7 +221,7 @@ class Worker:
         self._calls = frozenset(calls if isinstance(calls, list) else [])
 
     def _started(self, seconds: float) -> dict[str, Any]:
-        """What a new process says when it has imported the file."""
+        """The head that a new process sends when it has imported the file."""
         self._start()
         head, _ = self._process.read(monotonic() + seconds)
         self._raise(head)
@@ -255,7 +255,7 @@ class Worker:
         return monotonic() - started
 
     def _worked_out(self, head: dict[str, Any], values: list[Any], deadline: float) -> bytes:
-        """What a function gives that the worker has been lent; within the time and memory of the call that asks."""
+        """The reply of a function that the worker has been lent; within the time and memory of the call that asks."""
         name, names = head["borrowed"], head.get("names")
         if (
             self._lender is None

@@ -83,7 +83,7 @@ def confine(wall: dict[str, Any]) -> None:
 
 
 def landlock_version() -> int:
-    """What the kernel has; 0 for none."""
+    """Version of Landlock that the kernel has; 0 for none."""
     if sys.platform != "linux":
         return 0
     return max(int(ctypes.CDLL(None).syscall(_CREATE, None, 0, _VERSION_ASKED)), 0)

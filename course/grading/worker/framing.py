@@ -40,7 +40,7 @@ DTYPES = {
 
 
 class BrokenMessage(Exception):  # noqa: N818 - the end of a conversation, not a fault of this program
-    """What came through the pipe is no message."""
+    """The bytes that came through the pipe are no message."""
 
 
 class Passed:
@@ -180,7 +180,7 @@ def _head(text: bytes) -> tuple[dict[str, Any], list[Any], list[_About]]:
 
 
 def _is_simple(value: Any) -> bool:
-    """Whether it is what a head may hold beside values and arrays: a text, yes or no, or names."""
+    """True for all that a head may hold beside values and arrays: a text, yes or no, or names."""
     return type(value) in (str, bool) or (
         type(value) is list and all(type(name) is str for name in value)
     )
@@ -251,7 +251,7 @@ def _restore(described: dict[str, Any], arrays: list[Any], generators: bool, dep
 
 
 def _is_state(state: Any, depth: int = 0) -> bool:
-    """Whether it looks like a PCG64's: numbers and names, and one dict of the same in it."""
+    """True if it looks like a PCG64's: numbers and names, and one dict of the same in it."""
     if type(state) is not dict or len(state) > 8 or depth > 1:
         return False
     return all(

@@ -1,4 +1,4 @@
-"""What a worker, and all workers of a submission together, may use: memory, and time that isn't waited for in vain.
+"""Limits of a worker, and of all workers of a submission together: memory, and time that is waited for in vain.
 
 Only the time of calls that never end is counted against a module. A submission that is slow and right uses none of it,
 however long its checks take, so a machine that is busy costs nobody anything.
@@ -38,7 +38,7 @@ COUNT = 10
 
 @dataclass(frozen=True)
 class Limits:
-    """What a worker, and all workers of a submission together, may use.
+    """Memory and time that a worker, and all workers of a submission together, may use.
 
     Attributes
     ----------
@@ -57,7 +57,7 @@ class Limits:
 
 
 class Patience:
-    """What is left of the time for calls that never end; one for all workers of a module.
+    """The time that is left for calls that never end; one for all workers of a module.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What code in a worker could still do: run in one, behind its walls, and printed for the grader to read.
+"""A probe of all that code in a worker could still do: it runs in one, behind its walls, and prints what it finds.
 
 The grader hands this file's text to a worker's Python with ``-c``, so no sandbox needs to show it.
 """

@@ -61,12 +61,12 @@ class Process:
 
     @property
     def running(self) -> bool:
-        """Whether there is one."""
+        """True if there is one."""
         return self._process is not None and self._process.poll() is None
 
     @property
     def printed(self) -> str:
-        """What it and those before it have printed so far, cut."""
+        """The text that it and those before it have printed so far, cut."""
         return bytes(self._printed).decode("utf-8", "replace")
 
     def start(self) -> None:

@@ -1,4 +1,4 @@
-"""What runs in the worker process: it imports the student's file and answers calls, nothing else.
+"""The program of the worker process: it imports the student's file and answers calls, nothing else.
 
 Started by ``client.py`` as ``python -I -S program.py SETTINGS``; needs only NumPy and two files beside it, so that
 a sandbox need show it nothing of the course. Nothing that this process says is believed: it hands back arrays, and

@@ -95,7 +95,7 @@ class Sandbox:
     hooked: bool = True
 
     def starting(self, user: int) -> dict[str, Any]:
-        """What ``subprocess`` is told.
+        """Arguments of ``subprocess`` beside the command.
 
         Parameters
         ----------
@@ -111,7 +111,7 @@ class Sandbox:
         }
 
     def wall(self, user: int) -> dict[str, Any]:
-        """What ``confine`` is told.
+        """The argument of ``confine``.
 
         Parameters
         ----------
@@ -340,7 +340,7 @@ def _some_of(path: Path) -> list[Path]:
 
 
 def _told(shut_in: Sandbox) -> Iterator[str]:
-    """What is on, and what isn't, in words; what nobody may overlook comes first."""
+    """The protections that are on or off, in words; what nobody may overlook comes first."""
     if shut_in.lacks:
         yield f"{UNPROTECTED}: student code could {_and(COULD[name] for name in shut_in.lacks)}"
     yield from _ALWAYS

@@ -1,4 +1,4 @@
-"""What is said of a call that gave no value: of the student's own texts only as much as somebody reads."""
+"""Messages about calls that gave no value: they hold only as much of the student's own texts as somebody reads."""
 
 from __future__ import annotations
 
@@ -105,7 +105,7 @@ def said(function: str, arguments: Sequence[Any], named: Mapping[str, Any]) -> s
 
 
 def told(value: Any, depth: int = 1) -> str:
-    """What kind of value it is, in a few words; of tuples in tuples only how long they are."""
+    """The kind of a value in a few words; of tuples in tuples only how long they are."""
     if isinstance(value, tuple | list):
         kind = f"a tuple of {len(value)}"
         parts = [told(part, depth - 1) for part in value[:MOST_PARTS]] if depth else []
@@ -143,7 +143,7 @@ def no_such(module: str, function: str, names: Any) -> StudentError:
 
 
 def not_loaded(module: str, error: StudentError, seconds: float, over: str = "") -> StudentError:
-    """What is raised for every function of a file whose import has ended with this error.
+    """The error of every function of a file whose import has ended with this one.
 
     Parameters
     ----------
@@ -166,7 +166,7 @@ def _cut(text: str, longest: int) -> str:
 
 
 def remedy(message: str) -> str:
-    """What to do about an exception with this text; empty where that isn't known."""
+    """The remedy of an exception with this text; empty where none is known."""
     if "could not be broadcast" in message:
         return _broadcast([_sizes(shape) for shape in _SHAPE.findall(message)])
     return next((text for pattern, text in REMEDIES.items() if re.search(pattern, message)), "")
@@ -177,7 +177,7 @@ def _sizes(shape: str) -> tuple[int, ...]:
 
 
 def _broadcast(shapes: Sequence[tuple[int, ...]]) -> str:
-    """Of shapes that don't go together."""
+    """The remedy of shapes that don't go together."""
     if len(shapes) < 2:
         return "NumPy lines shapes up at their ends: each pair of sizes has to be equal, or one of them 1."
     a, b = sorted(shapes[:2], key=len)
