@@ -158,10 +158,10 @@ def test_a_worker_lost_half_way_loses_nothing(
             lost.wait()
             killed_at.append(done)
 
-    there = render(scene, spp=192, progress=progress, address=cluster.address)
+    there = render(scene, spp=96, progress=progress, address=cluster.address)
     assert killed_at
     assert there.receipt.threads == 3
-    assert_same(render(scene, spp=192), there)
+    assert_same(render(scene, spp=96), there)
 
 
 @pytest.fixture

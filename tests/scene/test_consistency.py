@@ -241,7 +241,8 @@ def test_a_contradiction_names_the_key_to_change(
     ("kind", "values", "beyond"),
     [
         ("torus", {"radius": 1.0, "tube": 0.999}, {"tube": 1.0}),
-        ("torus", {"segments": 4096, "sides": 4096}, {"sides": 4097}),
+        ("torus", {"segments": 4096, "sides": 3}, {"segments": 4097}),
+        ("torus", {"segments": 3, "sides": 4096}, {"sides": 4097}),
         ("torus", {"segments": 3, "sides": 3}, {"segments": 2}),
         ("torus_knot", {"p": 32, "q": 31, "tube": 0.01, "segments": 504}, {"segments": 503}),
         ("torus_knot", {"p": 32, "q": 31, "tube": 0.01, "segments": 504}, {"p": 33}),

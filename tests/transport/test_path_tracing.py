@@ -324,11 +324,10 @@ def test_batches_that_are_followed_together_give_the_same_bits(
         return render(scene, size=(140, 130), spp=16, **settings).linear.tobytes()
 
     # 4.4 batches of rays, in tiles of one, of two and of four.
-    assert picture(1) == picture(2) == picture(4)
-    assert picture(4, threads=1) == picture(4, threads=3)
+    one = picture(1)
+    assert one == picture(2) == picture(4, threads=1) == picture(4, threads=3)
     assert picture(1, error=0.05) == picture(4, error=0.05)
     # Batches that wait for others at many depths, and some that overtake those that wait.
-    one = picture(1)
     monkeypatch.setattr(path_pieces, "RAYS", 3000)
     monkeypatch.setattr(path_tracing, "RAYS", 3000)
     assert picture(64) == one
