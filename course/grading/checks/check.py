@@ -96,10 +96,6 @@ class Trial:
         """Call the function that the check is about."""
         return self.caller.call(self.function, *arguments, **named)
 
-    def call_other(self, function: str, *arguments: Any, **named: Any) -> Any:
-        """Call another function of the same module."""
-        return self.caller.call(function, *arguments, **named)
-
     def uniform(self, rows: int, n: int, dtype: Any = np.float32) -> Array:
         """Numbers u of a batch: (rows, n), independent, in [0, 1)."""
         return self.rng.random((rows, n), dtype)

@@ -45,14 +45,14 @@ class Made:
 
     Attributes
     ----------
-    make : a legal value
+    make : a legal value; None where cases give it, for it hangs on other arguments
     wrong : values that raise ``ValueError``, besides those of wrong shape
     corners : of a dtype, columns at the ends of what is legal
     batch : whether its dtype is the results'; if not given, where the argument has an axis of any size
     single : whether it may be one value for all columns as well: its shape without them, and no batch then
     """
 
-    make: Callable[[Draw], Any]
+    make: Callable[[Draw], Any] | None = None
     wrong: tuple[Any, ...] = ()
     corners: Callable[[Any], Array] | None = None
     batch: bool | None = None
@@ -119,12 +119,13 @@ def count(low: int, high: int, wrong: tuple[Any, ...] = ()) -> Made:
 
 
 def _usual(name: str, sizes: tuple[str, ...]) -> Made:
-    """What is made where a declaration says nothing: numbers u in [0, 1), single points, or a generator for a call."""
+    """Where a declaration says nothing: numbers u in [0, 1), single points, a generator, or what cases give."""
     if name == "rng":
         return Made(lambda d: np.random.default_rng(int(d.rng.integers(2**62))))
     if sizes == ("3",):
         return point()
-    assert name == "u", f"it isn't said how values of {name} are made"
+    if name != "u":
+        return Made()
     if len(sizes) == 1:
         return Made(lambda d: d.units(1)[0], corners=lambda t: worst_units(1, t)[0])
     rows = int(sizes[0])
@@ -193,8 +194,7 @@ class Function:
     @property
     def draws(self) -> bool:
         """Whether it draws its numbers by itself, in any order: then values tell nothing, but features may."""
-        a = self.make(Draw(np.random.default_rng(0), 1))
-        return any(isinstance(value, np.random.Generator) for value in a.values())
+        return any(argument.name == "rng" for argument in self.arguments)
 
     def make(self, draw: Draw, case: Case | None = None) -> Arguments:
         """Legal arguments: a case's, and the others as they are declared; batches have the dtype that was asked for."""
@@ -202,8 +202,11 @@ class Function:
         given = dict(case(draw)) if case else {}
         found = Arguments()
         for argument in self.arguments:
-            value = given[argument.name] if argument.name in given else argument.make(draw)
-            found[argument.name] = self._typed(argument, value, draw.dtype)
+            name = argument.name
+            if name not in given:
+                assert argument.make, f"it isn't said how values of {name} are made"
+                given[name] = argument.make(draw)
+            found[name] = self._typed(argument, given[name], draw.dtype)
         return found
 
     def ends(self, draw: Draw) -> list[Arguments]:
@@ -270,15 +273,11 @@ class Function:
         found: dict[str, int] = {}
         for argument in self.arguments:
             value = a[argument.name]
-            if not argument.sizes and isinstance(value, int | np.integer):
+            if argument.sizes:
+                sized = zip(argument.sizes, np.shape(value), strict=False)
+                found |= {word: size for word, size in sized if not word.isdigit()}
+            elif isinstance(value, int | np.integer):
                 found[argument.name] = int(value)
-            found |= {
-                word: size
-                for word, size in zip(
-                    argument.sizes, np.shape(value) if argument.sizes else (), strict=False
-                )
-                if not word.isdigit()
-            }
         return found
 
     def shapes(self, arguments: Iterable[Any]) -> tuple[tuple[int, ...], ...] | None:
@@ -300,21 +299,18 @@ class Function:
 
     def promoted(self, a: Arguments) -> Any:
         """The dtype of the batch arguments, as NumPy promotes them; None if there are none."""
-        kinds = [
-            a[argument.name].dtype
-            for argument in self.arguments
-            if argument.batch
-            and isinstance(a[argument.name], np.ndarray)
-            and a[argument.name].dtype.kind == "f"
-            and a[argument.name].ndim == len(argument.sizes)
-        ]
+        pairs = ((argument, a[argument.name]) for argument in self.arguments)
+        kinds = [value.dtype for argument, value in pairs if _is_batch(argument, value)]
         return np.result_type(*kinds) if kinds else None
 
     def _typed(self, argument: Argument, value: Any, dtype: Any) -> Any:
-        batch = argument.batch and np.ndim(value) == len(argument.sizes)
-        if batch and isinstance(value, np.ndarray) and value.dtype.kind == "f":
-            return np.ascontiguousarray(value, dtype)
-        return value
+        return np.ascontiguousarray(value, dtype) if _is_batch(argument, value) else value
+
+
+def _is_batch(argument: Argument, value: Any) -> bool:
+    """Whether it is an array of floating numbers whose dtype is the results'."""
+    floating = isinstance(value, np.ndarray) and value.dtype.kind == "f"
+    return bool(argument.batch) and floating and value.ndim == len(argument.sizes)
 
 
 def function(

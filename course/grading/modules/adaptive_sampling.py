@@ -241,7 +241,7 @@ def _in_order(a: Arguments, r: Any) -> None:
 
 SUBDIVIDE = function(
     "adaptive_sampling.subdivide",
-    dict.fromkeys(NAMES, Made(lambda d: d.lengths(0, 1, d.n))),
+    {},
     (
         close(
             "outside",

@@ -30,8 +30,6 @@ ETA = Made(
     single=True,
 )
 
-VECTORS = Made(lambda d: d.directions())
-
 
 def _one_eta(draw: Draw, total: bool = False) -> tuple[float, Array]:
     """An eta for all rays, and sines of their angles: refracted ones, or totally reflected ones."""
@@ -127,7 +125,7 @@ _bent = partial(close, compare=_beyond, what="direction (rows 0 to 2) or total (
 
 REFRACT = function(
     "blurred_transparency.refract",
-    {"direction": VECTORS, "normal": VECTORS, "eta": ETA},
+    {"eta": ETA},
     (
         unit_length(lambda _, r: r[0]),
         holds(
@@ -228,11 +226,7 @@ def _features(a: Arguments, r: Array) -> Array:
 
 JITTER_REFRACTION = function(
     "blurred_transparency.jitter_refraction",
-    {
-        "direction": VECTORS,
-        "normal": VECTORS,
-        "roughness": declare.number(0.05, 2, (-1.0, -1e-6, nan)),
-    },
+    {"roughness": declare.number(0.05, 2, (-1.0, -1e-6, nan))},
     (
         unit_length(),
         holds(

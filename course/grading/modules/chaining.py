@@ -139,7 +139,6 @@ CHAIN = function(
     "quasi_monte_carlo.chain",
     {
         "patterns": Made(
-            lambda d: _patterns(d, 9),
             wrong=tuple(
                 {
                     "patterns": tuple(np.zeros(shape, np.float32) for shape in shapes),
@@ -149,7 +148,6 @@ CHAIN = function(
             ),
         ),
         "ids": Made(
-            lambda d: d.rng.integers(0, 9, d.n),
             wrong=(np.zeros(4, np.float32), np.array([0, 1, -1, 0]), np.array([0, 1, 99, 0])),
         ),
     },

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import partial
 from math import comb, nan, pi, sqrt
 from typing import Any
 
@@ -118,6 +119,9 @@ def _density(a: Arguments, r: Array) -> tuple[Any, ...]:
     return r, np.where(a.cos < 0, 0, expected), (n + 1) * (1 + n / 8) / (2 * pi)
 
 
+_dense = partial(close, compare=_density, what="a density of")
+
+
 def _pdf(name: str, more: Mapping[str, Made] = NONE, laws: tuple[Law, ...] = ()) -> Function:
     """A density about an axis."""
     ends = (-1.0, -1e-7, 0.0, 1e-30, 1e-7, 0.5, 1.0)
@@ -135,12 +139,10 @@ def _pdf(name: str, more: Mapping[str, Made] = NONE, laws: tuple[Law, ...] = ())
                 scales=SEVERAL,
             ),
             *laws,
-            close(
+            _dense(
                 "values",
                 "The density is its formula",
-                _density,
-                "Its integral over the hemisphere is 1.",
-                what="a density of",
+                hint="Its integral over the hemisphere is 1.",
                 case=lambda d: {"cos": d.uniform(0.01, 1, d.n)},
                 scales=SEVERAL,
                 role="core",
@@ -167,20 +169,16 @@ PHONG = _pdf(
     "phong_lobe_pdf",
     {"exponent": declare.number(0.5, 5, (-1.0, -1e-6, nan))},
     (
-        close(
+        _dense(
             "flat",
             "A lobe of exponent 0 is the uniform hemisphere, its horizon included",
-            _density,
-            "Exponent 0 is the uniform hemisphere.",
-            what="a density of",
+            hint="Exponent 0 is the uniform hemisphere.",
             case=_flat,
         ),
-        close(
+        _dense(
             "sharp",
             "Lobes of large exponents have their density, well over 1",
-            _density,
-            "A density is no probability: it may be as large as it has to.",
-            what="a density of",
+            hint="A density is no probability: it may be as large as it has to.",
             case=_sharp,
             scales=SEVERAL,
         ),
@@ -295,10 +293,7 @@ def _predicted(function: Function, trial: Trial) -> None:
 
 ESTIMATE = function(
     "importance_sampling.estimate",
-    {
-        "f": Made(lambda d: np.asarray(_samples(d)["f"])),
-        "pdf": values(0.2, 3, (*WRONG, np.array([2, 0, 1, 3], np.float32))),
-    },
+    {"pdf": Made(wrong=(*WRONG, np.array([2, 0, 1, 3], np.float32)))},
     (
         close(
             "zero_density",
@@ -370,6 +365,9 @@ def _weight(a: Arguments, r: Array) -> tuple[Any, ...]:
     return r, np.where(a.a > 0, a.a**2 / np.where(total > 0, total, 1), 0), 1.0
 
 
+_weighed = partial(close, compare=_weight, what="a weight of")
+
+
 def _zeros(draw: Draw) -> Mapping[str, Any]:
     """One density is 0, the other, both, or none."""
     a, b = draw.lengths(0.05, 20, 2, draw.n)
@@ -387,29 +385,23 @@ POWER_HEURISTIC = function(
     "importance_sampling.power_heuristic",
     dict.fromkeys(("a", "b"), DENSITIES),
     (
-        close(
+        _weighed(
             "limits",
             "Where one density or both are 0",
-            _weight,
-            "What only one density could have drawn is its own; what none could have counts 0.",
-            what="a weight of",
+            hint="What only one density could have drawn is its own; what none could have counts 0.",
             case=_zeros,
         ),
-        close(
+        _weighed(
             "extremes",
             "Very large, very small and very unlike densities weigh as their ratio says",
-            _weight,
-            "The weight depends on the ratio alone, whatever the densities' size.",
-            what="a weight of",
+            hint="The weight depends on the ratio alone, whatever the densities' size.",
             case=_unlike,
             scales=ENDS,
         ),
-        close(
+        _weighed(
             "values",
             "Weights are a^2 / (a^2 + b^2)",
-            _weight,
-            "The power is 2, and the weight is that of the sample drawn with a.",
-            what="a weight of",
+            hint="The power is 2, and the weight is that of the sample drawn with a.",
             role="core",
         ),
     ),

@@ -57,16 +57,11 @@ def _histogram(trial: Trial, a: Arguments, r: Array) -> None:
     trial.show("histogram", "Times, as a share of the exposure", yours=share)
 
 
-def _time(name: str, *wrong: Any) -> Made:
-    """A time of the shutter; both are made together."""
-    return Made(lambda d: _shutter(d)[name], wrong)
-
-
 SHUTTER_TIMES = function(
     "motion_blur.shutter_times",
     {
-        "open": _time("open", nan, -inf, {"open": 2.0, "close": 1.0}),
-        "close": _time("close", nan, inf),
+        "open": Made(wrong=(nan, -inf, {"open": 2.0, "close": 1.0})),
+        "close": Made(wrong=(nan, inf)),
     },
     (
         close(

@@ -219,7 +219,7 @@ def _averages(a: Arguments, r: Any) -> list[tuple[str, Array, float, float]]:
 
 RUSSIAN_ROULETTE = function(
     "path_tracing.russian_roulette",
-    {"beta": COLORS},
+    {},
     (
         laws.holds(
             "survival",

@@ -148,11 +148,6 @@ def _solution(room: Mapping[str, Any]) -> Array:
     )
 
 
-def _colours(*names: str) -> dict[str, Made]:
-    """Arguments that a room has: (3, P) each."""
-    return dict.fromkeys(names, Made(lambda d: d.uniform(0, 1, 3, d.n)))
-
-
 # ---------------------------------------------------------------- gather
 
 
@@ -173,10 +168,7 @@ def _gathered(a: Arguments, r: Array) -> tuple[Array, Array]:
 
 GATHER = function(
     "radiosity.gather",
-    {
-        **_colours("radiosity", "emission", "reflectance"),
-        "form_factors": Made(lambda d: np.zeros((d.n, d.n))),
-    },
+    {},
     (
         close(
             "dark",
@@ -249,12 +241,7 @@ def _left(a: Arguments) -> Array:
 
 SHOOT = function(
     "radiosity.shoot",
-    {
-        **_colours("radiosity", "unshot", "reflectance"),
-        "areas": Made(lambda d: np.ones(d.n)),
-        "form_factors": Made(lambda d: np.zeros(d.n)),
-        "shooter": Made(lambda _: 0, (-1, 99)),
-    },
+    {"shooter": Made(wrong=(-1, 99))},
     (
         close(
             "cleared",

@@ -13,7 +13,7 @@ import numpy as np
 from scipy.special import iv
 
 from course.grading.checks.check import Array, Failure
-from course.grading.checks.declare import Arguments, Case, Law
+from course.grading.checks.declare import Arguments, Case, Function, Law, function
 from course.grading.checks.distributions import means, uniform
 from course.grading.checks.evenness import evenly, smooth
 from course.grading.checks.examples import where
@@ -22,6 +22,12 @@ from course.grading.checks.vectors import TINY
 
 Offsets = Callable[[Arguments, Any], Array]
 """(arguments, results) -> the points as seen from the centre, in radii."""
+
+
+def _of_the_unit(_: Arguments, points: Array) -> Array:
+    """Those of a shape of radius 1 around the origin."""
+    return points
+
 
 FRAME = np.array([(0.8, 0.6, 0.0), (-0.36, 0.48, 0.8), (0.48, -0.64, 0.6)])
 """Axes that nobody builds a shape about: along these a cylinder or a wrong ring shows as well."""
@@ -112,7 +118,7 @@ SPHERE = Shape(
 )
 
 
-def edge(shape: Shape, offsets: Offsets, **how: Any) -> Law:
+def edge(shape: Shape, offsets: Offsets = _of_the_unit, **how: Any) -> Law:
     """Points of the sphere are one radius from the centre; others not more, and some nearly as much."""
 
     def look(a: Arguments, r: Any) -> None:
@@ -142,7 +148,7 @@ def edge(shape: Shape, offsets: Offsets, **how: Any) -> Law:
     return law(name, title, look, **how)
 
 
-def uniform_over(shape: Shape, offsets: Offsets, case: Case | None = None) -> Law:
+def uniform_over(shape: Shape, offsets: Offsets = _of_the_unit, case: Case | None = None) -> Law:
     """Points are uniform over the shape."""
     title = {"disk": "over the disk's area", "ball": "over the ball's volume"}
     return uniform(
@@ -158,7 +164,7 @@ def uniform_over(shape: Shape, offsets: Offsets, case: Case | None = None) -> La
     )
 
 
-def moments(shape: Shape, offsets: Offsets, case: Case | None = None) -> Law:
+def moments(shape: Shape, offsets: Offsets = _of_the_unit, case: Case | None = None) -> Law:
     """The coordinates' means, and those of their squares and products, are the shape's."""
     second, fourth, mixed = shape.powers
     names = "xy" if shape is DISK else "xyz"
@@ -177,7 +183,10 @@ def moments(shape: Shape, offsets: Offsets, case: Case | None = None) -> Law:
 
 
 def warps(
-    shape: Shape, offsets: Offsets, case: Case | None = None, unit: Case | None = None
+    shape: Shape,
+    offsets: Offsets = _of_the_unit,
+    case: Case | None = None,
+    unit: Case | None = None,
 ) -> tuple[Law, ...]:
     """What holds of a shape whose points u decides.
 
@@ -191,6 +200,18 @@ def warps(
         uniform_over(shape, offsets, case),
         smooth(STEEP, case=unit),
         evenly(lambda a, r: _smooth_values(shape, offsets(a, r)), shape.mean + 1, case=unit),
+    )
+
+
+def unit_points(path: str, shape: Shape) -> Function:
+    """A function that makes a point of the unit's shape of each u; its axes may be exchanged."""
+    return function(
+        path,
+        {},
+        (edge(shape), *warps(shape)),
+        free=True,
+        symmetric=True,
+        features=lambda _, r: seen(r),
     )
 
 

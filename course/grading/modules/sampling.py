@@ -23,28 +23,8 @@ from course.grading.modules.round_shapes import (
     moments,
     seen,
     uniform_over,
-    warps,
+    unit_points,
 )
-
-
-def _as_they_are(_: Arguments, points: Array) -> Array:
-    return points
-
-
-# ---------------------------------------------------------------- warps
-
-
-def _by_polar(shape: Shape) -> Function:
-    """A shape's points, one for each u."""
-    return function(
-        f"sampling.{shape.name}_by_polar",
-        {},
-        (edge(shape, _as_they_are), *warps(shape, _as_they_are)),
-        free=True,
-        symmetric=True,
-        features=lambda _, r: seen(r),
-    )
-
 
 # ---------------------------------------------------------------- rejection
 
@@ -113,11 +93,11 @@ def _by_rejection(shape: Shape, rows: int) -> Function:
         f"sampling.{shape.name}_by_rejection",
         {"n": Made(lambda d: d.n, (-1, -100))},
         (
-            edge(shape, _as_they_are, dtypes=(np.float32,)),
+            edge(shape, dtypes=(np.float32,)),
             _acceptance(rows),
             from_generator(),
-            moments(shape, _as_they_are),
-            uniform_over(shape, _as_they_are),
+            moments(shape),
+            uniform_over(shape),
         ),
         features=_habits,
     )
@@ -241,10 +221,10 @@ MODULE = Module(
     "sampling",
     (
         _by_rejection(DISK, 2),
-        _by_polar(DISK),
+        unit_points("sampling.disk_by_polar", DISK),
         _by_rejection(BALL, 3),
-        _by_polar(BALL),
-        _by_polar(SPHERE),
+        unit_points("sampling.ball_by_polar", BALL),
+        unit_points("sampling.sphere_by_polar", SPHERE),
         XORSHIFT,
     ),
 )

@@ -288,10 +288,7 @@ def _by_default(function: Function, trial: Trial) -> None:
 
 GAUSSIAN_WEIGHTS = function(
     "supersampling.gaussian_weights",
-    {
-        "offsets": Made(lambda d: d.units(2, d.n)[:, :, None]),
-        "sigma": number(0.12, 3, (0.0, -0.5, nan)),
-    },
+    {"sigma": number(0.12, 3, (0.0, -0.5, nan))},
     (
         Law("default", "Sigma is 1/6 by default", _by_default, "corner"),
         close(
@@ -383,10 +380,7 @@ _resolved = partial(close, compare=_mean, what="a weighted mean of", within=32)
 
 RESOLVE = function(
     "supersampling.resolve",
-    {
-        "radiance": Made(lambda d: d.uniform(0, 1, 3, d.n, 4)),
-        "weights": Made(lambda d: d.uniform(0.5, 1, d.n, 4)),
-    },
+    {},
     (
         close(
             "no-samples",

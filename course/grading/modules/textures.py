@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import partial
 from typing import Any
 
 import numpy as np
 
-from course.grading.checks import declare
 from course.grading.checks.check import Array, Trial
 from course.grading.checks.declare import Arguments, Case, Made, Module, function
 from course.grading.checks.drawing import Draw
@@ -47,37 +47,36 @@ def _places(a: Arguments, r: Array) -> tuple[Any, ...]:
     return r, expected, 1 + far / np.linalg.norm(edges, axis=1)[:, None]
 
 
+_placed = partial(
+    close, compare=_places, what="of p = p1 + u (p2 - p1) + v (p3 - p1), the coordinate"
+)
+
+
 def _neighbour(name: str) -> Made:
-    same = {"p1": np.ones(3), name: np.ones(3)}
-    return Made(lambda d: d.lengths(-3, 3, 3), (same,))
+    return Made(wrong=({"p1": np.ones(3), name: np.ones(3)},))
 
 
 RECTANGLE_UV = function(
     "textures.rectangle_uv",
-    {"p": declare.points(), "p2": _neighbour("p2"), "p3": _neighbour("p3")},
+    {"p2": _neighbour("p2"), "p3": _neighbour("p3")},
     (
-        close(
+        _placed(
             "beyond",
             "Beyond the edges places go on",
-            _places,
-            "How far along each edge, in lengths of that edge; beyond its ends too.",
-            what="of p = p1 + u (p2 - p1) + v (p3 - p1), the coordinate",
+            hint="How far along each edge, in lengths of that edge; beyond its ends too.",
             case=_rectangle(-2, 3),
         ),
-        close(
+        _placed(
             "off_plane",
             "Points beside the plane count as on it",
-            _places,
-            "What is at right angles to both edges changes neither u nor v.",
+            hint="What is at right angles to both edges changes neither u nor v.",
             what="beside the plane, that of the nearest point on it:",
             case=_rectangle(0, 1, 0.5),
         ),
-        close(
+        _placed(
             "inside",
             "Points have their places",
-            _places,
-            "How far along each edge, in lengths of that edge.",
-            what="of p = p1 + u (p2 - p1) + v (p3 - p1), the coordinate",
+            hint="How far along each edge, in lengths of that edge.",
             scales=SCALES,
             whole=True,
         ),
@@ -149,7 +148,7 @@ def _round(a: Arguments, r: Array) -> tuple[Any, ...]:
 
 SPHERE_UV = function(
     "textures.sphere_uv",
-    {"p": declare.points(), "center": declare.point(1.0)},
+    {},
     (
         within(
             "range",
@@ -344,61 +343,58 @@ def _tents(a: Arguments, r: Array) -> tuple[Any, ...]:
     return r, expected, a.image.max() * (1 + np.abs(a.uv).max(axis=0)) * max(height, width)
 
 
+_texels = partial(close, compare=_tents)
+
+
 EMPTY = (np.ones((0, 6, 3)), np.ones((4, 0, 3)), np.ones((3, 4, 6)))
 
 TEXTURE_LOOKUP = function(
     "textures.texture_lookup",
     {"image": Made(_image, EMPTY, batch=False), "uv": Made(lambda d: d.uniform(0, 1, 2, d.n))},
     (
-        close(
+        _texels(
             "centers",
             "A texel's centre has the texel's colour",
-            _tents,
-            "At a texel's centre its colour counts alone: column i has it at (i + 1/2) / W, and v = 1 is on top.",
+            hint="At a texel's centre its colour counts alone: column i has it at (i + 1/2) / W, and v = 1 is on top.",
             what="at a texel's centre, its colour's channel of",
             case=_at_centers,
         ),
-        close(
+        _texels(
             "small",
             "Pictures of one texel, one row or one column have right colours, too",
-            _tents,
-            "A single texel is its own neighbour on all sides, and its colour is everywhere.",
+            hint="A single texel is its own neighbour on all sides, and its colour is everywhere.",
             what="in a picture of a single row or column, a colour's channel of",
             case=_small,
             scales=(1.0,) * 6,
         ),
-        close(
+        _texels(
             "wraps",
             "At an edge the opposite texels mix in",
-            _tents,
-            "Half a texel from an edge the texel at the opposite edge begins to count.",
+            hint="Half a texel from an edge the texel at the opposite edge begins to count.",
             what="at the picture's edge, a colour's channel of",
             case=_at_edges,
         ),
-        close(
+        _texels(
             "repeats",
             "Whole numbers away the picture is the same",
-            _tents,
-            "The picture goes on beyond its edges, to the left and downwards too.",
+            hint="The picture goes on beyond its edges, to the left and downwards too.",
             what="beyond the edges, a colour's channel of",
             case=lambda d: {"image": _image(d), "uv": d.uniform(-5, 6, 2, d.n)},
         ),
-        close(
+        _texels(
             "picture",
             "A picture of random texels is right between its texels' centres",
-            _tents,
-            "Between centres four texels count, the more the nearer they are; differences are shown.",
+            hint="Between centres four texels count, the more the nearer they are; differences are shown.",
             what="a colour's channel of",
             case=_between(1.0),
             n=HEIGHT * WIDTH,
             figure=_shown,
             role="core",
         ),
-        close(
+        _texels(
             "bright",
             "Colours may be as bright as they like",
-            _tents,
-            "A lamp or the sky in a picture is brighter than 1; to show that is the display's business.",
+            hint="A lamp or the sky in a picture is brighter than 1; to show that is the display's business.",
             what="in a picture with texels over 1, a colour's channel of",
             case=_between(500.0),
         ),

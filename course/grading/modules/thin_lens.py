@@ -15,23 +15,11 @@ from course.grading.checks.declare import Arguments, Case, Made, Module, functio
 from course.grading.checks.drawing import Draw
 from course.grading.checks.laws import close, unit_length
 from course.grading.checks.vectors import dot, normalized
-from course.grading.modules.round_shapes import DISK, edge, seen, warps
+from course.grading.modules.round_shapes import DISK, unit_points
 
 # ---------------------------------------------------------------- point_on_disk
 
-
-def _points(_: Arguments, points: Array) -> Array:
-    return points
-
-
-POINT_ON_DISK = function(
-    "thin_lens.point_on_disk",
-    {},
-    (edge(DISK, _points), *warps(DISK, _points)),
-    free=True,
-    symmetric=True,
-    features=lambda _, r: seen(r),
-)
+POINT_ON_DISK = unit_points("thin_lens.point_on_disk", DISK)
 
 
 # ---------------------------------------------------------------- lens_rays
@@ -92,11 +80,7 @@ SCALES = (1.0, 1e-3, 1e3)
 
 LENS_RAYS = function(
     "thin_lens.lens_rays",
-    {
-        "directions": declare.directions(),
-        "lens_points": Made(lambda d: d.lengths(-0.2, 0.2, 2, d.n)),
-        "focus_distance": declare.length(0.7, 20, (0.0, -1.0, nan)),
-    },
+    {"focus_distance": declare.length(0.7, 20, (0.0, -1.0, nan))},
     (
         close(
             "on_lens",

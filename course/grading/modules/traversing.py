@@ -12,7 +12,6 @@ from typing import Any
 import numpy as np
 
 from course.core.embree import EmbreeAccelerator, QueryStats
-from course.grading.checks import declare
 from course.grading.checks.check import Array, Failure, Trial
 from course.grading.checks.declare import Arguments, Case, Function, Law, Made, function
 from course.grading.checks.examples import example, where
@@ -175,9 +174,6 @@ def _depth(t: Array) -> Array:
     return np.broadcast_to(near.reshape(shape), (3, *shape)).astype(np.float32)
 
 
-CORNERS = Made(lambda d: d.lengths(-1, 1, 3, d.n), batch=False)
-
-
 def _hits(name: str, title: str, case: Case) -> Law:
     return law(name, title, _nearest, case=case, n=100, scales=(1.0, 1.0))
 
@@ -187,10 +183,8 @@ TREE = one_leaf(tuple(np.eye(3)[:, [k]] for k in range(3)))  # type: ignore[arg-
 TRAVERSE = function(
     "bounding_volumes.traverse",
     {
-        "hierarchy": Made(lambda _: TREE, (TREE[:4], (TREE[0][:, 1:], *TREE[1:]))),
-        **dict.fromkeys(("p0", "p1", "p2"), CORNERS),
-        "origins": declare.points(),
-        "directions": Made(lambda d: d.directions()),
+        "hierarchy": Made(wrong=(TREE[:4], (TREE[0][:, 1:], *TREE[1:]))),
+        **dict.fromkeys(("p0", "p1", "p2"), Made(batch=False)),
     },
     (
         close(
