@@ -18,10 +18,7 @@ from benchmarks.adaptive import measure_adaptive
 from benchmarks.adaptive_sampling import measure_adaptive_sampling
 from benchmarks.bounding_volumes import measure_bounding_volumes
 from benchmarks.convergence import measure_convergence
-from benchmarks.degenerate import measure_degenerate
-from benchmarks.dragons import measure_dragons
-from benchmarks.effects import measure_effects
-from benchmarks.engine import measure_engine
+from benchmarks.engine import measure_degenerate, measure_dragons, measure_effects, measure_engine
 from benchmarks.figures import Figure, table, write_ratios
 from benchmarks.grading import measure_grading
 from benchmarks.importance_sampling import measure_importance_sampling

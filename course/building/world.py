@@ -11,12 +11,11 @@ from course.building.cutting import cut
 from course.building.environment import compile_environment
 from course.building.frame import Frame, bounds_of, in_range, in_reach
 from course.building.gloss import compile_lobes, compile_rough_glass, reflecting
-from course.building.hierarchy import compile_acceleration
 from course.building.lights import Lit, compile_lights, emitter_parts
 from course.building.materials import check_growth, compile_materials, material_columns
 from course.building.motion import check_sweeps, compile_motion, shutter_of
 from course.building.objects import CONVEX, object_mesh
-from course.building.path_tracing import compile_paths
+from course.building.path_tracing import compile_acceleration, compile_paths
 from course.building.small_objects import (
     CUT,
     extents_of_lamps,

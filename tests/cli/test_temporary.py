@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from course.cli.temporary import temporary_folder
+from course.cli.metu import temporary_folder
 from tests.cli.signalled import END, LISTENING, interrupted, started
 
 if sys.platform == "win32":
@@ -22,9 +22,9 @@ SCENE = Path(__file__).parents[2] / "scenes" / "metu" / "showroom.xml"
 
 DEAF = """
 import os, time
-from course.cli import temporary
-temporary.GRACE = {grace}
-with temporary.temporary_folder() as folder:
+from course.cli import metu
+metu.GRACE = {grace}
+with metu.temporary_folder() as folder:
     (folder / "file").touch()
     for number in {numbers}:
         try:

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from course.formats.yaml.scalars import resolve
+from course.formats.yaml.tree import resolve
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,7 @@ import numpy as np
 from course.core.types import Floats64
 from course.errors import SceneError
 from course.formats.yaml.document import show
-from course.formats.yaml.scalars import LARGEST, SMALLEST
+from course.formats.yaml.tree import LARGEST, SMALLEST
 
 
 @dataclass
