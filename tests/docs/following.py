@@ -1,4 +1,4 @@
-"""Do all that a page says, in a copy of the course: ``python -m tests.docs.following PAGE``.
+"""Do all that pages say, in a copy of the course: ``python -m tests.docs.following PAGE...``.
 
 Commands go through the real command line, page by page and line by line, so that one finds the files of the one before.
 What would take long is shortened by options or by smaller scenes (`SHORTER`, `small`); the few that are not run are
@@ -63,6 +63,13 @@ ONCE = {
     "course check": "docs/guides/students.md",
     "course release --out student.zip": "docs/guides/instructors.md",
     "course references": "docs/guides/instructors.md",
+    "course grade SUBMISSIONS/ --out graded --seed 20261": "docs/guides/instructors.md",
+    "course grade SUBMISSIONS/ --out graded --engine dask --address tcp://host:8786": (
+        "docs/guides/instructors.md"
+    ),
+    "course regrade SUBMISSIONS/ --out graded --dry-run": "docs/guides/grades.md",
+    "course bundle gradescope --out autograder.zip --seed 20261": "docs/guides/instructors.md",
+    "course bundle docker --out image --seed 20261": "docs/guides/instructors.md",
     "course bench": "docs/performance.md",
 }
 """What takes seconds however small its scenes are, and the one page for which it is run."""
@@ -498,13 +505,29 @@ def _remove(path: Path) -> None:
     path.unlink(missing_ok=True)
 
 
+def main(names: Sequence[str]) -> None:
+    """Follow the pages, each to its first mistake; what one of them makes isn't there for the next."""
+    there, mistakes = _files(), []
+    for name in names:
+        page = Page(name, Path.cwd())
+        try:
+            page.follow()
+        except FollowingError as wrong:
+            mistakes.append(str(wrong))
+        finally:
+            # Not left to the end of the process: workers would outlive it.
+            if page.cluster is not None:
+                page.cluster.close()
+        for path in _files() - there:
+            path.unlink()
+    sys.exit("\n".join(mistakes) or 0)
+
+
+def _files() -> set[Path]:
+    return {
+        path for path in Path().rglob("*") if path.is_file() and path.parent.name != "__pycache__"
+    }
+
+
 if __name__ == "__main__":
-    page = Page(sys.argv[1], Path.cwd())
-    try:
-        page.follow()
-    except FollowingError as wrong:
-        sys.exit(str(wrong))
-    finally:
-        # Not left to the end of the process: workers would outlive it.
-        if page.cluster is not None:
-            page.cluster.close()
+    main(sys.argv[1:])
