@@ -147,7 +147,7 @@ class Law:
     name: str
     title: str
     run: Callable[[Function, Trial], None]
-    role: Role = "core"
+    role: Role = "corner"
     kind: Kind = "property"
     points: float = 1.0
     false_fail: float = 0.0

@@ -52,13 +52,7 @@ def smooth(limit: float, *, case: Case | None = None, u_name: str = "u") -> Law:
                     "Are all angles in radians, and used once?",
                 )
 
-    return Law(
-        "smooth",
-        "A small step of u is a small step of the point",
-        run,
-        "corner",
-        case=case,
-    )
+    return Law("smooth", "A small step of u is a small step of the point", run, case=case)
 
 
 def evenly(
@@ -91,15 +85,9 @@ def evenly(
         _check_centred(off, exact_mean)
         check_order(errors, least)
 
-    return Law(
-        "order",
-        "Evenly placed numbers give evenly placed points",
-        run,
-        "corner",
-        "order",
-        false_fail=1e-7 + SKEWED_BY_CHANCE,
-        case=case,
-    )
+    title = "Evenly placed numbers give evenly placed points"
+    chance = 1e-7 + SKEWED_BY_CHANCE
+    return Law("order", title, run, kind="order", false_fail=chance, case=case)
 
 
 SKEWED, SKEWED_BY_CHANCE = 9.0, 1e-9

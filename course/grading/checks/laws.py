@@ -242,7 +242,7 @@ def from_generator(argument: str = "rng") -> Law:
                 "The generator that is handed in has to be used.",
             )
 
-    return Law("from_rng", "All random numbers come from the generator", run, "corner")
+    return Law("from_rng", "All random numbers come from the generator", run)
 
 
 def _equal(one: Any, other: Any) -> bool:

@@ -322,13 +322,12 @@ ESTIMATE = function(
             what="of few samples, a mean or variance of",
             scales=MAGNITUDES,
         ),
-        Law("one_channel", "One channel gives two numbers", _one_channel, "corner"),
+        Law("one_channel", "One channel gives two numbers", _one_channel),
         Law(
             "predicted",
             "Uniform, cosine and Phong sampling leave the variances that theory tells",
             _predicted,
-            "corner",
-            "distribution",
+            kind="distribution",
             false_fail=6 * FALSE_FAIL,
         ),
         close(

@@ -157,7 +157,7 @@ def _order(points: Callable[[Function, Trial, int], Array]) -> Law:
         check_order(errors, EVEN, "Random points reach N^-0.5: yours are to be more even.")
 
     title = "The error of a mean falls nearly with 1 / N"
-    return Law("order", title, run, "corner", "order", false_fail=1e-7)
+    return Law("order", title, run, kind="order", false_fail=1e-7)
 
 
 def _check_cells(points: Array, columns: int, rows: int, hint: str) -> None:

@@ -178,7 +178,6 @@ XORSHIFT = function(
             "known",
             "From 2463534242 come the numbers that Marsaglia's generator is known for",
             _known,
-            "corner",
         ),
         law(
             "ends",

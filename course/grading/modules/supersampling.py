@@ -290,7 +290,7 @@ GAUSSIAN_WEIGHTS = function(
     "supersampling.gaussian_weights",
     {"sigma": number(0.12, 3, (0.0, -0.5, nan))},
     (
-        Law("default", "Sigma is 1/6 by default", _by_default, "corner"),
+        Law("default", "Sigma is 1/6 by default", _by_default),
         close(
             "extremes",
             "Weights are right for the smallest and the largest sigma",

@@ -234,7 +234,9 @@ TRAVERSE = function(
             case=ray_scenes.ordered,
             n=100,
         ),
-        Law("embree", "Hit for hit with Embree on 65,536 triangles, with few tests", _embree),
+        Law(
+            "embree", "Hit for hit with Embree on 65,536 triangles, with few tests", _embree, "core"
+        ),
     ),
     case=ray_scenes.cloud,
     unique=False,
