@@ -147,6 +147,11 @@ def _module(name: str, groups: Mapping[str, str], *estimators: Estimator) -> Mod
     return Module(name, PROJECT / "scenes" / f"{name}.yaml", groups, estimators)
 
 
+def _by_samplers(name: str) -> Module:
+    groups = {"samplers": "four ways to place samples"}
+    return _module(name, groups, *_samplers("", "as the scene"))
+
+
 BENCHED = {
     module.name: module
     for module in (
@@ -188,18 +193,10 @@ BENCHED = {
             *_samplers("", "as the scene"),
             *map(_lobe, ("plane", "ball", "phong")),
         ),
-        *(
-            _module(
-                name, {"samplers": "four ways to place samples"}, *_samplers("", "as the scene")
-            )
-            for name in ("thin_lens", "motion_blur", "cube_map")
-        ),
+        *map(_by_samplers, ("thin_lens", "motion_blur", "cube_map")),
     )
 }
 """The modules that are measured, by name, in the course's order."""
 
-FURTHER_BENCHED = {
-    name: _module(name, {"samplers": "four ways to place samples"}, *_samplers("", "as the scene"))
-    for name in ("blurred_transparency", "textures")
-}
+FURTHER_BENCHED = {name: _by_samplers(name) for name in ("blurred_transparency", "textures")}
 """Those that are measured when they are asked for by name."""

@@ -9,19 +9,9 @@ from course.core.types import Floats, Floats32
 from course.formats.pictures.display import srgb_to_linear
 
 # sRGB, from the second being brighter to the first: ColorBrewer's RdBu (Brewer and Harrower), backwards.
-_COLOURS = np.array(
-    [
-        (5, 48, 97),
-        (33, 102, 172),
-        (67, 147, 195),
-        (146, 197, 222),
-        (247, 247, 247),
-        (244, 165, 130),
-        (214, 96, 77),
-        (178, 24, 43),
-        (103, 0, 31),
-    ]
-)
+_COLOURS = np.frombuffer(
+    bytes.fromhex("053061 2166ac 4393c3 92c5de f7f7f7 f4a582 d6604d b2182b 67001f"), np.uint8
+).reshape(-1, 3)
 SHOWN = 99.5
 """Percentile of the differences' sizes that gets the darkest colour, so that a single bright pixel doesn't set it."""
 

@@ -85,17 +85,9 @@ SRGB = Display()
 
 
 # sRGB; of steadily growing lightness, so that the order of the values survives a grey printer.
-_COLOURS = np.array(
-    [
-        (0, 0, 0),
-        (48, 8, 84),
-        (128, 20, 108),
-        (201, 50, 62),
-        (242, 118, 18),
-        (251, 197, 40),
-        (255, 255, 230),
-    ]
-)
+_COLOURS = np.frombuffer(
+    bytes.fromhex("000000 300854 80146c c9323e f27612 fbc528 ffffe6"), np.uint8
+).reshape(-1, 3)
 
 
 def heat_map(values: Floats) -> Floats32:
