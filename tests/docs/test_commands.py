@@ -155,6 +155,9 @@ def test_what_a_page_shows_is_found_in_order(tmp_path: Path) -> None:
 
 
 WRONG = [
+    # A picture is made before the mistake, and isn't there on the next page.
+    ("    course render scenes/NAME.yaml -o made.png\n    course nonsense", "No such command"),
+    ("    course compare made.png made.png", "made.png: no such file"),
     ("    course render scenes/nowhere.yaml", "nowhere.yaml"),
     ("    course check supersampling --only resolve/nonsense", "no check"),
     ("    course render scenes/NAME.yaml --colour red", "No such option"),
