@@ -59,6 +59,8 @@ ABOVE, DOWN = vector(0.2, 0.9, 0.3), vector(0, -1, 0)
 SQUARE = vector(-0.4, 0.8, -0.4), vector(0.8, 0, 0), vector(0, 0, 0.8)
 LIGHTS: dict[str, Light] = {
     "point": PointLight("light", ABOVE, WHITE),
+    # It shines on the inside of the collar, which is of glass and stays dark.
+    "low": PointLight("light", vector(0.8, -0.3, 0.5), WHITE),
     "cell": PointLight("light", ABOVE, WHITE, normal=DOWN),
     "cell of two sides": PointLight("light", ABOVE, WHITE, normal=vector(1, 0, 0), two_sided=True),
     # As close to the ball as can be: what faces it is raised above its facets, and the light is then nearer.
@@ -79,11 +81,13 @@ def surface(request: pytest.FixtureRequest) -> FullSurface:
 
 
 def scene_of(kind: str) -> FullSurface:
-    """A coarse ball over a floor, and two that move away from each other, of two materials."""
-    floor = shapes.quad(1.8, 1.8)
+    """A coarse ball in a collar over a floor, and two that move away from each other, of three materials."""
+    floor, collar = shapes.quad(1.8, 1.8), shapes.quad(1.1, 1.1)
     parts = [
         FullPart(replace(floor, vertices=floor.vertices - vector(0, 0.7, 0)), 1),
         FullPart(shapes.sphere(0.6, 10), 3),
+        # It lies between some facets that turn away from a light and the round surface above them.
+        FullPart(replace(collar, vertices=collar.vertices + vector(0, 0.35, 0)), 2),
     ]
     if kind == "still":
         return build_surface(parts)
