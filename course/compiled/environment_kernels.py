@@ -50,7 +50,7 @@ def lookup(faces, direction, seamless, radiance, across):
             continue
         column, row = min(max(column, _NOTHING), last), min(max(row, _NOTHING), last)
         i, j = int(column), int(row)
-        a, b = column - np.floor(column), row - np.floor(row)
+        a, b = column - np.float32(i), row - np.float32(j)
         right, down = i + (column < last), j + (row < last)
         top_left, top_right = (_ONE - a) * (_ONE - b), a * (_ONE - b)
         low_left, low_right = (_ONE - a) * b, a * b
