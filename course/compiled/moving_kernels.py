@@ -49,13 +49,6 @@ def keep(s, time, first, count):
 
 
 @njit(**OPTIONS)
-def restore(s):
-    """Undo the shift."""
-    for i in range(3 * WIDTH):
-        s[i] = s[_ORIGIN + i]
-
-
-@njit(**OPTIONS)
 def shift(s, velocity, box, asked, valid):
     """Shift a packet's origins into a mover's frame, and fill which of the rays that are asked may meet its box.
 
@@ -94,7 +87,7 @@ def occlude(scenes, velocity, boxes, time, first, count, s, asked, valid, argume
     ----------
     scenes, velocity, boxes : (1 + K,), (K, 3) and (K, 2, 3)
     time : (n,) of all rays, of which the packet's ``count`` begin at ``first``; (0,) without movers
-    s : the packet, with ROWS rows
+    s : the packet, with ROWS rows; its origins are not what they were where something moves
     asked, valid : (16,) int32, -1 for the rays that are asked; the second is overwritten
     """
     if scenes[0]:
@@ -104,7 +97,6 @@ def occlude(scenes, velocity, boxes, time, first, count, s, asked, valid, argume
         for k in range(len(velocity)):
             if shift(s, velocity[k], boxes[k], asked, valid):
                 occluded16(valid.ctypes.data, scenes[1 + k], s.ctypes.data, arguments.ctypes.data)
-        restore(s)
 
 
 @njit(**OPTIONS)
