@@ -250,16 +250,16 @@ def in_packets(
 def _moving_packets(
     accelerator: MovingAccelerator, static: PacketAccelerator, movers: tuple[Mover, ...]
 ) -> MovingPackets:
-    pairs = [
-        (mover.accelerator.packets, mover.velocity)
+    # What has no triangle is never asked.
+    found = [
+        (mover.accelerator.packets, mover.velocity, mover.first)
         for mover in movers
         if isinstance(mover.accelerator, PacketAccelerator) and mover.accelerator.packets
     ]
-    assert len(pairs) == len(movers)
     return MovingPackets(
         **same_fields(accelerator),
-        tables=SceneTables.of(static.packets, pairs),
-        numbers=np.array([0, *(mover.first for mover in movers)], np.int64),
+        tables=SceneTables.of(static.packets, [each[:2] for each in found]),
+        numbers=np.array([0, *(first for _, _, first in found)], np.int64),
     )
 
 

@@ -95,6 +95,8 @@ def scene_of(kind: str) -> FullSurface:
     for side in (-0.7, 0.7):
         moved = replace(small, vertices=small.vertices + vector(side, -0.3, 0))
         parts.append(FullPart(moved, 3, (0.0, 0.3, side / 2)))
+    # A mover of which nothing is left: its triangles are points.
+    parts.insert(1, FullPart(replace(small, vertices=small.vertices * 0), 3, (1.0, 0.0, 0.0)))
     return build_surface(parts, FUNCTIONS_OF)
 
 
@@ -178,7 +180,9 @@ def test_rays_among_movers_meet_the_same() -> None:
         for name in ("triangle", "u", "v", "t"):
             assert getattr(mine, name).tobytes() == getattr(theirs, name).tobytes()
     met = np.unique(mine.triangle)
-    assert all(((met >= mover.first) & (met < mover.last)).any() for mover in passes.movers)
+    hit = [((met >= mover.first) & (met < mover.last)).any() for mover in passes.movers]
+    assert hit == [mover.last > mover.first for mover in passes.movers]
+    assert sorted(hit) == [False, True, True]
     active = np.random.default_rng(8).random(2 * N) < 0.7
     for limit, some in ((2.5, None), (1e30, active)):
         free = [

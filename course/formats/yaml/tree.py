@@ -87,6 +87,8 @@ def _within_bounds() -> str:
 MOST_VALUES: Final = 1_000_000  # counted with every alias written out
 DEEPEST: Final = 64
 
+_TOO_DEEP = f"nested more than {DEEPEST} levels deep: too deep for a scene"
+
 _MERGE = object()
 
 
@@ -271,7 +273,7 @@ class TreeBuilder:
 
     def _check_depth(self, height: int, line: int) -> None:
         if len(self._open) + height > DEEPEST:
-            raise self._error(line, f"nested more than {DEEPEST} levels deep: too deep for a scene")
+            raise self._error(line, _TOO_DEEP)
 
     def _error(self, line: int, message: str) -> SceneError:
         return SceneError(f"{self.file}:{line}: {message}")
@@ -351,6 +353,9 @@ def _decode(content: bytes, file: str) -> str:
 def _not_yaml(error: yaml.MarkedYAMLError, text: str, file: str) -> SceneError:
     mark = error.problem_mark or error.context_mark
     line = mark.line + 1 if mark else 1
+    if error.problem and "nesting depth" in error.problem:
+        # PyYAML 6.0.4 has a limit of its own, and reads ahead of what the tree is built of.
+        return SceneError(f"{file}:{line}: {_TOO_DEEP}")
     message = f"{file}:{line}: not valid YAML: {error.problem or error.context}"
     if error.problem and error.context and error.context_mark:
         message += f", {error.context} that starts on line {error.context_mark.line + 1}"

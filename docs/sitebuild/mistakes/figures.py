@@ -79,7 +79,7 @@ def _sources(module: str) -> str:
     files = [*(HERE / f"{name}.py" for name in names), HERE / "looks" / f"{module}.py"]
     files += [
         GRADING / f"{name}.py"
-        for name in ("pictures/rendered", "pictures/scenes", "reports/pictures")
+        for name in ("pictures/rendered", "pictures/scenes", "reports/drawing")
     ]
     libraries = [version(name) for name in ("matplotlib", "numpy", "pillow")]
     return "\n".join([*libraries, *(path.read_text(encoding="utf-8") for path in files)])
