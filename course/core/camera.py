@@ -87,7 +87,7 @@ class Camera:
         return direction
 
     def distance_to_near_plane(self, direction: Floats32) -> Floats32:
-        """Distance from depth 0 to depth ``near`` along unit directions (3, N), (N,) float32."""
+        """Distance (N,) float32 along unit directions (3, N) from the pinhole to the plane ``near``."""
         # In the widest fields of view the forward component can round to 0.
         forwards = np.maximum(dot(self.forward[:, None], direction), np.float32(1e-12))
         distance: Floats32 = np.divide(np.float32(self.near), forwards)

@@ -1,8 +1,8 @@
 """From samples to pixels: a filter by the module ``supersampling``, and the film, which has weighted sums of radiance.
 
-Samples arrive in passes. The sums are float64, and grow in a fixed order. A partial pass, which can only be the last,
-is seen in the picture but not added to the sums: if the render is continued with more samples, that pass is repeated
-as a whole one. So the continued picture has the same bits as one rendered at once.
+Samples arrive in passes. The sums are float64, and grow in a fixed order. Only the last pass can be partial. The
+picture shows it, but the sums omit it. If the render is continued, that pass is rendered again in full, so the
+continued picture has the same bits as one rendered at once.
 """
 
 from __future__ import annotations
@@ -87,7 +87,7 @@ class Film:
         ----------
         mean : (3, n) float32, radiance of the tile's n pixels, row by row
         weight : (n,) float32 or one number
-        samples : of each pixel, with those of this pass
+        samples : samples per pixel so far, with those of this pass
         summed : true if the pass is added to the sums
         """
         rows, columns = tile.rows, tile.columns

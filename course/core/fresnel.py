@@ -1,7 +1,7 @@
 """Reflection and refraction at the smooth boundary of two clear media.
 
 Symbols: n the normal on the incoming side, cos_i = -d . n, cos_t the cosine of the refracted ray,
-eta = n_from / n_to. Snell's law: sin_t = eta sin_i. Above 1 there is total internal reflection.
+eta = n_from / n_to. Snell's law: sin_t = eta sin_i. If sin_t > 1, there is total internal reflection.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ def fresnel_and_cos_t(cos_i: Floats32, eta: Floats32) -> tuple[Floats32, Floats3
     squared = (1 - sin_t) * (1 + sin_t)
     total = squared <= 0
     cos_t = np.sqrt(np.maximum(squared, 0))
-    # Amplitudes of both polarisations, in terms of eta alone. If both cosines are 0, `total` makes the result 1.
+    # Amplitudes of both polarisations; indices enter by their ratio. If both cosines are 0, `total` makes the result 1.
     s_sum, p_sum = eta * cos_i + cos_t, cos_i + eta * cos_t
     s = (eta * cos_i - cos_t) / np.maximum(s_sum, np.float32(1e-20))
     p = (cos_i - eta * cos_t) / np.maximum(p_sum, np.float32(1e-20))

@@ -13,5 +13,5 @@ class Functions:
         self.__dict__.update(functions)
 
     def __getattr__(self, name: str) -> Callable[..., Any]:
-        """Refuse a name that was not bound: no receipt would list it."""
+        """Raise AttributeError: a function that was not bound would be missing from the receipt."""
         raise AttributeError(f"{name} is called, but was not bound")

@@ -145,7 +145,7 @@ class Surface:
         ng *= side
         ns = ng
         if triangles.corner_normals is not None:
-            # Most triangles of a room are flat.
+            # Most triangles of a room are flat-shaded.
             some = np.flatnonzero(flat == 0)
             if len(some) == len(side):
                 ns = self._interpolated(triangle, u, v, side, direction)
@@ -179,7 +179,7 @@ class Surface:
         return normal
 
     def excluded_objects(self, hits: Hits, which: Indices, direction: Floats32) -> Any:
-        """Objects that rays (3, m) from hits ``which`` (m,) can't hit; None if the accelerator doesn't use them."""
+        """The convex object that each ray (3, m) leaves and can't hit again; None if the accelerator doesn't ask."""
         return None
 
 

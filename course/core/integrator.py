@@ -44,7 +44,7 @@ class Integrator:
     environment_depth : largest depth at which such rays add radiance, -1 for none
     ambient : (3, M) reflected ambient radiance
     dark_inside : (M,) bool, the dielectrics, whose insides reflect neither ambient nor diffuse light
-    glow : (3, M) radiance emitted from both sides by surfaces that are no lights
+    glow : (3, M) radiance emitted from both sides by surfaces that are not sampled as lights
     emission : (3, M) radiance emitted from the fronts of the surfaces of lights
     absorption : along rays in dielectrics (``course.extras.absorption``)
     max_depth : largest number of bounces in this scene
@@ -83,8 +83,8 @@ class Integrator:
         Raises CancelledError soon after ``draws.cancelled()`` becomes true.
         """
         path_radiance = np.zeros((3, draws.block.size), np.float32)
-        # Glass may double the rays at each depth, so batches that outgrow the cache are split. The
-        # last batch is followed to its end first: memory grows with the depth, not with 2^depth.
+        # Glass may double the rays at each depth, so batches that outgrow the cache are split. They
+        # wait on a stack, last in, first out: memory grows linearly with the depth, not as 2^depth.
         pile = [(0, camera_rays)]
         while pile:
             if draws.cancelled():
@@ -218,7 +218,7 @@ def _carried(rays: Rays, hits: Hits) -> tuple[Floats32 | None, Indices | None, M
 
 
 def _sum(radiance: Floats32 | None, term: Floats32) -> Floats32:
-    """Radiance plus a term, (3, n) or (3, 1) each. An array (3, 1) isn't overwritten: it may be a row of a table."""
+    """Radiance plus a term, (3, n) or (3, 1) each. An array (3, 1) isn't overwritten: it may be a view of a Lookup."""
     if radiance is None:
         return term
     return np.add(radiance, term, out=radiance if radiance.shape[1] > 1 else None)

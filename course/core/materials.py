@@ -1,6 +1,7 @@
 """Materials as a table: one row per property, one column per material of the scene.
 
-The BRDF is Blinn-Phong over pi, so that ``color`` is the diffuse reflectance. With the irradiance E = I cos / d^2:
+The BRDF is Blinn-Phong over pi, so that the diffuse reflectance is color * diffuse. With the irradiance
+E = I cos / d^2:
 
     L = color (ambient La + diffuse E / pi) + specular (n . h)^exponent E / pi
 

@@ -8,9 +8,9 @@ from the round surface, higher by
 
     h(u, v) = 1/2 (w u k01 + w v k02 + u v k12),    k_ij = (p_j - p_i) . (n_j - n_i)
 
-Along an edge, h is a parabola with the corner normals at its ends. An edge of length L on a sphere of radius R has
-k = L^2 / R, and h at its middle is the sagitta L^2 / (8 R). (Hanika, "Hacking the shadow terminator", Ray Tracing
-Gems II, ch. 4, moves the point to the tangent planes instead, twice as high.)
+Along an edge, h is a parabola that is perpendicular to the corner normals at both ends. An edge of length L on a sphere
+of radius R has k = L^2 / R, and h at its middle is the sagitta L^2 / (8 R). (Hanika, "Hacking the shadow terminator",
+Ray Tracing Gems II, ch. 4, moves the point to the tangent planes instead, twice as high.)
 """
 
 from __future__ import annotations
@@ -34,10 +34,10 @@ coordinates; measured in tests/geometry/test_surface.py.
 """
 
 TILT, SLIVER, MOST = 0.5, 8.0, 1024.0
-"""A long, thin triangle has an offset of at least OFFSET * min(TILT * (length / height - SLIVER), MOST) lengths.
+"""The offset of a triangle with longest edge L and height H is at least OFFSET L clip(TILT (L / H - SLIVER), 0, MOST).
 
-Embree's plane of such a triangle is tilted: it rounds a cross product of nearly parallel edges, taken relative to the
-ray's origin. The hit's error in height is about 2^-24 length^2 / height.
+Embree computes the normal as a cross product of edges relative to the ray's origin. If they are nearly parallel,
+rounding tilts it. The hit's error in height is about 2^-24 L^2 / H.
 """
 
 INSET = 2.0

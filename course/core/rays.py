@@ -15,9 +15,9 @@ from course.core.types import Floats32, Indices, Media
 RAYS = 65536
 """Most camera rays in a batch.
 
-A batch shares the cost of Python among its rays: the longer NumPy and Embree run per call, the less threads wait for
-each other. The time of a render relative to that inside Embree, on two cores with 1 MB of second-level cache each, was
-1.85 with 32 thousand rays, 1.53 to 1.64 with 64 thousand, and 1.59 with 128 thousand (medians of five).
+A batch shares the cost of Python among its rays: the longer each call of NumPy or Embree runs, the less time threads
+spend waiting for the interpreter's lock. The total time over that inside Embree, on two cores with 1 MB of second-level
+cache each, was 1.85 with 32 thousand rays, 1.53 to 1.64 with 64 thousand, and 1.59 with 128 thousand (medians of five).
 """
 
 OPEN = np.int16(-1)
@@ -61,7 +61,7 @@ class Rays:
         return rays.part(slice(middle, None)), rays.part(slice(middle))
 
     def part(self, columns: slice) -> Rays:
-        """The rays in some columns. If ``path`` is None, the part has one ray for each of its own paths."""
+        """The rays in some columns. If ``path`` is None, the paths of the part are counted from 0 again."""
         arrays = {field.name: getattr(self, field.name) for field in fields(self)}
         # A shared origin has one column.
         kept = {
@@ -113,7 +113,7 @@ class PathCosts(Protocol):
     """The cost of each path of a block, for adaptive sampling."""
 
     def add(self, kind: str, path: Indices | None, cost: float | None = None) -> None:
-        """Add the cost of a "hit" or of a kind of ray to paths (n,); None for all paths, or for the kind's own cost."""
+        """Add the cost of a "hit" or of a kind of ray to paths (n,), None for all; cost None: that of the kind."""
 
     def part(self, paths: slice) -> PathCosts:
         """The costs of some of the paths."""

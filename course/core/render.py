@@ -13,7 +13,7 @@ from course.core.tiles import Work, passes
 from course.core.tracer import Tracer
 
 Progress = Callable[[float, bool], None]
-"""Called with the share of the render that is done, and true once every pixel has a sample."""
+"""Called with the share of the render that is done, in [0, 1], and whether every pixel has a sample."""
 
 Tick = Callable[[int, int], None]
 """Called with the number of pieces of work done, and the number of those in the first pass."""
@@ -45,7 +45,7 @@ class Executor(ABC):
 
     @abstractmethod
     def batches(self, most: int) -> int:
-        """Batches of rays in a tile, at most ``most``."""
+        """Choose how many batches of rays a tile has, at most ``most``."""
 
     @abstractmethod
     def run(self, work: Iterable[Work], film: AnyFilm, tick: Tick) -> bool:
@@ -79,7 +79,7 @@ def render(
 
     def run(work: Iterable[Work], done: float = 0.0, after: float = 1.0) -> bool:
         nonlocal covered
-        # An iterator has no length: it ends at the deadline, and the share done is that of the time.
+        # The length of an iterator is unknown. It ends at the deadline, so progress is the share of the time limit.
         pieces = first_pass = inf
         if isinstance(work, Sequence):
             pieces, first_pass = max(len(work), 1), sum(item.order == 0 for item in work)

@@ -154,7 +154,7 @@ class Scatter:
         """Origins and throughput, (3, m) each, of rays that leave hits ``which`` (m,).
 
         The first ``near`` rays leave on the incoming side, the others on the far side. ``after`` (3, n) is the
-        throughput after the bounce at all hits.
+        throughput after the bounce, of all hits.
         """
         origin = hits.near_origin.take(which[:near], axis=1)
         if near < len(which):

@@ -77,8 +77,8 @@ def plan_dimensions(
 ) -> Dimensions:
     """Dimensions of the sampler for all random numbers.
 
-    The second pair is stratified together with the pixel's (``course.extras.samplers.sobol``). Without lens and motion
-    it goes to gloss, before the lights: mirror images are sharper than soft shadows, so noise is seen more in them.
+    Dimensions 2 and 3 are stratified jointly with the pixel's (``course.extras.samplers.sobol``). They go to the lens
+    or the time if there is one, else to gloss, else to the lights: noise is seen more in mirror images than in shadows.
     ``before_lights`` and ``after_lights`` are names and widths of further numbers that a bounce draws.
     """
     of_path = [PIXEL, ("lens", 2 if camera.lens else 0), ("time", 1 if world.motion else 0)]
@@ -95,7 +95,7 @@ def plan_direct_light(world: World) -> DirectLight | None:
 
 
 def direct_light(world: World) -> DirectLight:
-    """Direct light, even if it is only that of the environment."""
+    """Direct light, even of a scene without lights; ``sky`` is for the caller to set."""
     materials = world.materials
     return DirectLight(
         world.surface,

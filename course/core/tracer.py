@@ -19,7 +19,7 @@ from course.core.types import Floats32
 class Tracer:
     """Renders tiles of at most ``batches`` batches of camera rays. All threads share it.
 
-    ``costs`` returns the costs of n new paths, for adaptive sampling; None without it.
+    ``costs(n)`` makes the ``PathCosts`` of n new paths; None without adaptive sampling.
     """
 
     settings: Settings
@@ -39,7 +39,7 @@ class Tracer:
         cancelled: Callable[[], bool] = lambda: False,
         parts: int = 1,
     ) -> tuple[Floats32, Floats32 | float]:
-        """Colours (3, n * parts), or (4, n * parts) with a row of costs, and weights of a tile's n pixels.
+        """Colours (3, n * parts) and weights of a tile's n pixels; with adaptive sampling a fourth row has costs.
 
         Each pixel gets ``samples`` samples from number ``first`` on. They are divided into equal parts, each with its
         own mean, in adjacent columns. Raises CancelledError soon after ``cancelled()`` becomes true.

@@ -52,9 +52,9 @@ class Triangles:
         has normals
     bulge : (T, 3) float32, k01 / 2, k02 / 2, k12 / 2 of ``course.core.ray_offset``; None if no part has normals, or if
         shadow rays ignore the bulge
-    largest_sine : sine of the largest angle between ng and a corner normal, 0 if every triangle is flat
+    largest_sine : sine of the largest angle between ng and a corner normal, 0 if every triangle is flat-shaded
     material : (T,) uint16 material numbers
-    parts : (vertices, triangles, convex) of each object: two counts and a bool, in the order of the triangles
+    parts : of each object, in the order of its triangles: number of vertices, number of triangles, true if convex
     """
 
     planes: Floats32

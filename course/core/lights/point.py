@@ -16,7 +16,7 @@ class PointLight:
 
     Attributes
     ----------
-    normal : (3,) float32 unit, if the light is a cell of a ``RectangleLight`` by radiance: I is times the cosine to it
+    normal : (3,) float32 unit, of a cell of a ``RectangleLight`` by radiance: I is multiplied by the emitter's cosine
     two_sided, visible : of that light
     blockable : true if a surface on which the light lies blocks it
     """

@@ -13,8 +13,8 @@ from course.core.vectors import dot
 
 TO_A_POINT, TO_A_SURFACE, TO_THE_LIGHT = 1 - 2.0**-20, 1 - 1e-4, 1 + 2.0**-15
 """Lengths of shadow rays, as shares of the distance to the light: to a point that belongs to no surface; to a visible
-light, whose triangles must not block their own light; and to a point light on a surface that shall block it. At 1/50 of
-the scene's size and at 60 degrees, rounding changes the distance to that surface by about half of the last excess."""
+light, short of its own triangles; past a point light that lies on a surface, so that the surface blocks it. Seen from
+1/50 of the scene's size at 60 degrees, rounding moves that surface by 2^-16 of the distance, half of the excess."""
 
 
 @dataclass(frozen=True)
@@ -49,7 +49,7 @@ class Light(Protocol):
 
     @property
     def color(self) -> Floats32:
-        """(3,) float32, irradiance / pi where ``Sample.factor`` is 1. The 1 / pi is that of the BRDF."""
+        """(3,) float32, irradiance / pi where ``Sample.factor`` is 1; it has the BRDF's 1 / pi."""
 
     @property
     def width(self) -> int:
@@ -70,7 +70,7 @@ class Light(Protocol):
         ----------
         points : (3, n) float32
         u : (width, n) float32 in [0, 1), None where the width is 0
-        towards : the function of that name, or its compiled form
+        towards : the function of that name below, or its compiled form
         """
 
 

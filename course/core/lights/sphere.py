@@ -61,7 +61,7 @@ class SphereLight:
         return on_light
 
     def _sample_emitter(self, points: Floats32, u: Floats32) -> Sample:
-        # Points about the origin give exact normals, even where float32 resolves the centre to a few radii.
+        # Points on a sphere about the origin give exact normals, even if the centre is rounded by a few radii.
         from_center = self._on_light(np.zeros(3, np.float32), points, u)
         to_light = from_center + self.center[:, None]
         to_light -= points

@@ -19,14 +19,14 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Block:
-    """The paths of a batch.
+    """The paths of some samples of some pixels, such as one pass of a tile.
 
     Attributes
     ----------
     pixels : (n,) uint32, number of each pixel in the picture, row by row
     first : number of the first sample of each pixel
     samples : number of samples of each pixel
-    part : number of the tile, which seeds the generators of samplers
+    part : number of the tile, a part of the generators' seeds
     """
 
     pixels: Words
