@@ -11,7 +11,6 @@ from weakref import WeakKeyDictionary
 import numpy as np
 from numpy.typing import NDArray
 
-from course.compiled import moving_kernels
 from course.compiled.convex import ConvexObjects, convex_objects
 from course.compiled.own import courses_own
 from course.compiled.packets import COHERENT, PacketScene
@@ -39,7 +38,7 @@ _BUILT = WeakKeyDictionary()
 
 @dataclass(frozen=True)
 class SceneTables:
-    """What stands still and K movers, as ``moving_kernels`` has them.
+    """What stands still and K movers, as ``occlusion_kernels`` has them.
 
     Attributes
     ----------
@@ -185,6 +184,8 @@ class MovingPackets(MovingAccelerator):
         excluded: Any = None,
     ) -> Intersections:
         """See ``MovingAccelerator``."""
+        from course.compiled import moving_kernels
+
         assert time is not None
         start, n = perf_counter(), direction.shape[1]
         triangle, uvt = np.empty(n, np.int32), np.empty((3, n), np.float32)
@@ -208,6 +209,8 @@ class MovingPackets(MovingAccelerator):
         active: Mask | None = None,
     ) -> Mask:
         """See ``MovingAccelerator``."""
+        from course.compiled import moving_kernels
+
         assert time is not None
         start, free = perf_counter(), np.empty(direction.shape[1], np.bool_)
         tables = self.tables
@@ -250,6 +253,9 @@ def in_packets(
 def _moving_packets(
     accelerator: MovingAccelerator, static: PacketAccelerator, movers: tuple[Mover, ...]
 ) -> MovingPackets:
+    # Compiled here and not while rays are followed, which a time limit counts.
+    from course.compiled import moving_kernels  # noqa: F401
+
     # What has no triangle is never asked.
     found = [
         (mover.accelerator.packets, mover.velocity, mover.first)

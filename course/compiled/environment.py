@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from course.compiled import environment_kernels
 from course.compiled.own import courses_own
 from course.core.environment import CubeEnvironment, Environment
 from course.core.types import Floats32
@@ -19,6 +18,8 @@ class CompiledCubeEnvironment(CubeEnvironment):
 
     def radiance(self, direction: Floats32) -> Floats32:
         """See ``Environment``."""
+        from course.compiled import environment_kernels
+
         n = direction.shape[1]
         radiance, across = np.empty((3, n), np.float32), np.empty(n, np.int64)
         found = environment_kernels.lookup(

@@ -12,7 +12,7 @@ import numpy as np
 from numba import njit, types
 
 from course.compiled.clock_kernels import nanoseconds
-from course.compiled.moving_kernels import BOXES, ROWS, SCENES, occlude
+from course.compiled.occlusion_kernels import BOXES, ROWS, SCENES, occlude
 from course.compiled.options import COLUMNS, OPTIONS, ROW
 from course.compiled.packet_kernels import TFAR, WIDTH, aligned, arguments_of, begin
 from course.core.lights.sample import CLOSEST, TO_THE_LIGHT
@@ -149,7 +149,7 @@ def illuminate(
 
     Parameters
     ----------
-    scenes, velocity, boxes, time : of the shadow rays, see ``moving_kernels.occlude``
+    scenes, velocity, boxes, time : of the shadow rays, see ``occlusion_kernels.occlude``
     origin, ns, ng, material, side, triangle, u, v : of the ``Hits``
     points : (3, n) for which the light is sampled
     on_light : (3, n) or (3, 1) points on the light; the ``to_light`` of a ``Sample`` if the next two are not empty

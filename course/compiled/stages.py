@@ -7,11 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from course.compiled import direct_kernels, draw_kernels, sky_kernels
+from course.compiled import direct_kernels, draw_kernels
 from course.compiled.accelerator import in_packets
 from course.compiled.direct import CompiledDirectLight
 from course.compiled.environment import compiled_environment
-from course.compiled.scatter import CompiledPathBounce, CompiledScatter
 from course.compiled.surface import CompiledSurface
 from course.core.hits import Surface
 from course.core.integrator import Integrator
@@ -38,9 +37,14 @@ def compiled(tracer: Tracer) -> Tracer:
             seen = {"surface": surface, "environment": compiled_environment(direct.sky.environment)}
             known["sky"] = CompiledSky(**same_fields(direct.sky) | seen)
         changed["direct"] = CompiledDirectLight(**known)
+    # Loops are compiled when they are imported: a machine's first render waits for those of its scene alone.
     if (scatter := integrator.scatter) is not None:
+        from course.compiled.scatter import CompiledScatter
+
         changed["scatter"] = CompiledScatter(**same_fields(scatter) | {"surface": surface})
     if isinstance(integrator, PathIntegrator):
+        from course.compiled.scatter import CompiledPathBounce
+
         known = {"surface": surface, "scatter": changed.get("scatter")}
         changed["bounce"] = CompiledPathBounce(**same_fields(integrator.bounce) | known)
         cls: type[Integrator] = CompiledPathIntegrator
@@ -91,6 +95,8 @@ class CompiledSky(Sky):
 
     def directions(self, normal: Floats32, u: Floats32) -> tuple[Floats32, Floats32 | None]:
         """See ``Sky``."""
+        from course.compiled import sky_kernels
+
         product = self.sampling
         if not isinstance(product, ProductSampling):
             return super().directions(normal, u)
