@@ -12,6 +12,7 @@ from course.formats.yaml.description import STEP
 from course.formats.yaml.loading import Loaded
 from course.formats.yaml.schema import json_schema
 from course.formats.yaml.tree import parse_document, read_document
+from tests.scene import mistakes
 
 ROOT = Path(__file__).parents[2]
 SCENES = sorted((ROOT / "scenes").glob("*.yaml"))
@@ -78,42 +79,14 @@ def test_the_schema_accepts_the_shipped_scenes(
 @pytest.mark.parametrize(
     ("old", "new"),
     [
-        ("look_at:", "look_att:"),
-        ("  eye: [0, 1, 5]\n", ""),
-        ("  eye: [0, 1, 5]\n", "  eye: [0, 1]\n"),
-        ("vertical_fov: 35", "vertical_fov: 0"),
-        ("vertical_fov: 35", "vertical_fov: 180"),
-        ("width: 64", "width: 1.5"),
-        ("width: 64", "width: 70000"),
-        ("color: [1, 0, 0]", "color: [1, 0, 2]"),
-        ("color: [1, 0, 0]", "color: [1, 0]"),
-        ("color: [1, 0, 0]", "color: red"),
-        ("shape: torus,", "shape: tors,"),
-        ("shape: disk, ", ""),
-        ("type: constant, ", ""),
-        ("type: point", "type: pint"),
-        ("size: [1, 2, 3]", "size: [1, 0, 3]"),
-        ("- scale: -2", "- move: -2"),
-        ("- scale: -2", "- {scale: 2, translate: [0, 0, 0]}"),
-        ("- scale: -2", "- {}"),
+        *((old, new) for old, new, _ in mistakes.FORMAT),
         (", radiance: 5", ""),
         (", radiance: 5", ", radiance: 5, intensity: 5"),
-        ("file: bunny.ply", "file: ''"),
-        ("p: 3, q: 4", "p: 33, q: 4"),
-        ("p: 3, q: 4", "p: 3, q: 34"),
-        ("p: 3, q: 4", "p: 3, q: 4, sides: 1025"),
-        ("p: 3, q: 4", "p: 3, q: 4, segments: 16385"),
-        ("p: 3, q: 4", "p: 3, q: 4, segments: 15"),
     ],
 )
 def test_the_schema_refuses_what_loading_refuses(
-    good: str,
-    refusal_of: Callable[[str, str], str],
-    validator: jsonschema.Draft202012Validator,
-    old: str,
-    new: str,
+    good: str, validator: jsonschema.Draft202012Validator, old: str, new: str
 ) -> None:
-    assert refusal_of(old, new)
     assert not validator.is_valid(parse_document(good.replace(old, new).encode(), "a").data)
 
 

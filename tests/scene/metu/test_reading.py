@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -13,165 +12,86 @@ from course.errors import SceneError
 from course.formats.metu.converting import convert
 from course.formats.metu.element import Element, Notes
 from tests.scene.metu.conftest import CAMERA, MATT, Metu, Tree, tree, write
+from tests.scene.mistakes import rows
 
-Change = Callable[[Tree], Any]
-
-SIZE = {"ImageResolution": "4 4", "Position": "0 0 5", "Up": "0 1 0"}
-
-MISTAKES: list[tuple[Change, str]] = [
-    (lambda s: s.pop("Cameras"), "Scene: Cameras is missing: expected one Camera or more"),
-    (lambda s: s["Cameras"].pop("Camera"), "Scene/Cameras: Camera is missing"),
-    (lambda s: s.pop("Objects"), "Scene: Objects is missing"),
-    (lambda s: s.pop("Materials"), "Scene: Materials is missing"),
+MISTAKES: list[tuple[str, Any, str]] = [
+    *rows("""
+Cameras -> | Scene: Cameras is missing: expected one Camera or more
+Cameras/Camera -> | Scene/Cameras: Camera is missing
+Objects -> | Scene: Objects is missing
+Materials -> | Scene: Materials is missing
+Cameras/Camera/Position -> 1 2 | Scene/Cameras/Camera/Position is "1 2": expected 3 numbers, such as 0 1 -2.5
+Cameras/Camera/Position -> 1 2 nan | Camera/Position is "1 2 nan": expected 3 numbers
+Cameras/Camera/Position -> 1 2 1e999 | Camera/Position is "1 2 1e999": expected 3 numbers
+Cameras/Camera/Gaze -> 0 0 0 | Gaze is "0 0 0": expected a direction
+Cameras/Camera/Up -> 0 0 7 | Up is "0 0 7": expected a direction
+Cameras/Camera/NearPlane -> 1 -1 -1 1 | NearPlane is "1 -1 -1 1": expected left < right and bottom < top
+Cameras/Camera/NearDistance -> 0 | NearDistance is "0": expected a number > 0
+Cameras/Camera/ImageResolution -> 640 0 | ImageResolution is "640 0": expected 2 whole numbers from 1 to 65536
+Cameras/Camera/NumSamples -> 2.5 | NumSamples is "2.5": expected a whole number >= 1
+Cameras/Camera/ApertureSize -> 1 | Camera: FocusDistance is missing or 0: expected a distance > 0
+Cameras/Camera/_handedness -> both | Camera: handedness is "both": expected right or left
+Cameras/Camera/_type -> fisheye | Camera: type is 'fisheye': expected lookAt or none
+Cameras/Camera -> {"_id": "1", "_type": "lookAt", "ImageResolution": "4 4", "Position": "0 0 5", "Up": "0 1 0"} |
+    Camera: Gaze is missing: expected such as 0 0 -1, or a GazePoint
+Materials/Material/_type -> plastic | Material: type is 'plastic': expected mirror, conductor, dielectric or none
+Materials/Material/_type -> conductor | Material: MirrorReflectance is missing: expected such as 0.9 0.9 0.9
+Materials/Material/DiffuseReflectance -> -2 0 0 | DiffuseReflectance is "-2 0 0": expected 3 numbers from 0
+Lights/PointLight -> {"_id": "1", "Position": "0 0 0"} | Lights/PointLight: Intensity is missing
+Lights/AmbientLight -> -1 0 0 | AmbientLight is "-1 0 0": expected 3 numbers from 0
+Objects/Mesh/Material -> 4 | Mesh/Material is "4": expected the id of a material; known are "1"
+Objects/Mesh/Faces -> 1 2 | Mesh/Faces is "1 2": expected three vertex numbers for each triangle
+Objects/Mesh/Faces -> 1 2 5 | Mesh/Faces: refers to vertex 5: expected numbers from 1 to 4
+Objects/Mesh/Faces -> 0 1 2 | Mesh/Faces: refers to vertex 0: expected numbers from 1 to 4
+Objects/Mesh/Faces -> {"_plyFile": "no.ply"} | Mesh/Faces: plyFile is no.ply: no such file in /
+Objects/Mesh/_shadingMode -> phong | Mesh: shadingMode is "phong": expected flat or smooth
+Objects/Mesh/Transformations -> t1 | Mesh/Transformations is "t1": expected names such as t1, s1, r1 or c1
+Objects/MeshInstance -> {"_id": "2", "_baseMeshId": "2"} | MeshInstance: baseMeshId is "2": expected the id of a mesh
+Objects/Sphere -> {"_id": "1", "Material": "1", "Center": "9", "Radius": "1"} |
+    Sphere/Center: refers to vertex 9: expected numbers from 1 to 4
+Transformations/Scaling -> {"_id": "1", "_data": "1 0 1"} |
+    Transformations/Scaling is "1 0 1": expected 3 factors that are not 0
+Transformations/Rotation -> {"_id": "1", "_data": "90 0 0 0"} |
+    Transformations/Rotation is "90 0 0 0": expected degrees, and an axis
+Transformations/Composite -> {"_id": "1", "_data": "1 0 0 0"} |
+    Transformations/Composite is "1 0 0 0": expected 16 numbers, such as 1 0 0 0  0 1 0 0
+Transformations/Composite -> {"_id": "1", "_data": "1 0 0 0 1 0 0 0 1 0 0 0 1 0 0 0 "} |
+    expected a last row of 0 0 0 1, as in 1 0 0 0  0 1 0 0
+Transformations/Composite -> {"_id": "1", "_data": "1 2 3 0 4 5 6 0 7 8 9 0 0 0 0 1"} |
+    expected a matrix that can be inverted; this one flattens what it maps
+VertexData -> 1 2 3 4 | VertexData: has 4 numbers
+MaxRecursionDepth -> six | MaxRecursionDepth is "six": expected 1 number
+"""),
+    ("Cameras/Camera", [CAMERA, CAMERA | {"Up": ""}], "Camera[2]/Up is"),
+    ("Cameras/Camera", [CAMERA, CAMERA], "Camera[2]: its id is given twice"),
     (
-        lambda s: s["Cameras"]["Camera"].update(Position="1 2"),
-        'Scene/Cameras/Camera/Position is "1 2": expected 3 numbers, such as 0 1 -2.5',
-    ),
-    (
-        lambda s: s["Cameras"]["Camera"].update(Position="1 2 nan"),
-        'Camera/Position is "1 2 nan": expected 3 numbers',
-    ),
-    (
-        lambda s: s["Cameras"]["Camera"].update(Position="1 2 1e999"),
-        'Camera/Position is "1 2 1e999": expected 3 numbers',
-    ),
-    (
-        lambda s: s["Cameras"]["Camera"].update(Gaze="0 0 0"),
-        'Gaze is "0 0 0": expected a direction',
-    ),
-    (lambda s: s["Cameras"]["Camera"].update(Up="0 0 7"), 'Up is "0 0 7": expected a direction'),
-    (
-        lambda s: s["Cameras"]["Camera"].update(NearPlane="1 -1 -1 1"),
-        'NearPlane is "1 -1 -1 1": expected left < right and bottom < top',
-    ),
-    (
-        lambda s: s["Cameras"]["Camera"].update(NearDistance="0"),
-        'NearDistance is "0": expected a number > 0',
-    ),
-    (
-        lambda s: s["Cameras"]["Camera"].update(ImageResolution="640 0"),
-        'ImageResolution is "640 0": expected 2 whole numbers from 1 to 65536',
-    ),
-    (
-        lambda s: s["Cameras"]["Camera"].update(NumSamples="2.5"),
-        'NumSamples is "2.5": expected a whole number >= 1',
-    ),
-    (
-        lambda s: s["Cameras"]["Camera"].update(ApertureSize="1"),
-        "Camera: FocusDistance is missing or 0: expected a distance > 0",
-    ),
-    (
-        lambda s: s["Cameras"]["Camera"].update(_handedness="both"),
-        'Camera: handedness is "both": expected right or left',
-    ),
-    (
-        lambda s: s["Cameras"]["Camera"].update(_type="fisheye"),
-        "Camera: type is 'fisheye': expected lookAt or none",
-    ),
-    (
-        lambda s: s["Cameras"].update(Camera={"_id": "1", "_type": "lookAt", **SIZE}),
-        "Camera: Gaze is missing: expected such as 0 0 -1, or a GazePoint",
-    ),
-    (lambda s: s["Cameras"].update(Camera=[CAMERA, CAMERA | {"Up": ""}]), "Camera[2]/Up is"),
-    (lambda s: s["Cameras"].update(Camera=[CAMERA, CAMERA]), "Camera[2]: its id is given twice"),
-    (
-        lambda s: s["Materials"]["Material"][0].update(_type="plastic"),
-        "Material: type is 'plastic': expected mirror, conductor, dielectric or none",
-    ),
-    (
-        lambda s: s["Materials"]["Material"][0].update(_type="conductor"),
-        "Material: MirrorReflectance is missing: expected such as 0.9 0.9 0.9",
-    ),
-    (
-        lambda s: s["Materials"]["Material"][0].update(DiffuseReflectance="-2 0 0"),
-        'DiffuseReflectance is "-2 0 0": expected 3 numbers from 0',
-    ),
-    (
-        lambda s: s["Materials"].update(Material=[MATT, MATT]),
+        "Materials/Material",
+        [MATT, MATT],
         "Material[2]: its id is given twice: expected another than 1",
     ),
-    (
-        lambda s: s["Lights"].update(PointLight={"_id": "1", "Position": "0 0 0"}),
-        "Lights/PointLight: Intensity is missing",
-    ),
-    (
-        lambda s: s["Lights"].update(AmbientLight="-1 0 0"),
-        'AmbientLight is "-1 0 0": expected 3 numbers from 0',
-    ),
-    (
-        lambda s: s["Objects"]["Mesh"].update(Material="4"),
-        'Mesh/Material is "4": expected the id of a material; known are "1"',
-    ),
-    (
-        lambda s: s["Objects"]["Mesh"].update(Faces="1 2"),
-        'Mesh/Faces is "1 2": expected three vertex numbers for each triangle',
-    ),
-    (
-        lambda s: s["Objects"]["Mesh"].update(Faces="1 2 5"),
-        "Mesh/Faces: refers to vertex 5: expected numbers from 1 to 4",
-    ),
-    (
-        lambda s: s["Objects"]["Mesh"].update(Faces="0 1 2"),
-        "Mesh/Faces: refers to vertex 0: expected numbers from 1 to 4",
-    ),
-    (
-        lambda s: s["Objects"]["Mesh"].update(Faces={"_plyFile": "no.ply"}),
-        "Mesh/Faces: plyFile is no.ply: no such file in ",
-    ),
-    (
-        lambda s: s["Objects"]["Mesh"].update(_shadingMode="phong"),
-        'Mesh: shadingMode is "phong": expected flat or smooth',
-    ),
-    (
-        lambda s: s["Objects"]["Mesh"].update(Transformations="t1"),
-        'Mesh/Transformations is "t1": expected names such as t1, s1, r1 or c1',
-    ),
-    (
-        lambda s: s["Objects"].update(MeshInstance={"_id": "2", "_baseMeshId": "2"}),
-        'MeshInstance: baseMeshId is "2": expected the id of a mesh',
-    ),
-    (
-        lambda s: s["Objects"].update(
-            Sphere={"_id": "1", "Material": "1", "Center": "9", "Radius": "1"}
-        ),
-        "Sphere/Center: refers to vertex 9: expected numbers from 1 to 4",
-    ),
-    (
-        lambda s: s.update(Transformations={"Scaling": {"_id": "1", "_data": "1 0 1"}}),
-        'Transformations/Scaling is "1 0 1": expected 3 factors that are not 0',
-    ),
-    (
-        lambda s: s.update(Transformations={"Rotation": {"_id": "1", "_data": "90 0 0 0"}}),
-        'Transformations/Rotation is "90 0 0 0": expected degrees, and an axis',
-    ),
-    (
-        lambda s: s.update(Transformations={"Composite": {"_id": "1", "_data": "1 0 0 0"}}),
-        'Transformations/Composite is "1 0 0 0": expected 16 numbers, such as 1 0 0 0  0 1 0 0',
-    ),
-    (
-        lambda s: s.update(Transformations={"Composite": {"_id": "1", "_data": "1 0 0 0 " * 4}}),
-        "expected a last row of 0 0 0 1, as in 1 0 0 0  0 1 0 0",
-    ),
-    (
-        lambda s: s.update(
-            Transformations={"Composite": {"_id": "1", "_data": "1 2 3 0 4 5 6 0 7 8 9 0 0 0 0 1"}}
-        ),
-        "expected a matrix that can be inverted; this one flattens what it maps",
-    ),
-    (lambda s: s.update(VertexData="1 2 3 4"), "VertexData: has 4 numbers"),
-    (lambda s: s.update(MaxRecursionDepth="six"), 'MaxRecursionDepth is "six": expected 1 number'),
 ]
+"""What is put in which place of the tree, or taken away there, and the message."""
 
 
-@pytest.mark.parametrize(("change", "told"), MISTAKES, ids=[told for _, told in MISTAKES])
+def put(scene: Tree, path: str, value: Any) -> None:
+    """Put a value, text or JSON, in its place in a tree; nothing takes away what is there."""
+    *parents, last = path.split("/")
+    for key in parents:
+        scene = scene.setdefault(key, {})
+    if value == "":
+        del scene[last]
+    else:
+        scene[last] = json.loads(value) if isinstance(value, str) and value[0] in "{[" else value
+
+
+@pytest.mark.parametrize(("place", "value", "told"), MISTAKES)
 @pytest.mark.parametrize("form", ["xml", "json"])
 def test_a_mistake_is_told_with_file_element_and_what_was_expected(
-    tmp_path: Path, form: str, change: Change, told: str
+    tmp_path: Path, form: str, place: str, value: Any, told: str
 ) -> None:
-    scene = tree(
-        materials=[dict(MATT)], objects={"Mesh": {"_id": "1", "Material": "1", "Faces": "1 2 3"}}
-    )
-    change(scene)
+    scene = tree()
+    scene["Materials"]["Material"] = dict(MATT)
+    put(scene, place, value)
     path = write(tmp_path, scene, form)
     with pytest.raises(SceneError) as caught:
         convert(path, tmp_path / "scene.yaml")
