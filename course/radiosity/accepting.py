@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from course.formats.yaml import description as d
-from course.formats.yaml.description import MotionDescription, rgb
-from course.formats.yaml.document import KeyPath
+from course.formats.yaml.description import rgb
+from course.formats.yaml.document import Place
 from course.formats.yaml.loading import Loaded
 
 LAMPS = "a rectangle or a sphere with radiance: radiosity takes lamps that are surfaces"
@@ -19,92 +17,78 @@ def check_accepted(loaded: Loaded) -> None:
     Raises SceneError: the scene has a mirror, glass, a highlight, a light without a surface, light from outside, a
     lens, or something that moves; names file, line, key path and the remedy.
     """
-    scene = loaded.description
-    used = {thing.material for thing in scene.objects}
-    for name in sorted(used):
-        _check_material(scene.materials[name], ("materials", name), loaded)
+    scene, whole = loaded.description, Place(loaded.document)
+    used = sorted({thing.material for thing in scene.objects})
+    for name in used:
+        _check_material(scene.materials[name], whole.at("materials", name))
     for number, light in enumerate(scene.lights):
-        _check_light(light, ("lights", number), loaded)
-    if not any(
-        isinstance(light, d.RectangleLight | d.SphereLight) and np.any(rgb(light.radiance or 0))
+        _check_light(light, whole.at("lights", number))
+    emitted = [scene.materials[name].emission for name in used]
+    emitted += [
+        light.radiance or 0
         for light in scene.lights
-    ) and not any(np.any(rgb(scene.materials[name].emission)) for name in used):
-        raise loaded.document.error(("lights",), f"nothing shines: expected {SHINES}")
+        if isinstance(light, d.RectangleLight | d.SphereLight)
+    ]
+    if not any(rgb(color).any() for color in emitted):
+        raise whole.at("lights").error(f"nothing shines: expected {SHINES}")
     for number, thing in enumerate(scene.objects):
-        _check_still(thing.motion, ("objects", number, "motion"), loaded)
-        if thing.from_behind != "turned":
-            raise loaded.document.unexpected(
-                ("objects", number, "from_behind"), "turned: patches are seen from both sides"
-            )
-    _check_surroundings(loaded)
+        here = whole.at("objects", number)
+        _check_still(thing.motion, here)
+        turned = thing.from_behind == "turned"
+        here.check(turned, "from_behind", "turned: patches are seen from both sides")
+    _check_environment(scene.environment, whole.at("environment"))
+    _check_camera(scene.camera, whole.at("camera"))
 
 
-def _check_material(material: d.MaterialDescription, path: KeyPath, loaded: Loaded) -> None:
+def _check_material(material: d.MaterialDescription, here: Place) -> None:
     diffuse_only = "for radiosity, which knows diffuse reflection only; or use course render"
     for key in ("dielectric", "conductor"):
-        if getattr(material, key, None) is not None:
-            raise loaded.document.error((*path, key), f"expected null {diffuse_only}")
+        if getattr(material, key) is not None:
+            raise here.at(key).error(f"expected null {diffuse_only}")
     if material.texture is not None:
-        raise loaded.document.error(
-            (*path, "texture"), "expected null for radiosity, whose patches have one color each"
+        raise here.at("texture").error(
+            "expected null for radiosity, whose patches have one color each"
         )
     for key in ("mirror", "specular"):
-        if rgb(getattr(material, key)).any():
-            raise loaded.document.unexpected((*path, key), f"0 {diffuse_only}")
+        here.check(not rgb(getattr(material, key)).any(), key, f"0 {diffuse_only}")
 
 
-def _check_light(light: d.Light, path: KeyPath, loaded: Loaded) -> None:
-    if isinstance(light, d.AmbientLight):
-        if rgb(light.radiance).any():
-            raise loaded.document.unexpected(
-                (*path, "radiance"),
-                "0: an ambient light stands in for the light between surfaces, which radiosity works out",
-            )
-    elif isinstance(light, d.RectangleLight | d.SphereLight):
-        if light.radiance is None:
-            raise loaded.document.unexpected((*path, "intensity"), f"radiance instead, of {LAMPS}")
-        if isinstance(light, d.RectangleLight) and not light.visible:
-            raise loaded.document.unexpected(
-                (*path, "visible"), "true: a lamp is a patch as other surfaces are"
-            )
-        _check_still(light.motion, (*path, "motion"), loaded)
-    # An object that is a light sends out what its material does, and that is in the patches already.
-    elif not isinstance(light, d.ObjectLight):
-        raise loaded.document.unexpected((*path, "type"), LAMPS)
+def _check_light(light: d.Light, here: Place) -> None:
+    match light:
+        case d.AmbientLight():
+            expected = "0: an ambient light stands in for the light between surfaces, which radiosity works out"
+            here.check(not rgb(light.radiance).any(), "radiance", expected)
+        case d.RectangleLight() | d.SphereLight():
+            here.check(light.radiance is not None, "intensity", f"radiance instead, of {LAMPS}")
+            visible = isinstance(light, d.SphereLight) or light.visible
+            here.check(visible, "visible", "true: a lamp is a patch as other surfaces are")
+            _check_still(light.motion, here)
+        case _:
+            # An object that is a light sends out what its material does, and that is in the patches already.
+            here.check(isinstance(light, d.ObjectLight), "type", LAMPS)
 
 
-def _check_still(motion: MotionDescription, path: KeyPath, loaded: Loaded) -> None:
-    if any(motion.velocity):
-        raise loaded.document.unexpected(
-            (*path, "velocity"), "0: radiosity is worked out once, for surfaces that stand still"
-        )
+def _check_still(motion: d.MotionDescription, here: Place) -> None:
+    expected = "0: radiosity is worked out once, for surfaces that stand still"
+    here.at("motion").check(not any(motion.velocity), "velocity", expected)
 
 
-def _check_surroundings(loaded: Loaded) -> None:
-    scene = loaded.description
-    environment = scene.environment
-    if not isinstance(environment, d.ConstantEnvironment):
-        raise loaded.document.unexpected(
-            ("environment", "type"), "constant, and black: radiosity knows no light from outside"
-        )
-    if rgb(environment.radiance).any():
-        raise loaded.document.unexpected(
-            ("environment", "radiance"), "0: radiosity knows no light from outside"
-        )
-    if scene.camera.image_plane is not None:
-        raise loaded.document.error(
-            ("camera", "image_plane"), "expected vertical_fov instead, which fits cameras anywhere"
-        )
-    if scene.camera.handedness == "left":
-        raise loaded.document.unexpected(
-            ("camera", "handedness"), "right: solutions are looked at as they are"
-        )
-    if scene.camera.near > 0:
-        raise loaded.document.unexpected(
-            ("camera", "near"), "0: solutions are looked at from the eye itself"
-        )
-    if scene.camera.lens is not None and scene.camera.lens.aperture_radius > 0:
-        raise loaded.document.unexpected(
-            ("camera", "lens", "aperture_radius"), "0: solutions are looked at through a pinhole"
-        )
-    _check_still(scene.camera.motion, ("camera", "motion"), loaded)
+def _check_environment(environment: d.Environment, here: Place) -> None:
+    outside = "radiosity knows no light from outside"
+    constant = isinstance(environment, d.ConstantEnvironment)
+    here.check(constant, "type", f"constant, and black: {outside}")
+    if isinstance(environment, d.ConstantEnvironment):
+        here.check(not rgb(environment.radiance).any(), "radiance", f"0: {outside}")
+
+
+def _check_camera(camera: d.CameraDescription, here: Place) -> None:
+    if camera.image_plane is not None:
+        expected = "expected vertical_fov instead, which fits cameras anywhere"
+        raise here.at("image_plane").error(expected)
+    right = camera.handedness == "right"
+    here.check(right, "handedness", "right: solutions are looked at as they are")
+    here.check(camera.near == 0, "near", "0: solutions are looked at from the eye itself")
+    aperture = camera.lens.aperture_radius if camera.lens else 0
+    pinhole = "0: solutions are looked at through a pinhole"
+    here.at("lens").check(aperture == 0, "aperture_radius", pinhole)
+    _check_still(camera.motion, here)

@@ -31,45 +31,13 @@ from course.scene.scene import Scene
 
 
 class Functions:
-    """The functions of the radiosity module; each is looked up when it is first called."""
+    """The functions of the radiosity module by their names; each is looked up when it is first called."""
 
     def __init__(self, effects: Effects) -> None:
         self._effects = effects
 
-    def hemicube_form_factors(self, k: int) -> tuple[Floats32, Floats32]:
-        """Top (k, k) and side (k / 2, k)."""
-        found: tuple[Floats32, Floats32] = self._function("hemicube_form_factors")(k)
-        return found
-
-    def gather(
-        self, radiosity: Floats32, emission: Floats32, reflectance: Floats32, factors: Floats32
-    ) -> Floats32:
-        """One iteration, (3, P)."""
-        after: Floats32 = self._function("gather")(radiosity, emission, reflectance, factors)
-        return after
-
-    def shoot(
-        self,
-        radiosity: Floats32,
-        unshot: Floats32,
-        reflectance: Floats32,
-        areas: Floats32,
-        factors: Floats32,
-        shooter: int,
-    ) -> tuple[Floats32, Floats32]:
-        """One step: radiosity and what is unshot, (3, P) each."""
-        shoot = self._function("shoot")
-        after: tuple[Floats32, Floats32] = shoot(
-            radiosity, unshot, reflectance, areas, factors, shooter
-        )
-        return after
-
-    def needs_split(self, corners: Floats32, threshold: float) -> Mask:
-        """(n,) bool."""
-        chosen: Mask = self._function("needs_split")(corners, threshold)
-        return chosen
-
-    def _function(self, name: str) -> Callable[..., Any]:
+    def __getattr__(self, name: str) -> Callable[..., Any]:
+        """See ``Effects.function``."""
         return self._effects.function("radiosity", name)
 
 

@@ -130,7 +130,7 @@ def chosen_patches(
     corners = at_corners(patches, solved.radiosity)
 
     def over(threshold: float) -> Mask:
-        uneven = functions.needs_split(corners, threshold)
+        uneven: Mask = functions.needs_split(corners, threshold)
         return (uneven[: patches.size] | uneven[patches.size :]) & ~patches.lamps
 
     chosen = over(split)

@@ -6,16 +6,14 @@ Every value is of the right type and within its own range by now.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 
 from course.core.types import Floats64
-from course.errors import SceneError
 from course.formats.yaml import description as d
 from course.formats.yaml.description import MOST_KNOT_SEGMENTS, Vector, rgb
-from course.formats.yaml.document import Document, KeyPath, suggest
+from course.formats.yaml.document import Document, Place, suggest
 from course.formats.yaml.surroundings import in_its_surroundings
 
 # Below these sines two directions are held to be one: a picture turned by a rounding error, or a
@@ -33,7 +31,7 @@ def check_consistency(description: d.SceneDescription, document: Document) -> No
 
     Raises SceneError for the first contradiction, by file, line, key path and value.
     """
-    scene = _Place(document, ())
+    scene = Place(document)
     _check_camera(description.camera, scene.at("camera"))
     squares = nearest_squares(description.sampler.samples)
     kind = description.sampler.type
@@ -63,26 +61,8 @@ def check_consistency(description: d.SceneDescription, document: Document) -> No
         )
 
 
-@dataclass(frozen=True)
-class _Place:
-    """A map or a list of the document, whose values are checked."""
-
-    document: Document
-    path: KeyPath
-
-    def at(self, *keys: str | int) -> _Place:
-        return _Place(self.document, (*self.path, *keys))
-
-    def error(self, message: str) -> SceneError:
-        return self.document.error(self.path, message)
-
-    def check(self, holds: bool | np.bool, key: str | int, expected: str) -> None:
-        """SceneError about the value of a key where something doesn't hold."""
-        if not holds:
-            raise self.document.unexpected((*self.path, key), expected)
-
-    def check_not_zero(self, vector: Vector, key: str) -> None:
-        self.check(any(vector), key, "a vector that is not zero")
+def _check_not_zero(vector: Vector, key: str, here: Place) -> None:
+    here.check(any(vector), key, "a vector that is not zero")
 
 
 def nearest_squares(samples: int) -> tuple[int, ...]:
@@ -91,13 +71,13 @@ def nearest_squares(samples: int) -> tuple[int, ...]:
     return (samples,) if root * root == samples else (root * root, (root + 1) ** 2)
 
 
-def _check_camera(camera: d.CameraDescription, here: _Place) -> None:
+def _check_camera(camera: d.CameraDescription, here: Place) -> None:
     eye, look_at = np.array(camera.eye), np.array(camera.look_at)
     view = look_at - eye
     farthest = max(np.abs(eye).max(), np.abs(look_at).max())
     apart = np.abs(view).max() > _SAME_POINT * farthest
     here.check(apart, "look_at", "another point than camera.eye, to look towards")
-    here.check_not_zero(camera.up, "up")
+    _check_not_zero(camera.up, "up", here)
     here.check(
         sine(view, np.array(camera.up)) >= _PARALLEL_UP,
         "up",
@@ -111,9 +91,9 @@ def _check_camera(camera: d.CameraDescription, here: _Place) -> None:
             edges.check(least < getattr(plane, high), high, expected)
 
 
-def _check_light(light: d.Light, here: _Place) -> None:
+def _check_light(light: d.Light, here: Place) -> None:
     if isinstance(light, d.DirectionalLight):
-        here.check_not_zero(light.direction, "direction")
+        _check_not_zero(light.direction, "direction", here)
     if isinstance(light, d.RectangleLight | d.SphereLight):
         given = [light.intensity is not None, light.radiance is not None]
         if all(given):
@@ -125,8 +105,8 @@ def _check_light(light: d.Light, here: _Place) -> None:
     if isinstance(light, d.SphereLight):
         _check_sphere(light, here)
     if isinstance(light, d.RectangleLight):
-        here.check_not_zero(light.edge_u, "edge_u")
-        here.check_not_zero(light.edge_v, "edge_v")
+        _check_not_zero(light.edge_u, "edge_u", here)
+        _check_not_zero(light.edge_v, "edge_v", here)
         open_angle = sine(np.array(light.edge_u), np.array(light.edge_v)) >= _PARALLEL_EDGES
         here.check(open_angle, "edge_v", "an edge that is not parallel to edge_u")
         here.check(
@@ -136,7 +116,7 @@ def _check_light(light: d.Light, here: _Place) -> None:
         )
 
 
-def _check_sphere(light: d.SphereLight, here: _Place) -> None:
+def _check_sphere(light: d.SphereLight, here: Place) -> None:
     if light.radiance is None:
         here.check(
             light.samples != "visible",
@@ -159,7 +139,7 @@ def _check_sphere(light: d.SphereLight, here: _Place) -> None:
     )
 
 
-def _check_object(thing: d.Object, here: _Place, description: d.SceneDescription) -> None:
+def _check_object(thing: d.Object, here: Place, description: d.SceneDescription) -> None:
     if thing.material not in description.materials:
         hint = suggest(thing.material, description.materials)
         here.check(False, "material", f"the name of one of the materials; {hint}")
@@ -167,7 +147,7 @@ def _check_object(thing: d.Object, here: _Place, description: d.SceneDescription
         opaque = description.materials[thing.material].dielectric is None
         expected = "turned for glass, whose inside is another than its outside"
         here.check(opaque, "from_behind", expected)
-        _Place(here.document, ("integrator",)).check(
+        Place(here.document, ("integrator",)).check(
             description.integrator.shading_normals == "interpolated",
             "shading_normals",
             f"interpolated, as objects[{here.path[-1]}].from_behind is kept",
@@ -183,7 +163,7 @@ def _check_object(thing: d.Object, here: _Place, description: d.SceneDescription
         _check_step(step, here.at("transform", index))
 
 
-def _check_object_lights(description: d.SceneDescription, scene: _Place) -> None:
+def _check_object_lights(description: d.SceneDescription, scene: Place) -> None:
     """Every light of type object names one object of its own, which emits."""
     names = [thing.name for thing in description.objects if thing.name]
     lit: dict[str, int] = {}
@@ -211,7 +191,7 @@ def _check_object_lights(description: d.SceneDescription, scene: _Place) -> None
         )
 
 
-def _check_surroundings(description: d.SceneDescription, scene: _Place) -> None:
+def _check_surroundings(description: d.SceneDescription, scene: Place) -> None:
     """What surrounds a dielectric is another one."""
     glasses = {name: m.dielectric for name, m in description.materials.items() if m.dielectric}
     for name, glass in glasses.items():
@@ -227,7 +207,7 @@ def _check_surroundings(description: d.SceneDescription, scene: _Place) -> None:
             outer = glasses[outer].surrounded_by
 
 
-def _check_less(small: tuple[str, float], large: tuple[str, float], here: _Place) -> None:
+def _check_less(small: tuple[str, float], large: tuple[str, float], here: Place) -> None:
     """Check that one key of an object is less than another; each may be a default."""
     (name, value), (bound_name, bound) = small, large
     if name in here.document.value(here.path):
@@ -236,7 +216,7 @@ def _check_less(small: tuple[str, float], large: tuple[str, float], here: _Place
     here.check(value < bound, bound_name, expected)
 
 
-def _check_knot(knot: d.TorusKnot, here: _Place) -> None:
+def _check_knot(knot: d.TorusKnot, here: Place) -> None:
     if (divisor := math.gcd(knot.p, knot.q)) > 1:
         raise here.error(
             f"p is {knot.p} and q is {knot.q}: expected numbers without a common divisor; "
@@ -247,10 +227,10 @@ def _check_knot(knot: d.TorusKnot, here: _Place) -> None:
     here.check(knot.segments >= fewest, "segments", expected)
 
 
-def _check_step(step: d.Transform, here: _Place) -> None:
+def _check_step(step: d.Transform, here: Place) -> None:
     match step:
         case d.Rotate():
-            here.at("rotate").check_not_zero(step.rotate.axis, "axis")
+            _check_not_zero(step.rotate.axis, "axis", here.at("rotate"))
         case d.Scale():
             here.check(np.all(step.scale), "scale", "factors that are not 0")
         case d.Affine():

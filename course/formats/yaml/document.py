@@ -8,6 +8,8 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
+import numpy as np
+
 from course.errors import SceneError
 
 Key: TypeAlias = str | int
@@ -70,6 +72,27 @@ class Document:
         except (LookupError, TypeError):
             return self.error(path, f"expected {expected}")
         return SceneError(f"{self.where(path)}: {spell(path)} is {value}: expected {expected}")
+
+
+@dataclass(frozen=True)
+class Place:
+    """A map or a list of a document, whose values are checked; the whole document where no path is given."""
+
+    document: Document
+    path: KeyPath = ()
+
+    def at(self, *keys: Key) -> Place:
+        """What stands there at these keys."""
+        return Place(self.document, (*self.path, *keys))
+
+    def error(self, message: str) -> SceneError:
+        """Error about all of it; see ``Document.error``."""
+        return self.document.error(self.path, message)
+
+    def check(self, holds: bool | np.bool, key: Key, expected: str) -> None:
+        """Raise SceneError about the value of a key where something doesn't hold; see ``Document.unexpected``."""
+        if not holds:
+            raise self.document.unexpected((*self.path, key), expected)
 
 
 def spell(path: KeyPath) -> str:
