@@ -67,10 +67,10 @@ def _local_mesh(thing: d.Object, folder: Path, files: dict[str, Mesh], bound: Bo
 def _matrix(step: d.Transform) -> Floats64:
     match step:
         case d.Translate():
-            return transforms.translate(np.array(step.translate))
+            return transforms.translate(step.translate)
         case d.Scale():
-            return transforms.scale(np.broadcast_to(np.array(step.scale, np.float64), (3,)))
+            return transforms.scale(step.scale)
         case d.Rotate():
-            return transforms.rotate(np.array(step.rotate.axis), step.rotate.degrees)
+            return transforms.rotate(step.rotate.axis, step.rotate.degrees)
         case d.Affine():
             return np.array(step.matrix, np.float64)

@@ -2,7 +2,8 @@
 
 All are centred at the origin with y up; u cross v points outwards everywhere, so that no texture is
 mirrored. Closed shapes are watertight bit for bit: vertices that differ in normal or uv but not in
-place have identical coordinates. Parameters out of range raise ValueError.
+place have identical coordinates. The ranges of their parameters are those of the
+scene format (`course.formats.yaml.description`), which checks them.
 """
 
 from __future__ import annotations

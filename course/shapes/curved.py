@@ -15,16 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from course.core.triangles import Mesh
-from course.shapes.grid import (
-    at_least_zero,
-    circle,
-    count,
-    finite,
-    lattice_triangles,
-    lattice_uv,
-    length,
-    normalised,
-)
+from course.shapes.grid import circle, lattice_triangles, lattice_uv, normalised
 
 WAVES = 8
 
@@ -78,15 +69,12 @@ def random_waves(seed: int, dimensions: int, wave_number: float) -> Waves:
 def sphere(radius: float = 1.0, segments: int = 64) -> Mesh:
     """Return a sphere of `segments` meridians and half as many steps of latitude.
 
-    Raises ValueError for a parameter out of range.
-
     Parameters
     ----------
     radius : [m], > 0. Every vertex lies on the sphere, so that the mesh is inscribed.
     segments : 3 to 4096
     """
-    radius = length("radius", radius)
-    directions, triangles, uv = _globe(count("segments", segments, 3, 4096))
+    directions, triangles, uv = _globe(segments)
     return Mesh(radius * directions, triangles, directions, uv)
 
 
@@ -101,7 +89,6 @@ def displaced_sphere(
 
     The surface is |x| = radius + amplitude f(x / |x|), f a mean of sine waves over the unit sphere;
     the normals are the gradient of |x| - amplitude f(x / |x|).
-    Raises ValueError for a parameter out of range.
 
     Parameters
     ----------
@@ -111,14 +98,7 @@ def displaced_sphere(
     segments : Meridians, 3 to 4096
     seed : chooses the waves, >= 0
     """
-    radius = length("radius", radius)
-    amplitude = finite("amplitude", amplitude)
-    if not 0.0 <= amplitude < radius:
-        raise ValueError(f"amplitude is {amplitude:g}: expected 0 to below the radius, {radius:g}")
-    frequency = at_least_zero("frequency", frequency, 1e6)
-    segments = count("segments", segments, 3, 4096)
-    waves = random_waves(count("seed", seed, 0, 2**32 - 1), 3, frequency)
-
+    waves = random_waves(seed, 3, frequency)
     directions, triangles, uv = _globe(segments)
     height, gradient = waves(directions)
     relative = amplitude / radius
@@ -175,8 +155,6 @@ def height_field(
 ) -> Mesh:
     """Return an open sheet y = amplitude f(x, z), centred, facing +y; u along +x, v along -z.
 
-    Raises ValueError for a parameter out of range.
-
     Parameters
     ----------
     size : two floats, extent along x and along z [m], each > 0
@@ -185,14 +163,8 @@ def height_field(
     segments : cells along either side, 1 to 4096
     seed : chooses the waves, >= 0
     """
-    if len(size) != 2:
-        raise ValueError(f"size has {len(size)} numbers: expected 2")
-    width, depth = length("size[0]", size[0]), length("size[1]", size[1])
-    amplitude = at_least_zero("amplitude", amplitude)
-    frequency = at_least_zero("frequency", frequency, 1e6)
-    segments = count("segments", segments, 1, 4096)
-    waves = random_waves(count("seed", seed, 0, 2**32 - 1), 2, 2.0 * math.pi * frequency)
-
+    width, depth = size
+    waves = random_waves(seed, 2, 2.0 * math.pi * frequency)
     longer = max(width, depth)
     uv = lattice_uv(segments, segments)
     x, z = (uv[:, 0] - 0.5) * width, (0.5 - uv[:, 1]) * depth

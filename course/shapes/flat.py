@@ -8,16 +8,15 @@ from collections.abc import Sequence
 import numpy as np
 
 from course.core.triangles import Mesh
-from course.shapes.grid import circle, count, join, lattice_triangles, lattice_uv, length
+from course.shapes.grid import circle, join, lattice_triangles, lattice_uv
 
 
 def quad(width: float = 1.0, depth: float = 1.0) -> Mesh:
     """Return a rectangle in the xz plane, centred, facing +y; u along +x, v along -z.
 
-    Raises ValueError for an extent out of range.
     ``width``, ``depth``: extent along x and along z [m], > 0.
     """
-    x, z = 0.5 * length("width", width), 0.5 * length("depth", depth)
+    x, z = 0.5 * width, 0.5 * depth
     return Mesh(
         vertices=np.array([[-x, 0.0, z], [x, 0.0, z], [x, 0.0, -z], [-x, 0.0, -z]]),
         triangles=np.array([[0, 1, 2], [0, 2, 3]], np.int32),
@@ -36,13 +35,10 @@ Rays leave long thin triangles from further above them, see ``course.core.triang
 def box(size: Sequence[float] = (1.0, 1.0, 1.0)) -> Mesh:
     """Return a box centred at the origin, six faces with 0..1 uv each and hard edges.
 
-    Raises ValueError for an extent out of range, or not three of them.
-    ``size``: three floats Extent along x, y and z [m], each > 0. Long sides of a slender box are strips of quads, at
+    ``size``: extent along x, y and z [m], each > 0. Long sides of a slender box are strips of quads, at
     most 256.
     """
-    if len(size) != 3:
-        raise ValueError(f"size has {len(size)} numbers: expected 3")
-    extent = np.array([length(f"size[{i}]", s) for i, s in enumerate(size)])
+    extent = np.array(size, np.float64)
     # All faces are cut at the same places, so no corner of one lies on an edge of another.
     _, second, longest = np.argsort(extent, kind="stable")
     cuts = np.ones(3, int)
@@ -66,14 +62,12 @@ def box(size: Sequence[float] = (1.0, 1.0, 1.0)) -> Mesh:
 def disk(radius: float = 1.0, segments: int = 64) -> Mesh:
     """Return a regular polygon in the xz plane, centred, facing +y; uv as seen from above.
 
-    Raises ValueError for a parameter out of range.
-
     Parameters
     ----------
     radius : of the circle through the corners [m], > 0
     segments : Corners, 3 to 4096
     """
-    return fan(length("radius", radius), 0.0, count("segments", segments, 3, 4096), upwards=True)
+    return fan(radius, 0.0, segments, upwards=True)
 
 
 def fan(radius: float, y: float, segments: int, *, upwards: bool) -> Mesh:
@@ -97,15 +91,11 @@ def fan(radius: float, y: float, segments: int, *, upwards: bool) -> Mesh:
 def cylinder(radius: float = 0.5, height: float = 1.0, segments: int = 64) -> Mesh:
     """Return a closed cylinder: a smooth side (u around, v up) and two flat caps.
 
-    Raises ValueError for a parameter out of range.
-
     Parameters
     ----------
     radius, height : [m], > 0
     segments : Sides, 3 to 4096
     """
-    radius, height = length("radius", radius), length("height", height)
-    segments = count("segments", segments, 3, 4096)
     cosine, sine = circle(segments)
     level = np.zeros(segments + 1)
     bottom = np.stack([radius * cosine, level - 0.5 * height, -(radius * sine)], axis=1)
@@ -128,15 +118,12 @@ def cone(radius: float = 0.5, height: float = 1.0, segments: int = 64) -> Mesh:
 
     The normal has no limit at the tip, so that each side has a tip of its own there, with the
     normal of the side's middle.
-    Raises ValueError for a parameter out of range.
 
     Parameters
     ----------
     radius, height : of the cap, and from cap to tip [m], > 0
     segments : Sides, 3 to 4096
     """
-    radius, height = length("radius", radius), length("height", height)
-    segments = count("segments", segments, 3, 4096)
     cosine, sine = circle(segments)
     slant = math.hypot(radius, height)
     out, up = height / slant, radius / slant

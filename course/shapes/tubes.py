@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from course.core.triangles import Mesh
-from course.shapes.grid import circle, count, lattice_triangles, lattice_uv, length, normalised
+from course.shapes.grid import circle, lattice_triangles, lattice_uv, normalised
 
 Array = NDArray[np.float64]
 
@@ -21,22 +21,16 @@ Array = NDArray[np.float64]
 def torus(radius: float = 1.0, tube: float = 0.25, segments: int = 96, sides: int = 48) -> Mesh:
     """Return a ring torus about the y axis.
 
-    Raises ValueError for a parameter out of range.
-
     Parameters
     ----------
     radius : from the centre to the middle of the tube [m], > 0
     tube : radius of the tube [m], 0 < tube < radius
     segments, sides : steps along the tube and around it, 3 to 4096
     """
-    radius, tube = length("radius", radius), length("tube", tube)
-    if tube >= radius:
-        raise ValueError(f"tube is {tube:g}: expected less than the radius, {radius:g}")
-    segments = count("segments", segments, 3, 4096)
     cosine, sine = circle(segments)
     outwards = np.stack([cosine, np.zeros(segments + 1), -sine], axis=1)
     upwards = np.tile([0.0, 1.0, 0.0], (segments + 1, 1))
-    return _sweep(radius * outwards, outwards, upwards, tube, count("sides", sides, 3, 4096))
+    return _sweep(radius * outwards, outwards, upwards, tube, sides)
 
 
 def torus_knot(
@@ -50,7 +44,7 @@ def torus_knot(
     """Return a tube along the (p, q) torus knot, which winds p times around the y axis.
 
     The knot lies on a torus of radii `radius` and `radius` / 2, and winds q times around its tube.
-    Raises ValueError for a parameter out of range; for a tube that is too thick the message tells the limit.
+    Raises ValueError for a tube that is too thick; the message tells the limit.
 
     Parameters
     ----------
@@ -60,12 +54,6 @@ def torus_knot(
     segments : steps along the knot, 8 (p + q) to 16384
     sides : steps around the tube, 3 to 1024
     """
-    p, q = count("p", p, 1, 32), count("q", q, 1, 32)
-    if math.gcd(p, q) != 1:
-        raise ValueError(f"p is {p} and q is {q}: expected no common divisor")
-    radius, tube = length("radius", radius), length("tube", tube)
-    segments = count("segments", segments, 8 * (p + q), 16384)
-    sides = count("sides", sides, 3, 1024)
     thickest = radius * thickest_tube(p, q)
     if tube >= thickest:
         raise ValueError(

@@ -174,25 +174,6 @@ def test_mesh_given_is_left_as_it_was() -> None:
 
 
 @pytest.mark.parametrize(
-    ("call", "message"),
-    [
-        (lambda: translate((1.0, 2.0)), r"translate has shape \(2,\): expected \(3,\)"),
-        (lambda: translate((1.0, math.nan, 0.0)), "translate is .*nan.*: expected finite"),
-        (lambda: scale(0.0), "scale is .*: expected factors other than 0"),
-        (lambda: scale((1.0, 0.0, 1.0)), "factors other than 0"),
-        (lambda: scale(math.inf), "expected finite"),
-        (lambda: scale((1.0, 2.0)), "scale has shape"),
-        (lambda: rotate((0.0, 0.0, 0.0), 10.0), "expected a direction"),
-        (lambda: rotate((0.0, 1.0, 0.0), math.inf), "degrees is inf"),
-    ],
-)
-def test_bad_parameters_are_named(call: object, message: str) -> None:
-    assert callable(call)
-    with pytest.raises(ValueError, match=message):
-        call()
-
-
-@pytest.mark.parametrize(
     ("matrix", "message"),
     [
         (np.eye(3), r"shape \(3, 3\)"),

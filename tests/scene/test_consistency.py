@@ -86,7 +86,7 @@ def test_the_default_up_is_blamed_at_the_camera(refusal: Callable[[str], str]) -
         ("sphere", {"segments": 4096}, {"segments": 4097}),
     ],
 )
-def test_the_format_and_the_shapes_have_the_same_limits(
+def test_shapes_are_made_up_to_the_limits_of_the_format(
     load: Callable[[str], Loaded],
     refusal: Callable[[str], str],
     kind: str,
@@ -100,13 +100,10 @@ def test_the_format_and_the_shapes_have_the_same_limits(
             f"materials: {{red: {{}}}}\nobjects: [{thing}]\n"
         )
 
-    make = getattr(shapes, kind)
     load(text(values))
-    make(**values)
+    getattr(shapes, kind)(**values)
     (name,) = beyond
     assert refusal(text(values | beyond)).startswith(f"scene.yaml:3: objects[0].{name} is ")
-    with pytest.raises(ValueError, match=name):
-        make(**(values | beyond))
 
 
 def test_an_object_without_any_materials_says_so(refusal: Callable[[str], str]) -> None:

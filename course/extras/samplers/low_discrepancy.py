@@ -8,6 +8,9 @@ alone, and not on the block that it is in.
 
 from __future__ import annotations
 
+from abc import abstractmethod
+from typing import Any
+
 import numpy as np
 
 from course.core.functions import Functions
@@ -30,58 +33,55 @@ _ROTATION, _ORDER = 1, 2
 """Salts: what a hash of pixel and dimension decides."""
 
 
-class HaltonSampler(Sampler):
-    """Dimension d of a path is coordinate d of Halton's points; sample number i takes point i."""
+class _Rotated(Sampler):
+    """Dimension d of a path is coordinate d of one stretch of points, the same for all pixels."""
+
+    def __init__(self, seed: int, quasi_monte_carlo: Functions) -> None:
+        self._seed = seed
+        self._quasi_monte_carlo = quasi_monte_carlo
+        self._tables: dict[tuple[int, ...], Floats32] = {}
+
+    def draw(self, block: Block, dimension: int, width: int) -> Floats32:
+        """See Sampler.draw."""
+        points = self._known(block, dimension + width)[dimension : dimension + width]
+        return _rotated(points[:, None], self._seed, dimension, block)
+
+    def _known(self, block: Block, dims: int) -> Floats32:
+        """At least ``dims`` coordinates of a block's points, kept, since every effect asks for the next few."""
+        stretch = block.first, block.samples
+        known = self._tables.get(stretch)
+        if known is None or len(known) < dims:
+            dims = max(_FEWEST_DIMENSIONS, 1 << (dims - 1).bit_length())
+            known = _modulo(self._points(block, dims))
+            if len(self._tables) >= _KEPT_STRETCHES:
+                self._tables.clear()
+            self._tables[stretch] = known
+        return known
+
+    @abstractmethod
+    def _points(self, block: Block, dims: int) -> Any:
+        """The points (dims, samples) of a block."""
+
+
+class HaltonSampler(_Rotated):
+    """Halton's points; sample number i takes point i."""
 
     name = "halton"
     extensible = True
 
-    def __init__(self, seed: int, quasi_monte_carlo: Functions) -> None:
-        self._seed = seed
-        self._quasi_monte_carlo = quasi_monte_carlo
-        self._tables: dict[tuple[int, int], Floats32] = {}
-
-    def draw(self, block: Block, dimension: int, width: int) -> Floats32:
-        """See Sampler.draw."""
-        points = self._points(block.first, block.samples, dimension + width)
-        return _rotated(points[dimension : dimension + width, None], self._seed, dimension, block)
-
-    def _points(self, first: int, samples: int, dims: int) -> Floats32:
-        """At least ``dims`` coordinates of a stretch, kept, since every effect asks for the next few."""
-        known = self._tables.get((first, samples))
-        if known is None or len(known) < dims:
-            dims = max(_FEWEST_DIMENSIONS, 1 << (dims - 1).bit_length())
-            index = np.arange(first, first + samples)
-            known = _modulo(self._quasi_monte_carlo.halton(index, dims))
-            if len(self._tables) >= _KEPT_STRETCHES:
-                self._tables.clear()
-            self._tables[first, samples] = known
-        return known
+    def _points(self, block: Block, dims: int) -> Any:
+        index = np.arange(block.first, block.first + block.samples)
+        return self._quasi_monte_carlo.halton(index, dims)
 
 
-class HammersleySampler(Sampler):
-    """Dimension d of a path is coordinate d of Hammersley's points, of which there are as many as samples."""
+class HammersleySampler(_Rotated):
+    """Hammersley's points, of which there are as many as samples; a block has all samples of its pixels."""
 
     name = "hammersley"
     extensible = False
 
-    def __init__(self, seed: int, quasi_monte_carlo: Functions) -> None:
-        self._seed = seed
-        self._quasi_monte_carlo = quasi_monte_carlo
-        self._tables: dict[int, Floats32] = {}
-
-    def draw(self, block: Block, dimension: int, width: int) -> Floats32:
-        """See Sampler.draw; block.samples are all samples of the pixel."""
-        points = self._points(block.samples, dimension + width)
-        return _rotated(points[dimension : dimension + width, None], self._seed, dimension, block)
-
-    def _points(self, samples: int, dims: int) -> Floats32:
-        known = self._tables.get(samples)
-        if known is None or len(known) < dims:
-            dims = max(_FEWEST_DIMENSIONS, 1 << (dims - 1).bit_length())
-            known = _modulo(self._quasi_monte_carlo.hammersley(samples, dims))
-            self._tables[samples] = known
-        return known
+    def _points(self, block: Block, dims: int) -> Any:
+        return self._quasi_monte_carlo.hammersley(block.samples, dims)
 
 
 class ChainedSampler(Sampler):

@@ -20,38 +20,26 @@ SHORTEST = 1e-100
 
 
 def translate(offset: ArrayLike) -> Matrix:
-    """Return the matrix that moves by `offset` (3,) [m]; ValueError if it isn't finite."""
+    """Return the matrix that moves by `offset` (3,) [m]."""
     matrix = np.eye(4)
-    matrix[:3, 3] = _vector("translate", offset)
+    matrix[:3, 3] = offset
     return matrix
 
 
 def scale(factor: float | Sequence[float] | NDArray[np.float64]) -> Matrix:
-    """Return the matrix that scales about the origin, by one factor or by three.
-
-    Negative factors mirror. Raises ValueError for a factor that is zero or not finite.
-    """
-    factors = _vector("scale", np.full(3, factor) if np.ndim(factor) == 0 else factor)
-    if not np.all(factors):
-        raise ValueError(f"scale is {factors.tolist()}: expected factors other than 0")
-    return np.diag([*factors, 1.0])
+    """Return the matrix that scales about the origin, by one factor or by three; negative ones mirror."""
+    return np.diag([*np.broadcast_to(factor, 3), 1.0])
 
 
 def rotate(axis: ArrayLike, degrees: float) -> Matrix:
     """Return the matrix that turns about `axis` (3,) through the origin.
 
     Positive angles turn counter-clockwise as seen from the axis' tip (Rodrigues' formula). Quarter
-    turns about a coordinate axis are exact. Raises ValueError for an axis of zero length, or for
-    numbers that are not finite.
+    turns about a coordinate axis are exact.
     """
-    vector = _vector("axis", axis)
-    largest = np.max(np.abs(vector))
-    if largest == 0.0:
-        raise ValueError("axis is [0, 0, 0]: expected a direction")
-    if not math.isfinite(degrees):
-        raise ValueError(f"degrees is {degrees}: expected a finite number")
+    vector = np.asarray(axis, np.float64)
     # Scaled first: the square of a tiny or huge axis would leave float64's range.
-    vector = vector / largest
+    vector = vector / np.max(np.abs(vector))
     x, y, z = vector / math.sqrt(float(np.sum(vector * vector)))
     cosine, sine = _cosine_sine(degrees)
     cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
@@ -144,12 +132,3 @@ def _cosine_sine(degrees: float) -> tuple[float, float]:
     cosine, sine = math.cos(rest), math.sin(rest)
     turned = [(cosine, sine), (-sine, cosine), (-cosine, -sine), (sine, -cosine)]
     return turned[quarters % 4]
-
-
-def _vector(name: str, values: ArrayLike) -> NDArray[np.float64]:
-    vector = np.asarray(values, np.float64)
-    if vector.shape != (3,):
-        raise ValueError(f"{name} has shape {vector.shape}: expected (3,)")
-    if not np.all(np.isfinite(vector)):
-        raise ValueError(f"{name} is {vector.tolist()}: expected finite numbers")
-    return vector
