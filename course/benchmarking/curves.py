@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from statistics import NormalDist
 from typing import Any
 
 import numpy as np
+from scipy.special import stdtrit
 
 from course.benchmarking.estimators import Estimator
 from course.core.types import Floats64
@@ -71,27 +71,10 @@ def fit_order(samples: Floats64, mse: Floats64, floor: float = 0.0) -> Order | N
         weights = rng.multinomial(seeds, np.full(seeds, 1 / seeds), RESAMPLES).T / seeds
         slopes = x @ (0.5 * np.log(y @ weights)) / (x @ x)
         correction = math.sqrt(seeds / (seeds - 1))
-        spread = _quantile(seeds - 1) * correction * float(slopes.std())
+        student = float(stdtrit(seeds - 1, 0.5 + CONFIDENCE / 2))
+        spread = student * correction * float(slopes.std())
     used = samples[counts]
     return Order(slope, slope - spread, slope + spread, int(used[0]), int(used[-1]))
-
-
-def _quantile(freedom: int) -> float:
-    """Student's t for the two-sided confidence, from 3 degrees of freedom on to 1%; else from its closed forms."""
-    p = 0.5 + CONFIDENCE / 2
-    if freedom == 1:
-        return math.tan(math.pi * (p - 0.5))
-    if freedom == 2:
-        return (2 * p - 1) / math.sqrt(2 * p * (1 - p))
-    z = NormalDist().inv_cdf(p)
-    # Abramowitz & Stegun 26.7.5.
-    terms = (
-        (z**3 + z) / 4,
-        (5 * z**5 + 16 * z**3 + 3 * z) / 96,
-        (3 * z**7 + 19 * z**5 + 17 * z**3 - 15 * z) / 384,
-    )
-    more: float = sum(term / freedom**power for power, term in enumerate(terms, start=1))
-    return z + more
 
 
 @dataclass(frozen=True)

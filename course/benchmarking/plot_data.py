@@ -9,10 +9,11 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
 from math import isfinite
 from pathlib import Path
 from typing import Any
+
+import msgspec
 
 from course.atomic import write_text
 from course.benchmarking.curves import Curve
@@ -23,8 +24,7 @@ DIGITS = 6
 """Digits that count of a number in a file: enough for the three that are shown to be rounded once."""
 
 
-@dataclass(frozen=True)
-class Series:
+class Series(msgspec.Struct, frozen=True, omit_defaults=True):
     """A line of a plot.
 
     Attributes
@@ -40,15 +40,14 @@ class Series:
 
     name: str
     style: int
-    x: Mapping[str, tuple[float, ...]]
-    y: tuple[float, ...]
+    x: dict[str, tuple[int | float, ...]]
+    y: tuple[int | float, ...]
     order: float | None = None
     limit: float | None = None
     predicted: bool = False
 
 
-@dataclass(frozen=True)
-class Plot:
+class Plot(msgspec.Struct, frozen=True, omit_defaults=True):
     """A comparison.
 
     Attributes
@@ -64,15 +63,14 @@ class Plot:
 
     name: str
     title: str
-    axes: Mapping[str, str]
+    axes: dict[str, str]
     y: str
     series: tuple[Series, ...]
     floor: float | None = None
     slope: bool = True
 
 
-@dataclass(frozen=True)
-class Record:
+class Record(msgspec.Struct, frozen=True):
     """What was measured of a module.
 
     Attributes
@@ -84,7 +82,7 @@ class Record:
 
     command: str
     about: str
-    machine: Mapping[str, str]
+    machine: dict[str, str]
     plots: tuple[Plot, ...]
 
 
@@ -114,33 +112,26 @@ def read_records(path: Path) -> dict[str, Record]:
     Raises CourseError: the file can't be read, or holds something else.
     """
     try:
-        data = json.loads(path.read_text(encoding="utf-8"))
-        return {name: _record(record) for name, record in data.items()}
+        return msgspec.json.decode(path.read_bytes(), type=dict[str, Record])
     except OSError as error:
         raise CourseError(f"{path}: can't be read: {error.strerror}") from error
-    except (ValueError, TypeError, KeyError, AttributeError) as error:
+    except msgspec.DecodeError as error:
         raise OutputError(
             f"{path}: isn't a data file of the benchmarks ({error}); remove it and measure again"
         ) from error
 
 
-def _plain(record: Record) -> dict[str, Any]:
-    data = asdict(record)
+def _plain(record: Record) -> Any:
+    """Plain data, numbers rounded, without what is as it is by default."""
+    data = msgspec.to_builtins(record)
     for plot in data["plots"]:
-        _trim(plot, floor=None, slope=True)
+        for part in (plot, *plot["series"]):
+            part.update(
+                (key, rounded(part[key])) for key in ("floor", "order", "limit") if key in part
+            )
         for series in plot["series"]:
-            _trim(series, order=None, limit=None, predicted=False)
             _drawable(series)
     return data
-
-
-def _trim(data: dict[str, Any], **defaults: Any) -> None:
-    """Leave out what is as it is by default, and round the rest."""
-    for name, default in defaults.items():
-        if data[name] == default:
-            del data[name]
-        elif isinstance(data[name], float):
-            data[name] = rounded(data[name])
 
 
 def _drawable(series: dict[str, Any]) -> None:
@@ -155,19 +146,6 @@ def _drawable(series: dict[str, Any]) -> None:
 def _number(value: float) -> float:
     """A count as it is, a measurement rounded."""
     return value if isinstance(value, int) else rounded(value)
-
-
-def _record(data: dict[str, Any]) -> Record:
-    plots = tuple(
-        Plot(**{**plot, "series": tuple(_series(series) for series in plot["series"])})
-        for plot in data["plots"]
-    )
-    return Record(**{**data, "plots": plots})
-
-
-def _series(data: dict[str, Any]) -> Series:
-    x = {axis: tuple(values) for axis, values in data["x"].items()}
-    return Series(**{**data, "x": x, "y": tuple(data["y"])})
 
 
 STYLES = {"regular": 3, "random": 0, "jittered": 1, "sobol": 2}

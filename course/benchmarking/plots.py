@@ -6,11 +6,11 @@ matplotlib is an extra, imported when a figure is asked for.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import msgspec
 import numpy as np
 
 from course.atomic import replacing
@@ -78,7 +78,8 @@ def write_comparisons(measured: Measured, folder: Path, note: str) -> list[Path]
     seeds = measured.curves[0].mse.shape[1]
     about = f"RMSE against the converged picture; {width} x {height} pixels, mean of {seeds} seeds"
     titled = [
-        replace(plot, title=f"{module.title}: {plot.title}") for plot in comparisons(measured)
+        msgspec.structs.replace(plot, title=f"{module.title}: {plot.title}")
+        for plot in comparisons(measured)
     ]
     return write_plots(module.name, titled, about, folder, note)
 

@@ -6,8 +6,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from html import escape
+
+import msgspec
 
 from course.benchmarking.plot_data import Plot, Record, read_records
 from course.benchmarking.tables import digits
@@ -34,7 +35,7 @@ def convergence(place: Place, name: str, words: str = "") -> str:  # noqa: ARG00
     wanted = words.split()
     axis = wanted.pop() if wanted and wanted[-1] in AXES else ""
     figures = [
-        _figure(replace(plot, axes=axes), record)
+        _figure(msgspec.structs.replace(plot, axes=axes), record)
         for record in records(name)
         for plot in record.plots
         if wanted in ([], [plot.name]) and (axes := _chosen(plot, axis))
@@ -97,7 +98,7 @@ def _legend(plot: Plot) -> str:
         items.append(f"<li>{swatch(series)} {escape(series.name)}{note}</li>")
     predicted = [series for series in plot.series if series.predicted]
     if predicted:
-        items.append(f"<li>{swatch(replace(predicted[0], style=3))} predicted</li>")
+        items.append(f"<li>{swatch(msgspec.structs.replace(predicted[0], style=3))} predicted</li>")
     return "\n".join(items)
 
 

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy import stats
 
-from course.benchmarking.curves import Order, _quantile, fit_order
+from course.benchmarking.curves import Order, fit_order
 
 SAMPLES = np.array([1, 4, 16, 64, 256, 1024], float)
 
@@ -64,13 +64,6 @@ def test_one_seed_tells_nothing_about_noise() -> None:
     assert fitted is not None
     assert fitted.value == pytest.approx(-0.75)
     assert (fitted.low, fitted.high) == (-math.inf, math.inf)
-
-
-@pytest.mark.parametrize("freedom", [1, 2, 3, 4, 5, 7, 15, 100])
-def test_student_s_quantile(freedom: int) -> None:
-    exact = stats.t.ppf(0.975, freedom)
-    tolerance = 1e-12 if freedom < 3 else 0.01
-    assert _quantile(freedom) == pytest.approx(exact, rel=tolerance)
 
 
 @pytest.mark.parametrize("seeds", [3, 4, 8])

@@ -7,6 +7,7 @@ from itertools import pairwise
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
+import msgspec
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -104,7 +105,7 @@ def test_every_label_is_within_its_figure(module: Module) -> None:
     for plot in comparisons(everything):
         for axis in plot.axes:
             with rc_context(STYLE):
-                titled = replace(plot, title=f"{module.title}: {plot.title}")
+                titled = msgspec.structs.replace(plot, title=f"{module.title}: {plot.title}")
                 note = "A Processor With A Very Long Name And 64 Cores"
                 figure = draw(titled, axis, ABOUT, note)
                 renderer = FigureCanvasAgg(figure).get_renderer()
