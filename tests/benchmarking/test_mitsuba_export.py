@@ -32,6 +32,7 @@ from course import Scene, render, shapes
 from course.core.triangles import Mesh
 from course.effects import PROJECT
 from tests.conftest import MakeScene
+from tests.tables import put, rows
 
 SIZE = (24, 24)
 BATCHES = 24
@@ -43,6 +44,7 @@ BALL = {"shape": "sphere", "material": "grey", "radius": 0.5, "segments": 64}
 FLOOR = {**QUAD, "width": 8, "depth": 8, "transform": [{"translate": [0, -0.5, 0]}]}
 POINT = {"type": "point", "position": [2, 3, 3], "intensity": 40}
 LAMP = {"type": "sphere", "center": [2, 3, 2], "radius": 0.6, "intensity": [30, 25, 20]}
+SQUARE = {"type": "rectangle", "corner": [0, 3, 0], "edge_u": [1, 0, 0], "edge_v": [0, 0, 1]}
 SKY = {"type": "constant", "radiance": [0.1, 0.2, 0.3]}
 
 
@@ -116,13 +118,7 @@ def test_flat_triangles_have_normals_of_their_own(make_scene: MakeScene) -> None
     [
         {**LAMP, "motion": {"velocity": [1, 0, 0]}},
         {**LAMP, "samples": "ball"},
-        {
-            "type": "rectangle",
-            "corner": [0, 3, 0],
-            "edge_u": [1, 0, 0],
-            "edge_v": [0, 0, 1],
-            "intensity": 1,
-        },
+        {**SQUARE, "intensity": 1},
     ],
 )
 def test_what_is_not_exported_is_refused(make_scene: MakeScene, lamp: dict[str, Any]) -> None:
@@ -130,51 +126,38 @@ def test_what_is_not_exported_is_refused(make_scene: MakeScene, lamp: dict[str, 
         export(make_scene(objects=[FLOOR], lights=[lamp]), *SIZE)
 
 
-SQUARE = {"type": "rectangle", "corner": [0, 3, 0], "edge_u": [1, 0, 0], "edge_v": [0, 0, 1]}
-METAL = {"refraction_index": 1, "absorption_index": 2}
+UNKNOWN = rows("""
+materials/grey/emission -> [0, 1, 0] | materials.grey.emission
+materials/grey/conductor -> {refraction_index: 1, absorption_index: 2} | materials.grey.conductor
+materials/grey/highlight -> plain | materials.grey.highlight
+materials/grey/ambient_color -> 0.2 | materials.grey.ambient_color
+materials/grey/dielectric -> {shaded: true} | materials.grey.dielectric.shaded
+materials/grey -> {dielectric: {}, gloss: {lobe: plane, roughness: 0.1}} | materials.grey.gloss
+camera/near -> 1 | camera.near
+camera/handedness -> left | camera.handedness
+camera/image_plane -> {left: -1, right: 1, bottom: -1, top: 1} | camera.image_plane
+lights/0 -> {type: rectangle, corner: [0, 3, 0], edge_u: [1, 0, 0], edge_v: [0, 0, 1], radiance: 1, two_sided: true,
+    visible: false} | lights[0].two_sided
+lights/0 -> {type: rectangle, corner: [0, 3, 0], edge_u: [1, 0, 0], edge_v: [0, 0, 1], radiance: 1, visible: false} |
+    lights[0].visible
+environment/seen_by -> camera | environment.seen_by
+""")
 
 
-@pytest.mark.parametrize(
-    ("part", "value", "key"),
-    [
-        ("materials", {"grey": {"emission": [0, 1, 0]}}, "materials.grey.emission"),
-        ("materials", {"grey": {"conductor": METAL}}, "materials.grey.conductor"),
-        ("materials", {"grey": {"highlight": "plain"}}, "materials.grey.highlight"),
-        ("materials", {"grey": {"ambient_color": 0.2}}, "materials.grey.ambient_color"),
-        (
-            "materials",
-            {"grey": {"dielectric": {"shaded": True}}},
-            "materials.grey.dielectric.shaded",
-        ),
-        (
-            "materials",
-            {"grey": {"dielectric": {}, "gloss": {"lobe": "plane", "roughness": 0.1}}},
-            "materials.grey.gloss",
-        ),
-        ("camera", {"near": 1}, "camera.near"),
-        ("camera", {"handedness": "left"}, "camera.handedness"),
-        (
-            "camera",
-            {"image_plane": {"left": -1, "right": 1, "bottom": -1, "top": 1}},
-            "camera.image_plane",
-        ),
-        (
-            "lights",
-            [{**SQUARE, "radiance": 1, "two_sided": True, "visible": False}],
-            "lights[0].two_sided",
-        ),
-        ("lights", [{**SQUARE, "radiance": 1, "visible": False}], "lights[0].visible"),
-        ("environment", {"type": "constant", "seen_by": "camera"}, "environment.seen_by"),
-    ],
-    ids=lambda value: value if isinstance(value, str) else "",
-)
+@pytest.mark.parametrize(("place", "value", "key"), UNKNOWN)
 def test_keys_that_mitsuba_is_not_told_are_refused_by_name(
-    make_scene: MakeScene, part: str, value: Any, key: str
+    make_scene: MakeScene, place: str, value: str, key: str
 ) -> None:
-    if part == "camera":
-        value = {"eye": [0, 0, 4], "look_at": [0, 0, 0]} | value
+    parts: dict[str, Any] = {
+        "camera": {"eye": [0, 0, 4], "look_at": [0, 0, 0]},
+        "environment": {"type": "constant"},
+        "materials": {"grey": {}},
+        "lights": [],
+        "objects": [FLOOR],
+    }
+    put(parts, place, value)
     with pytest.raises(NotExportableError) as caught:
-        export(make_scene(**{"objects": [FLOOR], part: value}), *SIZE)
+        export(make_scene(**parts), *SIZE)
     assert str(caught.value).startswith(key)
 
 

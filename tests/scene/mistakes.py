@@ -2,16 +2,7 @@
 
 from __future__ import annotations
 
-
-def rows(table: str) -> list[tuple[str, str, str]]:
-    """Old text, new text and message, written `OLD -> NEW | MESSAGE`; a row goes on in lines that are indented."""
-    found = []
-    for row in table.strip().replace("\n    ", " ").splitlines():
-        change, message = row.split(" |", 1)
-        old, new = change.split(" ->", 1)
-        found.append((old, new.strip(), message.strip()))
-    return found
-
+from tests.tables import rows
 
 FORMAT = rows("""
 eye: [ -> eye: [0, | 4: camera.eye is [0, 0, 1, 5]: expected 3 numbers [world unit]

@@ -11,47 +11,48 @@ from course.errors import SceneError
 from course.rendering.summary import summarize
 from course.scene.scene import Scene
 from tests.conftest import MakeScene
+from tests.tables import put, rows
 
 LAMP = {"shape": "box", "name": "lamp", "material": "glow"}
 FLOOR = {"shape": "quad", "material": "floor", "width": 9, "depth": 9}
-LIGHT = {"type": "object", "object": "lamp"}
+
+
+def description() -> dict[str, Any]:
+    return {
+        "materials": {"floor": {}, "glow": {"color": 0, "emission": [1, 2, 3]}},
+        "objects": [{**FLOOR}, {**LAMP}],
+        "lights": [{"type": "object", "object": "lamp"}],
+    }
 
 
 def scene(make_scene: MakeScene, **parts: Any) -> Scene:
-    description: dict[str, Any] = {
-        "materials": {"floor": {}, "glow": {"color": 0, "emission": [1, 2, 3]}},
-        "objects": [FLOOR, LAMP],
-        "lights": [LIGHT],
-    }
-    return make_scene(**(description | parts))
+    return make_scene(**(description() | parts))
 
 
-@pytest.mark.parametrize(
-    ("parts", "told"),
-    [
-        ({"lights": [LIGHT | {"object": "lump"}]}, 'lights[0].object is "lump": expected the name'),
-        ({"lights": [LIGHT | {"object": "lump"}]}, "did you mean lamp?"),
-        ({"lights": [LIGHT | {"object": ""}]}, "lights[0].object"),
-        ({"lights": [{"type": "object"}]}, "lights[0]: object is missing"),
-        ({"lights": [LIGHT | {"radiance": 3}]}, "lights[0].radiance: unknown key"),
-        ({"lights": [LIGHT | {"motion": {}}]}, "lights[0].motion: unknown key"),
-        ({"lights": [LIGHT, LIGHT]}, "expected another object than that of lights[0]"),
-        ({"objects": [LAMP, FLOOR, LAMP]}, 'objects[2].name is "lamp": expected another name'),
-        ({"objects": [FLOOR]}, "there are none"),
-        ({"objects": [LAMP | {"material": "floor"}]}, "give its material an emission"),
-        ({"materials": {"floor": {}, "glow": {"emission": 0}}}, "give its material an emission"),
-        ({"objects": [LAMP | {"material": "glob"}]}, "objects[0].material is"),
-        (
-            {"objects": [FLOOR, LAMP | {"transform": [{"scale": 1e-90}]}]},
-            'lights[0].object: the object "lamp" has no area',
-        ),
-    ],
-)
+MISTAKES = rows("""
+lights/0/object -> lump | lights[0].object is "lump": expected the name of one of the objects; did you mean lamp?
+lights/0/object -> "" | lights[0].object is "": expected a text that is not empty
+lights/0/object -> | lights[0]: object is missing
+lights/0/radiance -> 3 | lights[0].radiance: unknown key
+lights/0/motion -> {} | lights[0].motion: unknown key
+lights/1 -> {type: object, object: lamp} | expected another object than that of lights[0]
+objects/2 -> {shape: box, name: lamp, material: glow} | objects[2].name is "lamp": expected another name
+objects/1 -> | there are none
+objects/1/material -> floor | give its material an emission
+materials/glow/emission -> 0 | give its material an emission
+objects/1/material -> glob | objects[1].material is "glob": expected the name of one of the materials
+objects/1/transform -> [{scale: 1.0e-90}] | lights[0].object: the object "lamp" has no area
+""")
+
+
+@pytest.mark.parametrize(("place", "value", "told"), MISTAKES)
 def test_mistakes_are_told_with_the_remedy(
-    make_scene: MakeScene, parts: dict[str, Any], told: str
+    make_scene: MakeScene, place: str, value: str, told: str
 ) -> None:
+    parts = description()
+    put(parts, place, value)
     with pytest.raises(SceneError) as caught:
-        scene(make_scene, **parts)
+        make_scene(**parts)
     assert told in str(caught.value)
 
 

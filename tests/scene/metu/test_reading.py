@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -11,11 +12,10 @@ import pytest
 from course.errors import SceneError
 from course.formats.metu.converting import convert
 from course.formats.metu.element import Element, Notes
-from tests.scene.metu.conftest import CAMERA, MATT, Metu, Tree, tree, write
-from tests.scene.mistakes import rows
+from tests.scene.metu.conftest import CAMERA, MATT, Metu, tree, write
+from tests.tables import put, rows
 
-MISTAKES: list[tuple[str, Any, str]] = [
-    *rows("""
+MISTAKES = rows("""
 Cameras -> | Scene: Cameras is missing: expected one Camera or more
 Cameras/Camera -> | Scene/Cameras: Camera is missing
 Objects -> | Scene: Objects is missing
@@ -61,33 +61,14 @@ Transformations/Composite -> {"_id": "1", "_data": "1 2 3 0 4 5 6 0 7 8 9 0 0 0 
     expected a matrix that can be inverted; this one flattens what it maps
 VertexData -> 1 2 3 4 | VertexData: has 4 numbers
 MaxRecursionDepth -> six | MaxRecursionDepth is "six": expected 1 number
-"""),
-    ("Cameras/Camera", [CAMERA, CAMERA | {"Up": ""}], "Camera[2]/Up is"),
-    ("Cameras/Camera", [CAMERA, CAMERA], "Camera[2]: its id is given twice"),
-    (
-        "Materials/Material",
-        [MATT, MATT],
-        "Material[2]: its id is given twice: expected another than 1",
-    ),
-]
+""")
 """What is put in which place of the tree, or taken away there, and the message."""
-
-
-def put(scene: Tree, path: str, value: Any) -> None:
-    """Put a value, text or JSON, in its place in a tree; nothing takes away what is there."""
-    *parents, last = path.split("/")
-    for key in parents:
-        scene = scene.setdefault(key, {})
-    if value == "":
-        del scene[last]
-    else:
-        scene[last] = json.loads(value) if isinstance(value, str) and value[0] in "{[" else value
 
 
 @pytest.mark.parametrize(("place", "value", "told"), MISTAKES)
 @pytest.mark.parametrize("form", ["xml", "json"])
 def test_a_mistake_is_told_with_file_element_and_what_was_expected(
-    tmp_path: Path, form: str, place: str, value: Any, told: str
+    tmp_path: Path, form: str, place: str, value: str, told: str
 ) -> None:
     scene = tree()
     scene["Materials"]["Material"] = dict(MATT)
@@ -99,6 +80,19 @@ def test_a_mistake_is_told_with_file_element_and_what_was_expected(
     assert message.startswith(f"{path}:")
     assert told in message
     assert "\n" not in message
+
+
+@pytest.mark.parametrize(
+    ("part", "given", "told"),
+    [
+        ("Camera", [CAMERA, CAMERA | {"Up": ""}], "Camera[2]/Up is"),
+        ("Camera", [CAMERA, CAMERA], "Camera[2]: its id is given twice"),
+        ("Material", [MATT, MATT], "Material[2]: its id is given twice: expected another than 1"),
+    ],
+)
+def test_of_several_the_number_is_told(metu: Metu, part: str, given: list[Any], told: str) -> None:
+    with pytest.raises(SceneError, match=re.escape(told)):
+        metu.load(tree() | {f"{part}s": {part: given}})
 
 
 def test_xml_mistakes_have_a_line(tmp_path: Path) -> None:
