@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from course.errors import OutputError as OutputError
     from course.errors import SceneError as SceneError
     from course.jobs.picture import Picture as Picture
+    from course.recording.pixel import pixel as pixel
+    from course.recording.story import Story as Story
     from course.render_scene import render as render
     from course.scene.scene import Scene as Scene
     from course.scene.scene import load_scene as load_scene
@@ -35,7 +37,9 @@ _HOMES = {
     "Picture": "course.jobs.picture",
     "Scene": "course.scene.scene",
     "SceneError": "course.errors",
+    "Story": "course.recording.story",
     "load_scene": "course.scene.scene",
+    "pixel": "course.recording.pixel",
     "render": "course.render_scene",
 }
 

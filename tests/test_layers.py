@@ -34,6 +34,7 @@ FLOORS = {
     "rendering": 8,
     "cluster": 9,
     "radiosity": 9,
+    "recording": 9,
     "render_scene": 10,
     "benchmarking": 11,
     "grading": 11,
@@ -45,6 +46,8 @@ FLOORS = {
 STRANGERS = {
     frozenset({"compiled", "formats"}),
     frozenset({"cluster", "radiosity"}),
+    frozenset({"cluster", "recording"}),
+    frozenset({"radiosity", "recording"}),
     frozenset({"benchmarking", "grading"}),
 }
 """Neighbours on one floor that know nothing of each other."""

@@ -18,8 +18,10 @@ PUBLIC = {
     "Picture",
     "Scene",
     "SceneError",
+    "Story",
     "__version__",
     "load_scene",
+    "pixel",
     "render",
 }
 

@@ -21,6 +21,7 @@ from course.errors import CourseError, CourseWarning
 
 COMMANDS = (
     "render",
+    "pixel",
     "check",
     "radiosity",
     "info",

@@ -1,0 +1,218 @@
+"""Record a pixel: its samples once more, with every segment of their paths."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from course.building.world import compile_scene
+from course.contracts import contract
+from course.core.counters import Counters
+from course.core.film import Film
+from course.core.samplers import Block
+from course.core.tiles import Area, Tile, Work, passes
+from course.core.tracer import Tracer
+from course.core.types import Floats32, Words
+from course.effects import Bound
+from course.errors import CourseError, CourseWarning
+from course.extras.samplers.sobol import SobolSampler
+from course.jobs.job import chosen_settings
+from course.recording.recorder import Recorder
+from course.recording.segments import Segment, segments_of
+from course.recording.stages import RecordedDraws, RecordedEffects, recorded
+from course.rendering.binding import bind, lines_named
+from course.scene.scene import Scene, Settings
+
+MOST_SAMPLES = 16384
+"""Largest number of samples that are recorded at once."""
+
+
+@dataclass(frozen=True)
+class Recording:
+    """What was recorded of a rectangle of pixels.
+
+    Attributes
+    ----------
+    scene, settings : of the picture
+    area : the rectangle
+    linear : (3, height, width) float32, the picture there
+    radiance : (3, pixels, samples) float32, of each sample
+    offsets : (2, pixels, samples) float32 [pixels], where each lies in its pixel
+    weights : (pixels, samples) float32, of the filter
+    segments : in the order in which they were followed, each before those that leave its end
+    asked : "module.function" -> how often it was asked; once for a whole pattern of samples, or for a batch whose
+        columns aren't those of all rays
+    counters : the receipt's numbers, of all pixels that had to be rendered
+    alone : whether no other pixels had to be rendered
+    """
+
+    scene: Scene
+    settings: Settings
+    area: Tile
+    linear: Floats32
+    radiance: Floats32
+    offsets: Floats32
+    weights: Floats32
+    segments: list[Segment]
+    asked: dict[str, int]
+    counters: Counters
+    alone: bool
+
+
+def record(
+    scene: Scene,
+    x: int,
+    y: int,
+    width: int = 1,
+    height: int = 1,
+    *,
+    spp: int | None = None,
+    size: tuple[int, int] | None = None,
+    seed: int | None = None,
+) -> Recording:
+    """Render some pixels once more, and record every segment of their samples' paths.
+
+    The samples are those of `course.render` with the same settings, to the last bit. Sobol points are each pixel's own,
+    and the course's own functions look at each column by itself; then the pixels are rendered alone. Otherwise the
+    tiles that they are in are rendered as a whole.
+
+    Parameters
+    ----------
+    x, y : column and row of the upper left pixel, from the upper left corner of the picture
+    width, height : of the rectangle [pixels]
+    spp, size, seed : see `course.render`
+
+    Raises
+    ------
+    CourseError
+        The rectangle isn't in the picture, has too many samples, or pixels of this scene have no samples of their own.
+    EffectError
+        A function is missing, not written yet, or returns what it must not.
+    """
+    settings = replace(_settings(scene, spp, size, seed), error=None)
+    area = Tile(0, x, y, width, height)
+    _check(area, settings)
+    recorder = Recorder()
+    scene = recordable(scene)
+    assert isinstance(scene.effects, RecordedEffects)
+    scene.effects.recorder = recorder
+    bound = Bound(scene.effects, scene.compiled.needs)
+    film, counters = Film(settings.width, settings.height), Counters()
+    with lines_named(scene, bound):
+        tracer = recorded(bind(scene, settings, bound), recorder)
+        own = isinstance(tracer.sampler, SobolSampler) and scene.effects.trusted
+        alone = own and not any(_draws(need.function) for need in bound.needs)
+        try:
+            samples = [
+                _render(tracer, recorder, work, area, film, counters)
+                for work in _work(tracer, area, alone)
+            ]
+        finally:
+            scene.effects.recorder = None
+    pixels = np.concatenate([numbers for numbers, _ in samples])
+    order = np.argsort(pixels, kind="stable")
+    n, s = area.size, settings.samples
+    radiance, offsets, weights = (
+        np.concatenate(batches, axis=1).take(order, axis=1).reshape(-1, n, s)
+        for batches in zip(*(columns for _, columns in samples), strict=True)
+    )
+    return Recording(
+        scene,
+        settings,
+        area,
+        film.linear[:, area.rows, area.columns],
+        radiance,
+        offsets,
+        weights[0],
+        segments_of(recorder, scene, settings.width),
+        recorder.asked,
+        counters,
+        alone,
+    )
+
+
+def recordable(scene: Scene) -> Scene:
+    """The scene with functions whose calls can be noted down; it is compiled again unless it has them already."""
+    if isinstance(scene.effects, RecordedEffects):
+        return scene
+    effects = RecordedEffects(scene.effects)
+    with warnings.catch_warnings():
+        # Whoever loaded the scene has heard them.
+        warnings.simplefilter("ignore", CourseWarning)
+        return Scene(scene.loaded, compile_scene(scene.loaded, effects), effects)
+
+
+def _settings(
+    scene: Scene, spp: int | None, size: tuple[int, int] | None, seed: int | None
+) -> Settings:
+    width, height = size or (None, None)
+    given = {"samples": spp, "width": width, "height": height, "seed": seed}
+    return chosen_settings(scene.settings, False, **given)
+
+
+def _check(area: Tile, settings: Settings) -> None:
+    if settings.subdivision is not None:
+        raise CourseError(
+            "this scene casts rays through the corners of pixels (film.subdivision), which share them: no pixel has"
+            " samples of its own to record"
+        )
+    if not (
+        area.width > 0 <= area.x <= settings.width - area.width
+        and area.height > 0 <= area.y <= settings.height - area.height
+    ):
+        raise CourseError(
+            f"pixel {area.x},{area.y} is outside the picture: expected x from 0 to {settings.width - 1} and y from 0 to"
+            f" {settings.height - 1}, counted from the upper left corner"
+        )
+    if area.size * settings.samples > MOST_SAMPLES:
+        raise CourseError(
+            f"{area.size * settings.samples:,} samples are too many to record: expected at most {MOST_SAMPLES:,};"
+            " ask for fewer samples (--spp) or pixels"
+        )
+
+
+def _draws(function: str) -> bool:
+    """Whether a function draws numbers of its own, which depend on the paths that are followed together."""
+    return any(name == "rng" for name, _ in contract(function).arguments)
+
+
+def _work(tracer: Tracer, area: Tile, alone: bool) -> Iterator[Work]:
+    """The passes of the rectangle, or of the picture's tiles that it is in."""
+    for work in passes(tracer.settings, tracer.sampler):
+        tile = work.tile
+        assert isinstance(tile, Tile)
+        across = range(max(tile.x, area.x), min(tile.x + tile.width, area.x + area.width))
+        down = range(max(tile.y, area.y), min(tile.y + tile.height, area.y + area.height))
+        if across and down:
+            part = Tile(tile.number, across.start, down.start, len(across), len(down))
+            yield replace(work, tile=part if alone else tile)
+
+
+def _render(
+    tracer: Tracer, recorder: Recorder, work: Work, area: Tile, film: Film, counters: Counters
+) -> tuple[Words, list[Floats32]]:
+    """Render one pass as ``Tracer.render_tile`` does; pixel, radiance, offset and weight of samples."""
+    tile: Area = work.tile
+    assert isinstance(tile, Tile)
+    pixels = tile.pixel_numbers(tracer.settings.width)
+    block = Block(pixels, work.first, work.samples, tile.number)
+    wanted = np.repeat(np.isin(pixels, area.pixel_numbers(tracer.settings.width)), work.samples)
+    recorder.begin_block(block, wanted)
+    draws = RecordedDraws(tracer.sampler, tracer.dimensions, block, counters, recorder=recorder)
+    offsets = draws("pixel").reshape(2, tile.size, work.samples)
+    x, y = tile.corners()
+    x, y = (x[:, None] + offsets[0]).ravel(), (y[:, None] + offsets[1]).ravel()
+    rays = tracer.integrator.camera_rays(x, y, draws)
+    counters.rays["camera"] += rays.size
+    radiance = tracer.integrator.radiance(rays, draws).reshape(-1, tile.size, work.samples)
+    # From here on columns are pixels.
+    recorder.ids, recorder.stage = np.zeros(0, np.intp), "film"
+    mean, weight = tracer.reconstruction.pixels(radiance, offsets)
+    film.add(tile, mean, weight, work.first + work.samples, work.summed)
+    kept = np.flatnonzero(wanted)
+    weights = np.ones(block.size, np.float32) if recorder.weights is None else recorder.weights
+    columns = radiance.reshape(3, -1), offsets.reshape(2, -1), weights.reshape(1, -1)
+    return np.repeat(pixels, work.samples)[kept], [each.take(kept, axis=1) for each in columns]

@@ -1,0 +1,339 @@
+"""Stages that tell a recorder what they do, in the place of a tracer's; the core knows nothing of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+
+from course.core.direct import Candidates, DirectLight
+from course.core.embree import QueryStats
+from course.core.hits import Hits
+from course.core.integrator import Integrator
+from course.core.lights import Light, Sample
+from course.core.rays import Draws, Rays
+from course.core.scatter import Boundary, Scatter
+from course.core.tracer import Tracer
+from course.core.types import Floats32, Indices, Mask, Media
+from course.core.vectors import dot
+from course.effects import Effects
+from course.extras.path_bounce import PathBounce
+from course.extras.path_tracing import PathIntegrator
+from course.extras.plan import same_fields
+from course.extras.sky import Sky
+from course.recording.recorder import ENVIRONMENT_LIGHT, Recorder
+
+
+class RecordedEffects(Effects):
+    """The same functions; a scene that is loaded with them can be recorded without being compiled again.
+
+    ``recorder`` : notes down their calls; None where there is none
+    """
+
+    def __init__(self, effects: Effects) -> None:
+        vars(self).update(vars(effects))
+        self.recorder: Recorder | None = None
+
+    def function(self, module: str, name: str) -> Callable[..., Any]:
+        """See ``Effects``."""
+        function = super().function(module, name)
+
+        def call(*arguments: Any) -> Any:
+            result = function(*arguments)
+            if self.recorder is not None:
+                self.recorder.called(f"{module}.{name}", arguments, result)
+            return result
+
+        return call
+
+
+@dataclass(frozen=True)
+class RecordedDraws(Draws):
+    """Draws numbers for rays that have numbers of their own in the place of their paths."""
+
+    recorder: Recorder = field(default_factory=Recorder)
+
+    def __call__(
+        self,
+        name: str,
+        path: Indices | None = None,
+        depth: int = 0,
+        width: int | None = None,
+        skip: int = 0,
+    ) -> Floats32:
+        """See ``Draws``."""
+        recorder = self.recorder
+        ids = recorder.ids if path is None else path
+        u = super().__call__(
+            name, None if path is None else recorder.path.take(path), depth, width, skip
+        )
+        recorder.draw(name, ids, u)
+        return u
+
+    def cast(
+        self,
+        kind: str,
+        n: int,
+        path: Indices | None,
+        which: Indices | None = None,
+        cost: float | None = None,
+    ) -> None:
+        """See ``Draws``."""
+        super().cast(kind, n, path, which, cost)
+        if path is not None:
+            self.recorder.ids_cast = path if which is None else path.take(which)
+
+
+def recorded(tracer: Tracer, recorder: Recorder) -> Tracer:
+    """The tracer with stages that tell the recorder what they do."""
+    integrator = tracer.integrator
+    changed: dict[str, Any] = {}
+    if integrator.direct is not None:
+        asking = Asking(integrator.surface.accelerator, recorder)
+        seen: dict[str, Any] = same_fields(integrator.surface) | {"accelerator": asking}
+        seen = {"surface": type(integrator.surface)(**seen)}
+        if (sky := integrator.direct.sky) is not None:
+            seen["sky"] = _as(RecordedSky, sky, recorder, surface=seen["surface"])
+        changed["direct"] = _as(RecordedDirect, integrator.direct, recorder, **seen)
+    if integrator.scatter is not None:
+        changed["scatter"] = _as(RecordedScatter, integrator.scatter, recorder)
+    if isinstance(integrator, PathIntegrator):
+        known = {"scatter": changed.get("scatter")}
+        changed["bounce"] = _as(RecordedBounce, integrator.bounce, recorder, **known)
+    return replace(tracer, integrator=_as(RecordedIntegrator, integrator, recorder, **changed))
+
+
+def _as(kind: type, stage: Any, recorder: Recorder, **changed: Any) -> Any:
+    """A stage of the same class, with what a recorded one does before or after."""
+    cls = type(kind.__name__, (kind, type(stage)), {"recorder": recorder})
+    return cls(**same_fields(stage) | changed)
+
+
+class RecordedIntegrator(Integrator):
+    """Numbers rays, and tells what they meet and bring."""
+
+    recorder: Recorder
+
+    def _intersect(
+        self,
+        rays: Rays,
+        adds_lights: Mask | bool,
+        depth: int,
+        path_radiance: Floats32,
+        draws: Draws,
+    ) -> tuple[Hits, Floats32 | None, Indices | None, Media | None]:
+        ids = self.recorder.begin(rays, depth)
+        rays = replace(rays, path=ids)
+        hits, throughput, path, medium = super()._intersect(
+            rays, adds_lights, depth, path_radiance, draws
+        )
+        assert path is not None
+        self.recorder.met(path, hits, throughput)
+        return hits, throughput, path, medium
+
+    def _add_environment(self, path_radiance: Floats32, rays: Rays, missed: Mask) -> None:
+        assert rays.path is not None
+        self.recorder.ids, self.recorder.stage = rays.path.compress(missed), "environment"
+        super()._add_environment(path_radiance, rays, missed)
+        self.recorder.ids, self.recorder.stage = rays.path, "surface"
+
+    def add_radiance(
+        self,
+        path_radiance: Floats32,
+        path: Indices | None,
+        radiance: Floats32,
+        throughput: Floats32 | None,
+    ) -> None:
+        """See ``Integrator``."""
+        assert path is not None
+        self.recorder.add(path, radiance, throughput)
+        super().add_radiance(path_radiance, self.recorder.path.take(path), radiance, throughput)
+
+
+class Asking:
+    """An accelerator that keeps the last shadow rays, with what blocks them."""
+
+    def __init__(self, accelerator: Any, recorder: Recorder) -> None:
+        self._accelerator, self._recorder = accelerator, recorder
+
+    def unoccluded(
+        self,
+        origin: Floats32,
+        direction: Floats32,
+        limit: float,
+        stats: QueryStats,
+        time: Floats32 | None = None,
+        *,
+        active: Mask | None = None,
+    ) -> Mask:
+        """See ``Accelerator``."""
+        free: Mask = self._accelerator.unoccluded(
+            origin, direction, limit, stats, time, active=active
+        )
+        self._recorder.asked_last = origin.copy(), direction.copy(), limit, free.copy(), time
+        return free
+
+    def blockers(self, which: Indices) -> tuple[Floats32, Floats32, Floats32, Indices]:
+        """Origins (3, m), directions (3, m), lengths (m,) and blocking triangles (m,), -1 for none, of some rays."""
+        origin, direction, limit, _, time = self._recorder.asked_last
+        origin, direction = origin.take(which, axis=1), direction.take(which, axis=1)
+        self._recorder.muted = True
+        when = None if time is None else time.take(which)
+        found = self._accelerator.intersect(origin, direction, QueryStats(), when)
+        self._recorder.muted = False
+        blocked = (found.triangle >= 0) & (found.t < limit)
+        far = np.where(blocked, found.t, np.float32(limit))
+        return origin, direction, far, np.where(blocked, found.triangle, -1)
+
+
+class RecordedDirect(DirectLight):
+    """Tells of the shadow rays to each light, and of the hits that need none."""
+
+    recorder: Recorder
+
+    def __call__(
+        self, hits: Hits, path: Indices | None, depth: int, draws: Draws
+    ) -> Floats32 | None:
+        """See ``DirectLight``."""
+        assert path is not None
+        recorder = self.recorder
+        recorder.ids, recorder.sky = path, None
+        radiance = super().__call__(hits, path, depth, draws)
+        recorder.ids, recorder.stage = path, "surface"
+        if recorder.sky is not None:
+            irradiance, which, places = recorder.sky
+            self._tell(self._reflected(hits, irradiance, None), ENVIRONMENT_LIGHT, which, places)
+        return radiance
+
+    def _sample(self, light: Light, points: Floats32, u: Floats32 | None) -> Sample:
+        self.recorder.stage = light.name
+        return super()._sample(light, points, u)
+
+    def _candidates(self, hits: Hits, sample: Sample) -> Candidates | None:
+        found = super()._candidates(hits, sample)
+        unlit = np.ones(hits.size, np.bool_)
+        if found is not None:
+            unlit[found.index] = False
+        which = np.flatnonzero(unlit)
+        back = np.broadcast_to(dot(hits.ns, sample.to_light) <= 0, hits.size).take(which)
+        reason = np.where(back, "surface", "light")
+        if self.shaded is not None:
+            front, inside = self.shaded[0], self.shaded[-1]
+            shows = np.where(hits.entering, front.take(hits.material), inside.take(hits.material))
+            reason = np.where(shows.take(which), reason, "material")
+        recorder = self.recorder
+        ids = recorder.ids.take(which)
+        recorder.unlit.add(recorder.kept(ids), id=ids, light=recorder.stage, reason=reason)
+        return found
+
+    def _visible(self, light: Light, hits: Hits, candidates: Candidates, draws: Draws) -> Mask:
+        free = super()._visible(light, hits, candidates, draws)
+        irradiance = candidates.irradiance * free
+        diffuse = self._accumulated(None, hits, candidates, irradiance, light.color)
+        specular = None
+        if self.specular is not None:
+            highlight = self._highlight(hits, candidates, irradiance)
+            specular = self._accumulated(None, hits, candidates, highlight, light.color)
+        # A column of shadow rays is a hit or a candidate.
+        columns = candidates.index
+        if candidates.columns is not None:
+            columns = np.arange(len(columns))
+        shown = self._reflected(hits, diffuse, specular)
+        self._tell(shown, light.name, candidates.index, columns, free.take(columns))
+        return free
+
+    def _tell(
+        self, shown: Floats32, light: str, which: Indices, columns: Indices, free: Any = None
+    ) -> None:
+        """Tell of m shadow rays: their hits, their columns among those asked, and radiance (3, n) of all hits."""
+        recorder, asking = self.recorder, self.surface.accelerator
+        assert isinstance(asking, Asking)
+        origin, direction, far, triangle = asking.blockers(columns)
+        ids = recorder.ids.take(which)
+        recorder.shadows.add(
+            recorder.kept(ids),
+            id=ids,
+            light=light,
+            origin=origin,
+            direction=direction,
+            far=far,
+            free=recorder.asked_last[3].take(columns) if free is None else free,
+            triangle=triangle,
+            value=shown.take(which, axis=1),
+        )
+
+
+class RecordedSky(Sky):
+    """Tells which hits ask for light from the environment, and what they get."""
+
+    recorder: Recorder
+
+    def __call__(
+        self, hits: Hits, path: Indices | None, depth: int, draws: Draws
+    ) -> Floats32 | None:
+        """See ``Sky``."""
+        recorder = self.recorder
+        recorder.stage, recorder.ids_cast = ENVIRONMENT_LIGHT, np.zeros(0, np.intp)
+        irradiance = super().__call__(hits, path, depth, draws)
+        cast = recorder.ids_cast
+        if len(cast):
+            shown = np.zeros((3, hits.size), np.float32) if irradiance is None else irradiance
+            # The rays are numbered in the order of the hits.
+            which = np.searchsorted(recorder.ids, cast)
+            recorder.sky = shown.copy(), which, np.arange(len(cast))
+        return irradiance
+
+
+class RecordedScatter(Scatter):
+    """Tells the functions' calls for mirrored rays from those for refracted ones."""
+
+    recorder: Recorder
+
+    def boundary(self, hits: Hits, which: Indices | None, depth: int) -> Boundary:
+        """See ``Scatter``."""
+        recorder, ids = self.recorder, self.recorder.ids
+        recorder.ids, recorder.stage = ids if which is None else ids.take(which), "refracted"
+        recorder.material = hits.material if which is None else hits.material.take(which)
+        boundary = super().boundary(hits, which, depth)
+        recorder.ids, recorder.material = ids, None
+        return boundary
+
+    def mirrored(
+        self, hits: Hits, which: Indices, path: Indices, depth: int, draws: Draws
+    ) -> Floats32:
+        """See ``Scatter``."""
+        self.recorder.ids, self.recorder.stage = path, "mirrored"
+        return super().mirrored(hits, which, path, depth, draws)
+
+    def refracted(
+        self,
+        hits: Hits,
+        which: Indices,
+        boundary: Boundary,
+        path: Indices,
+        depth: int,
+        draws: Draws,
+    ) -> Floats32:
+        """See ``Scatter``."""
+        self.recorder.ids, self.recorder.stage = path, "refracted"
+        return super().refracted(hits, which, boundary, path, depth, draws)
+
+
+class RecordedBounce(PathBounce):
+    """Tells which paths go on from a diffuse surface."""
+
+    recorder: Recorder
+
+    def _scattered(self, hits: Hits, beta: Floats32 | None, inside: Indices) -> Floats32:
+        self.recorder.stage = "bounce"
+        return super()._scattered(hits, beta, inside)
+
+    def _diffuse(
+        self, hits: Hits, which: Indices | None, path: Indices, depth: int, draws: Draws
+    ) -> Floats32:
+        recorder = self.recorder
+        recorder.stage = "bounce"
+        recorder.bounces.add(recorder.kept(path), id=path)
+        return super()._diffuse(hits, which, path, depth, draws)

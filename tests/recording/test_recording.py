@@ -1,0 +1,232 @@
+"""What is recorded is what was rendered: the same bits, all of the light, every ray and every call."""
+
+from __future__ import annotations
+
+import shutil
+from collections import Counter
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from course import CourseError, EffectError, Picture, Scene, load_scene, render
+from course.core.types import Floats64
+from course.effects import PROJECT, Effects
+from course.recording import recording as rooms
+from course.recording.recording import Recording, record
+from course.recording.segments import Names, Segment
+from course.recording.stages import RecordedEffects
+from course.scene.scene import load_variant
+from tests.conftest import MakeScene
+
+SCENES = sorted(path.stem for path in (PROJECT / "scenes").glob("*.yaml"))
+SIZE, SPP = (16, 12), 17
+"""Two passes, the second a short one."""
+
+OF_ITS_OWN = {"adaptive_sampling"}
+"""Scenes whose pixels have no samples of their own."""
+
+
+@cache
+def scene_of(name: str, sampler: str | None = "sobol") -> Scene:
+    overrides = {} if sampler is None else {("sampler", "type"): sampler, ("film", "filter"): "box"}
+    effects = RecordedEffects(Effects())
+    return load_variant(PROJECT / "scenes" / f"{name}.yaml", overrides, effects)
+
+
+def picture_and_recording(
+    scene: Scene, x: int = 6, y: int = 4, width: int = 5, height: int = 4
+) -> tuple[Picture, Recording]:
+    picture = render(scene, size=SIZE, spp=SPP)
+    return picture, record(scene, x, y, width, height, size=SIZE, spp=SPP)
+
+
+def sums(recording: Recording) -> Floats64:
+    """(3, pixels, samples) of what all segments brought."""
+    area, total = recording.area, np.zeros(recording.radiance.shape)
+    for one in recording.segments:
+        x, y = one.pixel
+        total[:, (y - area.y) * area.width + x - area.x, one.sample] += one.radiance
+    return total
+
+
+def check(picture: Picture, recording: Recording) -> None:
+    area = recording.area
+    assert np.array_equal(recording.linear, picture.film.linear[:, area.rows, area.columns])
+    off = np.abs(sums(recording) - recording.radiance)
+    assert off.max() <= 1e-6 * np.abs(recording.radiance).max()
+    assert recording.segments
+
+
+@pytest.mark.parametrize("name", [name for name in SCENES if name not in OF_ITS_OWN])
+def test_a_recording_has_the_bits_of_the_picture_and_all_of_its_light(name: str) -> None:
+    check(*picture_and_recording(scene_of(name)))
+
+
+@pytest.mark.parametrize("name", ["importance_sampling", "quasi_monte_carlo", "sampling"])
+def test_so_it_does_where_pixels_are_rendered_together(name: str) -> None:
+    picture, recording = picture_and_recording(scene_of(name, None))
+    check(picture, recording)
+    assert not recording.alone
+
+
+WITH_ALL_KINDS = [
+    "blurred_transparency",
+    "glossy",
+    "importance_sampling",
+    "path_tracing",
+    "soft_shadows",
+]
+
+
+@pytest.mark.parametrize("name", WITH_ALL_KINDS)
+def test_every_ray_of_the_receipt_is_recorded(name: str) -> None:
+    picture, recording = picture_and_recording(scene_of(name), 0, 0, *SIZE)
+    receipt = picture.receipt.to_dict()
+    kinds = Counter(one.kind for one in recording.segments)
+    rays = receipt["rays"]
+    assert kinds["camera"] == rays["camera"] == SIZE[0] * SIZE[1] * SPP
+    # A shadow ray of a round mesh may have another one, from its facet up to where it begins.
+    assert kinds["shadow"] + kinds["environment"] <= rays["shadow"]
+    assert kinds["shadow"] + kinds["environment"] >= 0.95 * rays["shadow"]
+    assert kinds["mirrored"] + kinds["refracted"] + kinds["bounce"] == sum(
+        rays.get(kind, 0) for kind in ("reflection", "refraction", "path")
+    )
+    drawn = Counter(
+        {
+            number: sum(len(o.numbers.get(number, ())) for o in recording.segments)
+            for number in receipt["numbers"]
+        }
+    )
+    # A ray that is mirrored and refracted at rough glass draws the same numbers for both.
+    twice = {"refraction"}
+    for number, count in receipt["numbers"].items():
+        assert drawn[number] == count or (number in twice and drawn[number] < count)
+    assert dict(recording.counters.rays) == rays
+
+
+def by_function(segments: list[Segment]) -> Counter[str]:
+    return Counter(call.function for one in segments for call in one.calls)
+
+
+@pytest.mark.parametrize("name", WITH_ALL_KINDS)
+def test_every_call_that_was_asked_for_a_ray_is_told_with_one(name: str) -> None:
+    _, recording = picture_and_recording(scene_of(name))
+    told = by_function(recording.segments)
+    assert told
+    for function, count in told.items():
+        assert count == recording.asked[function]
+
+
+def test_functions_return_for_what_is_recorded_what_is_recorded() -> None:
+    """A column of the arguments gives the column of the result: what is told of a ray is its own."""
+    effects = Effects()
+    for name, function, names in (
+        ("soft_shadows", "soft_shadows.point_on_sphere", ("center", "radius", "u")),
+        ("glossy", "glossy.sample_phong_lobe", ("direction", "exponent", "u")),
+        ("path_tracing", "path_tracing.diffuse_bounce", ("normal", "u")),
+        ("thin_lens", "thin_lens.point_on_disk", ("u",)),
+    ):
+        _, recording = picture_and_recording(scene_of(name), 4, 4, 8, 4)
+        calls = [c for o in recording.segments for c in o.calls if c.function == function]
+        assert calls
+        for call in calls[:40]:
+            arguments = [
+                np.array(call.arguments[n], np.float32).reshape(-1, *[1] * (n != "center"))
+                if isinstance(call.arguments[n], list)
+                else call.arguments[n]
+                for n in names
+            ]
+            (told,) = call.results.values()
+            found = effects.function(*function.split("."))(*arguments)[:, 0]
+            # On a disk two in one place: what the camera does with it is done in place.
+            np.testing.assert_allclose(found, told, rtol=2e-5, atol=1e-6)
+
+
+def test_a_ray_is_told_with_the_functions_that_chose_it() -> None:
+    _, recording = picture_and_recording(scene_of("glossy"))
+    for one in recording.segments:
+        functions = {call.function.partition(".")[0] for call in one.calls}
+        assert (
+            functions
+            <= {
+                "camera": {"soft_shadows"},
+                "shadow": {"soft_shadows"},
+                "mirrored": {"glossy", "soft_shadows"},
+            }[one.kind]
+        )
+        for call in one.calls:
+            if one.kind == "shadow" and not one.blocked:
+                frame = recording.scene.compiled.frame
+                point = np.array(call.results["the points"]) * frame.scale + frame.center
+                np.testing.assert_allclose(one.end, point, atol=1e-4 * frame.scale)
+
+
+def test_segments_hang_together() -> None:
+    _, recording = picture_and_recording(scene_of("path_tracing"))
+    segments = recording.segments
+    assert [one.number for one in segments] == list(range(len(segments)))
+    for one in segments:
+        if one.parent is None:
+            assert one.kind == "camera"
+            continue
+        parent = segments[one.parent]
+        assert parent.number < one.number
+        assert (parent.pixel, parent.sample) == (one.pixel, one.sample)
+        assert one.depth == parent.depth + (one.light is None)
+        assert one.before == parent.after
+        np.testing.assert_allclose(one.start, parent.end, atol=1e-3)
+
+
+def test_blocked_rays_end_at_what_blocks_them() -> None:
+    _, recording = picture_and_recording(scene_of("soft_shadows"), 0, 0, *SIZE)
+    scene = recording.scene
+    names = Names(scene).parts
+    blocked = [one for one in recording.segments if one.blocked]
+    assert len({one.met for one in blocked}) > 1
+    for one in blocked:
+        low, high = scene.compiled.bounds[names.index(one.met)]
+        assert ((low - 1e-3 <= one.end) & (np.array(one.end) <= high + 1e-3)).all()
+        assert one.radiance == (0, 0, 0)
+
+
+def test_students_functions_are_asked_for_the_whole_tile(tmp_path: Path) -> None:
+    """A function that mixes columns gives other pictures for other batches: the picture is to be told."""
+    for path in (PROJECT / "solutions").glob("*.py"):
+        shutil.copy(path, tmp_path)
+    with (tmp_path / "soft_shadows.py").open("a") as file:
+        file.write(
+            "\n\n_own = point_on_sphere\n\n\n"
+            "def point_on_sphere(center, radius, u):\n    return _own(center, radius, np.roll(u, 7, axis=1))\n"
+        )
+    scene = load_scene(PROJECT / "scenes" / "soft_shadows.yaml", tmp_path)
+    picture, recording = picture_and_recording(scene)
+    check(picture, recording)
+    assert not recording.alone
+
+
+def test_a_scene_that_was_recorded_costs_nothing_afterwards(make_scene: MakeScene) -> None:
+    light = {"type": "sphere", "center": [0, 3, 0], "radius": 1, "intensity": 9}
+    scene = make_scene(lights=[light], objects=[{"shape": "sphere", "material": "grey"}])
+    record(scene, 16, 16)
+    assert not isinstance(scene.effects, RecordedEffects)
+    noted = rooms.recordable(scene)
+    assert rooms.recordable(noted) is noted
+    assert isinstance(noted.effects, RecordedEffects)
+    record(noted, 16, 16)
+    assert noted.effects.recorder is None
+
+
+def test_what_cannot_be_recorded_is_told(make_scene: MakeScene) -> None:
+    scene = make_scene()
+    for x, y in ((32, 0), (0, 32), (-1, 0)):
+        with pytest.raises(CourseError, match=r"outside the picture: expected x from 0 to 31"):
+            record(scene, x, y)
+    with pytest.raises(CourseError, match=r"65,536 samples are too many.*--spp"):
+        record(scene, 0, 0, 32, 32, spp=64)
+    with pytest.raises(CourseError, match=r"film\.subdivision"):
+        record(scene_of("adaptive_sampling", None), 0, 0)
+    scene = load_scene(PROJECT / "scenes" / "soft_shadows.yaml", "assignments")
+    with pytest.raises(EffectError, match=r"not written yet.*lights\.\d"):
+        record(scene, 0, 0)
