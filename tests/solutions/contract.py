@@ -1,7 +1,8 @@
 """What tests of student-facing functions share: where the functions are, and how they are judged.
 
-test_conventions.py holds the solutions to all laws that are declared in course/grading/modules. The files beside it
-test what no student is asked for: double precision, the worst numbers there are, and messages.
+test_conventions.py holds the solutions to all laws that are declared in course/grading/modules, and to more than
+students are asked for: double precision, the worst numbers there are, and messages. The files beside it compare
+functions with truths of another origin than the laws', and try what no law asks.
 
 Every statistical test draws from a fixed seed, so it never fails by chance twice; FALSE_FAIL is how probable it was
 that a right function fails it with a seed that nobody has tried.
@@ -9,8 +10,6 @@ that a right function fails it with a seed that nobody has tried.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from itertools import product
 from math import prod
 
@@ -36,10 +35,14 @@ def unit(rows: int, n: int, dtype: type = np.float32, seed: int = 0) -> Array:
 
 
 def worst_units(rows: int, dtype: type) -> Array:
-    """Every combination of the ends of [0, 1), of their neighbours and of the middle, a column each."""
+    """Every combination of the ends of [0, 1), of their neighbours and of the middle, a column each.
+
+    1 is among them, for a number next to it may be rounded to it.
+    """
+    dtype = np.dtype(dtype).type
     last = np.nextafter(dtype(1), dtype(0))
     sampler_last = 1 - 2.0**-24
-    ends = [0.0, np.finfo(dtype).smallest_subnormal, 0.5, sampler_last, last]
+    ends = [0.0, np.finfo(dtype).smallest_subnormal, 0.5, sampler_last, last, 1.0]
     return np.array([*product(ends, repeat=rows)], dtype).T
 
 
@@ -95,13 +98,3 @@ def assert_mean(values: Array, mean: float, variance: float) -> None:
     """N independent values have that mean: a two-sided z-test with their known variance."""
     off = (values.astype(float).mean() - mean) / np.sqrt(variance / values.size)
     assert abs(off) < -ndtri(FALSE_FAIL / 2), off
-
-
-@contextmanager
-def global_random_state_untouched() -> Iterator[None]:
-    """Nothing draws from, or seeds, NumPy's hidden generator."""
-    before = np.random.get_state(legacy=False)  # noqa: NPY002
-    yield
-    after = np.random.get_state(legacy=False)  # noqa: NPY002
-    assert before["state"]["pos"] == after["state"]["pos"]
-    assert (before["state"]["key"] == after["state"]["key"]).all()

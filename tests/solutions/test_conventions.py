@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import math
 import re
 from importlib import import_module
 
@@ -129,3 +130,50 @@ def test_no_result_shares_memory_with_an_argument(module: str, function: Functio
 def test_arguments_are_named_in_calls_as_they_are_declared(module: str, function: Function) -> None:
     named = inspect.signature(SOLUTIONS.function(module, function.name)).parameters
     assert [*named] == [argument.name for argument in function.arguments]
+
+
+RANGES = {
+    **dict.fromkeys(("k", "dims"), ">= 1"),
+    **dict.fromkeys(("n", "roughness", "exponent", "threshold", "aperture_radius"), ">= 0"),
+    **dict.fromkeys(("sigma", "focus_distance", "focal_length", "object_distance"), "> 0"),
+    **dict.fromkeys(("open", "close"), "finite and open <= close"),
+    "radius": "finite and >= 0",
+    "glossiness": ">= 0 and < 1",
+    "eta": "from 0.1 to 10",
+    "leaf_size": "an integer >= 1",
+    "base": "an integer >= 2",
+    "hemicube_form_factors-k": "even and >= 2",
+    "shooter": "from 0 to 3",
+}
+"""What numbers must be, as messages say it."""
+
+_MESSAGE = re.compile(r"(?P<who>.+) must (be|have) (?P<what>.+?)(, got (?P<came>.+))?")
+
+
+@pytest.mark.parametrize(
+    ("module", "function", "argument"),
+    [
+        pytest.param(name, function, argument, id=f"{name}.{function.name}-{argument.name}")
+        for name, module in MODULES.items()
+        for function in module.functions
+        for argument in function.arguments
+        if argument.wrong
+    ],
+)
+def test_a_wrong_value_is_told_by_name_with_what_was_expected_and_what_came(
+    module: str, function: Function, argument: Argument
+) -> None:
+    name = argument.name
+    numbers = [one for one in argument.wrong if isinstance(one, int | float)]
+    more = [np.float64(one) for one in numbers] + [-math.inf] * bool(numbers)
+    for wrong in (*argument.wrong, *more):
+        a = function.make(Draw(np.random.default_rng(0), 4, np.float32))
+        given = a | (wrong if isinstance(wrong, dict) else {name: wrong})
+        with pytest.raises(ValueError, match=" must ") as caught:
+            SOLUTIONS.function(module, function.name)(*given.values())
+        told = _MESSAGE.fullmatch(str(caught.value))
+        assert told
+        assert name in re.findall(r"\w+", told["who"])
+        if isinstance(wrong, int | float):
+            assert told["what"] == RANGES.get(f"{function.name}-{name}", RANGES[name])
+            assert str(wrong) in told["came"].split(" and ")
