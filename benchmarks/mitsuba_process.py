@@ -1,6 +1,6 @@
 """A whole Mitsuba process: read an exported scene, render it once, write the picture.
 
-``python -m benchmarks.mitsuba_process FOLDER llvm|scalar SAMPLER SAMPLES THREADS OUT.exr``
+``python -m benchmarks.mitsuba_process FOLDER llvm|scalar own|native SAMPLER SAMPLES THREADS OUT.exr``
 """
 
 from __future__ import annotations
@@ -14,16 +14,13 @@ from benchmarks.mitsuba_scalar import NativeScene
 from benchmarks.mitsuba_variants import start_llvm, start_scalar
 
 
-def main(folder: str, form: str, sampler: str, samples: str, threads: str, out: str) -> None:
-    """Do what the command line says."""
+def main(
+    folder: str, form: str, kind: str, sampler: str, samples: str, threads: str, out: str
+) -> None:
+    """Do what the command line says; ``kind``: whether with Mitsuba's own integrators or with ours for it."""
     exported = read(Path(folder))
-    scene: LlvmScene | NativeScene
-    if form == "llvm":
-        start_llvm(int(threads))
-        scene = NativeScene(exported) if exported.paths else LlvmScene(exported)
-    else:
-        start_scalar(int(threads))
-        scene = NativeScene(exported)
+    (start_llvm if form == "llvm" else start_scalar)(int(threads))
+    scene = NativeScene(exported) if kind == "native" else LlvmScene(exported)
     picture = scene.render(sampler, int(samples), 0)
     import mitsuba
 

@@ -162,11 +162,19 @@ def _scene_map(e: Exported) -> dict[str, Any]:
 
 def _integrator(e: Exported) -> dict[str, Any]:
     m = e.materials
+    if _glows_only(e):
+        return {"type": "path", "max_depth": 1}
     if m.mirror.any() or e.sky or e.paths:
         bounces = e.roulette if e.paths and e.roulette is not None else e.max_depth + 1
         return {"type": "path", "max_depth": e.max_depth + 2, "rr_depth": bounces + 1}
     # One light for each sample: with more, `direct` counts lights without extent as often (Mitsuba 3.9).
     return {"type": "direct", "emitter_samples": 1, "bsdf_samples": 0}
+
+
+def _glows_only(e: Exported) -> bool:
+    """Whether no surface reflects or lets light through."""
+    m = e.materials
+    return not any(np.any(row) for row in (m.diffuse, m.specular, m.mirror, m.refraction_index))
 
 
 def _mesh(e: Exported, part: Part, material: int, still: bool) -> Any:
@@ -176,7 +184,8 @@ def _mesh(e: Exported, part: Part, material: int, still: bool) -> Any:
     chosen, numbers = np.unique(part.triangles[part.material == material], return_inverse=True)
     properties = mi.Properties()
     properties["bsdf"] = mi.load_dict(_bsdf(e, material))
-    emitted, weight = e.materials.ambient[material], 0.0
+    # Mitsuba refuses a scene whose lamps all have a weight of 0.
+    emitted, weight = e.materials.ambient[material], float(_glows_only(e))
     for light in e.lights:
         if light["type"] == "object" and light["material"] == material:
             emitted, weight = np.array(light["radiance"]), 1.0

@@ -27,7 +27,21 @@ EFFECTS = (
     "cube_map",
     "path_tracing",
 )
+"""Of the course, in ``scenes``."""
+
+FURTHER = (
+    "checkerboard",
+    "sphere_light",
+    "rectangle_light",
+    "lens_and_sun",
+    "moving_balls",
+    "mirror_and_matt",
+)
+"""Of the same effects, with flat meshes and what Mitsuba's own integrators can do: ``benchmarks/scenes/peers``."""
+
 FORMS = ("llvm", "scalar")
+SAMPLES = (16, 64, 256)
+"""A pixel, of Mitsuba's multijitter sampler; its errors are those to reach."""
 
 
 @dataclass(frozen=True)
@@ -41,22 +55,44 @@ class Effort:
     processes: int = 5
 
 
-QUICK = Effort(pictures=2, rounds=5, batches=8, batch_samples=64, processes=3)
+QUICK = Effort(pictures=2, rounds=3, batches=8, batch_samples=128, processes=3)
 
 
 @dataclass(frozen=True)
 class Reached:
-    """How a way to render reaches the target.
+    """How a way to render reaches an error.
 
     Attributes
     ----------
-    seconds : interpolated between the two measured pictures around the target, both axes logarithmic
+    seconds : interpolated between the measured pictures around the error, both axes logarithmic
     knob : samples, or the error asked for, interpolated alike; None where an older run has not kept it
     """
 
     name: str
     seconds: float
     knob: float | None
+
+
+@dataclass(frozen=True)
+class Target:
+    """An error, and the seconds to it.
+
+    Attributes
+    ----------
+    samples : of multijitter that have this error
+    error : root of the mean squared error
+    theirs : Mitsuba's fastest sampler to this error; ``knob`` is its samples
+    ours : each of our ways to render, fastest first
+    """
+
+    samples: int
+    error: float
+    theirs: Reached
+    ours: list[Reached]
+
+    def ratio(self, name: str) -> float | None:
+        """Our seconds over Mitsuba's, of a way to render; None where it was not measured."""
+        return next((o.seconds / self.theirs.seconds for o in self.ours if o.name == name), None)
 
 
 @dataclass(frozen=True)
@@ -67,23 +103,27 @@ class Result:
     ----------
     without : what the scene has to do without in this form
     alike : whether even so the pictures are only alike, not the same
-    error : root of the target's mean squared error
-    seconds : Mitsuba's; ours : of each way to render, fastest first
-    process, our_process : seconds of whole processes
+    process, our_process : seconds of whole processes, to the error of the middle target
     """
 
     effect: str
     form: str
     without: list[str]
     alike: bool
-    sampler: str
-    samples: int
-    error: float
-    seconds: float
-    ours: list[Reached]
+    targets: list[Target]
     process: float
     our_process: float
     agreement: Agreement
+
+    @property
+    def middle(self) -> Target:
+        """The target of whole processes."""
+        return self.targets[len(self.targets) // 2]
+
+    def worst(self, name: str) -> float | None:
+        """The largest of our seconds over Mitsuba's, of a way to render."""
+        ratios = [ratio for t in self.targets if (ratio := t.ratio(name)) is not None]
+        return max(ratios, default=None)
 
 
 @dataclass(frozen=True)
@@ -113,12 +153,11 @@ def read_cases(path: Path) -> list[Measured]:
 def keep_cases(new: Iterable[Measured], path: Path) -> list[Measured]:
     """Put cases into a file, each in the place of an older one of the same effect and form.
 
-    Returns all that the file now keeps, in the order of FORMS and EFFECTS.
+    Returns all that the file now keeps, in the order of FORMS, EFFECTS and FURTHER.
     """
     cases = {each.case: each for each in (*read_cases(path), *new)}
-    ordered = [
-        cases[form, effect] for form in FORMS for effect in EFFECTS if (form, effect) in cases
-    ]
+    names = [(form, effect) for form in FORMS for effect in (*EFFECTS, *FURTHER)]
+    ordered = [cases[name] for name in names if name in cases]
     text = msgspec.json.format(msgspec.json.encode([_rounded(asdict(case)) for case in ordered]))
     write_text(path, text.decode() + "\n")
     return read_cases(path)

@@ -63,47 +63,75 @@ def _sources(cases: Sequence[Measured]) -> list[str]:
     return parts
 
 
+WAYS = ("uniform", "adaptive", "uniform, compiled", "adaptive, compiled")
+
+
 def tables(results: list[Result]) -> list[Table]:
     """Everything, for people."""
     measured = [form for form in FORMS if any(r.form == form for r in results)]
     return [
         *(time_table(form, [r for r in results if r.form == form]) for form in measured),
+        worst_table(results),
         process_table(results),
         agreement_table(results),
     ]
 
 
+def _ways(results: list[Result]) -> list[str]:
+    """The ways to render that were measured."""
+    found = {o.name for r in results for t in r.targets for o in t.ours}
+    return [name for name in WAYS if name in found]
+
+
 def time_table(form: str, results: list[Result]) -> Table:
-    """Seconds to the same error, and ours over theirs."""
-    names = ["uniform", "adaptive", "uniform, compiled", "adaptive, compiled"]
-    names = [n for n in names if any(n == o.name for r in results for o in r.ours)]
+    """Seconds to the same errors, and ours over theirs."""
+    names = _ways(results)
     rows = []
     for r in results:
-        ours = {o.name: o for o in r.ours}
-        cells = [_beside(ours[n].seconds, r.seconds) if n in ours else "-" for n in names]
-        rows.append((_effect(r), f"{r.error:.2e}", r.sampler, f"{r.seconds:.3f}", *cells))
+        for t in r.targets:
+            ours = {o.name: o.seconds for o in t.ours}
+            cells = [_beside(ours.get(name), t.theirs.seconds) for name in names]
+            about = f"{t.error:.2e}", t.theirs.name, f"{t.theirs.seconds:.3f}"
+            rows.append((_effect(r), str(t.samples), *about, *cells))
     return Table(
         f"seconds to the same error, Mitsuba {form}; in brackets ours / Mitsuba's",
-        ("scene", "RMSE", "Mitsuba's best sampler", f"Mitsuba {form}", *names),
+        ("scene", "samples", "RMSE", "Mitsuba's fastest sampler", f"Mitsuba {form}", *names),
         tuple(rows),
     )
+
+
+def worst_table(results: list[Result]) -> Table:
+    """The worst row of each scene."""
+    names = _ways(results)
+    rows = []
+    for r in results:
+        ratios = [r.worst(name) for name in names]
+        cells = ["-" if ratio is None else f"{ratio:.2f}" for ratio in ratios]
+        rows.append((f"{_effect(r)}, {r.form}", *cells))
+    return Table("the worst of a scene's errors: ours / Mitsuba's", ("scene", *names), tuple(rows))
 
 
 def process_table(results: list[Result]) -> Table:
     """Whole processes."""
     rows = [
-        (f"{_effect(r)}, {r.form}", f"{r.process:.2f}", _beside(r.our_process, r.process))
+        (
+            f"{_effect(r)}, {r.form}",
+            f"{r.middle.error:.2e}",
+            f"{r.process:.2f}",
+            _beside(r.our_process, r.process),
+        )
         for r in results
     ]
-    return Table("whole processes to the same error", ("scene", "Mitsuba", "ours"), tuple(rows))
+    title = "whole processes to the same error"
+    return Table(title, ("scene", "RMSE", "Mitsuba", "ours"), tuple(rows))
 
 
 def agreement_table(results: list[Result]) -> Table:
     """Converged pictures."""
     rows = []
     for r in results:
-        a = r.agreement
-        numbers = (f"{a.largest:.1f}", f"{a.far:.2%}", f"{a.rms:.1e}", f"{a.rms / r.error:.2f}")
+        a, error = r.agreement, r.middle.error
+        numbers = (f"{a.largest:.1f}", f"{a.far:.2%}", f"{a.rms:.1e}", f"{a.rms / error:.2f}")
         rows.append((f"{_effect(r)}, {r.form}", *numbers, f"{a.mean:+.3%}", f"{a.where}"))
     return Table(
         "converged pictures: Mitsuba's against ours",
@@ -124,5 +152,5 @@ def _effect(r: Result) -> str:
     return f"{r.effect} ≈" if r.alike else r.effect
 
 
-def _beside(ours: float, theirs: float) -> str:
-    return f"{ours:.3f} ({ours / theirs:.2f})"
+def _beside(ours: float | None, theirs: float) -> str:
+    return "-" if ours is None else f"{ours:.3f} ({ours / theirs:.2f})"

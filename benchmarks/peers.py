@@ -1,26 +1,27 @@
-"""`python -m benchmarks.peers`: the effects' scenes in Mitsuba 3 and here, on the same cores in turn.
+"""`python -m benchmarks.peers`: scenes in Mitsuba 3 and here, on the same cores in turn.
 
-For each effect: does Mitsuba show the same picture, and how long does each program take to the same error? The error
-is the one that Mitsuba's best sampler has with 64 samples a pixel, over the whole picture in linear radiance; each
-program is measured against its own converged picture, so that a difference between the two sets no floor. Times are
-of warm renderers and rendering alone, and then of whole processes.
+For each scene: does Mitsuba show the same picture, and how long does each program take to the same error? Three errors
+are reached, those of Mitsuba's multijitter sampler with 16, 64 and 256 samples a pixel, over the whole picture in
+linear radiance. At each, the fastest of all its samplers counts. Each program is measured against its own converged
+picture, so that a difference between the two sets no floor. Times are of warm renderers and rendering alone, and then
+of whole processes.
 
 docs/peers.md says what the forms "llvm" and "scalar" are. Needs `pip install .[peers]`, and LLVM 17 for the former.
 """
 
 from __future__ import annotations
 
-import inspect
 import json
 import os
 import subprocess
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import asdict, dataclass
+from functools import partial
 from hashlib import sha256
 from importlib.metadata import version
 from pathlib import Path
-from statistics import median
+from statistics import mean, median
 from tempfile import TemporaryDirectory
 from time import perf_counter
 from typing import Any
@@ -37,26 +38,38 @@ from benchmarks.mitsuba_variants import SAMPLERS, find_llvm, start_fastest, star
 from benchmarks.peer_cases import (
     EFFECTS,
     FORMS,
+    FURTHER,
     QUICK,
+    SAMPLES,
     Effort,
     Measured,
     Reached,
     Result,
+    Target,
     keep_cases,
+    read_cases,
 )
 from benchmarks.peer_document import SIZE, tables, write_document
+from benchmarks.peer_scenes import scene_path
 from course import Scene, render
 from course.benchmarking.machine import machine
 from course.benchmarking.references import scene_hash
 from course.benchmarking.tables import print_tables
+from course.compiled.library import available
 from course.effects import PROJECT
 from course.formats.yaml.description import rgb
 from course.formats.yaml.loading import load_description
 from course.formats.yaml.overriding import Overrides
 from course.scene.scene import load_variant
 
-SAMPLES = 64
-"""A pixel, of Mitsuba's best sampler; its error is the one to reach."""
+MITSUBA_COUNTS = (4, *SAMPLES)
+"""Samples a pixel with which each sampler of Mitsuba's is measured."""
+
+RIVAL = 1.3
+"""Samplers that seem this much slower than the fastest to one of the errors are timed in turn with ours, too."""
+
+NEAR = 2.0
+"""A squared error up to this far beyond those measured is reached by extrapolation."""
 
 DIFFUSE = 0.73
 """What path tracing's mirror and glass return of the light, as surfaces that are diffuse."""
@@ -68,23 +81,32 @@ DATA = PROJECT / "docs" / "data" / "peers.json"
 
 
 @dataclass(frozen=True)
-class Setting:
-    """One way to render, with the knob that trades time for error: samples, or the error that is asked for.
+class Way:
+    """One way to render, and the knobs at which it is measured: samples, or errors that are asked for.
 
-    Those of one family make the same pictures, and differ in time only.
+    ``picture``: of a knob and a seed, (H, W, 3).
     """
 
     name: str
-    family: str
     picture: Callable[[float, int], np.ndarray]
-    first: float
-    finer: float
-    """Factor of the knob for a better picture."""
+    knobs: Sequence[float]
+
+
+@dataclass(frozen=True)
+class Point:
+    """A knob, the mean squared error that it gives, and its seconds."""
+
+    knob: float
+    error: float
+    seconds: float
 
 
 @dataclass(frozen=True)
 class Case:
-    """An effect's scene in the form that both programs render."""
+    """An effect's scene in the form that both programs render.
+
+    ``native``: whether Mitsuba's own integrators render it in either form.
+    """
 
     effect: str
     form: str
@@ -92,6 +114,7 @@ class Case:
     effort: Effort
     scene: Scene
     without: list[str]
+    native: bool
 
     @property
     def name(self) -> str:
@@ -102,15 +125,10 @@ class Case:
         """The scene in Mitsuba, in the variant that is measured."""
         return self._loaded(start_llvm if self.form == "llvm" else start_scalar)
 
-    def peer_for_reference(self) -> LlvmScene | NativeScene:
-        """The same in the LLVM variant where there is one: the same plugins, many times as fast."""
-        return self._loaded(start_fastest)
-
     def _loaded(self, start: Callable[[int], None]) -> LlvmScene | NativeScene:
         exported = export(self.scene, *SIZE)
         start(self.threads)
-        own = self.form == "llvm" and not exported.paths
-        return LlvmScene(exported) if own else NativeScene(exported)
+        return NativeScene(exported) if self.native else LlvmScene(exported)
 
     def our_reference(self) -> Converged:
         """Our converged picture."""
@@ -122,29 +140,58 @@ class Case:
             OUT / "references" / f"ours_{self.name}_{key[:24]}.npz",
         )
 
-    def their_reference(self) -> Converged:
-        """Mitsuba's converged picture."""
-        samples, batches = self.effort.batch_samples, self.effort.batches
-        loaded: list[LlvmScene | NativeScene] = []
+    def their_reference(self) -> tuple[Converged, dict[str, list[list[float]]]]:
+        """Mitsuba's converged picture; each sampler's mean squared errors, as pairs with its samples.
 
-        def picture(seed: int) -> np.ndarray:
-            if not loaded:
-                loaded.append(self.peer_for_reference())
-            return loaded[0].render("multijitter", samples, seed)
+        Both are kept in files. The LLVM variant makes them where there is one: the same plugins, many times as fast.
+        """
+        key = self._key()
+        folder = OUT / "references"
+        peers: list[LlvmScene | NativeScene] = []
 
-        sources = b"".join(
-            path.read_bytes() for path in sorted(Path(__file__).parent.glob("mitsuba_*.py"))
+        def picture(sampler: str, samples: int, seed: int) -> np.ndarray:
+            if not peers:
+                peers.append(self._loaded(start_fastest))
+            return peers[0].render(sampler, samples, seed)
+
+        converged = converge(
+            partial(picture, "multijitter", self.effort.batch_samples),
+            self.effort.batches,
+            folder / f"mitsuba_{self.name}_{key}.npz",
         )
-        key = scene_hash(
-            self.scene.loaded,
-            self.scene.effects,
-            samples=samples,
-            batches=batches,
-            mitsuba=version("mitsuba"),
-            export=sha256(sources).hexdigest(),
-        )
-        path = OUT / "references" / f"mitsuba_{self.name}_{key[:24]}.npz"
-        return converge(picture, batches, path)
+        path = folder / f"mitsuba_{self.name}_{key}.json"
+        if not path.is_file():
+            seeds = range(1, self.effort.pictures + 1)
+            errors = {
+                sampler: [
+                    [n, mean(converged.mse(picture(sampler, n, seed)) for seed in seeds)]
+                    for n in MITSUBA_COUNTS
+                ]
+                for sampler in SAMPLERS
+            }
+            path.write_text(json.dumps(errors))
+        return converged, json.loads(path.read_text())
+
+    def _key(self) -> str:
+        """A hash of all that Mitsuba's pictures depend on."""
+        digest = sha256(f"{self.effort} {version('mitsuba')} {self.native}".encode())
+        for path in sorted(Path(__file__).parent.glob("mitsuba_*.py")):
+            digest.update(path.read_bytes())
+        add_arrays(digest, export(self.scene, *SIZE))
+        return digest.hexdigest()[:24]
+
+
+def add_arrays(digest: Any, value: Any) -> None:
+    """Add an exported scene, or part of it, to a hash."""
+    if isinstance(value, np.ndarray):
+        digest.update(np.ascontiguousarray(value).tobytes())
+    elif isinstance(value, dict | list | tuple):
+        for each in value.items() if isinstance(value, dict) else value:
+            add_arrays(digest, each)
+    elif hasattr(value, "__dataclass_fields__"):
+        add_arrays(digest, vars(value))
+    else:
+        digest.update(repr(value).encode())
 
 
 def our_picture(scene: Scene, threads: int, **settings: Any) -> np.ndarray:
@@ -154,15 +201,16 @@ def our_picture(scene: Scene, threads: int, **settings: Any) -> np.ndarray:
 
 def make_case(effect: str, form: str, threads: int, effort: Effort) -> Case:
     """Load the scene: with a box filter, for that is what both programs have, and what the form asks for."""
-    path = PROJECT / "scenes" / f"{effect}.yaml"
+    path = scene_path(effect)
     values: Overrides = {}
     without: list[str] = []
+    native = form == "scalar" or effect == "path_tracing" or effect in FURTHER
     if effect == "path_tracing":
         values, without = diffuse_overrides(path)
-    elif form == "scalar":
+    elif form == "scalar" and effect in EFFECTS:
         values, without = native_overrides(path)
     scene = load_variant(path, {("film", "filter"): "box", **values})
-    return Case(effect, form, threads, effort, scene, without)
+    return Case(effect, form, threads, effort, scene, without, native)
 
 
 def diffuse_overrides(path: Path) -> tuple[Overrides, list[str]]:
@@ -177,143 +225,144 @@ def diffuse_overrides(path: Path) -> tuple[Overrides, list[str]]:
 
 def measure(case: Case, say: Callable[[str], None]) -> Result:
     """Agreement, errors and times of one case."""
-    say("converged pictures")
-    ours, theirs = case.our_reference(), case.their_reference()
+    say("converged pictures and Mitsuba's errors")
+    ours, (theirs, their_errors) = case.our_reference(), case.their_reference()
     save_difference(theirs, ours, OUT / f"{case.name}.png")
+    squares = {int(n): error for n, error in their_errors["multijitter"]}
+    errors = [squares[n] for n in SAMPLES]
     peer = case.peer()
     say("Mitsuba's samplers")
-    sampler, samples, target = best_sampler(peer, theirs, case.effort.pictures)
-    say(f"{sampler}, {samples} samples, error {target**0.5:.2e}; our errors")
-    families: dict[str, Ends] = {}
-    brackets = []
-    for setting in our_settings(case, target):
-        if setting.family not in families:
-            families[setting.family] = bracket(setting, ours, target, case.effort.pictures)
-        brackets.append((setting, families[setting.family]))
+    rivals = fast_samplers(peer, their_errors, errors)
+    say(f"{', '.join(rivals)}; our knobs")
+    ways = our_ways(case, ours, errors)
     say("times in turn")
-    knobs = [
-        (setting, knob)
-        for setting, ends in brackets
-        for knob in dict.fromkeys(end[0] for end in ends)
+    their_points, our_points = in_turn(case, peer, {n: their_errors[n] for n in rivals}, ways, ours)
+    targets = [
+        Target(
+            samples,
+            error**0.5,
+            min(reached(their_points, error), key=lambda r: r.seconds),
+            sorted(reached(our_points, error), key=lambda r: r.seconds),
+        )
+        for samples, error in zip(SAMPLES, errors, strict=True)
     ]
-    rounds = []
-    for number in range(case.effort.rounds):
-        row = [seconds(lambda seed=number: peer.render(sampler, samples, seed))]
-        row += [
-            seconds(lambda s=setting, k=knob, seed=number: s.picture(k, seed))
-            for setting, knob in knobs
-        ]
-        rounds.append(row)
-    mitsuba_time, *our_times = [median(column) for column in zip(*rounds, strict=True)]
-    times = {
-        (setting.name, knob): time for (setting, knob), time in zip(knobs, our_times, strict=True)
-    }
-    reached = [interpolated(setting.name, ends, times, target) for setting, ends in brackets]
-    reached.sort(key=lambda r: r.seconds)
     say("whole processes")
-    process, our_process = processes(case, sampler, samples, brackets, target)
+    process, our_process = processes(case, targets[len(targets) // 2])
     return Result(
         case.effect,
         case.form,
         case.without,
         case.form == "scalar" and case.effect in ALIKE,
-        sampler,
-        samples,
-        target**0.5,
-        mitsuba_time,
-        reached,
+        targets,
         process,
         our_process,
         compare(theirs, ours),
     )
 
 
-def best_sampler(
-    peer: LlvmScene | NativeScene, reference: Converged, pictures: int
-) -> tuple[str, int, float]:
-    """Sampler, its samples and its mean squared error, for the least product of error and time."""
+def fast_samplers(
+    peer: LlvmScene | NativeScene, errors: dict[str, list[list[float]]], targets: list[float]
+) -> list[str]:
+    """The samplers that may be the fastest to one of the errors, by two pictures with 64 samples each."""
+    points = {}
+    for sampler, pairs in errors.items():
+        drawn = peer.samples(sampler, SAMPLES[1])
+        # The first one compiles a kernel.
+        least = min(seconds(partial(peer.render, sampler, drawn, seed)) for seed in (0, 1))
+        points[sampler] = [
+            Point(n, error, least * peer.samples(sampler, int(n)) / drawn) for n, error in pairs
+        ]
+    rivals = set()
+    for target in targets:
+        times = {each.name: each.seconds for each in reached(points, target)}
+        rivals |= {name for name, time in times.items() if time <= RIVAL * min(times.values())}
+    return [sampler for sampler in SAMPLERS if sampler in rivals]
+
+
+def our_ways(case: Case, reference: Converged, targets: list[float]) -> list[Way]:
+    """Our ways to render, each with the knobs that lead to about the errors: adaptive, and uniform where it is fast.
+
+    Without Numba nothing is compiled, and uniform sampling is measured in NumPy.
+    """
+    engines = {", compiled": True, "": False} if available() else {"": False}
+    fastest = next(iter(engines.values()))
+
+    def uniform(compiled: bool, samples: float, seed: int) -> np.ndarray:
+        settings = {"spp": int(samples), "seed": seed, "compiled": compiled}
+        return our_picture(case.scene, case.threads, **settings)
+
+    def adaptive(compiled: bool, error: float, seed: int) -> np.ndarray:
+        settings = {"spp": MOST_SAMPLES, "error": float(error), "seed": seed, "compiled": compiled}
+        return our_picture(case.scene, case.threads, **settings)
+
+    few, more = (reference.mse(uniform(fastest, n, 0)) for n in SAMPLES[:2])
+    counts = [*([4] if few < targets[0] else []), *SAMPLES]
+    # Each doubling of the samples divides the squared error by as much as the last two did on average.
+    halved = min(more / few, 0.25) ** 0.5
+    predicted = more * halved**2
+    while predicted > NEAR**0.5 * targets[-1] and counts[-1] < MOST_SAMPLES:
+        counts.append(2 * counts[-1])
+        predicted *= halved
+    middle = targets[1] ** 0.5
+    missed = middle / max(reference.mse(adaptive(fastest, middle, 0)), 1e-12) ** 0.5
+    asked = [missed * target**0.5 for target in targets]
+    ways = [Way(f"adaptive{n}", partial(adaptive, c), asked) for n, c in engines.items()]
+    name, compiled = next(iter(engines.items()))
+    return [Way(f"uniform{name}", partial(uniform, compiled), counts), *ways]
+
+
+def in_turn(
+    case: Case,
+    peer: LlvmScene | NativeScene,
+    their_errors: dict[str, list[list[float]]],
+    ways: list[Way],
+    reference: Converged,
+) -> tuple[dict[str, list[Point]], dict[str, list[Point]]]:
+    """Points of Mitsuba's samplers and of our ways; in each round all of them are timed once."""
+    their_times: dict[tuple[str, float], list[float]] = {}
+    our_times: dict[tuple[str, float], list[tuple[float, float]]] = {}
+    for seed in range(1, case.effort.rounds + 1):
+        for sampler, pairs in their_errors.items():
+            for n, _ in pairs:
+                time = seconds(partial(peer.render, sampler, int(n), seed))
+                their_times.setdefault((sampler, n), []).append(time)
+        for way in ways:
+            for knob in way.knobs:
+                began = perf_counter()
+                picture = way.picture(knob, seed)
+                time = perf_counter() - began
+                our_times.setdefault((way.name, knob), []).append((reference.mse(picture), time))
+    theirs = {
+        sampler: [Point(n, error, median(their_times[sampler, n])) for n, error in pairs]
+        for sampler, pairs in their_errors.items()
+    }
+    ours: dict[str, list[Point]] = {}
+    for (name, knob), found in our_times.items():
+        errors, times = zip(*found, strict=True)
+        ours.setdefault(name, []).append(Point(knob, max(mean(errors), 1e-12), median(times)))
+    return theirs, ours
+
+
+def reached(points: dict[str, list[Point]], target: float) -> list[Reached]:
+    """Seconds and knob of each way where its squared error is the target; ways that don't come NEAR are left out."""
     found = []
-    for sampler in SAMPLERS:
-        samples = peer.samples(sampler, SAMPLES)
-        peer.render(sampler, samples, 0)
-        errors, times = [], []
-        for seed in range(1, pictures + 1):
-            began = perf_counter()
-            picture = peer.render(sampler, samples, seed)
-            times.append(perf_counter() - began)
-            errors.append(reference.mse(picture))
-        error = float(np.mean(errors))
-        # The fastest of a few: the slow ones tell of whatever else the machine does.
-        found.append((error * min(times), sampler, samples, error))
-    _, sampler, samples, error = min(found)
-    return sampler, samples, error
-
-
-def our_settings(case: Case, target: float) -> list[Setting]:
-    """Our ways to render: uniform and adaptive, each without and with compiled loops where there are any."""
-    known = inspect.signature(render).parameters
-    engines: dict[str, dict[str, Any]] = {"": {"compiled": False} if "compiled" in known else {}}
-    if "compiled" in known:
-        from course.compiled.library import available
-
-        if available():  # the fastest first: it finds the family's errors
-            engines = {", compiled": {"compiled": True}, **engines}
-    settings = []
-    for engine, options in engines.items():
-
-        def uniform(samples: float, seed: int, options: dict[str, Any] = options) -> np.ndarray:
-            samples = int(samples)
-            return our_picture(case.scene, case.threads, spp=samples, seed=seed, **options)
-
-        def adaptive(error: float, seed: int, options: dict[str, Any] = options) -> np.ndarray:
-            most = {"spp": MOST_SAMPLES, "error": float(error)}
-            return our_picture(case.scene, case.threads, seed=seed, **most, **options)
-
-        settings.append(Setting(f"uniform{engine}", "uniform", uniform, SAMPLES, 2))
-        if "error" in known:
-            settings.append(Setting(f"adaptive{engine}", "adaptive", adaptive, target**0.5, 0.8))
-    return settings
-
-
-Ends = list[tuple[float, float]]
-"""One or two pairs of a knob and its mean squared error, around the target."""
-
-
-def bracket(setting: Setting, reference: Converged, target: float, pictures: int) -> Ends:
-    """Turn the knob until the target lies between two settings."""
-
-    def at(knob: float) -> tuple[float, float]:
-        errors = [reference.mse(setting.picture(knob, seed)) for seed in range(1, pictures + 1)]
-        return knob, max(float(np.mean(errors)), 1e-12)
-
-    coarse = fine = at(setting.first)
-    for _ in range(20):
-        if fine[1] > target:
-            coarse, fine = fine, at(fine[0] * setting.finer)
-        elif coarse[1] <= target:
-            knob = coarse[0] / setting.finer
-            if setting.finer > 1 and knob < 1:
-                break
-            coarse, fine = at(knob), coarse
-        else:
-            break
-    return [coarse, fine]
-
-
-def interpolated(
-    name: str, ends: Ends, times: dict[tuple[str, float], float], target: float
-) -> Reached:
-    """Time and knob where the error is the target's."""
-    (coarse, coarse_error), (fine, fine_error) = ends
-    share = 0.0
-    if coarse_error != fine_error:
-        share = float(np.log(coarse_error / target) / np.log(coarse_error / fine_error))
-    share = min(max(share, 0.0), 1.0)
-
-    def between(a: float, b: float) -> float:
-        return float(a ** (1 - share) * b**share)
-
-    return Reached(name, between(times[name, coarse], times[name, fine]), between(coarse, fine))
+    for name, measured in points.items():
+        ordered = sorted(measured, key=lambda p: p.error)
+        if not ordered[0].error / NEAR <= target <= ordered[-1].error * NEAR:
+            continue
+        # Between two neighbours, or beyond the end by the last two.
+        after = sum(p.error < target for p in ordered)
+        after = min(max(after, 1), len(ordered) - 1)
+        a, b = ordered[after - 1], ordered[after]
+        share = float(np.log(target / a.error) / np.log(b.error / a.error))
+        found.append(
+            Reached(
+                name,
+                a.seconds ** (1 - share) * b.seconds**share,
+                a.knob ** (1 - share) * b.knob**share,
+            )
+        )
+    return found
 
 
 def seconds(action: Callable[[], object]) -> float:
@@ -323,26 +372,28 @@ def seconds(action: Callable[[], object]) -> float:
     return perf_counter() - began
 
 
-def processes(
-    case: Case, sampler: str, samples: int, brackets: list[tuple[Setting, Ends]], target: float
-) -> tuple[float, float]:
-    """Median seconds of whole processes, theirs and ours (NumPy alone, adaptive where there is that), in turn."""
-    name = "adaptive" if any(setting.name == "adaptive" for setting, _ in brackets) else "uniform"
-    ends = next(ends for setting, ends in brackets if setting.name == name)
-    knob = interpolated(name, ends, {(name, end[0]): 1.0 for end in ends}, target).knob
-    wanted = ["--spp", str(round(knob))]
-    if name == "adaptive":
-        wanted = ["--error", f"{knob:.4g}", "--spp", str(MOST_SAMPLES)]
+def processes(case: Case, target: Target) -> tuple[float, float]:
+    """Median seconds of whole processes, theirs and ours as it is installed, adaptive, in turn."""
+    asked = next(o.knob for o in target.ours if o.name.startswith("adaptive"))
     with TemporaryDirectory() as folder:
         place = Path(folder)
         write(export(case.scene, *SIZE), place)
         threads = str(case.threads)
-        theirs = ["benchmarks.mitsuba_process", str(place), case.form, sampler, str(samples)]
-        theirs += [threads, str(place / "theirs.exr")]
-        ours = ["course", "render", str(write_variant(case.scene, place)), *wanted]
-        ours += ["--size", "{}x{}".format(*SIZE), "--sampler", "sobol", "--threads", threads]
-        ours += ["-o", str(place / "ours.exr")]
-        run_module(theirs)  # Dr.Jit keeps its kernels on disk
+        kind = "native" if case.native else "own"
+        theirs = ["benchmarks.mitsuba_process", str(place), case.form, kind, target.theirs.name]
+        theirs += [str(round(target.theirs.knob or 0)), threads, str(place / "theirs.exr")]
+        ours = [
+            "course",
+            "render",
+            str(write_variant(case.scene, place)),
+            "--error",
+            f"{asked:.4g}",
+        ]
+        ours += ["--spp", str(MOST_SAMPLES), "--size", "{}x{}".format(*SIZE), "--sampler", "sobol"]
+        ours += ["--threads", threads, "-o", str(place / "ours.exr")]
+        # Both programs keep what they have compiled on disk.
+        run_module(theirs)
+        run_module(ours)
         both = [
             (seconds(lambda: run_module(theirs)), seconds(lambda: run_module(ours)))
             for _ in range(case.effort.processes)
@@ -358,6 +409,9 @@ def write_variant(scene: Scene, folder: Path) -> Path:
         if key in environment:
             environment[key] = str((scene.loaded.path.parent / environment[key]).resolve())
     data["environment"] = environment or {"type": "constant"}
+    for thing in data.get("objects", ()):
+        if "file" in thing:
+            thing["file"] = str((scene.loaded.path.parent / thing["file"]).resolve())
     path = folder / f"{scene.loaded.path.stem}.yaml"
     path.write_text(yaml.safe_dump(data, sort_keys=False))
     return path
@@ -381,10 +435,15 @@ def versions(threads: int) -> dict[str, str]:
 
 
 @click.command(help=__doc__)
-@click.option("--scene", "effects", multiple=True, type=click.Choice(EFFECTS), help="Only this.")
+@click.option(
+    "--scene", "effects", multiple=True, type=click.Choice([*EFFECTS, *FURTHER]), help="Only this."
+)
 @click.option("--form", "forms", multiple=True, type=click.Choice(FORMS), help="Only this.")
 @click.option("--quick", is_flag=True, help="Fewer pictures, rounds and samples.")
 @click.option("--threads", default=2, show_default=True, help="Of both programs.")
+@click.option(
+    "--prepare", is_flag=True, help="Only make and keep converged pictures and Mitsuba's errors."
+)
 @click.option("--json", "json_path", type=click.Path(path_type=Path), help="Write the results.")
 @click.option(
     "--write",
@@ -392,15 +451,21 @@ def versions(threads: int) -> dict[str, str]:
     is_flag=True,
     help="Keep the results in docs/data, and write them and those kept before to docs/peers.md.",
 )
+@click.option("--tables", "only_tables", is_flag=True, help="Write what is kept to docs/peers.md.")
 def main(
     effects: Iterable[str],
     forms: Iterable[str],
     quick: bool,
     threads: int,
+    prepare: bool,
     json_path: Path | None,
     write_docs: bool,
+    only_tables: bool,
 ) -> None:
     """Measure what was asked for."""
+    if only_tables:
+        write_document(read_cases(DATA), DOCUMENT)
+        return
     effort = QUICK if quick else Effort()
     forms = tuple(forms) or FORMS
     if "llvm" in forms and find_llvm() is None:
@@ -408,13 +473,20 @@ def main(
         forms = tuple(form for form in forms if form != "llvm")
     about = versions(threads)
     results = []
-    for effect in tuple(effects) or EFFECTS:
+    for effect in tuple(effects) or (*EFFECTS, *FURTHER):
         for form in forms:
             case = make_case(effect, form, threads, effort)
             label = f"{effect}, {form}"
-            result = measure(
-                case, lambda text, label=label: click.echo(f"{label}: {text}", err=True)
-            )
+            began = perf_counter()
+
+            def say(text: str, label: str = label, began: float = began) -> None:
+                click.echo(f"{label}, {perf_counter() - began:.0f} s: {text}", err=True)
+
+            if prepare:
+                case.our_reference(), case.their_reference()
+                say("prepared")
+                continue
+            result = measure(case, say)
             results.append(result)
             if write_docs:
                 # At once, for all of them take an hour.

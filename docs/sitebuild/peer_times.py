@@ -1,6 +1,6 @@
 """Seconds to the same error beside another program, from what ``python -m benchmarks.peers --write`` keeps.
 
-``<!-- site: peer_times llvm -->`` shows one of the two forms: a row for each scene, a mark for each program.
+``<!-- site: peer_times llvm -->`` shows one of the two forms: a row for each scene and error, a mark for each program.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ def peer_times(place: Place, name: str, words: str = "") -> str:  # noqa: ARG001
     """
     kept = json.loads(DATA.read_text(encoding="utf-8")) if DATA.is_file() else []
     cases = [case for case in kept if case["result"]["form"] == name]
-    rows = [_seconds(case["result"]) for case in cases]
+    rows = [row for case in cases for row in _seconds(case["result"])]
     if not rows:
         raise CourseError(f"{DATA} has no form {name!r}: python -m benchmarks.peers --write")
     found = {program for row in rows for program in row["seconds"]}
@@ -67,11 +67,12 @@ def peer_times(place: Place, name: str, words: str = "") -> str:  # noqa: ARG001
 """
 
 
-def _seconds(result: dict[str, Any]) -> dict[str, Any]:
-    """A scene's name, and seconds of each program."""
-    ours = {way["name"]: way["seconds"] for way in result["ours"]}
-    scene = f"{result['effect']} ≈" if result["alike"] else result["effect"]
-    return {"scene": scene, "seconds": {"Mitsuba": result["seconds"], **ours}}
+def _seconds(result: dict[str, Any]) -> Iterable[dict[str, Any]]:
+    """A scene's name with the samples that have the error, and seconds of each program."""
+    for target in result["targets"]:
+        ours = {way["name"]: way["seconds"] for way in target["ours"]}
+        scene = f"{result['effect']}{' ≈' if result['alike'] else ''} {target['samples']}"
+        yield {"scene": scene, "seconds": {"Mitsuba": target["theirs"]["seconds"], **ours}}
 
 
 def svg(form: str, rows: list[dict[str, Any]]) -> str:
@@ -81,9 +82,7 @@ def svg(form: str, rows: list[dict[str, Any]]) -> str:
     left = 12 + LETTER * max(len(row["scene"]) for row in rows)
     x = Scale(min(every) / 1.2, max(every) * 1.2, left, WIDTH - 14)
     parts = [*_axis(x, height), *(_row(form, row, x, number) for number, row in enumerate(rows))]
-    about = escape(
-        f"Seconds to the same error, {len(rows)} scenes, Mitsuba {form} and this renderer"
-    )
+    about = escape(f"Seconds to the same error, {len(rows)} rows, Mitsuba {form} and this renderer")
     return (
         f'<svg viewBox="0 0 {WIDTH} {height}" role="img" aria-label="{about}">\n'
         + "\n".join(parts)

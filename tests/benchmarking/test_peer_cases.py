@@ -11,15 +11,20 @@ from benchmarks.mitsuba_agreement import Agreement
 from benchmarks.peer_cases import (
     EFFECTS,
     FORMS,
+    FURTHER,
     QUICK,
     Effort,
     Measured,
     Reached,
     Result,
+    Target,
     keep_cases,
     read_cases,
 )
 from benchmarks.peer_document import MARK, write_document
+from benchmarks.peer_scenes import scene_path
+from benchmarks.peers import Point, reached
+from course import load_scene
 from course.effects import PROJECT
 
 HERE = {"processor": "An Example 3000", "peer": "Mitsuba 3"}
@@ -27,12 +32,13 @@ THERE = {"processor": "Another 4000", "peer": "Mitsuba 3"}
 
 
 def _case(effect: str, form: str, seconds: float = 2.0, effort: Effort = QUICK) -> Measured:
-    ours = [Reached("adaptive", 1.5, 0.01), Reached("uniform", 3.0, 64)]
+    targets = []
+    for samples, factor in ((16, 1.0), (64, 4.0)):
+        theirs = Reached("multijitter", factor * seconds, float(samples))
+        ours = [Reached("adaptive", 1.5, 0.01), Reached("uniform", 3.0 * factor**0.5, 64)]
+        targets.append(Target(samples, 0.1 / samples**0.5, theirs, ours))
     agreement = Agreement(4.0, 0.0, 1e-5, -2e-4, (12, 20))
-    result = Result(
-        *(effect, form, [], False, "multijitter", 64, 0.01, seconds, ours, 4.0, 5.0),
-        agreement,
-    )
+    result = Result(effect, form, [], False, targets, 4.0, 5.0, agreement)
     return Measured(effort, HERE, result)
 
 
@@ -61,14 +67,17 @@ def test_one_more_case_leaves_the_others(tmp_path: Path, document: Path) -> None
         assert f"<!-- site: peer_times {form} -->" in text
         assert f"- glossy, {form}: as it is" in text
     assert text.count("Made by") == 1
-    assert text.count("| thin_lens | 1.00e-02 | multijitter | 2.000 | 3.000 (1.50) |") == 1
+    assert text.count("| thin_lens | 16 | 2.50e-02 | multijitter | 2.000 | 3.000 (1.50) |") == 1
+    assert text.count("| thin_lens | 64 | 1.25e-02 | multijitter | 8.000 | 6.000 (0.75) |") == 1
+    # The worse of the two.
+    assert text.count("| thin_lens, llvm | 1.50 | 0.75 |") == 1
 
 
 def test_the_same_case_takes_the_place_of_the_older(tmp_path: Path) -> None:
     path = tmp_path / "peers.json"
     keep_cases([_case("glossy", "llvm"), _case("glossy", "scalar")], path)
     cases = keep_cases([_case("glossy", "llvm", seconds=7.0)], path)
-    assert [(*case.case, case.result.seconds) for case in cases] == [
+    assert [(*case.case, case.result.targets[0].theirs.seconds) for case in cases] == [
         ("llvm", "glossy", 7.0),
         ("scalar", "glossy", 2.0),
     ]
@@ -98,3 +107,34 @@ def test_every_case_stands_in_the_documentation() -> None:
     """In either form, but for path tracing, which is the same in both."""
     cases = {case.case for case in read_cases(PROJECT / "docs" / "data" / "peers.json")}
     assert cases >= {(form, e) for form in FORMS for e in EFFECTS} - {("scalar", "path_tracing")}
+
+
+def _power_law(order: float, *knobs: float) -> list[Point]:
+    """Squared errors knob^-order, a second for each eighth of a knob."""
+    return [Point(knob, knob**-order, knob / 8) for knob in knobs]
+
+
+@pytest.mark.parametrize("samples", [12.0, 16.0, 48.0, 350.0])
+def test_seconds_to_an_error_are_exact_on_a_power_law(samples: float) -> None:
+    points = {"one": _power_law(1.3, 16, 64, 256), "other": _power_law(1.0, 16, 64, 256)}
+    (one,) = reached({"one": points["one"]}, samples**-1.3)
+    assert one.seconds == pytest.approx(samples / 8)
+    assert one.knob == pytest.approx(samples)
+    assert len(reached(points, samples**-1.3)) == 1 + (samples < 100)
+
+
+def test_an_error_far_from_all_measured_ones_is_not_reached() -> None:
+    points = {"one": _power_law(1.0, 16, 64)}
+    assert [len(reached(points, error)) for error in (1 / 129, 1 / 127, 1 / 9, 1 / 7)] == [
+        *(0, 1, 1, 0)
+    ]
+
+
+@pytest.mark.parametrize(
+    ("name", "triangles"),
+    list(zip(FURTHER, (80_000, 20_000, 20_000, 102_000, 139_000, 164_000), strict=True)),
+)
+def test_further_scenes_have_as_many_triangles_as_they_say(name: str, triangles: int) -> None:
+    scene = load_scene(scene_path(name))
+    assert sum(scene.compiled.triangles) == pytest.approx(triangles, rel=0.01)
+    assert f"{triangles:,}" in scene.title

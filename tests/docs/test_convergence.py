@@ -363,7 +363,7 @@ def test_the_plot_of_peers_has_the_numbers_of_its_tables(form: str) -> None:
     assert lines
     assert html.count(f", Mitsuba {form}: ") == len(lines)
     for line in lines:
-        scene = line.split("|")[1].strip()
+        scene = " ".join(cell.strip() for cell in line.split("|")[1:3])
         shown = [float(seconds) for seconds in re.findall(r" (\d+\.\d{3}) ", line)]
         drawn = [
             float(seconds) for seconds in re.findall(rf"{scene}, [^:]+: ([\d.]+) seconds", html)
