@@ -5,7 +5,6 @@
 .DELETE_ON_ERROR:
 
 VENV := .venv
-DEMO_SCENES ?= $(addprefix scenes/,$(addsuffix .yaml,still_life knots hills hall_of_mirrors))
 DEMO_FOLDER ?= out/demo
 SITE ?= out/site
 PORT ?= 8000
@@ -71,7 +70,7 @@ quick: $(STAMP)
 	"$(RUN)" -m pytest -q -n auto --dist worksteal @tests/quick.txt
 
 demo: $(STAMP)
-	@"$(RUN)" -m course demo --out $(DEMO_FOLDER) $(DEMO_SCENES)
+	@"$(RUN)" -m course demo --out $(DEMO_FOLDER)
 
 bench: $(STAMP)
 	"$(RUN)" -m benchmarks

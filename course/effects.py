@@ -19,7 +19,17 @@ from course.core.functions import Functions
 from course.errors import EffectError, Ended
 from course.modules import COURSE
 
-PROJECT = Path(__file__).resolve().parent.parent
+PACKAGE = Path(__file__).resolve().parent
+"""The package ``course``."""
+
+CHECKOUT = (PACKAGE.parent / "pyproject.toml").is_file()
+"""True in a clone or a student's copy; false in an installed wheel."""
+
+PROJECT = PACKAGE.parent if CHECKOUT else PACKAGE.parent / "penumbra_course_files"
+"""The folder of ``solutions``, ``scenes`` and ``docs``. A student's copy has no ``solutions``."""
+
+ASSIGNMENTS = (PROJECT if CHECKOUT else Path()) / "assignments"
+"""The functions that are to be written. An installed wheel has none: they are in the current folder."""
 
 
 @dataclass(frozen=True)
@@ -55,6 +65,8 @@ class Effects:
         path = Path(folder)
         if str(folder) in ("solutions", "assignments") and not path.is_dir():
             path = PROJECT / path
+        if str(folder) == "assignments" and not path.is_dir() and not CHECKOUT:
+            raise EffectError("no folder assignments here; `course start FOLDER` makes one")
         # Path.is_dir raises an error of its own for a name that is too long.
         if not os.path.isdir(path):  # noqa: PTH112
             raise EffectError(

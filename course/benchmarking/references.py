@@ -16,7 +16,7 @@ from course.atomic import make_folder, replacing
 from course.building.world import compile_scene
 from course.core.render import Progress
 from course.core.types import Floats32
-from course.effects import PROJECT, Effects
+from course.effects import PACKAGE, Effects
 from course.errors import CourseError, SceneError
 from course.formats.yaml import description as d
 from course.formats.yaml.loading import Loaded, load_description
@@ -42,7 +42,7 @@ def engine_hash(effects: Path) -> str:
     digest = sha256()
     for name in LIBRARIES:
         digest.update(f"{name} {version(name)}\n".encode())
-    files = [path for name in RENDERING for path in (PROJECT / "course" / name).rglob("*.py")]
+    files = [path for name in RENDERING for path in (PACKAGE / name).rglob("*.py")]
     for path in [*sorted(files), *sorted(effects.glob("*.py"))]:
         digest.update(f"{path.parent.name}/{path.name}\n".encode())
         digest.update(sha256(path.read_bytes()).digest())

@@ -8,7 +8,7 @@ import click
 
 from course.cli.options import modules_from
 from course.cli.outputs import check_outputs
-from course.effects import PROJECT
+from course.effects import PACKAGE
 
 
 @click.command()
@@ -23,7 +23,7 @@ from course.effects import PROJECT
 @click.option(
     "--out",
     type=click.Path(path_type=Path, dir_okay=False),
-    default=PROJECT / "course" / "grading" / "data" / "tolerances.json",
+    default=PACKAGE / "grading" / "data" / "tolerances.json",
     show_default="where the checks read them",
 )
 def calibrate(modules: tuple[str, ...], seeds: int, out: Path) -> None:

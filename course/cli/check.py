@@ -15,7 +15,7 @@ from course.atomic import write_text
 from course.cli.options import FAILED, modules_from
 from course.cli.outputs import check_outputs
 from course.cli.tables import count
-from course.effects import PROJECT
+from course.effects import ASSIGNMENTS, CHECKOUT
 from course.errors import CourseError
 
 if TYPE_CHECKING:
@@ -36,7 +36,7 @@ SHORT = 100
 @click.option(
     "--folder",
     type=click.Path(path_type=Path, file_okay=False),
-    default=PROJECT / "assignments",
+    default=ASSIGNMENTS,
     show_default="assignments",
     help="Where the modules are.",
 )
@@ -54,6 +54,11 @@ SHORT = 100
     show_default=True,
     help="How much to be told of what is wrong: 1 which law is broken, 2 also the smallest input that breaks it, "
     "3 also which known mistake it looks like. Never the code.",
+)
+@click.option(
+    "--lines",
+    is_flag=True,
+    help="Print a line for each function that isn't right, as compilers do: FILE:LINE: MESSAGE. Editors read it.",
 )
 @click.option("--watch", is_flag=True, help="Check again whenever a file is saved, until Ctrl-C.")
 @click.option(
@@ -75,6 +80,7 @@ def check(
     only: str | None,
     seed: int,
     rungs: int,
+    lines: bool,
     watch: bool,
     html: Path | None,
     json_file: Path | None,
@@ -86,12 +92,15 @@ def check(
     from course.grading.references import references
 
     if not folder.is_dir():
-        raise CourseError(f"{folder}: no such folder; --folder says where your modules are")
+        remedy = "" if CHECKOUT else ", `course start FOLDER` makes a folder to work in"
+        raise CourseError(f"{folder}: no such folder; --folder says where your modules are{remedy}")
     check_outputs(files=[("--html", html), ("--json", json_file)])
     arrays = references(seed)
     while True:
         seen = _times(folder, modules)
         report = _check(folder, modules, only, seed, arrays, rungs)
+        if lines:
+            _print_lines(report, folder)
         if html is not None:
             from course.grading.reports.page import as_page
 
@@ -151,6 +160,37 @@ def _check(
         raise CourseError(f"--only {only}: no check of {', '.join(modules)} has that name")
     shown.end(report)
     return report
+
+
+def _print_lines(report: Report, folder: Path) -> None:
+    """A line for each function that isn't right, the first thing that was found of it."""
+    from course.grading.report import grouped
+    from course.grading.reports.formats import clean
+
+    click.echo()
+    for function in (function for module in grouped(report) for function in module.functions):
+        if function.state == "right":
+            continue
+        path = folder / f"{function.module}.py"
+        severity = "warning" if function.state == "to do" else "error"
+        told = function.told[0]
+        text = (
+            function.state
+            if severity == "warning"
+            else f"{told.title}: {_short(clean(told.found))}"
+        )
+        line = _line_of(path, function.name)
+        click.echo(f"{path}:{line}: {severity}: {function.name}: {text}")
+
+
+def _line_of(path: Path, function: str) -> int:
+    """The line that begins a function; 1 where there is none."""
+    try:
+        rows = path.read_text(encoding="utf-8", errors="replace").splitlines()
+    except OSError:
+        return 1
+    begins = f"def {function}("
+    return next((n for n, row in enumerate(rows, start=1) if row.startswith(begins)), 1)
 
 
 def _chooser(only: str | None) -> Callable[[Check], bool] | None:

@@ -23,6 +23,7 @@ COMMANDS = (
     "render",
     "pixel",
     "check",
+    "start",
     "radiosity",
     "info",
     "convert",

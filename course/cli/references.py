@@ -8,7 +8,7 @@ import click
 
 from course.cli.outputs import check_outputs
 from course.cli.tables import count
-from course.effects import PROJECT
+from course.effects import PACKAGE
 from course.modules import COURSE
 
 
@@ -19,7 +19,7 @@ from course.modules import COURSE
 @click.option(
     "--out",
     type=click.Path(path_type=Path, dir_okay=False),
-    default=PROJECT / "course" / "grading" / "data" / "references.npz",
+    default=PACKAGE / "grading" / "data" / "references.npz",
     show_default="where `course check` reads them",
 )
 def references(seed: int, out: Path) -> None:

@@ -24,7 +24,7 @@ from course import __version__
 from course.building.world import compile_scene
 from course.compiled.library import available as packets_available
 from course.core.tracer import Tracer
-from course.effects import Effects
+from course.effects import PACKAGE, Effects
 from course.errors import CourseError
 from course.formats.yaml.description import (
     CubeEnvironment,
@@ -138,8 +138,6 @@ def _renamed(description: SceneDescription, files: _Files) -> SceneDescription:
 MOST = 2
 """Scenes that a worker keeps: those of two people who render at the same time."""
 
-PROJECT = Path(__file__).parents[2]
-
 
 @dataclass(frozen=True)
 class Order:
@@ -161,10 +159,10 @@ class Order:
 def edition() -> str:
     """What decides the bits of a picture beside the scene: the course's sources, NumPy and Embree."""
     digest = sha256()
-    for path in sorted((PROJECT / "course").rglob("*.py")):
-        name = path.relative_to(PROJECT)
+    for path in sorted(PACKAGE.rglob("*.py")):
+        name = path.relative_to(PACKAGE)
         # Whoever works at the command line or the grading doesn't change a picture.
-        if name.parts[1] not in ("benchmarking", "cli", "grading"):
+        if name.parts[0] not in ("benchmarking", "cli", "grading"):
             digest.update(f"{name.as_posix()}\n".encode())
             # A checkout on Windows may have other line ends.
             digest.update(path.read_bytes().replace(b"\r\n", b"\n"))

@@ -427,6 +427,7 @@ def _small(words: Sequence[str] = ()) -> Iterator[None]:
         mock.patch.object(estimators, "BENCHED", {name: known[name] for name in named}),
         mock.patch.object(estimators, "FURTHER_BENCHED", {}),
         mock.patch("course.cli.demo.SCENES", Path("few").absolute()),
+        mock.patch("course.cli.demo.SHOWN", ("ball",)),
         mock.patch.object(course, "render", smaller),
     ):
         yield

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from course.effects import PROJECT
+from course.effects import PACKAGE, PROJECT
 from course.grading.checks.result import Result
 from course.grading.classes.grading import FAULT, ClassResult, Finished, Runner, finish, grade_all
 from course.grading.classes.keeping import fingerprint, keep, kept, kept_files, recorded
@@ -20,7 +20,7 @@ from course.grading.classes.settings import INSTRUCTOR, Settings
 from course.grading.classes.submitted import find_submissions
 from course.grading.report import Report
 
-_CODE = (("course", "*.py"), ("course", "*.json"), ("solutions", "*.py"))
+_CODE = ((PACKAGE, "*.py"), (PACKAGE, "*.json"), (PROJECT / "solutions", "*.py"))
 
 
 @dataclass(frozen=True)
@@ -127,6 +127,6 @@ def _code() -> str:
     """A hash that changes whenever the grader's own code, its data or a solution does."""
     found = hashlib.sha256()
     for folder, pattern in _CODE:
-        for path in sorted((PROJECT / folder).rglob(pattern)):
-            found.update(f"{path.relative_to(PROJECT)}\0".encode() + path.read_bytes() + b"\0")
+        for path in sorted(folder.rglob(pattern)):
+            found.update(f"{path.relative_to(folder)}\0".encode() + path.read_bytes() + b"\0")
     return found.hexdigest()

@@ -13,27 +13,29 @@ from collections.abc import Container, Iterable, Mapping
 from pathlib import Path
 
 from course.atomic import replacing
+from course.effects import PACKAGE
 from course.errors import CourseError, OutputError
 from course.grading.pictures.whole import NAME
 from course.grading.references import make_references
-from course.grading.release.stubs import find_regions, make_stubs
+from course.grading.release.folder import made_contents
+from course.grading.release.stubs import find_regions
 from course.grading.report import USUAL_SEED
 from course.modules import COURSE
 
-FOLDERS = {
-    "course": {".py", ".typed", ".json", ".jinja"},
+SCENES = {
     "scenes": {
         *(".yaml", ".xml", ".json", ".md"),
         *(".webp", ".png", ".exr"),
         *(".ply", ".obj", ".stl", ".glb"),
-    },
-    # What reports tell students to read.
-    "docs/modules": {".md"},
-    "docs/guides": {".md"},
+    }
 }
+PAGES = {"docs": {".md", ".json"}}
+"""Reports tell students to read some of them, and these name the others."""
+
+FOLDERS = {"course": {".py", ".typed", ".json", ".jinja"}, **SCENES, **PAGES}
 """Folders that students get, and the kinds of file in them."""
 
-FILES = ("README.md", "LICENSE", "pyproject.toml", "Makefile", "docs/grading.md")
+FILES = ("LICENSE", "pyproject.toml")
 
 REFERENCES = "course/grading/data/references.npz"
 
@@ -59,8 +61,7 @@ def archive_contents(project: Path) -> dict[str, bytes]:
     LeakError
         A line of a solution stands somewhere in it; names the file and the line.
     """
-    stubs = make_stubs(project / "solutions")
-    contents = {f"assignments/{stub.module}.py": stub.text.encode() for stub in stubs}
+    contents = made_contents(project / "solutions", copy=True)
     contents |= project_files(project, FILES, FOLDERS)
     contents[REFERENCES] = reference_file((*COURSE, NAME), USUAL_SEED)
     _search(contents, project)
@@ -86,12 +87,19 @@ def write_archive(project: Path, out: Path) -> int:
 def project_files(
     project: Path, files: Iterable[str], folders: Mapping[str, Container[str]]
 ) -> dict[str, bytes]:
-    """Path -> content of some files of a project, and of those of some kinds in its folders."""
-    listed = [project / name for name in files if (project / name).is_file()]
+    """Path -> content of some files of a project, and of those of some kinds in its folders.
+
+    The package ``course`` is a folder of each project, wherever it is installed.
+    """
+    contents = {name: (project / name).read_bytes() for name in files if (project / name).is_file()}
     for folder, suffixes in folders.items():
-        paths = sorted((project / folder).rglob("*"))
-        listed += [path for path in paths if path.is_file() and path.suffix in suffixes]
-    return {path.relative_to(project).as_posix(): path.read_bytes() for path in listed}
+        home = project / folder
+        if folder == "course" and not home.is_dir():
+            home = PACKAGE
+        for path in sorted(home.rglob("*")):
+            if path.is_file() and path.suffix in suffixes:
+                contents[f"{folder}/{path.relative_to(home).as_posix()}"] = path.read_bytes()
+    return contents
 
 
 def reference_file(modules: Iterable[str], seed: int) -> bytes:

@@ -1,0 +1,50 @@
+"""What is made for a folder to work in: README, stubs, the schema of scenes, settings of an editor."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+from jinja2 import Environment, PackageLoader, StrictUndefined
+
+from course import __version__
+from course.formats.yaml.schema import json_schema
+from course.grading.release.stubs import make_stubs
+from course.modules import COURSE
+
+TEMPLATES = {
+    "README.md": "README.md",
+    ".vscode/tasks.json": "tasks.json",
+    ".vscode/settings.json": "settings.json",
+    ".vscode/extensions.json": "extensions.json",
+    ".devcontainer/devcontainer.json": "devcontainer.json",
+}
+"""File -> its template."""
+
+OF_A_COPY = {"Makefile": "Makefile", "tests/test_copy.py": "test_copy.py"}
+"""In a student's copy, which holds the course itself."""
+
+
+def made_contents(solutions: Path, *, copy: bool, instructor: bool = False) -> dict[str, bytes]:
+    """Path -> content of the files that are made anew for each folder.
+
+    Parameters
+    ----------
+    copy : true for a student's copy, which holds the course; false for a folder beside an installed course
+    instructor : true where the README tells how to grade
+    """
+    environment = Environment(
+        loader=PackageLoader("course.grading.release"),
+        undefined=StrictUndefined,
+        keep_trailing_newline=True,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    values = {"copy": copy, "instructor": instructor, "version": __version__, "modules": COURSE}
+    contents = {
+        name: environment.get_template(f"{template}.jinja").render(values).encode()
+        for name, template in (TEMPLATES | (OF_A_COPY if copy else {})).items()
+    }
+    stubs = {f"assignments/{stub.module}.py": stub.text.encode() for stub in make_stubs(solutions)}
+    schema = json.dumps(json_schema(), indent=2).encode() + b"\n"
+    return contents | stubs | {"scenes/scene.schema.json": schema}

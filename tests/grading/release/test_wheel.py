@@ -1,0 +1,118 @@
+"""An installed wheel is the whole course: from an empty folder it lays out a folder to work in, renders and checks.
+
+It is built by way of the source distribution and unpacked beside the libraries; the checkout isn't on the path.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tarfile
+import zipfile
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from course.effects import PROJECT
+from course.modules import COURSE
+from tests.once import Once
+
+Course = Callable[..., subprocess.CompletedProcess[str]]
+
+pytest.importorskip("hatchling", reason="builds the wheel; it is one of the extras `dev`")
+
+
+def _installed(folder: Path) -> None:
+    """Build the source distribution from the checkout, the wheel from that, and unpack it."""
+    folder.mkdir()
+    _built("sdist", PROJECT, folder)
+    (sources,) = folder.glob("*.tar.gz")
+    with tarfile.open(sources) as file:
+        file.extractall(folder, filter="data")
+    _built("wheel", folder / sources.name.removesuffix(".tar.gz"), folder)
+    (wheel,) = folder.glob("*.whl")
+    with zipfile.ZipFile(wheel) as file:
+        file.extractall(folder)
+
+
+def _built(target: str, source: Path, folder: Path) -> None:
+    line = [sys.executable, "-m", "hatchling", "build", "-t", target, "-d", str(folder)]
+    subprocess.run(line, cwd=source, check=True, capture_output=True, timeout=120)
+
+
+@pytest.fixture(scope="module")
+def site(once: Once) -> Path:
+    """The folder into which the wheel is installed."""
+    return once("site", _installed)
+
+
+@pytest.fixture
+def course(site: Path, tmp_path: Path) -> Course:
+    """Run `course` as it is installed, in an empty folder or one of its folders."""
+
+    def run(*arguments: str, folder: str = ".") -> subprocess.CompletedProcess[str]:
+        return subprocess.run(
+            [sys.executable, "-P", "-m", "course", *arguments],
+            cwd=tmp_path / folder,
+            env=os.environ | {"PYTHONPATH": str(site)},
+            check=False,
+            capture_output=True,
+            text=True,
+            timeout=240,
+        )
+
+    return run
+
+
+def test_a_folder_to_work_in_is_made_rendered_and_checked(
+    course, site: Path, tmp_path: Path
+) -> None:
+    started = course("start", "mine")
+    assert started.returncode == 0, started.stderr
+    scene = "scenes/before/supersampling.yaml"
+    rendered = course("render", scene, "--size", "60x40", "-o", "a.png", folder="mine")
+    assert rendered.returncode == 0, rendered.stderr
+    todo = course("check", "motion_blur", "--lines", folder="mine")
+    assert todo.returncode == 3, todo.stderr
+    tasks = json.loads((tmp_path / "mine" / ".vscode" / "tasks.json").read_text("utf-8"))
+    matcher = tasks["tasks"][0]["problemMatcher"]["pattern"]["regexp"]
+    found = [re.match(matcher, line) for line in todo.stdout.splitlines()]
+    assert [m[4].partition(":")[0] for m in found if m] == list(COURSE["motion_blur"])
+    # With the right functions all is right, and pictures are among what is checked.
+    files = site / "penumbra_course_files"
+    shutil.copy(files / "solutions" / "motion_blur.py", tmp_path / "mine" / "assignments")
+    done = course("check", "motion_blur", folder="mine")
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "30 of 30 points, 32 of 32 checks passed" in done.stdout
+
+
+def test_a_class_is_graded(course: Course, site: Path, tmp_path: Path) -> None:
+    (tmp_path / "handed_in" / "ann").mkdir(parents=True)
+    files = site / "penumbra_course_files"
+    shutil.copy(files / "solutions" / "motion_blur.py", tmp_path / "handed_in" / "ann")
+    graded = course(
+        "grade", "handed_in", "--out", "graded", "--modules", "motion_blur", "--trust-submissions"
+    )
+    assert graded.returncode == 0, graded.stderr
+    assert "ann,1,30,30" in (tmp_path / "graded" / "grades.csv").read_text("utf-8")
+
+
+def test_where_nothing_is_yet_the_remedy_is_told(course: Course) -> None:
+    missing = course("check", "sampling")
+    assert missing.returncode == 1
+    assert "`course start FOLDER` makes a folder to work in" in missing.stderr
+
+
+def test_links_of_the_folder_lead_somewhere(course: Course, tmp_path: Path) -> None:
+    course("start", "mine", "--instructor")
+    pages = sorted((tmp_path / "mine").rglob("*.md"))
+    assert len(pages) > 20
+    for page in pages:
+        for target in re.findall(r"\]\(([^)#\s]+)", page.read_text(encoding="utf-8")):
+            if "://" not in target:
+                assert (page.parent / target).exists(), (page, target)
