@@ -18,8 +18,8 @@ from course.core.render import Progress
 from course.core.types import Floats32
 from course.effects import PACKAGE, Effects
 from course.errors import CourseError, SceneError
-from course.formats.yaml import description as d
 from course.formats.yaml.loading import Loaded, load_description
+from course.formats.yaml.named_files import named_files
 from course.formats.yaml.overriding import Overrides
 from course.render_scene import render
 from course.scene.scene import Scene
@@ -64,17 +64,6 @@ def scene_hash(loaded: Loaded, effects: Effects, **settings: object) -> str:
     everything = [data, files, settings, engine_hash(effects.folder.resolve())]
     text = json.dumps(everything, sort_keys=True, allow_nan=False)
     return sha256(text.encode()).hexdigest()
-
-
-def named_files(scene: d.SceneDescription) -> list[str]:
-    """Every file that a scene names, as it names them, each once."""
-    names = [thing.file for thing in scene.objects if isinstance(thing, d.MeshFile)]
-    match scene.environment:
-        case d.CubeEnvironment(faces=faces, cross=cross):
-            names += [name for name in (*(faces or ()), cross) if name is not None]
-        case d.LatLongEnvironment(image=image):
-            names.append(image)
-    return list(dict.fromkeys(names))
 
 
 def _file_hash(path: Path) -> str:

@@ -247,7 +247,7 @@ def emitter_parts(
             continue
         if isinstance(light, d.RectangleLight) and not light.visible:
             continue
-        mesh = _rectangle(light) if isinstance(light, d.RectangleLight) else _sphere(light)
+        mesh = rectangle_mesh(light) if isinstance(light, d.RectangleLight) else _sphere(light)
         mesh = Mesh(mesh.vertices + shutter.start(light.motion), mesh.triangles)
         velocity = shutter.velocity(light.motion, frame)
         placed = frame.mesh(mesh)
@@ -258,7 +258,8 @@ def emitter_parts(
     return parts, emission
 
 
-def _rectangle(light: d.RectangleLight) -> Mesh:
+def rectangle_mesh(light: d.RectangleLight) -> Mesh:
+    """The surface of a light, in the units of the scene file."""
     corner, u, v = (np.array(x) for x in (light.corner, light.edge_u, light.edge_v))
     vertices = np.stack((corner, corner + u, corner + u + v, corner + v))
     return Mesh(vertices, np.array([[0, 1, 2], [0, 2, 3]]))

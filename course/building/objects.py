@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
+import msgspec
 
 from course import shapes
 from course.core.triangles import Mesh
-from course.core.types import Floats64
 from course.errors import GeometryError, SceneError
 from course.formats.meshes import transforms
 from course.formats.yaml import description as d
@@ -36,9 +35,8 @@ def object_mesh(
     try:
         mesh = _local_mesh(thing, folder, {} if files is None else files, bytes_of_files(document))
         if thing.transform:
-            mesh = transforms.apply(
-                mesh, transforms.compose([_matrix(step) for step in thing.transform])
-            )
+            steps = map(transforms.of_step, msgspec.to_builtins(thing.transform))
+            mesh = transforms.apply(mesh, transforms.compose(steps))
     except (GeometryError, ValueError) as error:
         key = (*path, "file") if isinstance(thing, d.MeshFile) else path
         raise SceneError(f"{document.where(key)}: objects[{number}]: {error}") from error
@@ -62,15 +60,3 @@ def _local_mesh(thing: d.Object, folder: Path, files: dict[str, Mesh], bound: Bo
         **{name: getattr(thing, name) for name in own}
     )
     return mesh
-
-
-def _matrix(step: d.Transform) -> Floats64:
-    match step:
-        case d.Translate():
-            return transforms.translate(step.translate)
-        case d.Scale():
-            return transforms.scale(step.scale)
-        case d.Rotate():
-            return transforms.rotate(step.rotate.axis, step.rotate.degrees)
-        case d.Affine():
-            return np.array(step.matrix, np.float64)

@@ -11,7 +11,7 @@ from course.core.triangles import Mesh
 from course.core.types import Floats32, Floats64
 from course.effects import Bound
 from course.extras.painting import Paint
-from course.extras.textures import OnMesh, OnRectangle, OnSphere, Texture
+from course.extras.textures import Texture, on_mesh, on_rectangle, on_sphere
 from course.formats.yaml import description as d
 from course.formats.yaml.description import TextureDescription
 from course.formats.yaml.document import KeyPath
@@ -69,14 +69,14 @@ class Painter:
                 )
             corners = np.zeros((len(mesh.triangles), 3, 3))
             corners[:, :, :2] = mesh.uv[mesh.triangles]
-            return Paint(corners, OnMesh(texture, places))
+            return Paint(corners, on_mesh(texture, places))
         local = self._own_coordinates(thing, number)
         corners = local[mesh.triangles]
         if name == "sphere_uv":
-            return Paint(corners, OnSphere(texture, places))
+            return Paint(corners, on_sphere(texture, places))
         # The quad's corners in their order around it: u goes from the first to the second, v to the fourth.
         p1, p2, _, p3 = local.astype(np.float32)
-        return Paint(corners, OnRectangle(texture, p1, p2, p3, places))
+        return Paint(corners, on_rectangle(texture, p1, p2, p3, places))
 
     def _own_coordinates(self, thing: d.Object, number: int) -> Floats64:
         """Vertices (V, 3) of a shape before it is transformed, its longest extent 2."""

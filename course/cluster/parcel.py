@@ -18,21 +18,14 @@ from importlib.metadata import version
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-import msgspec
-
 from course import __version__
 from course.building.world import compile_scene
 from course.compiled.library import available as packets_available
 from course.core.tracer import Tracer
 from course.effects import PACKAGE, Effects
 from course.errors import CourseError
-from course.formats.yaml.description import (
-    CubeEnvironment,
-    LatLongEnvironment,
-    MeshFile,
-    SceneDescription,
-)
 from course.formats.yaml.loading import Loaded
+from course.formats.yaml.named_files import with_files
 from course.rendering.binding import bind
 from course.rendering.memory import keep_freed_memory
 from course.scene.scene import Scene, Settings
@@ -62,7 +55,7 @@ def pack(scene: Scene) -> Parcel:
     """
     loaded = scene.loaded
     files = _Files(loaded.path.parent)
-    description = _renamed(loaded.description, files)
+    description = with_files(loaded.description, files.add)
     # Lines are for messages about mistakes, and a scene that has been compiled here has none.
     document = replace(loaded.document, lines={})
     functions = {path.name: path.read_bytes() for path in sorted(scene.effects.folder.glob("*.py"))}
@@ -108,31 +101,6 @@ class _Files:
             self.contents[new] = (self._folder / name).read_bytes()
             self._names[name] = new
         return self._names[name]
-
-
-def _renamed(description: SceneDescription, files: _Files) -> SceneDescription:
-    """The description with the parcel's names of its files."""
-    change = msgspec.structs.replace
-    objects = tuple(
-        change(thing, file=files.add(thing.file)) if isinstance(thing, MeshFile) else thing
-        for thing in description.objects
-    )
-    materials = dict(description.materials)
-    for name in dict.fromkeys(thing.material for thing in objects):
-        texture = materials[name].texture
-        if texture is not None:
-            texture = change(texture, image=files.add(texture.image))
-            materials[name] = change(materials[name], texture=texture)
-    environment = description.environment
-    if isinstance(environment, LatLongEnvironment):
-        environment = change(environment, image=files.add(environment.image))
-    elif isinstance(environment, CubeEnvironment):
-        if environment.cross is not None:
-            environment = change(environment, cross=files.add(environment.cross))
-        if environment.faces is not None:
-            faces = tuple(files.add(face) for face in environment.faces)
-            environment = change(environment, faces=faces)
-    return change(description, objects=objects, materials=materials, environment=environment)
 
 
 MOST = 2

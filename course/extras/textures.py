@@ -8,6 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from course.core.types import Floats32
+from course.extras.painting import ColorAt
+
+Places = Callable[..., Floats32]
+"""A function of the `textures` module that finds places (2, N) in a picture."""
 
 
 @dataclass(frozen=True)
@@ -30,62 +34,27 @@ class Texture:
         return self.lookup(self.image, uv * self.repeat[:, None])
 
 
-@dataclass(frozen=True)
-class OnRectangle:
-    """A rectangle whose corners carry their places in its own coordinates.
+def on_rectangle(
+    texture: Texture, p1: Floats32, p2: Floats32, p3: Floats32, rectangle_uv: Places
+) -> ColorAt:
+    """Colours of a rectangle whose corners carry their places in its own coordinates.
 
-    Attributes
-    ----------
-    p1, p2, p3 : (3,), where u = v = 0, u = 1 and v = 1
-    rectangle_uv : (p, p1, p2, p3) -> (2, N)
+    ``p1``, ``p2``, ``p3``: (3,), where u = v = 0, u = 1 and v = 1.
     """
-
-    texture: Texture
-    p1: Floats32
-    p2: Floats32
-    p3: Floats32
-    rectangle_uv: Callable[[Floats32, Floats32, Floats32, Floats32], Floats32]
-
-    def __call__(self, barycentric: Floats32, corners: Floats32) -> Floats32:
-        """Colours (3, N), as `course.extras.painting` asks for them."""
-        p = _points(barycentric, corners)
-        return self.texture(self.rectangle_uv(p, self.p1, self.p2, self.p3))
+    return lambda barycentric, corners: texture(
+        rectangle_uv(_points(barycentric, corners), p1, p2, p3)
+    )
 
 
-@dataclass(frozen=True)
-class OnSphere:
-    """A sphere about the origin whose corners carry their places in its own coordinates.
-
-    Attributes
-    ----------
-    sphere_uv : (p, center) -> (2, N)
-    """
-
-    texture: Texture
-    sphere_uv: Callable[[Floats32, Floats32], Floats32]
-
-    def __call__(self, barycentric: Floats32, corners: Floats32) -> Floats32:
-        """Colours (3, N), as `course.extras.painting` asks for them."""
-        center = np.zeros(3, np.float32)
-        return self.texture(self.sphere_uv(_points(barycentric, corners), center))
+def on_sphere(texture: Texture, sphere_uv: Places) -> ColorAt:
+    """Colours of a sphere about the origin whose corners carry their places in its own coordinates."""
+    center = np.zeros(3, np.float32)
+    return lambda barycentric, corners: texture(sphere_uv(_points(barycentric, corners), center))
 
 
-@dataclass(frozen=True)
-class OnMesh:
-    """Triangles whose corners carry u and v.
-
-    Attributes
-    ----------
-    triangle_uv : (barycentric, uv0, uv1, uv2) -> (2, N)
-    """
-
-    texture: Texture
-    triangle_uv: Callable[[Floats32, Floats32, Floats32, Floats32], Floats32]
-
-    def __call__(self, barycentric: Floats32, corners: Floats32) -> Floats32:
-        """Colours (3, N), as `course.extras.painting` asks for them."""
-        first, second, third = corners[:, :2]
-        return self.texture(self.triangle_uv(barycentric, first, second, third))
+def on_mesh(texture: Texture, triangle_uv: Places) -> ColorAt:
+    """Colours of triangles whose corners carry u and v."""
+    return lambda barycentric, corners: texture(triangle_uv(barycentric, *corners[:, :2]))
 
 
 def _points(barycentric: Floats32, corners: Floats32) -> Floats32:

@@ -18,6 +18,7 @@ from scipy.sparse.csgraph import connected_components
 from course import shapes
 from course.building.cutting import Triangles, bisected, undivided
 from course.building.frame import Frame
+from course.building.lights import rectangle_mesh
 from course.building.materials import base_color
 from course.building.objects import object_mesh
 from course.core.triangles import Mesh
@@ -169,9 +170,7 @@ def _meshes(loaded: Loaded, frame: Frame) -> Iterator[tuple[Mesh, Floats64, Floa
 
 def _lamp(light: d.RectangleLight | d.SphereLight) -> Mesh:
     if isinstance(light, d.RectangleLight):
-        corner, u, v = (np.array(x) for x in (light.corner, light.edge_u, light.edge_v))
-        square = np.stack((corner, corner + u, corner + u + v, corner + v))
-        return Mesh(square, np.array([[0, 1, 2], [0, 2, 3]]))
+        return rectangle_mesh(light)
     ball = shapes.sphere(1.0, LAMP_SEGMENTS)
     area = undivided(ball.vertices, np.asarray(ball.triangles, np.intp)).areas().sum()
     # As large as the sphere is, so that it sends out as much light.

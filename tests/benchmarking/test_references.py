@@ -15,6 +15,7 @@ from course import Picture, load_scene, render
 from course.benchmarking import references
 from course.benchmarking.references import HALVES, reference
 from course.errors import CourseError, OutputError, SceneError
+from course.formats.pictures.files import save
 from tests.benchmarking.conftest import SCENE
 
 
@@ -133,6 +134,16 @@ def test_the_content_of_a_mesh_file_counts(make: Make, penumbra: Path) -> None:
     mesh.unlink()
     with pytest.raises(SceneError, match=r"mesh\.obj: can't be read"):
         make()
+
+
+def test_the_content_of_a_texture_counts(make: Make, penumbra: Path) -> None:
+    keys = set()
+    painted = {"matt": {"texture": {"image": "paint.png"}}}
+    penumbra.write_text(json.dumps(SCENE | {"materials": painted}), encoding="utf-8")
+    for grey in (0.2, 0.8):
+        save(penumbra.with_name("paint.png"), np.full((3, 2, 2), grey, np.float32))
+        keys.add(make().key)
+    assert len(keys) == 2
 
 
 def test_the_functions_of_the_effects_count(make: Make, tmp_path: Path) -> None:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -47,6 +48,18 @@ def rotate(axis: ArrayLike, degrees: float) -> Matrix:
     matrix = np.eye(4)
     matrix[:3, :3] = cosine * np.eye(3) + sine * cross + (1.0 - cosine) * outer
     return matrix
+
+
+def of_step(step: Mapping[str, Any]) -> Matrix:
+    """Return the matrix of a step of ``transform``, as scene files write it: ``{"translate": [0, 1, 0]}``."""
+    match step:
+        case {"translate": offset}:
+            return translate(offset)
+        case {"scale": factors}:
+            return scale(factors)
+        case {"rotate": {"axis": axis, "degrees": degrees}}:
+            return rotate(axis, degrees)
+    return np.array(step["matrix"], np.float64)
 
 
 def compose(matrices: Iterable[Matrix]) -> Matrix:

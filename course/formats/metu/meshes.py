@@ -10,7 +10,7 @@ from __future__ import annotations
 import os
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 
@@ -206,16 +206,3 @@ def plane_mesh(point: Floats64, normal: Floats64, others: Floats64) -> Mesh:
             a, b = 4 * ring + k, 4 * ring + (k + 1) % 4
             triangles += [(a, a + 4, b + 4), (a, b + 4, b)]
     return Mesh(np.array(squares), np.array(triangles, np.int32), None)
-
-
-def corners_of_all(meshes: list[tuple[Floats64, dict[str, Any]]]) -> Floats64:
-    """Corners (N, 3) of the boxes around vertices, where they start and where their objects' motion takes them.
-
-    ``meshes``: vertices (V, 3) where the scene has them, and the keys of their object.
-    """
-    found = []
-    for vertices, thing in meshes:
-        low, high = vertices.min(axis=0), vertices.max(axis=0)
-        ends = np.array(np.meshgrid(*np.stack((low, high), axis=1))).reshape(3, 8).T
-        found += [ends, ends + thing.get("motion", {}).get("velocity", 0.0)]
-    return np.concatenate(found) if found else np.zeros((0, 3))

@@ -23,7 +23,6 @@ from course.formats.metu.meshes import (
     MeshTable,
     check_indices,
     corners_of,
-    corners_of_all,
     has_normals,
     inline_mesh,
     mesh_file,
@@ -39,6 +38,9 @@ SEGMENTS = ((8, 512), (32, 256), (128, 128))
 """Spheres a scene may have at most for so many flat pieces around each: a million triangles, or two, in all."""
 
 FEWEST_SEGMENTS = 64
+
+CUBE = np.array(list(product((-1, 1), repeat=3)))
+"""Corners of the cube of edge 2 about the origin, (8, 3)."""
 
 INHERITED = ("shape", "file", "shading", "normals", "material")
 """What an instance has from its base; how that moves is its own affair."""
@@ -226,16 +228,17 @@ class Objects:
         return things
 
     def _corners(self, things: list[dict[str, Any]]) -> Floats64:
-        """Corners (N, 3) of the boxes around all objects."""
-        meshes = []
+        """Corners (N, 3) of the boxes around all objects, where they start and where their motion takes them."""
+        found = [np.zeros((0, 3))]
+        read = self.meshes.vertices
         for thing in things:
-            if thing["shape"] == "sphere":
-                box = np.array(list(product((-1, 1), repeat=3))) * thing["radius"]
-            else:
-                box = self.meshes.vertices[thing["file"]]
+            sphere = thing["shape"] == "sphere"
+            own = CUBE * thing["radius"] if sphere else read[thing["file"]]
             matrix = matrix_of_steps(thing["transform"])
-            meshes.append((box @ matrix[:3, :3].T + matrix[:3, 3], thing))
-        return corners_of_all(meshes)
+            placed = own @ matrix[:3, :3].T + matrix[:3, 3]
+            ends = np.where(CUBE < 0, placed.min(axis=0), placed.max(axis=0))
+            found += [ends, ends + thing.get("motion", {}).get("velocity", 0.0)]
+        return np.concatenate(found)
 
     def _vertex(self, element: Element) -> Floats64:
         """The vertex whose number is an element's text, (3,)."""

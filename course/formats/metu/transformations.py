@@ -57,7 +57,7 @@ def matrix_of(thing: Element, steps: dict[str, dict[str, Any]]) -> Floats64:
 
 def matrix_of_steps(chosen: Steps) -> Floats64:
     """The same of steps that have been looked up."""
-    return transforms.compose(map(_matrix, chosen))
+    return transforms.compose(map(transforms.of_step, chosen))
 
 
 def point(matrix: Floats64, position: Floats64) -> Floats64:
@@ -71,17 +71,6 @@ def normal(matrix: Floats64, direction: Floats64) -> Floats64:
     linear = matrix[:3, :3] / np.abs(matrix[:3, :3]).max()
     turned: Floats64 = np.linalg.inv(linear).T @ direction
     return turned
-
-
-def _matrix(step: dict[str, Any]) -> Floats64:
-    match step:
-        case {"translate": offset}:
-            return transforms.translate(offset)
-        case {"scale": factors}:
-            return transforms.scale(factors)
-        case {"rotate": {"axis": axis, "degrees": degrees}}:
-            return transforms.rotate(axis, degrees)
-    return np.array(step["matrix"], np.float64)
 
 
 def _step(kind: str, element: Element) -> dict[str, Any]:

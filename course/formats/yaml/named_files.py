@@ -1,0 +1,45 @@
+"""The files that a scene names: meshes, and the pictures of its environment and of its objects' textures."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from msgspec.structs import replace
+
+from course.formats.yaml import description as d
+
+
+def with_files(scene: d.SceneDescription, change: Callable[[str], str]) -> d.SceneDescription:
+    """The scene with other names of its files; ``change`` is called with every name, though not once for each."""
+    objects = tuple(
+        replace(thing, file=change(thing.file)) if isinstance(thing, d.MeshFile) else thing
+        for thing in scene.objects
+    )
+    materials = dict(scene.materials)
+    for name in dict.fromkeys(thing.material for thing in objects):
+        if (texture := materials[name].texture) is not None:
+            texture = replace(texture, image=change(texture.image))
+            materials[name] = replace(materials[name], texture=texture)
+    environment = scene.environment
+    match environment:
+        case d.LatLongEnvironment():
+            environment = replace(environment, image=change(environment.image))
+        case d.CubeEnvironment(faces=faces, cross=cross):
+            environment = replace(
+                environment,
+                faces=faces and tuple(map(change, faces)),
+                cross=cross and change(cross),
+            )
+    return replace(scene, objects=objects, materials=materials, environment=environment)
+
+
+def named_files(scene: d.SceneDescription) -> list[str]:
+    """Every file that a scene names, as it names them, each once."""
+    names: dict[str, None] = {}
+
+    def note(name: str) -> str:
+        names[name] = None
+        return name
+
+    with_files(scene, note)
+    return list(names)
