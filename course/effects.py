@@ -15,7 +15,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from course.core.functions import Functions
+from course.core.types import Functions
 from course.errors import EffectError, Ended
 from course.modules import COURSE
 
@@ -144,7 +144,7 @@ class Bound:
 
     def functions(self, module: str, *names: str, asked_by: tuple[str | int, ...]) -> Functions:
         """Some functions of a module, to be called by their own names; see ``function``."""
-        return Functions({name: self.function(module, name, asked_by) for name in names})
+        return Functions(**{name: self.function(module, name, asked_by) for name in names})
 
 
 def _import_file(path: Path) -> ModuleType:

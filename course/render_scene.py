@@ -166,7 +166,7 @@ def _receipt(
         **skipped_modules(bound.needs, integrator),
         **job.scene.compiled.world.skipped_lights,
     }
-    if rays.scatter is None or not rays.scatter.mirrors:
+    if rays.scatter is None or rays.scatter.mirror.rows.max() <= rays.scatter.cutoff:
         skipped["reflection"] = "no material mirrors, or the depth is 0"
     if rays.scatter is None or rays.scatter.index is None:
         skipped["refraction"] = "no material refracts, or the depth is 0"

@@ -17,8 +17,8 @@ ROOT = Path(__file__).parents[1]
 COURSE = ROOT / "course"
 CORE = COURSE / "core"
 
-FILES = sorted(path for path in CORE.rglob("*.py") if path.read_text(encoding="utf-8"))
-MOST_FILES, MOST_LINES, LONGEST_FUNCTION = 30, 3128, 60
+FILES = sorted(CORE.rglob("*.py"))
+MOST_FILES, MOST_LINES, LONGEST_FUNCTION = 30, 3000, 60
 
 FROM_RAY_TO_COLOUR = (
     *("tracer", "integrator", "camera", "hits", "direct"),

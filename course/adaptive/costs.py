@@ -1,7 +1,7 @@
-"""What samples cost, in camera rays that meet nothing.
+"""The costs of samples, in units of one camera ray that hits nothing.
 
-Adaptive sampling puts fewer samples where each costs more (``course.adaptive.allocation``). Seconds would be what
-counts, but they differ from run to run, and pictures mustn't.
+Adaptive sampling takes fewer samples where a sample costs more (``course.adaptive.allocation``). Seconds are not used:
+they differ from run to run, and pictures mustn't.
 """
 
 from __future__ import annotations
@@ -11,28 +11,28 @@ import numpy as np
 from course.core.types import Floats32, Indices
 
 HIT = 1.0
-"""Finding out about a hit, and shading without lights."""
+"""Geometry of a hit, and shading without lights."""
 
 SHADOW_RAY = 1.5
-"""A point on a light, and the ray towards it."""
+"""A point on a light and the shadow ray to it."""
 
 FURTHER_RAY = 5.0
-"""A ray on its way after a hit: they go anywhere, and camera rays go together."""
+"""A reflected or refracted ray. It is dearer than a camera ray, for its neighbours go in other directions."""
 
 
 class RowOfCosts:
-    """The costs of a block's paths; see ``course.core.rays.PathCosts``."""
+    """The cost of each path of a block."""
 
     def __init__(self, cost: Floats32) -> None:
         self._cost = cost
 
     @classmethod
     def of(cls, paths: int) -> RowOfCosts:
-        """The costs of so many camera rays."""
+        """The costs of camera rays, one per path."""
         return cls(np.ones(paths, np.float32))
 
     def add(self, kind: str, path: Indices | None, cost: float | None = None) -> None:
-        """See ``PathCosts``."""
+        """Add the cost of a "hit" or of a kind of ray, or ``cost`` itself, to paths (n,) or to all."""
         if cost is None:
             cost = {"hit": HIT, "shadow": SHADOW_RAY}.get(kind, FURTHER_RAY)
         if path is None:
@@ -41,11 +41,14 @@ class RowOfCosts:
             np.add.at(self._cost, path, np.float32(cost))
 
     def part(self, paths: slice) -> RowOfCosts:
-        """See ``PathCosts``."""
+        """The costs of some of the paths."""
         return RowOfCosts(self._cost[paths])
 
     def with_row(self, mean: Floats32, parts: int) -> Floats32:
-        """See ``PathCosts``; the same for all parts: sums of few numbers each would take more time than they spare."""
+        """(4, n * parts) from colours (3, n * parts) of n pixels; the last row is the mean cost of a pixel's paths.
+
+        All parts of a pixel get the same mean: a mean for each part would take more time than it saves.
+        """
         pixels = mean.shape[1] // parts
         each = self._cost.reshape(pixels, -1).mean(axis=1)
         return np.concatenate((mean, np.repeat(each, parts)[None]))

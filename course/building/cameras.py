@@ -10,6 +10,7 @@ from course.core.camera import Camera, Lens
 from course.core.types import Floats64
 from course.effects import Bound
 from course.extras.apertures import PolygonLens, SquareLens
+from course.extras.near_plane import NearPlaneCamera
 from course.extras.sampled import SampledLens
 from course.formats.yaml.loading import Loaded
 
@@ -71,7 +72,8 @@ def _camera(
     first = forward + right * corner[0] + true_up * corner[1]
     vectors = eye, right, true_up, forward, first, right * steps[0], true_up * steps[1]
     origin, x, y, z, corner_at, step_x, step_y = (vector.astype(np.float32) for vector in vectors)
-    return Camera(origin, x, y, z, corner_at, step_x, step_y, near)
+    camera = Camera(origin, x, y, z, corner_at, step_x, step_y)
+    return NearPlaneCamera(**vars(camera), near=near) if near else camera
 
 
 def _unit(vector: Floats64) -> Floats64:

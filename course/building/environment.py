@@ -31,18 +31,22 @@ HEMISPHERES = {
 """The importance_sampling functions for each value of ``sampling``, but for ``automatic``."""
 
 
-def compile_environment(loaded: Loaded, bound: Bound) -> tuple[Environment, SkySampling | None]:
+def compile_environment(
+    loaded: Loaded, bound: Bound
+) -> tuple[Environment | None, SkySampling | None]:
     """Read the pictures, if there are any, and make a cube of them.
 
     Raises SceneError: a picture is missing, can't be read, has the wrong size or is too bright; names the key that asks
     for it.
-    Returns the environment, and what chooses directions of its light; None where it lights nothing.
+    Returns the environment, None if it is black, and the sampling of its directions, None if it lights nothing.
     """
     environment = loaded.description.environment
     if isinstance(environment, d.ConstantEnvironment):
         radiance = in_range(rgb(environment.radiance), loaded, ("environment",), "radiance")
-        hemispheres = _hemispheres(loaded, bound) if radiance.any() else None
-        return ConstantEnvironment(radiance), _sampling(environment.lights, hemispheres)
+        if not radiance.any():
+            return None, None
+        sampling = _sampling(environment.lights, _hemispheres(loaded, bound))
+        return ConstantEnvironment(radiance), sampling
     if isinstance(environment, d.CubeEnvironment):
         faces = _faces(environment, loaded)
     else:
@@ -59,7 +63,7 @@ def compile_environment(loaded: Loaded, bound: Bound) -> tuple[Environment, SkyS
     in_range(brightest, loaded, ("environment", "scale"), "radiance")
     if not brightest.any():
         # What nobody looks at needs no lookup.
-        return ConstantEnvironment(np.zeros(3, np.float32)), None
+        return None, None
     # In double precision, for a scale may be larger than any radiance.
     faces = np.multiply(faces, scale, out=np.empty_like(faces), casting="same_kind")
     faces = np.ascontiguousarray(faces, np.float32)

@@ -12,11 +12,13 @@ from course.building.frame import Frame, in_range, in_reach
 from course.building.light_power import given, why_dark
 from course.building.motion import Shutter
 from course.building.sampled_points import NUMBERS, SPHERES
-from course.core.functions import Functions
-from course.core.lights import DirectionalLight, Light, PointLight, RectangleLight, SphereLight
+from course.core.lights.point import DirectionalLight, PointLight
+from course.core.lights.rectangle import RectangleLight
+from course.core.lights.sample import Light
+from course.core.lights.sphere import SphereLight
 from course.core.materials import MaterialTable
 from course.core.triangles import Mesh, Triangles
-from course.core.types import Floats32, Floats64
+from course.core.types import Floats32, Floats64, Functions
 from course.effects import Bound
 from course.errors import FunctionError
 from course.extras.mesh_light import MeshLight, areas, shares
@@ -196,7 +198,7 @@ class _Compiler:
         known = self.name, center, radius, light.radiance is not None, color, light.samples
         drawn = NUMBERS.get(light.samples, 2), velocity
         if module == "sampling":
-            return SampledSphereLight(*known, Functions({}), *drawn, functions)
+            return SampledSphereLight(*known, Functions(), *drawn, functions)
         return SphereLight(*known, functions, *drawn)
 
     def _power(self, light: d.RectangleLight | d.SphereLight, area: float) -> Floats64:

@@ -8,8 +8,8 @@ import numpy as np
 
 from course.building.motion import Shutter
 from course.building.sampled_points import takes_rejection
-from course.core.functions import Functions
 from course.core.materials import MaterialTable
+from course.core.types import Functions
 from course.effects import Bound
 from course.extras.world import Paths
 from course.formats.yaml import description as d

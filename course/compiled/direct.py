@@ -12,7 +12,7 @@ from course.compiled import direct_kernels, light_kernels, shadow_kernels
 from course.compiled.accelerator import MovingPackets, PacketAccelerator, SceneTables
 from course.core.direct import ROUNDING, Candidates
 from course.core.hits import Hits
-from course.core.lights import Light, Sample
+from course.core.lights.sample import Light, Sample
 from course.core.rays import Draws
 from course.core.types import Floats32, Indices
 from course.extras.direct import FullDirectLight

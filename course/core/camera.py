@@ -9,8 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from course.core.functions import Functions
-from course.core.types import Floats32
+from course.core.types import Floats32, Functions
 from course.core.vectors import dot
 
 
@@ -38,7 +37,6 @@ class Camera:
     right, up, forward : (3,) float32, an orthonormal basis
     corner : (3,) float32, direction to the upper left corner of the picture; its forward component is 1
     step_x, step_y : (3,) float32, change of direction per pixel
-    near : depth along forward at which rays begin
     lens : None for a pinhole
     """
 
@@ -49,7 +47,6 @@ class Camera:
     corner: Floats32
     step_x: Floats32
     step_y: Floats32
-    near: float = 0.0
     lens: Lens | None = None
 
     def rays(
@@ -73,8 +70,6 @@ class Camera:
             )
         if moved is not None:
             origin = origin + moved
-        if self.near:
-            origin = origin + direction * self.distance_to_near_plane(direction)
         return origin, direction
 
     def directions(self, x: Floats32, y: Floats32) -> Floats32:
@@ -85,10 +80,3 @@ class Camera:
         length = np.sqrt(dot(direction, direction))
         direction *= np.divide(np.float32(1), length, out=length)
         return direction
-
-    def distance_to_near_plane(self, direction: Floats32) -> Floats32:
-        """Distance (N,) float32 along unit directions (3, N) from the pinhole to the plane ``near``."""
-        # In the widest fields of view the forward component can round to 0.
-        forwards = np.maximum(dot(self.forward[:, None], direction), np.float32(1e-12))
-        distance: Floats32 = np.divide(np.float32(self.near), forwards)
-        return distance

@@ -8,8 +8,6 @@ from time import perf_counter
 
 from course.core.embree import QueryStats
 
-RAY_KINDS = ("camera", "shadow", "reflection", "refraction")
-
 
 @dataclass
 class Counters:
@@ -23,7 +21,9 @@ class Counters:
     embree : seconds inside Embree, or tests made by another BVH
     """
 
-    rays: Counter[str] = field(default_factory=lambda: Counter(dict.fromkeys(RAY_KINDS, 0)))
+    rays: Counter[str] = field(
+        default_factory=lambda: Counter(camera=0, shadow=0, reflection=0, refraction=0)
+    )
     numbers: Counter[str] = field(default_factory=Counter)
     seconds: dict[str, float] = field(default_factory=dict)
     embree: QueryStats = field(default_factory=QueryStats)

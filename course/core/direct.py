@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from course.core.hits import Hits, Surface
-from course.core.lights import Light, Sample
-from course.core.lights.sample import TO_THE_LIGHT, towards
+from course.core.lights.sample import TO_THE_LIGHT, Light, Sample, towards
 from course.core.materials import Lookup, blinn_phong_highlight
 from course.core.motion import Motion
 from course.core.ray_offset import bulge
@@ -20,9 +19,8 @@ from course.core.types import Floats32, Indices, Mask
 from course.core.vectors import dot, repeated
 
 DENSE = 0.5
-"""If at least this share of the hits are candidates, all columns are computed; else those of the candidates are copied.
-The time of computing all relative to that of copying (medians, one thread, without Embree) was .95 with direct light,
-.96 with gloss, .97 with soft shadows, .98 with path tracing. Any share from .2 to .8 will do."""
+"""Least share of candidates for which all hits are computed; below it, the candidates are copied first. Computing all
+saved 2 to 5% of the time (medians, one thread, without Embree); any share from .2 to .8 will do."""
 
 ROUNDING = 1e-4
 """Added to a float32 sine before it is compared with a float32 cosine."""
@@ -30,16 +28,16 @@ ROUNDING = 1e-4
 
 @dataclass(frozen=True)
 class Candidates:
-    """Hits that a light illuminates unless their shadow rays are blocked: hit and light face each other.
+    """Hits that face a light which faces them. A shadow ray decides whether the light illuminates them.
 
-    Arrays have k columns: one for each of the m candidates, or one for each of the n hits.
+    Their arrays have k columns: either one for each of the m candidates, or one for each of the n hits.
 
     Attributes
     ----------
     index : (m,) int, the candidates among the hits
     columns : (k,) int, the hit of each column; None if column i is hit i
     mask : (n,) bool, true for candidates; None if every column is a candidate
-    irradiance : (k,) float32, unoccluded, in units of the light's colour; 0 for a hit that is no candidate
+    irradiance : (k,) float32, without occlusion, in units of the light's colour; 0 for other hits
     cosine : (k,) float32, between shading normal and direction to the light
     origin : (3, k) float32, of the shadow rays
     to_light : (3, k) or (3, 1) float32, not normalised
@@ -56,7 +54,7 @@ class Candidates:
     inverse_length: Floats32
 
     def of(self, values: NDArray[Any]) -> NDArray[Any]:
-        """Values (k,) or (3, k) of the columns, from values (n,) or (3, n) of all hits."""
+        """Select the columns (k,) or (3, k) of an array (n,) or (3, n) that has one for each hit."""
         return values if self.columns is None else values.take(self.columns, axis=-1)
 
     def hit(self, column: Indices) -> Indices:
@@ -73,7 +71,7 @@ class DirectLight:
     shaded : ``MaterialTable.shaded_sides``; None if all materials reflect direct light from both sides
     diffuse : (3, M) reflectance
     specular, exponent : (3, M) and (M,) of the highlights; specular is None if no material has one
-    sky : function that returns the environment's irradiance / pi, (3, n) or None for 0; None if it is not a light
+    sky : returns irradiance / pi (3, n) of the environment, None for 0; None if the environment is not a light
     """
 
     surface: Surface
@@ -98,7 +96,7 @@ class DirectLight:
     def _from_lights(
         self, hits: Hits, path: Indices | None, depth: int, draws: Draws
     ) -> tuple[Floats32 | None, Floats32 | None]:
-        """Sums over all lights (3, n), before reflectances: E / pi, and (n . h)^exponent E / pi; None for 0."""
+        """Sums (3, n) over all lights: E / pi, and (n . h)^exponent E / pi. None stands for 0."""
         diffuse: Floats32 | None = None
         specular: Floats32 | None = None
         for light in self.lights:
@@ -123,7 +121,7 @@ class DirectLight:
         return self._as_if_still(hits.near_origin, hits, light)
 
     def _as_if_still(self, points: Floats32, hits: Hits, light: Light) -> Floats32:
-        """Points (3, n) in the frame of a moving light: the light stands still, the points move by -displacement."""
+        """Points (3, n) in the frame of a moving light, where the light stands still: points minus its displacement."""
         if light.velocity is None or self.motion is None or hits.time is None:
             return points
         return points - self.motion.moved(light.velocity, hits.time)
@@ -146,7 +144,7 @@ class DirectLight:
         arrays = irradiance, cosine, hits.near_origin, sample.to_light, sample.inverse_length
         if len(index) == hits.size:
             return Candidates(index, None, None, *arrays)
-        # max(NaN, 0) and NaN * 0 are NaN, so a hit that is no candidate would add NaN to the picture.
+        # A NaN is no candidate, but max(NaN, 0) is NaN: it would reach the picture.
         if len(index) >= DENSE * hits.size and np.isfinite(irradiance.min()):
             np.maximum(irradiance, 0, out=irradiance)
             return Candidates(index, None, mask, *arrays)
@@ -155,7 +153,7 @@ class DirectLight:
         return Candidates(index, index, None, *some)
 
     def _visible(self, light: Light, hits: Hits, candidates: Candidates, draws: Draws) -> Mask:
-        """Visibility of the light, (k,); undefined for hits that are no candidates.
+        """Visibility of the light, (k,); undefined for hits that aren't candidates.
 
         A facet of a smooth mesh may face away from a light that its shading normal faces. Its shadow ray starts at the
         round surface above the facet (``bulge``). A second ray, from the facet up to that point, must be
@@ -168,8 +166,8 @@ class DirectLight:
         to_light = self._to_light(light, hits, candidates)
         if triangles.bulge is None:
             return unoccluded(origin, to_light, light.limit, stats, time, active=mask)
-        # Let a be the angle between both normals. A facet can face away from the light only if the light is less than
-        # a above the horizon of the shading normal: if the cosine to the light is at most sin a.
+        # If a is the angle between both normals, a facet that faces away from the light sees it less than a above the
+        # horizon of the shading normal. The cosine to the light is then at most sin a.
         most = np.float32(triangles.largest_sine + ROUNDING)
         column = self._turned_away(hits, candidates, to_light, most)
         height = bulge(triangles, hits, candidates.hit(column))
@@ -182,7 +180,7 @@ class DirectLight:
         draws.counters.rays["shadow"] += len(column)
         when = None if time is None else time.take(column)
         free_above = unoccluded(foot, up, 1.0, stats, when)
-        # Few origins are raised: changing and restoring them costs less than a copy of all.
+        # Few origins are raised, so they are changed and restored: a copy of all would cost more.
         unraised = to_light.take(column, axis=1)
         origin[:, column] = foot + up
         if light.limit <= TO_THE_LIGHT:
@@ -200,7 +198,7 @@ class DirectLight:
     def _turned_away(
         self, hits: Hits, candidates: Candidates, to_light: Floats32, most: np.float32
     ) -> Indices:
-        """Columns (t,) of the candidates whose facets face away from the light; ``most`` bounds their cosines."""
+        """Columns (t,) of the candidates whose facets face away from the light; none has a cosine above ``most``."""
         near = candidates.cosine <= most
         if candidates.mask is not None:
             near &= candidates.mask

@@ -3,21 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
 
-from course.core.functions import Functions
-from course.core.types import Floats32
-
-
-class Environment(Protocol):
-    """Radiance by direction."""
-
-    @property
-    def black(self) -> bool:
-        """True if the radiance is 0 in all directions."""
-
-    def radiance(self, direction: Floats32) -> Floats32:
-        """(3, n) or (3, 1) radiance [W/(m^2 sr)] from directions (3, n)."""
+from course.core.types import Floats32, Functions
 
 
 @dataclass(frozen=True)
@@ -26,13 +13,8 @@ class ConstantEnvironment:
 
     color: Floats32
 
-    @property
-    def black(self) -> bool:
-        """See ``Environment``."""
-        return not self.color.any()
-
     def radiance(self, direction: Floats32) -> Floats32:
-        """See ``Environment``."""
+        """Radiance (3, 1) [W/(m^2 sr)] from directions (3, n)."""
         return self.color[:, None]
 
 
@@ -47,16 +29,14 @@ class CubeEnvironment:
     cube_map: Functions
     seamless: bool
 
-    @property
-    def black(self) -> bool:
-        """See ``Environment``."""
-        return not self.faces.any()
-
     def radiance(self, direction: Floats32) -> Floats32:
-        """See ``Environment``."""
+        """Radiance (3, n) [W/(m^2 sr)] from directions (3, n)."""
         radiance: Floats32
         if self.seamless:
             radiance = self.cube_map.lookup_seamless(self.faces, direction)
         else:
             radiance = self.cube_map.lookup(self.faces, direction)
         return radiance
+
+
+Environment = ConstantEnvironment | CubeEnvironment

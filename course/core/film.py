@@ -1,23 +1,23 @@
-"""From samples to pixels: a filter by the module ``supersampling``, and the film, which has weighted sums of radiance.
+"""From samples to pixels: the filter of the module ``supersampling``, and the film with its weighted sums of radiance.
 
-Samples arrive in passes. The sums are float64, and grow in a fixed order. Only the last pass can be partial. The
-picture shows it, but the sums omit it. If the render is continued, that pass is rendered again in full, so the
-continued picture has the same bits as one rendered at once.
+Samples arrive in passes. The sums are float64, and grow in a fixed order. Only the last pass can be partial: the
+picture contains it, the sums don't. A continued render repeats that pass in full, so its picture has the same bits as
+one that was rendered at once.
 """
 
 from __future__ import annotations
 
+from copy import deepcopy
 from dataclasses import dataclass
 from typing import Any, Protocol
 
 import numpy as np
 
-from course.core.functions import Functions
 from course.core.tiles import Tile
-from course.core.types import Floats32, Numbers
+from course.core.types import Floats32, Functions, Numbers
 
 _NEARLY_NOTHING = 1e-300
-"""Least weight of a mean; avoids a division by 0."""
+"""Least sum of weights, so that no mean divides by 0."""
 
 
 @dataclass(frozen=True)
@@ -103,10 +103,7 @@ class Film:
         self.samples[rows, columns] = samples
 
     def continued(self, samples: int) -> Film:
-        """A copy from which a longer render starts; its sums hold the first ``samples`` samples."""
-        film = Film(self.width, self.height)
-        film._sum[:] = self._sum
-        film._weight[:] = self._weight
-        film.linear[:] = self.linear
+        """A copy that a longer render continues. Its sums hold the first ``samples`` samples of each pixel."""
+        film = deepcopy(self)
         film.samples[:] = samples
         return film

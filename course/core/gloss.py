@@ -6,9 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from course.core.functions import Functions
 from course.core.rays import Draws
-from course.core.types import Floats32, Indices, Materials
+from course.core.types import Floats32, Functions, Indices, Materials
 
 
 @dataclass(frozen=True)
@@ -44,7 +43,7 @@ class Lobe:
         return scattered
 
     def keep_above(self, direction: Floats32, ng: Floats32) -> Floats32:
-        """Directions (3, N); those below the surface with geometric normals ng (3, N) are moved above it."""
+        """Move directions (3, N) that point below the surface, whose geometric normals are ng (3, N), above it."""
         kept: Floats32 = self.glossy.keep_above(direction, ng)
         return kept
 

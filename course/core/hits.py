@@ -10,6 +10,7 @@ import numpy as np
 from course.core.embree import Accelerator, Intersections, QueryStats
 from course.core.motion import MovingAccelerator
 from course.core.ray_offset import pull_off_edges
+from course.core.rays import Rays
 from course.core.triangles import Triangles
 from course.core.types import Floats32, Indices, Mask, Materials, Numbers
 from course.core.vectors import dot, gather, normalise
@@ -81,16 +82,12 @@ class Surface:
         """True if ``turn_to_viewer`` turns interpolated shading normals."""
         return True
 
-    def intersect_camera(
-        self,
-        origin: Floats32,
-        direction: Floats32,
-        stats: QueryStats,
-        time: Floats32 | None,
-        coherent: bool,
+    def intersect(
+        self, rays: Rays, stats: QueryStats, coherent: bool, of_camera: bool
     ) -> Intersections:
-        """Nearest hits of camera rays; see ``Accelerator.intersect``."""
-        return self.accelerator.intersect(origin, direction, stats, time, coherent=coherent)
+        """Nearest hits of rays, which are camera rays or bounced ones; see ``Accelerator.intersect``."""
+        arrays = rays.origin, rays.direction, stats, rays.time
+        return self.accelerator.intersect(*arrays, coherent=coherent, excluded=rays.excluded)
 
     def hits(
         self,
@@ -130,7 +127,7 @@ class Surface:
         plane = gather(triangles.planes, triangle)
         corner, ng, offset, flat = plane[0:3], plane[3:6], plane[6], plane[7]
 
-        # ---- points, from barycentrics: the error of origin + t * direction would grow with the ray's length
+        # ---- points, by barycentrics: the error of origin + t * direction would grow with t
         edges = gather(triangles.edges, triangle)
         p, along_2, widest = edges[0:3], edges[3:6], edges[6]
         p *= u
@@ -171,7 +168,7 @@ class Surface:
         rows[6:9] *= v
         normal += rows[6:9]
         normal += rows[0:3]
-        # Opposite corner normals may cancel; then the length is clamped.
+        # Opposite corner normals may cancel: `normalise` clamps the length.
         normalise(normal)
         normal *= side
         if self.turns_normals:
@@ -179,7 +176,7 @@ class Surface:
         return normal
 
     def excluded_objects(self, hits: Hits, which: Indices, direction: Floats32) -> Any:
-        """The convex object that each ray (3, m) leaves and can't hit again; None if the accelerator doesn't ask."""
+        """The convex object that each ray (3, m) leaves and can't hit again; None if the accelerator needs none."""
         return None
 
 

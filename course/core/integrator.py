@@ -1,7 +1,7 @@
 """Distribution ray tracing: follow a batch of camera rays from depth to depth and add up their radiance.
 
-Whitted's ray tree (1980) with Cook's random sampling of lens, time, gloss and lights (1984). Each hit casts at most
-one shadow ray per light, one reflected ray and one refracted ray.
+This is Whitted's ray tree (1980) with Cook's random sampling of lens, time, gloss and lights (1984). Each hit casts at
+most one shadow ray per light, one reflected ray and one refracted ray.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ LARGEST_BATCH = 4 * RAYS
 
 
 Absorption = Callable[[Rays, Hits, Floats32 | None, Media | None, bool], Floats32 | None]
-"""Takes rays, hits, throughput and medium at the hits, and true for camera rays; returns the reduced throughput."""
+"""Reduces throughput along rays. Its arguments are rays, hits, throughput and medium at the hits, and ``of_camera``."""
 
 
 class CancelledError(Exception):
@@ -40,7 +40,7 @@ class Integrator:
 
     Attributes
     ----------
-    environment : radiance of the rays that hit nothing
+    environment : radiance of the rays that hit nothing; None if it is black
     environment_depth : largest depth at which such rays add radiance, -1 for none
     ambient : (3, M) reflected ambient radiance
     dark_inside : (M,) bool, the dielectrics, whose insides reflect neither ambient nor diffuse light
@@ -83,8 +83,8 @@ class Integrator:
         Raises CancelledError soon after ``draws.cancelled()`` becomes true.
         """
         path_radiance = np.zeros((3, draws.block.size), np.float32)
-        # Glass may double the rays at each depth, so batches that outgrow the cache are split. They
-        # wait on a stack, last in, first out: memory grows linearly with the depth, not as 2^depth.
+        # Glass may double the rays at each depth, so batches that outgrow the cache are split. They wait on a stack:
+        # last in, first out, memory grows linearly with the depth, not as 2^depth.
         pile = [(0, camera_rays)]
         while pile:
             if draws.cancelled():
@@ -99,7 +99,7 @@ class Integrator:
         return path_radiance
 
     def _follow(self, rays: Rays, depth: int, path_radiance: Floats32, draws: Draws) -> Rays | None:
-        """Follow rays for one depth: add up radiance, return the rays of the next depth."""
+        """Follow rays for one depth: add their radiance, and return the rays of the next depth."""
         counters = draws.counters
         # ---- intersection, environment, absorption
         hits, throughput, path, medium = self._intersect(rays, True, depth, path_radiance, draws)
@@ -127,20 +127,16 @@ class Integrator:
     ) -> tuple[Hits, Floats32 | None, Indices | None, Media | None]:
         """Hits of the rays, with throughput, path and medium of the rays that hit.
 
-        Rays that hit nothing add the environment's radiance, except where ``adds_lights``, (N,) or one bool, is false.
+        Rays that hit nothing add the environment's radiance where ``adds_lights``, (N,) or one bool, is true.
         """
         counters, surface, of_camera = draws.counters, self.surface, depth == 0
-        arrays = rays.origin, rays.direction, counters.embree, rays.time
-        coherent, excluded = depth <= self.coherent_depth, rays.excluded
-        if of_camera:
-            found = surface.intersect_camera(*arrays, coherent)
-        else:
-            found = surface.accelerator.intersect(*arrays, coherent=coherent, excluded=excluded)
+        coherent = depth <= self.coherent_depth
+        found = surface.intersect(rays, counters.embree, coherent, of_camera)
         counters.lap("trace")
         if depth <= self.environment_depth and adds_lights is not False:
             self._add_environment(path_radiance, rays, (found.triangle < 0) & adds_lights)
         hits = surface.hits(found, rays.direction, rays.time, of_camera)
-        throughput, path, medium = _carried(rays, hits)
+        throughput, path, medium = _carried(rays, hits.ray)
         if draws.costs is not None:
             draws.costs.add("hit", path)
         if self.absorption is not None:
@@ -183,8 +179,7 @@ class Integrator:
         if len(which) == 0 or self.environment is None:
             return
         radiance = self.environment.radiance(rays.direction.take(which, axis=1))
-        throughput = None if rays.throughput is None else rays.throughput.take(which, axis=1)
-        path = which if rays.path is None else rays.path.take(which)
+        throughput, path, _ = _carried(rays, which)
         self.add_radiance(path_radiance, path, repeated(radiance, len(which)), throughput)
 
     def add_radiance(
@@ -194,31 +189,32 @@ class Integrator:
         radiance: Floats32,
         throughput: Floats32 | None,
     ) -> None:
-        """Add radiance (3, n) times throughput (3, n) (None: 1) to the sums (3, paths). Rays may share a path."""
+        """Add radiance times throughput, (3, n) each, to the sums (3, paths). Rays may share a path."""
         if throughput is not None:
             radiance = radiance * throughput
         if path is None:
             path_radiance += radiance
             return
         for channel, values in zip(path_radiance, radiance, strict=True):
-            # `add.at` adds in the order of the rays: a sum depends on the rays of its path only.
+            # `add.at` adds in the order of the rays, so the sum of a path depends on its own rays only.
             np.add.at(channel, path, values)
 
 
-def _carried(rays: Rays, hits: Hits) -> tuple[Floats32 | None, Indices | None, Media | None]:
-    """Throughput, path and medium of the rays that hit."""
-    throughput, path, medium = rays.throughput, rays.path, rays.medium
-    if hits.ray is None:
-        return throughput, path, medium
+def _carried(
+    rays: Rays, which: Indices | None
+) -> tuple[Floats32 | None, Indices | None, Media | None]:
+    """Throughput, path and medium of some rays, or of all."""
+    if which is None:
+        return rays.throughput, rays.path, rays.medium
     return (
-        None if throughput is None else throughput.take(hits.ray, axis=1),
-        hits.ray if path is None else path.take(hits.ray),
-        None if medium is None else medium.take(hits.ray),
+        None if rays.throughput is None else rays.throughput.take(which, axis=1),
+        which if rays.path is None else rays.path.take(which),
+        None if rays.medium is None else rays.medium.take(which),
     )
 
 
 def _sum(radiance: Floats32 | None, term: Floats32) -> Floats32:
-    """Radiance plus a term, (3, n) or (3, 1) each. An array (3, 1) isn't overwritten: it may be a view of a Lookup."""
+    """Radiance plus a term, (3, n) or (3, 1) each; an array (3, 1) is kept, for it may be a view of a Lookup."""
     if radiance is None:
         return term
     return np.add(radiance, term, out=radiance if radiance.shape[1] > 1 else None)

@@ -5,8 +5,8 @@ E = I cos / d^2:
 
     L = color (ambient La + diffuse E / pi) + specular (n . h)^exponent E / pi
 
-A dielectric transmits what it doesn't reflect. A scene may give it ambient, diffuse and specular terms, too. They hold
-for its outside: the inside reflects by Fresnel's equations only.
+A dielectric transmits what it doesn't reflect. A scene may give it ambient, diffuse and specular terms, too; they
+hold for its outside. Its inside reflects by Fresnel's equations only.
 """
 
 from __future__ import annotations
@@ -59,16 +59,6 @@ class MaterialTable:
         return np.stack(sides)
 
     @cached_property
-    def light_emission(self) -> Floats32:
-        """(3, M) emission of the surfaces of lights, 0 elsewhere."""
-        return np.zeros_like(self.emission) if self.lamps is None else self.emission * self.lamps
-
-    @cached_property
-    def other_emission(self) -> Floats32:
-        """(3, M) emission of all other surfaces, from both sides."""
-        return self.emission - self.light_emission
-
-    @cached_property
     def diffuses(self) -> Mask:
         """(M,) bool, materials with a diffuse term."""
         return np.asarray(self.diffuse.max(0) > 0)
@@ -80,7 +70,7 @@ class MaterialTable:
 
 
 class Lookup:
-    """A property of all materials, (3, M) or (M,) float32, that is gathered for hits."""
+    """A property of all materials, (3, M) or (M,) float32, from which hits gather theirs."""
 
     def __init__(self, rows: Floats32) -> None:
         self.rows = np.ascontiguousarray(rows)
@@ -98,8 +88,8 @@ def blinn_phong_highlight(
 ) -> Floats32:
     """(n . h)^exponent, (k,), with h the half vector of the directions to the light and to the viewer.
 
-    Unit vectors (3, k) float32 point to the light, from the viewer, and along the normal; exponent is (k,) or (1,)
-    float32. (J. Blinn, "Models of light reflection for computer synthesized pictures", 1977.)
+    The vectors are (3, k) float32 and of unit length: to the light, from the viewer, and the normal. ``exponent`` is
+    (k,) or (1,) float32. (J. Blinn, "Models of light reflection for computer synthesized pictures", 1977.)
     """
     half = to_light - direction
     squared = dot(half, half)

@@ -13,8 +13,7 @@ from typing import Any
 import numpy as np
 
 from course.core.embree import EmbreeAccelerator, Intersections, QueryStats
-from course.core.functions import Functions
-from course.core.types import Floats32, Mask, Numbers
+from course.core.types import Floats32, Functions, Mask, Numbers
 from course.core.vectors import repeated
 
 MOSTLY_UNBLOCKED = 0.9
@@ -67,12 +66,9 @@ class MovingAccelerator:
         found = self.static.intersect(origin, direction, stats, coherent=coherent)
         origin = repeated(origin, direction.shape[1])
         for mover in self.movers:
+            shifted = self._shifted(origin, mover, time)
             other = mover.accelerator.intersect(
-                self._shifted(origin, mover, time),
-                direction,
-                stats,
-                limit=found.t,
-                coherent=coherent,
+                shifted, direction, stats, limit=found.t, coherent=coherent
             )
             nearer = np.flatnonzero(other.triangle >= 0)
             if len(nearer) == 0:

@@ -9,8 +9,8 @@ from the round surface, higher by
     h(u, v) = 1/2 (w u k01 + w v k02 + u v k12),    k_ij = (p_j - p_i) . (n_j - n_i)
 
 Along an edge, h is a parabola that is perpendicular to the corner normals at both ends. An edge of length L on a sphere
-of radius R has k = L^2 / R, and h at its middle is the sagitta L^2 / (8 R). (Hanika, "Hacking the shadow terminator",
-Ray Tracing Gems II, ch. 4, moves the point to the tangent planes instead, twice as high.)
+of radius R has k = L^2 / R, and h at its middle is the sagitta L^2 / (8 R). Hanika ("Hacking the shadow
+terminator", Ray Tracing Gems II, ch. 4) projects the point to the tangent planes instead, which is twice as high.
 """
 
 from __future__ import annotations
@@ -29,8 +29,8 @@ if TYPE_CHECKING:
 OFFSET = 2.0**-19
 """Height above a surface at which rays begin, as a share of the largest coordinate of its triangle.
 
-The error of hit points, like that of Embree's test, is a few units in the last place (2^-24) of the triangle's
-coordinates; measured in tests/geometry/test_surface.py.
+Hit points and Embree's test have an error of a few units in the last place (2^-24) of the triangle's coordinates.
+tests/geometry/test_surface.py measures it.
 """
 
 TILT, SLIVER, MOST = 0.5, 8.0, 1024.0
@@ -97,8 +97,7 @@ def pull_off_edges(
 
 def bulge(triangles: Triangles, hits: Hits, which: Indices) -> Floats32:
     """Height (m,) float32 >= 0 of the bulge above hits ``which`` (m,), on the incoming side."""
-    if triangles.bulge is None:
-        return np.zeros(len(which), np.float32)
+    assert triangles.bulge is not None
     u, v = hits.u.take(which), hits.v.take(which)
     w = 1 - u - v
     height = dot(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, fields, replace
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
@@ -16,8 +16,9 @@ RAYS = 65536
 """Most camera rays in a batch.
 
 A batch shares the cost of Python among its rays: the longer each call of NumPy or Embree runs, the less time threads
-spend waiting for the interpreter's lock. The total time over that inside Embree, on two cores with 1 MB of second-level
-cache each, was 1.85 with 32 thousand rays, 1.53 to 1.64 with 64 thousand, and 1.59 with 128 thousand (medians of five).
+spend waiting for the interpreter's lock. On two cores with 1 MB of second-level cache each, a render took
+1.85 times as long as Embree alone with 32 thousand rays, 1.53 to 1.64 times with 64 thousand, and 1.59 times with 128
+thousand (medians of five).
 """
 
 OPEN = np.int16(-1)
@@ -55,24 +56,23 @@ class Rays:
         return int(self.direction.shape[1])
 
     def halves(self) -> tuple[Rays, Rays]:
-        """Two batches, the second half of the rays first."""
+        """Two batches: the second half of the rays, then the first."""
         middle = self.size // 2
         rays = self if self.path is not None else replace(self, path=np.arange(self.size))
         return rays.part(slice(middle, None)), rays.part(slice(middle))
 
     def part(self, columns: slice) -> Rays:
         """The rays in some columns. If ``path`` is None, the paths of the part are counted from 0 again."""
-        arrays = {field.name: getattr(self, field.name) for field in fields(self)}
+        arrays = [getattr(self, field.name) for field in fields(self)]
         # A shared origin has one column.
-        kept = {
-            name: array if array is None or array.shape[-1] != self.size else array[..., columns]
-            for name, array in arrays.items()
-        }
-        return Rays(**kept)
+        whole = [array is None or array.shape[-1] != self.size for array in arrays]
+        return Rays(
+            *(a if keep else a[..., columns] for a, keep in zip(arrays, whole, strict=True))
+        )
 
 
 def join_rays(batches: Sequence[Rays]) -> Rays:
-    """One batch, which costs less than several small ones. An attribute must be None in all batches or in none."""
+    """Join batches: one costs less than several small ones. An attribute must be None in all batches or in none."""
 
     def columns(name: str) -> Any:
         arrays = [getattr(rays, name) for rays in batches]
@@ -85,7 +85,7 @@ class Dimensions:
     """Assigns dimensions of the sampler to names, such as "lens" or the name of a light.
 
     Samplers stratify pairs of dimensions (0, 1), (2, 3), ..., so every name begins a new pair. A path draws ``of_path``
-    once and ``of_bounce`` at each depth. Both have pairs (name, number of dimensions); a name may have none.
+    once and ``of_bounce`` at each depth. Both hold pairs (name, number of dimensions), where the number may be 0.
     """
 
     def __init__(
@@ -109,24 +109,12 @@ class Dimensions:
         return self._first[name] + depth * self._stride
 
 
-class PathCosts(Protocol):
-    """The cost of each path of a block, for adaptive sampling."""
-
-    def add(self, kind: str, path: Indices | None, cost: float | None = None) -> None:
-        """Add the cost of a "hit" or of a kind of ray to paths (n,), None for all; cost None: that of the kind."""
-
-    def part(self, paths: slice) -> PathCosts:
-        """The costs of some of the paths."""
-
-    def with_row(self, mean: Floats32, parts: int) -> Floats32:
-        """(4, n * parts) from colours (3, n * parts) of n pixels: the last row is the mean cost of a pixel's paths."""
-
-
 @dataclass(frozen=True)
 class Draws:
     """Draws random numbers for the paths of a block on demand, and counts them and their rays.
 
-    ``cancelled`` returns true if the render has been cancelled; ``costs`` is None without adaptive sampling.
+    ``cancelled`` returns true if the render has been cancelled; ``costs`` are the paths' costs
+    (``course.adaptive.costs``), None without adaptive sampling.
     """
 
     sampler: Sampler
@@ -134,7 +122,7 @@ class Draws:
     block: Block
     counters: Counters
     cancelled: Callable[[], bool] = lambda: False
-    costs: PathCosts | None = None
+    costs: Any = None
 
     def __call__(
         self,
@@ -151,7 +139,7 @@ class Draws:
         path : (n,); None for all paths of the block, in order
         depth : number of bounces so far
         width : number of dimensions; None for all of the name
-        skip : number of dimensions of the name before the first that is drawn
+        skip : number of the name's dimensions to skip
         """
         width = self.dimensions.width[name] if width is None else width
         dimension = self.dimensions.first(name, depth) + skip
@@ -174,9 +162,9 @@ class Draws:
 
         Parameters
         ----------
-        path : of each hit; None for one hit per path, in order
-        which : (n,) the hits that cast the rays; None for all
-        cost : of each ray; None for that of its kind
+        path : the path of each hit; None for one hit per path, in order
+        which : (n,) the hits that cast the rays; None for all hits
+        cost : the cost of each ray; None for the cost of its kind
         """
         self.counters.rays[kind] += n
         if self.costs is not None:

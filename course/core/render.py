@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from math import inf
-from typing import Any, Protocol
+from typing import Any
 
 from course.core.counters import Counters
 from course.core.film import AnyFilm
@@ -17,6 +18,11 @@ Progress = Callable[[float, bool], None]
 
 Tick = Callable[[int, int], None]
 """Called with the number of pieces of work done, and the number of those in the first pass."""
+
+
+Run = Callable[..., bool]
+"""Does the work of one round; returns true if all of it was done. Takes the work, and the shares of the whole render
+that are done before and after the round, 0 and 1 by default."""
 
 
 class Executor(ABC):
@@ -45,18 +51,11 @@ class Executor(ABC):
 
     @abstractmethod
     def batches(self, most: int) -> int:
-        """Choose how many batches of rays a tile has, at most ``most``."""
+        """Number of batches of rays in a tile, at most ``most``."""
 
     @abstractmethod
     def run(self, work: Iterable[Work], film: AnyFilm, tick: Tick) -> bool:
         """Do the work, and add the passes of each tile in order; returns true if all of it was done."""
-
-
-class Run(Protocol):
-    """Does the work of one round; returns true if all of it was done."""
-
-    def __call__(self, work: Iterable[Work], done: float = 0.0, after: float = 1.0) -> bool:
-        """``done``, ``after``: approximate share of the whole render before and after this round."""
 
 
 class Schedule(ABC):
@@ -67,7 +66,7 @@ class Schedule(ABC):
         """Run all rounds; returns true if the picture is complete."""
 
     def receipt(self) -> dict[str, Any]:
-        """Entries of the receipt that only this schedule has."""
+        """Entries of the receipt that the schedule adds."""
         return {}
 
 
@@ -96,18 +95,17 @@ def render(
     return schedule.render(run, executor)
 
 
+@dataclass(frozen=True)
 class UniformSchedule(Schedule):
-    """All passes in one round; the film already holds ``done`` samples per pixel, a multiple of ``tiles.PASS``."""
+    """All passes in one round. The film already holds ``done`` samples per pixel, a multiple of ``tiles.PASS``."""
 
-    def __init__(self, tracer: Tracer, done: int = 0) -> None:
-        self._tracer = tracer
-        self._done = done
+    tracer: Tracer
+    done: int = 0
 
     def render(self, run: Run, executor: Executor) -> bool:
         """See ``Schedule``."""
         return run(list(self._passes(executor)))
 
     def _passes(self, executor: Executor) -> Iterator[Work]:
-        tracer = self._tracer
-        batches = executor.batches(tracer.batches)
-        return passes(tracer.settings, tracer.sampler, self._done, batches)
+        batches = executor.batches(self.tracer.batches)
+        return passes(self.tracer.settings, self.tracer.sampler, self.done, batches)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
-from typing import Any
 
 import numpy as np
 
@@ -24,7 +23,6 @@ class Boundary:
     ----------
     reflected, refracted : (n,) Fresnel reflectance and transmittance, 0 for opaque materials
     cos_i, cos_t, eta : (n,), see ``course.core.fresnel``
-    rough_direction : (3, n) directions refracted by rough glass, undefined at other hits; None without rough glass
     """
 
     reflected: Floats32
@@ -32,13 +30,12 @@ class Boundary:
     cos_i: Floats32
     cos_t: Floats32
     eta: Floats32
-    rough_direction: Floats32 | None = None
 
     def of(self, which: Indices) -> Boundary:
         """The boundary at some of the hits."""
-        arrays = (getattr(self, field.name) for field in fields(self))
-        some: list[Any] = [None if a is None else a.take(which, axis=-1) for a in arrays]
-        return Boundary(*some)
+        return type(self)(
+            *(getattr(self, field.name).take(which, axis=-1) for field in fields(self))
+        )
 
 
 @dataclass(frozen=True)
@@ -63,11 +60,6 @@ class Scatter:
     outside: Media | None
     cutoff: float
 
-    @property
-    def mirrors(self) -> bool:
-        """True if the mirror reflectance of any material is above the cutoff."""
-        return bool((self.mirror.rows.max(axis=0) > self.cutoff).any())
-
     def __call__(
         self,
         hits: Hits,
@@ -77,7 +69,7 @@ class Scatter:
         depth: int,
         draws: Draws,
     ) -> Rays | None:
-        """Rays of the next depth, or None; throughput, path and medium are those of the incoming rays (``Rays``)."""
+        """Rays of the next depth, or None. The incoming rays have the given throughput, path and medium (``Rays``)."""
         if self.absorbs and medium is None:
             medium = np.full(hits.size, OPEN)
         weight = repeated(self.reflectance(hits, None), hits.size)
@@ -137,7 +129,7 @@ class Scatter:
         depth: int,
         draws: Draws,
     ) -> Floats32:
-        """Refracted directions (3, m) at the given hits; boundary and path are those of the m hits."""
+        """Refracted directions (3, m) at the given hits, whose boundary and paths (m,) are given."""
         direction, ns = hits.direction.take(which, axis=1), hits.ns.take(which, axis=1)
         refracted = refract(direction, ns, boundary.cos_i, boundary.cos_t, boundary.eta)
         return kept_above(refracted, -hits.ng.take(which, axis=1))
@@ -153,8 +145,8 @@ class Scatter:
     ) -> tuple[Floats32, Floats32]:
         """Origins and throughput, (3, m) each, of rays that leave hits ``which`` (m,).
 
-        The first ``near`` rays leave on the incoming side, the others on the far side. ``after`` (3, n) is the
-        throughput after the bounce, of all hits.
+        The first ``near`` rays leave on the incoming side, the others on the far side. ``after`` (3, n) has the
+        throughput of all hits after the bounce.
         """
         origin = hits.near_origin.take(which[:near], axis=1)
         if near < len(which):
@@ -171,7 +163,7 @@ class Scatter:
         depth: int,
         draws: Draws,
     ) -> Rays | None:
-        """Reflected rays, or refracted ones if there is a boundary; throughput (3, n) is that after the bounce."""
+        """Reflected rays, or refracted rays if there is a boundary, from the throughput (3, n) after the bounce."""
         which = np.flatnonzero(throughput.max(axis=0) > self.cutoff)
         if len(which) == 0:
             return None
@@ -193,7 +185,7 @@ class Scatter:
 
 
 def kept_above(direction: Floats32, ng: Floats32) -> Floats32:
-    """Directions (3, n); those below the surface with geometric normals ng (3, n) are mirrored to the side above."""
+    """Mirror directions (3, n) that point below the surface, whose geometric normals are ng (3, n), to above it."""
     below = np.minimum(dot(direction, ng), 0)
     if not below.any():
         return direction

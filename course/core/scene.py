@@ -8,20 +8,20 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from course.core.camera import Camera
 from course.core.direct import DirectLight
 from course.core.environment import Environment
 from course.core.gloss import Gloss, Lobe
 from course.core.hits import Surface
 from course.core.integrator import Integrator
-from course.core.lights import Light
+from course.core.lights.sample import Light
 from course.core.materials import Lookup, MaterialTable
 from course.core.motion import Motion
 from course.core.rays import Dimensions
 from course.core.scatter import Scatter
 from course.core.types import Floats32
-
-PIXEL = ("pixel", 2)
 
 
 @dataclass(frozen=True)
@@ -31,10 +31,10 @@ class World:
     Attributes
     ----------
     surface : all triangles
-    lights : those that illuminate anything
+    lights : the lights that illuminate something
     ambient : (3,) float32, sum of the ambient lights
-    environment : radiance of the rays that hit nothing
-    lobes : of the glossy materials
+    environment : radiance of the rays that hit nothing; None if it is black
+    lobes : the lobes of the glossy materials
     motion : None if nothing moves while the shutter is open
     """
 
@@ -42,7 +42,7 @@ class World:
     materials: MaterialTable
     lights: tuple[Light, ...]
     ambient: Floats32
-    environment: Environment
+    environment: Environment | None
     lobes: tuple[Lobe, ...] = ()
     motion: Motion | None = None
 
@@ -53,9 +53,9 @@ class Settings:
 
     Attributes
     ----------
-    width, height : of the picture [pixels]
-    sampler : its name
-    samples : per pixel
+    width, height : size of the picture [pixels]
+    sampler : name of the sampler
+    samples : samples per pixel
     max_depth : largest number of bounces after the camera ray
     cutoff : bounced rays are dropped unless their largest throughput channel is above this
     """
@@ -77,26 +77,21 @@ def plan_dimensions(
 ) -> Dimensions:
     """Dimensions of the sampler for all random numbers.
 
-    Dimensions 2 and 3 are stratified jointly with the pixel's (``course.extras.samplers.sobol``). They go to the lens
-    or the time if there is one, else to gloss, else to the lights: noise is seen more in mirror images than in shadows.
+    Dimensions 2 and 3 are stratified jointly with the pixel's (``course.extras.samplers.sobol``). The first of
+    lens, time, gloss and lights that the scene has gets them: noise is seen more in mirror images than in shadows.
     ``before_lights`` and ``after_lights`` are names and widths of further numbers that a bounce draws.
     """
-    of_path = [PIXEL, ("lens", 2 if camera.lens else 0), ("time", 1 if world.motion else 0)]
+    of_path = [("pixel", 2), ("lens", 2 if camera.lens else 0), ("time", 1 if world.motion else 0)]
     gloss = ("gloss", max((lobe.width for lobe in world.lobes), default=0))
     lights = [(light.name, light.width) for light in world.lights]
     return Dimensions(of_path, [gloss, *before_lights, *lights, *after_lights])
 
 
-def plan_direct_light(world: World) -> DirectLight | None:
-    """Direct light; None without lights, or if no material reflects any."""
-    if not world.lights or not world.materials.shaded.any():
-        return None
-    return direct_light(world)
-
-
-def direct_light(world: World) -> DirectLight:
-    """Direct light, even of a scene without lights; ``sky`` is for the caller to set."""
+def plan_direct_light(world: World, sky: bool = False) -> DirectLight | None:
+    """Direct light of the lights; None without lights or diffuse or specular terms, unless a sky is to be added."""
     materials = world.materials
+    if not sky and not (world.lights and materials.shaded.any()):
+        return None
     return DirectLight(
         world.surface,
         world.lights,
@@ -132,18 +127,19 @@ def plan_integrator(
     materials = world.materials
     ambient = materials.ambient * world.ambient[:, None]
     shows = materials.diffuses | ambient.any(0)
+    lamps = False if materials.lamps is None else materials.lamps
     coherent = -1 if camera.lens else 0 if world.motion or world.lobes else 1
     return Integrator(
         surface=world.surface,
         camera=camera,
         motion=world.motion,
         environment=world.environment,
-        environment_depth=-1 if world.environment.black else depth,
+        environment_depth=-1 if world.environment is None else depth,
         direct=direct,
         ambient=_unless_nothing(ambient),
         dark_inside=materials.refracts if (materials.refracts & shows).any() else None,
-        glow=_unless_nothing(materials.other_emission),
-        emission=_unless_nothing(materials.light_emission),
+        glow=_unless_nothing(materials.emission * np.logical_not(lamps)),
+        emission=_unless_nothing(materials.emission * lamps),
         absorption=None,
         scatter=scatter,
         max_depth=depth,

@@ -21,8 +21,8 @@ PASS = 16
 """Samples per pixel in a whole pass of an extensible sampler."""
 
 PAGE, APART = 1024, 64
-"""Both in float32 values. Addresses a multiple of PAGE apart map to the same set of the first-level cache. Rows map to
-different sets if their length differs from every multiple of PAGE by at least APART."""
+"""In float32 values. Addresses a multiple of PAGE apart share a set of the first-level cache. Rows have sets of
+their own if their length differs from every multiple of PAGE by at least APART."""
 
 
 class Area(Protocol):
@@ -84,8 +84,8 @@ class Tile:
 def spread_over_cache(rays: int) -> bool:
     """True if the rows of a (3, rays) array start in different sets of the first-level cache.
 
-    A loop over hits reads thirty rows in parallel. With 65536 rays, all rows start in the same set, which has eight
-    ways. Finding hits then took twice the time, and a whole render up to 10% more.
+    A loop over hits reads thirty rows in parallel. With 65536 rays, all rows start in the same set, which holds eight
+    lines. The geometry of hits then took twice the time, and a whole render up to 10% more.
     """
     return bool(APART <= rays % PAGE <= PAGE - APART)
 

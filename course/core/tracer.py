@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 from course.core.counters import Counters
 from course.core.film import Reconstruction
 from course.core.integrator import Integrator
-from course.core.rays import Dimensions, Draws, PathCosts
+from course.core.rays import Dimensions, Draws
 from course.core.samplers import Block, Sampler
 from course.core.scene import Settings
 from course.core.tiles import Area
@@ -19,7 +20,7 @@ from course.core.types import Floats32
 class Tracer:
     """Renders tiles of at most ``batches`` batches of camera rays. All threads share it.
 
-    ``costs(n)`` makes the ``PathCosts`` of n new paths; None without adaptive sampling.
+    ``costs(n)`` makes the costs of n new paths (``course.adaptive.costs``); None without adaptive sampling.
     """
 
     settings: Settings
@@ -28,7 +29,7 @@ class Tracer:
     integrator: Integrator
     reconstruction: Reconstruction
     batches: int = 1
-    costs: Callable[[int], PathCosts] | None = None
+    costs: Callable[[int], Any] | None = None
 
     def render_tile(
         self,
@@ -39,7 +40,7 @@ class Tracer:
         cancelled: Callable[[], bool] = lambda: False,
         parts: int = 1,
     ) -> tuple[Floats32, Floats32 | float]:
-        """Colours (3, n * parts) and weights of a tile's n pixels; with adaptive sampling a fourth row has costs.
+        """Colours (3, n * parts) and weights of a tile's n pixels; with adaptive sampling, costs are the fourth row.
 
         Each pixel gets ``samples`` samples from number ``first`` on. They are divided into equal parts, each with its
         own mean, in adjacent columns. Raises CancelledError soon after ``cancelled()`` becomes true.
@@ -59,4 +60,6 @@ class Tracer:
         pieces = (-1, tile.size * parts, samples // parts)
         mean, weight = self.reconstruction.pixels(radiance.reshape(pieces), offsets.reshape(pieces))
         counters.lap("film")
-        return mean if costs is None else costs.with_row(mean, parts), weight
+        if costs is not None:
+            mean = costs.with_row(mean, parts)
+        return mean, weight

@@ -5,8 +5,8 @@ The scene has already been moved and scaled to [-1, 1], in float64.
 Symbols: p0, p1, p2 corners; e1 = p1 - p0, e2 = p2 - p0; ng geometric normal; n0, n1, n2 corner normals;
 u, v barycentrics of p1 and p2, w = 1 - u - v.
 
-Corner normals of a mesh that has been stretched unevenly differ in length. Interpolated first and normalised last, they
-give the normals of the stretched surface: an ellipsoid if it was a sphere.
+If a mesh has been stretched unevenly, its corner normals differ in length. They are interpolated first and normalised
+last, which gives the exact normals of the stretched surface: those of an ellipsoid if it was a sphere.
 """
 
 from __future__ import annotations
@@ -45,9 +45,9 @@ class Triangles:
     Attributes
     ----------
     planes : (T, 8) float32, p0, ng (unit), the offset of leaving rays, and 1 if ng is also the shading normal, else 0
-    edges : (T, 8) float32, e1, e2, the largest inset, and padding: NumPy gathers rows of 32 bytes in half the time
-        of rows of 24 or 36
-    inset : (T, 3) float32, least barycentrics w, u, v: points nearer to an edge are moved inwards
+    edges : (T, 8) float32, e1, e2, the largest inset, and padding: NumPy gathers rows of 32 bytes twice as fast as
+        rows of 24 or 36
+    inset : (T, 3) float32, least w, u and v; points with a smaller barycentric are moved inwards
     corner_normals : (T, 9) float32, n0, n1 - n0, n2 - n0, where the longest of n0, n1, n2 has length 1; None if no part
         has normals
     bulge : (T, 3) float32, k01 / 2, k02 / 2, k12 / 2 of ``course.core.ray_offset``; None if no part has normals, or if
@@ -65,8 +65,3 @@ class Triangles:
     largest_sine: float
     material: Materials
     parts: tuple[tuple[int, int, bool], ...] = ()
-
-    @property
-    def size(self) -> int:
-        """Number of triangles."""
-        return len(self.planes)

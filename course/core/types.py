@@ -1,7 +1,8 @@
-"""Array types that the whole course shares."""
+"""Array types that the whole course shares, and functions of the course by name."""
 
 from __future__ import annotations
 
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -24,3 +25,6 @@ Materials = NDArray[np.uint16]
 
 Media = NDArray[np.int16]
 """Material numbers of the media that rays travel in; -1 outside all media."""
+
+Functions = SimpleNamespace
+"""Functions of one module of the course, called by their own names: ``glossy.keep_above``."""

@@ -12,6 +12,7 @@ from course.core.materials import Lookup, MaterialTable
 from course.core.rays import OPEN, Rays
 from course.core.types import Floats32, Indices, Mask, Media
 from course.core.vectors import dot
+from course.extras.near_plane import NearPlaneCamera
 
 _LEAST = np.float32(1e-20)
 
@@ -25,7 +26,7 @@ class Absorption:
     coefficient : (3, M) [1 / unit of the compiled scene]
     dielectric : (M,) bool
     outside : (M,) material around each dielectric, -1 for vacuum; None if vacuum is around all
-    camera : its rays begin at the near plane, but are absorbed from the eye on
+    camera : if it has a near plane, its rays start there, but are absorbed from the eye on
     """
 
     coefficient: Lookup
@@ -62,8 +63,8 @@ class Absorption:
         if len(which) == 0:
             return throughput
         length = _lengths(rays, hits, which)
-        if of_camera and self.camera.near:
-            length = length + self.camera.distance_to_near_plane(hits.direction).take(which)
+        if of_camera and isinstance(self.camera, NearPlaneCamera):
+            length = length + self.camera.distance_to_plane(hits.direction).take(which)
         transmittance = np.exp(-self.coefficient(through.take(which)) * length)
         result = np.ones((3, hits.size), np.float32) if throughput is None else throughput.copy()
         result[:, which] *= transmittance

@@ -8,8 +8,7 @@ import numpy as np
 
 from course.core.direct import Candidates, DirectLight
 from course.core.hits import Hits
-from course.core.lights import Light
-from course.core.lights.sample import TO_THE_LIGHT
+from course.core.lights.sample import TO_THE_LIGHT, Light
 from course.core.types import Floats32, Mask
 from course.core.vectors import dot
 

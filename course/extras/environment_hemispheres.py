@@ -11,8 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from course.core.functions import Functions
-from course.core.types import Floats32
+from course.core.types import Floats32, Functions
 from course.extras.hemisphere import turned
 
 WAYS = ("uniform_hemisphere", "cosine_hemisphere")

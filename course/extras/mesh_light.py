@@ -12,14 +12,14 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from course.core.lights.sample import TO_A_POINT, Sample, Towards, inverse_square
+from course.core.lights.sample import TO_A_POINT, Light, Sample, Towards, inverse_square
 from course.core.types import Floats32, Floats64
 from course.core.vectors import cross, dot, gather
 from course.extras.mesh_groups import Groups, make_groups
 
 
 @dataclass(frozen=True)
-class MeshLight:
+class MeshLight(Light):
     """T triangles as rays hit them.
 
     Attributes
@@ -46,7 +46,7 @@ class MeshLight:
         object.__setattr__(self, "groups", groups)
 
     def sample(self, points: Floats32, u: Floats32 | None, towards: Towards) -> Sample:
-        """See ``course.core.lights``.
+        """See ``Light``.
 
         A shadow ray ends as far above the triangle as others start, not at a share of its way: of a thin box it would
         see both sides. From a point as near to the triangle's plane as that nothing arrives: it lies on it.

@@ -12,12 +12,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from course.core.functions import Functions
 from course.core.hits import Hits, Surface
 from course.core.materials import Lookup
 from course.core.rays import OPEN, Draws, Rays
 from course.core.scatter import Boundary, Scatter, kept_above
-from course.core.types import Floats32, Indices, Mask, Media
+from course.core.types import Floats32, Functions, Indices, Mask, Media
 from course.extras.russian_roulette import survivors
 
 DIFFUSE, MIRRORED, REFRACTED = range(3)

@@ -15,7 +15,6 @@ from course.core.rays import Dimensions
 from course.core.samplers import Sampler
 from course.core.scatter import Scatter
 from course.core.scene import (
-    direct_light,
     plan_dimensions,
     plan_direct_light,
     plan_integrator,
@@ -92,7 +91,7 @@ def _conductors(materials: MaterialTable) -> Conductors | None:
 
 def _sky(world: FullWorld) -> Sky | None:
     materials = world.materials
-    if world.sky is None or world.environment.black or not materials.diffuses.any():
+    if world.sky is None or world.environment is None or not materials.diffuses.any():
         return None
     arrays = materials.diffuses, materials.refracts
     return Sky(world.surface, world.environment, world.sky, *arrays)
@@ -100,11 +99,10 @@ def _sky(world: FullWorld) -> Sky | None:
 
 def _direct_light(world: FullWorld, sky: Sky | None) -> DirectLight | None:
     materials = world.materials
-    direct = plan_direct_light(world)
+    direct = plan_direct_light(world, sky is not None)
     plain = materials.plain if isinstance(materials, FullMaterials) else None
-    if sky is None and (direct is None or (plain is None and not world.lifted)):
+    if direct is None or (sky is None and plain is None and not world.lifted):
         return direct
-    direct = direct or direct_light(world)
     known = same_fields(direct) | {"sky": sky}
     return FullDirectLight(**known, plain=plain, lifted=world.lifted)
 

@@ -15,9 +15,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from course.core.functions import Functions
 from course.core.rays import Draws
-from course.core.types import Floats32, Indices, Mask, Materials
+from course.core.types import Floats32, Functions, Indices, Mask, Materials
 from course.core.vectors import dot
 
 REFRACTION = ("refraction", 2)

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from course.core.functions import Functions
-from course.core.types import Floats32, Mask
+from course.core.types import Floats32, Functions, Mask
 
 
 def survivors(

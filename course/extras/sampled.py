@@ -6,20 +6,17 @@ they choose the generator, and so a picture can be repeated, as long as the same
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from course.core.camera import Lens
-from course.core.functions import Functions
-from course.core.lights import SphereLight
-from course.core.types import Floats32
+from course.core.lights.sphere import SphereLight
+from course.core.types import Floats32, Functions
 
 if TYPE_CHECKING:
     from numpy.random import Generator
-
-NONE = Functions({})
 
 _CHOOSING = 64
 """Columns of u that choose the generator; more of them would only take more time."""
@@ -32,7 +29,7 @@ class SampledSphereLight(SphereLight):
     ``sampling`` : functions of the module
     """
 
-    sampling: Functions = NONE
+    sampling: Functions = field(default_factory=Functions)
 
     def _on_light(self, center: Floats32, points: Floats32, u: Floats32) -> Floats32:
         match self.samples:
@@ -51,7 +48,7 @@ class SampledSphereLight(SphereLight):
 class SampledLens(Lens):
     """A round aperture with points by polar coordinates or by rejection; ``sampling`` : functions of the module."""
 
-    sampling: Functions = NONE
+    sampling: Functions = field(default_factory=Functions)
     rejects: bool = False
 
     def points(self, u: Floats32) -> Floats32:

@@ -18,6 +18,13 @@ from course.extras.rough_glass import RoughGlass
 
 
 @dataclass(frozen=True)
+class RoughBoundary(Boundary):
+    """``rough_direction`` (3, n) float32: directions refracted by rough glass, undefined at other hits."""
+
+    rough_direction: Floats32
+
+
+@dataclass(frozen=True)
 class FullScatter(Scatter):
     """Sends rays on that mirror or refract.
 
@@ -60,7 +67,8 @@ class FullScatter(Scatter):
         cos_i, cos_t, eta = smooth.cos_i, smooth.cos_t, smooth.eta
         bent = rough_glass.bend(self.rough, material, direction, ns, cos_i, eta, ends, share)
         glass = self.index(material) > 0
-        return Boundary(share * glass, (1 - share) * glass, cos_i, cos_t, eta, bent)
+        arrays = share * glass, (1 - share) * glass, cos_i, cos_t, eta
+        return Boundary(*arrays) if bent is None else RoughBoundary(*arrays, bent)
 
     def mirrored(
         self, hits: Hits, which: Indices, path: Indices, depth: int, draws: Draws
@@ -101,7 +109,7 @@ class FullScatter(Scatter):
         way = refract(direction, ns, boundary.cos_i, boundary.cos_t, boundary.eta)
         if not self.keeps:
             way = kept_above(way, -ng)
-        if boundary.rough_direction is not None:
+        if isinstance(boundary, RoughBoundary):
             arrays = hits.material.take(which), boundary.rough_direction, ng, path
             rough_glass.scatter(self.rough, self.keeps, *arrays, depth, draws, direction=way)
         return way

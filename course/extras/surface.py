@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 
 from course.core.embree import Accelerator, EmbreeAccelerator, Intersections, QueryStats
-from course.core.functions import Functions
 from course.core.hits import Hits, Surface, turn_to_viewer
 from course.core.ray_offset import OFFSET
-from course.core.types import Floats32, Floats64, Mask
+from course.core.rays import Rays
+from course.core.types import Floats32, Floats64, Functions, Mask
 from course.core.vectors import dot
 from course.extras.behind import Behind, SeenThrough, keep_normals
 from course.extras.hierarchy import HierarchyAccelerator
@@ -62,19 +62,17 @@ class FullSurface(Surface):
         """The accelerator of camera rays; its ``intersect`` is that of ``Accelerator``."""
         return self.accelerator if self.through is None else self.through
 
-    def intersect_camera(
-        self,
-        origin: Floats32,
-        direction: Floats32,
-        stats: QueryStats,
-        time: Floats32 | None,
-        coherent: bool,
+    def intersect(
+        self, rays: Rays, stats: QueryStats, coherent: bool, of_camera: bool
     ) -> Intersections:
-        """See ``Surface``; a camera that lies exactly on a surface sees what is before it."""
+        """See ``Surface``; a camera that lies exactly on a surface sees what is in front of it."""
+        if not of_camera:
+            return super().intersect(rays, stats, coherent, of_camera)
+        origin, direction, time = rays.origin, rays.direction, rays.time
         found: Intersections = self.camera_accelerator.intersect(
             origin, direction, stats, time, coherent=coherent
         )
-        # Rays of a camera on a surface hit that at once. They begin again, one offset on.
+        # A camera ray that starts on a surface hits it at distance 0. It starts again, one offset farther on.
         stuck = np.flatnonzero((found.t <= 0) & (found.triangle >= 0))
         if len(stuck) == 0:
             return found
@@ -83,7 +81,9 @@ class FullSurface(Surface):
         when = None if time is None else time.take(stuck)
         step = self.triangles.planes[found.triangle.take(stuck), 6]
         start = start + onward * np.maximum(step, np.float32(OFFSET))
-        found.put(stuck, self.camera_accelerator.intersect(start, onward, stats, when))
+        again = self.camera_accelerator.intersect(start, onward, stats, when)
+        found.triangle[stuck], found.t[stuck] = again.triangle, again.t
+        found.u[stuck], found.v[stuck] = again.u, again.v
         return found
 
     def hits(

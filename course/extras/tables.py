@@ -13,11 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from course.core.embree import Accelerator, EmbreeAccelerator
-from course.core.functions import Functions
 from course.core.motion import Motion, Mover, MovingAccelerator
 from course.core.ray_offset import offset_and_inset
 from course.core.triangles import Mesh, Triangles
-from course.core.types import Floats, Floats32, Floats64, Numbers
+from course.core.types import Floats, Floats32, Floats64, Functions, Numbers
 from course.core.vectors import cross, dot
 
 UNIT = 1e-9

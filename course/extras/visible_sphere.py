@@ -11,14 +11,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from course.core.lights.sample import CLOSEST, TO_A_SURFACE, Sample, Towards
+from course.core.lights.sample import CLOSEST, TO_A_SURFACE, Light, Sample, Towards
 from course.core.types import Floats32
 from course.core.vectors import dot
 from course.extras.hemisphere import cone_directions
 
 
 @dataclass(frozen=True)
-class VisibleSphereLight:
+class VisibleSphereLight(Light):
     """A Lambertian sphere; from within it nothing arrives, for it shines outwards.
 
     Attributes
@@ -37,7 +37,7 @@ class VisibleSphereLight:
     limit: float = TO_A_SURFACE
 
     def sample(self, points: Floats32, u: Floats32 | None, towards: Towards) -> Sample:
-        """See ``course.core.lights``."""
+        """See ``Light``."""
         assert u is not None
         axis = self.center[:, None] - points
         squared = dot(axis, axis)

@@ -61,11 +61,9 @@ class DividedSchedule(UniformSchedule):
     """Uniform passes in one round, with divided tiles."""
 
     def _passes(self, executor: Executor) -> Iterator[Work]:
-        tracer = self._tracer
+        tracer = self.tracer
         batches = executor.batches(tracer.batches)
-        return divided_passes(
-            tracer.settings, tracer.sampler, self._done, batches, executor.threads
-        )
+        return divided_passes(tracer.settings, tracer.sampler, self.done, batches, executor.threads)
 
 
 def preview(settings: Settings, samples: int) -> list[Work]:

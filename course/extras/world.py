@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from course.core.camera import Lens
-from course.core.functions import Functions
 from course.core.scene import World
-from course.core.types import Mask
+from course.core.types import Functions, Mask
 from course.extras.rough_glass import RoughGlass
 from course.extras.sky import SkySampling
 

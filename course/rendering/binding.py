@@ -9,8 +9,8 @@ from dataclasses import replace
 from course.adaptive.costs import RowOfCosts
 from course.building.world import compile_camera
 from course.core.film import Reconstruction
-from course.core.functions import Functions
 from course.core.tracer import Tracer
+from course.core.types import Functions
 from course.effects import Bound, Need
 from course.errors import EffectError, FunctionError
 from course.extras.path_tracing import PathIntegrator
@@ -73,7 +73,7 @@ def _reconstruction(scene: Scene, settings: Settings, bound: Bound) -> Reconstru
         if called:
             functions[name] = bound.function("supersampling", name, asked_by)
     sigma = max(film.sigma, NARROWEST) if film.filter == "gaussian" else None
-    return Reconstruction(Functions(functions), settings.samples == 1, sigma)
+    return Reconstruction(Functions(**functions), settings.samples == 1, sigma)
 
 
 def needs_of(scene: Scene, settings: Settings) -> tuple[Need, ...]:

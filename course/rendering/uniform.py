@@ -21,11 +21,11 @@ class TimedSchedule(DividedSchedule):
 
     def render(self, run: Run, executor: Executor) -> bool:
         """See ``Schedule``."""
-        settings = self._tracer.settings
-        size = pass_size(settings, self._tracer.sampler)
+        settings = self.tracer.settings
+        size = pass_size(settings, self.tracer.sampler)
         for quick in (1, 4):
             # Where a whole pass surely fits, a preview only costs.
-            if size <= quick or self._done:
+            if size <= quick or self.done:
                 break
             before = executor.seconds_left
             run(preview(settings, quick), 0.0, 0.0)

@@ -19,7 +19,10 @@ from course.building.world import compile_camera
 from course.core.camera import Camera
 from course.core.embree import EmbreeAccelerator, QueryStats
 from course.core.hits import Hits
-from course.core.lights import DirectionalLight, Light, PointLight, RectangleLight, SphereLight
+from course.core.lights.point import DirectionalLight, PointLight
+from course.core.lights.rectangle import RectangleLight
+from course.core.lights.sample import Light
+from course.core.lights.sphere import SphereLight
 from course.core.types import Floats32, Floats64, Mask
 from course.errors import CourseWarning
 from course.extras.mesh_light import MeshLight
@@ -33,7 +36,7 @@ def why_black(scene: Scene) -> str:
     """Say why every picture of a scene is black for want of light; empty where there is some."""
     world, lights = scene.compiled.world, scene.loaded.description.lights
     seen = world.materials.ambient * world.ambient[:, None] + world.materials.emission
-    if world.lights or seen.any() or not world.environment.black:
+    if world.lights or seen.any() or world.environment is not None:
         return ""
     if not lights:
         kinds = ", ".join(str(kind.__struct_config__.tag) for kind in get_args(d.Light))
@@ -90,12 +93,12 @@ def why_dark(scene: Scene) -> str:
     camera = compile_camera(scene.loaded, scene.compiled.frame, film.width, film.height)
     around = _met(world, camera.origin[:, None], AROUND)
     enclosed = around.size == AROUND.shape[1] and not around.entering.any()
-    if not enclosed and not world.environment.black:
+    if not enclosed and world.environment is not None:
         return ""
     seen = _seen(world, camera, film.width, film.height)
     if seen.size == 0:
         # Between the objects around it a camera may look out at the sky.
-        if world.environment.black and _sees_nothing(scene, camera, film.width, film.height):
+        if world.environment is None and _sees_nothing(scene, camera, film.width, film.height):
             return (
                 "the picture will be black: no object is in front of the camera, and the environment is black; "
                 "turn camera.look_at"
@@ -110,7 +113,7 @@ def why_dark(scene: Scene) -> str:
                 "the picture is likely to be black: the camera stands inside "
                 f"{inside}, and no light does; move camera.eye"
             )
-    return _turned_away(scene, seen) if world.environment.black and world.lights else ""
+    return _turned_away(scene, seen) if world.environment is None and world.lights else ""
 
 
 def _met(world: FullWorld, origin: Floats32, direction: Floats32) -> Hits:

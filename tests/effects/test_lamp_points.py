@@ -18,11 +18,12 @@ from numpy.typing import NDArray
 
 from course import EffectError, Scene, load_scene, render
 from course.building.sampled_points import NUMBERS, SPHERES
-from course.core.lights import SphereLight
 from course.core.lights.sample import towards
+from course.core.lights.sphere import SphereLight
+from course.core.types import Functions
 from course.effects import PROJECT, Bound, Effects
 from course.errors import SceneError
-from course.extras.sampled import NONE, SampledSphereLight
+from course.extras.sampled import SampledSphereLight
 
 MakeScene = Callable[..., Scene]
 Array = NDArray[np.float64]
@@ -44,7 +45,7 @@ def far(values: Array, mean: float) -> float:
 def points(samples: str, center: Any, radius: float, u: Any) -> Any:
     """Points (3, n) of a lamp: the ways to it from the origin."""
     functions = Bound(SOLUTIONS).functions(*SPHERES[samples], asked_by=("lights", 0))
-    known = "lamp", center, radius, False, np.ones(3, np.float32), samples, NONE
+    known = "lamp", center, radius, False, np.ones(3, np.float32), samples, Functions()
     light = SampledSphereLight(*known, len(u), None, functions)
     return light.sample(np.zeros((3, u.shape[1]), np.float32), u, towards).to_light
 

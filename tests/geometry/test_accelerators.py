@@ -11,8 +11,8 @@ import pytest
 from course.compiled import library
 from course.compiled.accelerator import MovingPackets, PacketAccelerator, in_packets
 from course.core.embree import Accelerator, EmbreeAccelerator, QueryStats
-from course.core.functions import Functions
 from course.core.motion import Motion, MovingAccelerator
+from course.core.types import Functions
 from course.extras.hierarchy import HierarchyAccelerator
 from solutions import bounding_volumes, motion_blur
 
@@ -39,10 +39,10 @@ TRIANGLES = np.array([[0, 1, 2]], np.int32)
 def made(kind: type) -> Accelerator:
     """One triangle that stands still in z = 0."""
     if kind is HierarchyAccelerator:
-        return HierarchyAccelerator(VERTICES, TRIANGLES, Functions(vars(bounding_volumes)), 4)
+        return HierarchyAccelerator(VERTICES, TRIANGLES, Functions(**vars(bounding_volumes)), 4)
     still = EmbreeAccelerator(VERTICES, TRIANGLES)
     if kind in (MovingAccelerator, MovingPackets):
-        moving = MovingAccelerator(still, (), Motion(Functions(vars(motion_blur))))
+        moving = MovingAccelerator(still, (), Motion(Functions(**vars(motion_blur))))
         return moving if kind is MovingAccelerator else in_packets(moving)
     return in_packets(still) if kind is PacketAccelerator else still
 

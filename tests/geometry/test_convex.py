@@ -12,9 +12,9 @@ from course.building.objects import CONVEX
 from course.compiled import library
 from course.compiled.convex import ConvexObjects, convex_objects
 from course.core.embree import NO_HIT, EmbreeAccelerator, Intersections, QueryStats
-from course.core.functions import Functions
 from course.core.hits import Hits, Surface
 from course.core.triangles import Mesh
+from course.core.types import Functions
 from course.core.vectors import cross, dot
 from course.extras.surface import FullPart, FullSurface, build_surface
 from course.formats.meshes import transforms
@@ -141,10 +141,8 @@ def test_an_object_without_area_is_in_nobodys_way() -> None:
 @compiled
 def test_where_things_move_nothing_is_left_out() -> None:
     functions = Functions(
-        {
-            "displacement": lambda velocity, time: velocity[:, None] * time,
-            "to_object_space": lambda origins, velocity, time: origins - velocity[:, None] * time,
-        }
+        displacement=lambda velocity, time: velocity[:, None] * time,
+        to_object_space=lambda origins, velocity, time: origins - velocity[:, None] * time,
     )
     parts = [FullPart(BALL, 0, convex=True), FullPart(at(BALL, 0.6, 0, 0), 0, (0.1, 0.0, 0.0))]
     still, moving = (in_loops(build_surface(some, functions)) for some in (parts[:1], parts))
@@ -158,7 +156,7 @@ def left_behind(surface: Surface, seed: int) -> tuple[Hits, Any, Any]:
     """Hits all over the surface from both sides, and rays that leave them upwards, some of them at grazing angles."""
     n = 60_000
     rng = np.random.default_rng(seed)
-    triangle = rng.integers(surface.triangles.size, size=n).astype(np.int32)
+    triangle = rng.integers(len(surface.triangles.material), size=n).astype(np.int32)
     _, u, v = rng.dirichlet((1, 1, 1), n).T.astype(np.float32)
     direction = normalised(rng.normal(size=(3, n))).astype(np.float32)
     hits = surface.hits(Intersections(triangle, u, v, u), direction)

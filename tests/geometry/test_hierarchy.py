@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from course import shapes
 from course.core.embree import NO_HIT, EmbreeAccelerator, QueryStats
-from course.core.functions import Functions
+from course.core.types import Functions
 from course.core.vectors import dot
 from course.effects import Effects
 from course.errors import EffectError
@@ -27,7 +27,7 @@ Pair = tuple[HierarchyAccelerator, EmbreeAccelerator]
 def functions(**replaced: Any) -> Functions:
     effects = Effects("solutions")
     given = {name: effects.function("bounding_volumes", name) for name in ("build", "traverse")}
-    return Functions(given | replaced)
+    return Functions(**(given | replaced))
 
 
 def both(

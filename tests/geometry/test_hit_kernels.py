@@ -40,7 +40,7 @@ def met(mesh: Mesh, share: float, bends: bool = True) -> tuple[FullSurface, Inte
     surface = build_surface([FullPart(mesh, 3)], turned=None if bends else np.zeros(4, np.bool_))
     n = 4800
     rng = np.random.default_rng(3)
-    triangle = rng.integers(surface.triangles.size, size=n).astype(np.int32)
+    triangle = rng.integers(len(surface.triangles.material), size=n).astype(np.int32)
     triangle[rng.random(n) >= share] = -1
     w, u, v = rng.dirichlet((1, 1, 1), n).T
     for number, kept in enumerate(((v, w), (u, w), (u, v))):

@@ -167,7 +167,7 @@ def test_with_a_constant_offset_long_thin_triangles_would_be_met_again(
 def test_rays_leave_a_slender_box_from_close_by() -> None:
     # A line on the floor of a scene 200 across, 60 long, 0.16 wide and 0.01 high.
     built = build_surface([FullPart(shapes.box((0.6, 1e-4, 1.6e-3)), 0)])
-    assert built.triangles.size == 4 * 2 * 24 + 4
+    assert len(built.triangles.material) == 4 * 2 * 24 + 4
     assert built.triangles.planes[:, 6].max() < 0.1 * 1e-4
 
 
@@ -178,7 +178,7 @@ def test_triangles_without_area_are_left_out_and_the_others_keep_their_materials
     built = build_surface(
         [FullPart(mesh, 2), FullPart(Mesh(vertices, np.array(none)), 3), FullPart(mesh, 4)]
     )
-    assert built.triangles.size == 2
+    assert len(built.triangles.material) == 2
     assert built.triangles.material.tolist() == [2, 4]
     assert np.isfinite(built.triangles.planes).all()
     assert np.isfinite(built.triangles.edges).all()
@@ -188,7 +188,7 @@ def test_triangles_without_area_are_left_out_and_the_others_keep_their_materials
 def test_nothing_at_all_is_missed_by_every_ray() -> None:
     built = build_surface([])
     direction = np.array([[0.0], [0.0], [1.0]], np.float32)
-    assert built.triangles.size == 0
+    assert len(built.triangles.material) == 0
     assert built.accelerator.intersect(direction, direction, STATS).triangle.tolist() == [-1]
     assert built.accelerator.unoccluded(direction, direction, 1e30, STATS).all()
 

@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 
 from course.core.film import Reconstruction
-from course.core.functions import Functions
+from course.core.types import Functions
 from course.effects import Effects
 
 EFFECTS = Effects("solutions")
 FUNCTIONS = Functions(
-    {name: EFFECTS.function("supersampling", name) for name in ("resolve", "gaussian_weights")}
+    **{name: EFFECTS.function("supersampling", name) for name in ("resolve", "gaussian_weights")}
 )
-RESOLVE = Functions({"resolve": FUNCTIONS.resolve})
+RESOLVE = Functions(resolve=FUNCTIONS.resolve)
 
 
 def samples(n: int = 20, s: int = 16) -> tuple[np.ndarray, np.ndarray]:
@@ -41,7 +41,7 @@ def test_the_gaussian_filter_weighs_by_the_distance_from_the_middle(sigma: float
 
 def test_a_single_sample_is_the_pixel() -> None:
     radiance, offsets = samples(s=1)
-    mean, weight = Reconstruction(Functions({}), True, None).pixels(radiance, offsets)
+    mean, weight = Reconstruction(Functions(), True, None).pixels(radiance, offsets)
     assert np.array_equal(mean, radiance[:, :, 0])
     assert weight == 1
 

@@ -224,7 +224,10 @@ def test_the_summary_counts_the_objects_triangles_and_says_how_many_are_cut(
     assert objects["triangles"] == sum(scene.compiled.triangles)
     pieces = scene.compiled.pieces
     assert objects["pieces"] == f"{pieces:,} triangles more"
-    assert scene.compiled.world.surface.triangles.size == sum(scene.compiled.triangles) + pieces
+    assert (
+        len(scene.compiled.world.surface.triangles.material)
+        == sum(scene.compiled.triangles) + pieces
+    )
     assert 100 < pieces < 1000
     # The frame's unit is none of the scene's lengths here.
     assert float(str(objects["half extent"])) == pytest.approx(5e6, rel=1e-5)

@@ -16,7 +16,7 @@ def hits_on_a_coarse_sphere(count: int, materials: int, seed: int) -> Hits:
     """From within and from outside, of so many materials; some arrive along the surface, and some normals are bent."""
     surface = build_surface([FullPart(shapes.sphere(0.9, 12), 3)])
     rng = np.random.default_rng(seed)
-    triangle = rng.integers(surface.triangles.size, size=count).astype(np.int32)
+    triangle = rng.integers(len(surface.triangles.material), size=count).astype(np.int32)
     u, v = rng.random((2, count), np.float32) * np.float32(0.5)
     direction = rng.normal(size=(3, count))
     direction /= np.linalg.norm(direction, axis=0)

@@ -13,15 +13,17 @@ from course import shapes
 from course.adaptive.costs import RowOfCosts
 from course.compiled import library
 from course.core.counters import Counters
-from course.core.environment import ConstantEnvironment
-from course.core.functions import Functions
 from course.core.hits import Hits
-from course.core.lights import DirectionalLight, Light, PointLight, RectangleLight, SphereLight
+from course.core.lights.point import DirectionalLight, PointLight
+from course.core.lights.rectangle import RectangleLight
+from course.core.lights.sample import Light
+from course.core.lights.sphere import SphereLight
 from course.core.materials import MaterialTable
 from course.core.motion import Motion, MovingAccelerator
 from course.core.rays import Dimensions, Draws
 from course.core.samplers import Block
-from course.core.scene import World, direct_light
+from course.core.scene import World, plan_direct_light
+from course.core.types import Functions
 from course.effects import Effects
 from course.extras.plan import same_fields
 from course.extras.samplers.sobol import SobolSampler
@@ -141,9 +143,9 @@ def test_the_loop_finds_the_same_light(
     hits = hits_of(surface)
     block = Block(np.arange(2 * N // 16 + 1, dtype=np.uint32), 0, 16, 0)
     lights = tuple(LIGHTS[name] for name in names)
-    black = ConstantEnvironment(np.zeros(3, np.float32))
     none = np.zeros(3, np.float32)
-    stage = direct_light(World(surface, materials(specular), lights, none, black))
+    stage = plan_direct_light(World(surface, materials(specular), lights, none, None))
+    assert stage is not None
     loop = CompiledDirectLight(**same_fields(stage) | {"surface": compiled_surface(surface)})
     results = []
     for each in (stage, loop):
@@ -196,10 +198,7 @@ def test_rays_among_movers_meet_the_same() -> None:
 def test_movers_that_a_students_function_shifts_are_asked_one_after_the_other() -> None:
     surface = scene_of("moving")
     own = Functions(
-        {
-            "displacement": Course.displacement,
-            "to_object_space": partial(Course.to_object_space),
-        }
+        displacement=Course.displacement, to_object_space=partial(Course.to_object_space)
     )
     accelerator = replace(surface.accelerator, motion=Motion(own))
     assert type(in_packets(accelerator)) is MovingAccelerator

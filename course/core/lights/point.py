@@ -6,19 +6,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from course.core.lights.sample import TO_A_POINT, TO_A_SURFACE, TO_THE_LIGHT, Sample, Towards
+from course.core.lights.sample import TO_A_POINT, TO_A_SURFACE, TO_THE_LIGHT, Light, Sample, Towards
 from course.core.types import Floats32
 
 
 @dataclass(frozen=True)
-class PointLight:
+class PointLight(Light):
     """Intensity I [W/sr] at a point: E = I cos / d^2. ``color`` is I / pi.
 
     Attributes
     ----------
-    normal : (3,) float32 unit, of a cell of a ``RectangleLight`` by radiance: I is multiplied by the emitter's cosine
-    two_sided, visible : of that light
-    blockable : true if a surface on which the light lies blocks it
+    normal : (3,) float32 unit, if the light stands for a cell of an emitting ``RectangleLight``; I is then multiplied
+        by the emitter's cosine
+    two_sided, visible : as in ``RectangleLight``, for such a cell
+    blockable : true if the light is also blocked by a surface that it lies on
     """
 
     name: str
@@ -47,7 +48,7 @@ _ONE = np.ones(1, np.float32)
 
 
 @dataclass(frozen=True)
-class DirectionalLight:
+class DirectionalLight(Light):
     """Irradiance [W/m^2] from one direction; ``to_light`` (3,) is the unit vector to the light."""
 
     name: str

@@ -1,25 +1,24 @@
-"""A parallelogram: made of point lights (by intensity) or a Lambertian emitter (by radiance)."""
+"""A parallelogram as a light: its points have an intensity, or it is a Lambertian emitter with a radiance."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
-from course.core.functions import Functions
-from course.core.lights.sample import TO_A_POINT, TO_A_SURFACE, Sample, Towards
-from course.core.types import Floats32
+from course.core.lights.sample import TO_A_POINT, TO_A_SURFACE, Light, Sample, Towards
+from course.core.types import Floats32, Functions
 
 
 @dataclass(frozen=True)
-class RectangleLight:
+class RectangleLight(Light):
     """A parallelogram, sampled uniformly by area.
 
     Attributes
     ----------
     corner, edge_u, edge_v : (3,) float32
-    normal : (3,) float32 unit, on the emitting side of a light by radiance; None for a light by intensity
-    color : (3,) float32, I / pi, or radiance times area / pi
+    normal : (3,) float32 unit, on the side that emits; None if the points have an intensity
+    color : (3,) float32, intensity / pi, or radiance times area / pi
     two_sided : true if the back emits like the front
-    visible : true if a light by radiance is also a surface
+    visible : true if an emitter is also a surface of the scene
     """
 
     name: str

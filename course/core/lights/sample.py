@@ -1,10 +1,10 @@
-"""The interface of a light: it samples one point on itself for each shading point."""
+"""The interface of lights: a light samples one point on itself for each shading point."""
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 
@@ -12,9 +12,9 @@ from course.core.types import Floats32
 from course.core.vectors import dot
 
 TO_A_POINT, TO_A_SURFACE, TO_THE_LIGHT = 1 - 2.0**-20, 1 - 1e-4, 1 + 2.0**-15
-"""Lengths of shadow rays, as shares of the distance to the light: to a point that belongs to no surface; to a visible
-light, short of its own triangles; past a point light that lies on a surface, so that the surface blocks it. Seen from
-1/50 of the scene's size at 60 degrees, rounding moves that surface by 2^-16 of the distance, half of the excess."""
+"""Lengths of shadow rays, as shares of the distance to the light. The first is for points that belong to no surface.
+The second is for visible lights: it ends short of their own triangles. The third ends behind a point light on a
+surface, so that the surface blocks it. Rounding moves a surface by 2^-16 at 1/50 of the scene's size and 60 degrees."""
 
 
 @dataclass(frozen=True)
@@ -25,8 +25,8 @@ class Sample:
     ----------
     to_light : (3, n) or (3, 1) float32, from the shading point to the point on the light, not normalised
     inverse_length : (n,) or (1,) float32, 1 / its length
-    factor : (n,) or (1,) float32, irradiance of an unoccluded surface at right angles to ``to_light``, in units of the
-        light's ``color``; 0 if the light faces away
+    factor : (n,) or (1,) float32, irradiance on a surface at right angles to ``to_light``, without occlusion, divided
+        by the light's ``color``; 0 if the light faces away
     """
 
     to_light: Floats32
@@ -40,29 +40,28 @@ CLOSEST = 1e-7
 """Distances [unit of the compiled scene] are clamped to at least this, so that no light is infinitely bright."""
 
 
-class Light(Protocol):
-    """The interface of a light."""
+class Light(ABC):
+    """The interface of a light.
+
+    Attributes
+    ----------
+    name : for receipts and error messages
+    color : (3,) float32, (irradiance / pi) / ``Sample.factor``; the division by pi is that of the BRDF
+    width : number of random numbers per sample, 0 for lights without extent
+    velocity : (3,) float32, displacement while the shutter is open; None at rest
+    """
+
+    name: str
+    color: Floats32
+    width: int
+    velocity: Floats32 | None
 
     @property
-    def name(self) -> str:
-        """For receipts and error messages."""
-
-    @property
-    def color(self) -> Floats32:
-        """(3,) float32, irradiance / pi where ``Sample.factor`` is 1; it has the BRDF's 1 / pi."""
-
-    @property
-    def width(self) -> int:
-        """Number of random numbers per sample, 0 for lights without extent."""
-
-    @property
-    def velocity(self) -> Floats32 | None:
-        """(3,) float32, displacement while the shutter is open; None at rest."""
-
-    @property
+    @abstractmethod
     def limit(self) -> float:
         """Length of the shadow rays as a share of the distance to the light."""
 
+    @abstractmethod
     def sample(self, points: Floats32, u: Floats32 | None, towards: Towards) -> Sample:
         """One point on the light for each shading point.
 
@@ -77,9 +76,9 @@ class Light(Protocol):
 def towards(
     on_light: Floats32, points: Floats32, normal: Floats32 | None = None, two_sided: bool = False
 ) -> Sample:
-    """The sample for shading points (3, n), towards points on a light, (3, n) or (3, 1).
+    """The sample for shading points (3, n) and points on a light, (3, n) or (3, 1).
 
-    normal and two_sided are those of a Lambertian emitter (``RectangleLight``); a light by intensity has no normal.
+    A Lambertian emitter has a normal, and may be two-sided (``RectangleLight``); a light with an intensity has none.
     """
     to_light = on_light - points
     inverse_length, factor = inverse_square(to_light)
@@ -99,7 +98,7 @@ def inverse_square(to_light: Floats32) -> tuple[Floats32, Floats32]:
 def _emitted_cosine(
     normal: Floats32, to_light: Floats32, inverse_length: Floats32, two_sided: bool
 ) -> Floats32:
-    """Cosine (n,) between an emitter's normal (3,) and the emitted direction; behind it 0, or positive if two-sided."""
+    """Cosine (n,) between an emitter's normal (3,) and the emitted direction: at least 0, or absolute if two-sided."""
     cosine = dot(normal[:, None], to_light)
     cosine *= -inverse_length
     if two_sided:

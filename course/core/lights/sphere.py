@@ -1,4 +1,4 @@
-"""A sphere: made of point lights (by intensity) or a Lambertian emitter (by radiance)."""
+"""A sphere as a light: its points have an intensity, or it is a Lambertian emitter with a radiance."""
 
 from __future__ import annotations
 
@@ -6,22 +6,28 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from course.core.functions import Functions
-from course.core.lights.sample import TO_A_POINT, TO_A_SURFACE, Sample, Towards, inverse_square
-from course.core.types import Floats32
+from course.core.lights.sample import (
+    TO_A_POINT,
+    TO_A_SURFACE,
+    Light,
+    Sample,
+    Towards,
+    inverse_square,
+)
+from course.core.types import Floats32, Functions
 from course.core.vectors import dot
 
 
 @dataclass(frozen=True)
-class SphereLight:
+class SphereLight(Light):
     """A sphere, sampled uniformly by area or by volume.
 
     Attributes
     ----------
     center : (3,) float32
     radius : float > 0; a sphere of radius 0 is built as a point light
-    emitter : true if it is a Lambertian emitter, by radiance
-    color : (3,) float32, I / pi, or radiance times area / pi
+    emitter : true if it is a Lambertian emitter
+    color : (3,) float32, intensity / pi, or radiance times area / pi
     samples : the points lie on the "sphere", in the "ball", or on a "facing disk" for each shading point
     """
 
@@ -48,7 +54,7 @@ class SphereLight:
         return towards(self._on_light(self.center, points, u), points)
 
     def _on_light(self, center: Floats32, points: Floats32, u: Floats32) -> Floats32:
-        """Points (3, n) of the light as if its centre were ``center``."""
+        """Points (3, n) on the light, moved to the given centre."""
         on_light: Floats32
         match self.samples:
             case "sphere":
@@ -61,7 +67,7 @@ class SphereLight:
         return on_light
 
     def _sample_emitter(self, points: Floats32, u: Floats32) -> Sample:
-        # Points on a sphere about the origin give exact normals, even if the centre is rounded by a few radii.
+        # Points on a sphere about the origin give exact normals, even if rounding moves the centre by a few radii.
         from_center = self._on_light(np.zeros(3, np.float32), points, u)
         to_light = from_center + self.center[:, None]
         to_light -= points

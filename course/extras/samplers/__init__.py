@@ -9,13 +9,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from course.core.functions import Functions
-from course.core.samplers import Block, Sampler
-from course.core.samplers.stratified import (
+from course.core.samplers import (
+    Block,
     JitteredSampler,
     RandomSampler,
     RegularSampler,
+    Sampler,
 )
+from course.core.types import Functions
 from course.extras.samplers.low_discrepancy import ChainedSampler, HaltonSampler, HammersleySampler
 from course.extras.samplers.sobol import SobolSampler
 from course.extras.samplers.xorshift import XorshiftSampler
@@ -54,4 +55,4 @@ def make_sampler(name: str, seed: int, *functions: Callable[..., Any]) -> Sample
         "xorshift": XorshiftSampler,
     }
     names = (function for _, function in FUNCTIONS[name])
-    return kinds[name](seed, Functions(dict(zip(names, functions, strict=True))))
+    return kinds[name](seed, Functions(**dict(zip(names, functions, strict=True))))

@@ -13,9 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from course.core.functions import Functions
 from course.core.samplers import Block, Sampler, generator
-from course.core.types import Floats32
+from course.core.types import Floats32, Functions
 from course.extras.samplers.hashing import combine, hash_words
 
 ORDERS = 256

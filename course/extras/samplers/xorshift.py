@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from course.core.functions import Functions
 from course.core.samplers import Block, Sampler
-from course.core.types import Floats32
+from course.core.types import Floats32, Functions
 from course.extras.samplers.hashing import combine, hash_words
 
 
