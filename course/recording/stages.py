@@ -12,7 +12,7 @@ from course.core.direct import Candidates, DirectLight
 from course.core.embree import QueryStats
 from course.core.hits import Hits
 from course.core.integrator import Integrator
-from course.core.lights import Light, Sample
+from course.core.lights.sample import Light, Sample
 from course.core.rays import Draws, Rays
 from course.core.scatter import Boundary, Scatter
 from course.core.tracer import Tracer
