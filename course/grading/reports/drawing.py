@@ -1,5 +1,6 @@
 """Figures of any kind drawn, whichever report shows them: pictures as pixels, points and histograms as SVG.
 
+Their arrays come from checks, so shapes and dtypes are right; the numbers may be any, for they come from students.
 An SVG element takes the page's own colour of text. Each plot is a matplotlib figure of its own: nothing is shared
 between threads, and no global setting is changed.
 """
@@ -8,7 +9,6 @@ from __future__ import annotations
 
 import re
 from base64 import b64encode
-from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from io import BytesIO, StringIO
 from typing import Any, NamedTuple
@@ -51,10 +51,6 @@ _INK = "#123456"
 
 _LABELS = {"yours": "Yours", "expected": "The reference"}
 _TITLES = {"yours": "Yours", "expected": "Reference"}
-
-
-class NotDrawable(Exception):  # noqa: N818 - it is no error of the program
-    """A figure's arrays are nothing that can be drawn; the message says why, to the student."""
 
 
 class Scale(NamedTuple):
@@ -133,94 +129,33 @@ def draw(figure: Figure) -> Drawing:
     """
     try:
         return _BY_KIND[figure.kind](figure)
-    except NotDrawable as reason:
-        return Drawing(figure.title, notes=(f"This can't be drawn: {reason}.",))
     except Exception as error:  # noqa: BLE001 - a report without this figure is better than no report
-        return Drawing(figure.title, notes=(f"This can't be drawn ({type(error).__name__}).",))
-
-
-def _sets(
-    figure: Figure,
-    read: Callable[[Array, str, list[str]], Floats64],
-    otherwise: str,
-    names: Sequence[str] = ("yours", "expected"),
-) -> tuple[dict[str, Floats64], list[str]]:
-    """Arrays of a figure that can be drawn, by name, and notes about them.
-
-    Parameters
-    ----------
-    read : makes numbers to draw of an array and its label, and notes what it left out
-    otherwise : what is said where there is nothing to draw
-    """
-    found: dict[str, Floats64] = {}
-    notes: list[str] = []
-    for name in names:
-        if name in figure.arrays:
-            try:
-                with np.errstate(all="ignore"):
-                    found[name] = read(figure.arrays[name], _LABELS[name], notes)
-            except NotDrawable as reason:
-                notes.append(f"{reason}.")
-    if not found:
-        raise NotDrawable(" ".join(notes).rstrip(".") or otherwise)
-    return found, notes
-
-
-def _numbers(array: Any, name: str) -> Array:
-    """The array if it holds real numbers."""
-    found = np.asarray(array)
-    if found.dtype.kind not in "fiub":
-        raise NotDrawable(f"{name} holds {found.dtype} values, not real numbers")
-    if not found.size:
-        raise NotDrawable(f"{name} is empty: its shape is {found.shape}")
-    return found
+        return Drawing(figure.title, notes=(f"This can't be drawn: {error}.",))
 
 
 def draw_pictures(figure: Figure) -> Drawing:
-    """Draw ``yours`` beside ``expected``: the two, the signed difference, that over the noise, the worst region.
+    """Draw ``yours`` beside ``expected``, both (3, H, W) linear RGB, where there are two, with what tells them apart.
 
-    Parameters
-    ----------
-    figure : its arrays are (3, H, W) linear RGB; ``noise``, if there, is the standard deviation of each value,
-        (3, H, W) or (H, W)
-
-    Raises
-    ------
-    NotDrawable
-        Neither of the two is a picture.
+    That is the signed difference, the difference over the noise, and the worst region.
     """
-    pictures, notes = _sets(figure, _picture, "there is no picture", ("expected", "yours"))
+    notes: list[str] = []
+    pictures = {
+        name: _picture(figure.arrays[name], _LABELS[name], notes)
+        for name in ("expected", "yours")
+        if name in figure.arrays
+    }
     panels = [_plain(picture, _TITLES[name]) for name, picture in pictures.items()]
     if len(pictures) == 2:
-        yours, expected = pictures["yours"], pictures["expected"]
-        if yours.shape != expected.shape:
-            notes.insert(
-                0,
-                f"The sizes differ: yours is {_size(yours)} pixels, the reference {_size(expected)} "
-                "(width × height). So there is no difference to show.",
-            )
-        else:
-            panels += _compared(yours, expected, figure.arrays, notes)
+        panels += _compared(pictures["yours"], pictures["expected"], notes)
     return Drawing(figure.title, tuple(panels), tuple(notes))
 
 
 def _picture(array: Array, label: str, notes: list[str]) -> Floats64:
-    """A (3, H, W) picture of whatever came."""
-    found = _numbers(array, label)
-    if found.ndim == 3 and found.shape[0] == 3:
-        pass
-    elif found.ndim == 3 and found.shape[2] == 3:
-        notes.append(f"{label} has the shape {found.shape}, with the colours last, not first.")
-        found = np.moveaxis(found, 2, 0)
-    elif found.ndim == 2:
-        notes.append(f"{label} has the shape {found.shape}, one number a pixel, and is shown grey.")
-        found = np.broadcast_to(found, (3, *found.shape))
-    else:
-        raise NotDrawable(f"{label} has the shape {found.shape}, which is no picture (3, H, W)")
-    step = -(-max(found.shape[1:]) // LARGEST)
+    """The picture, or every so manieth pixel of a large one, each way."""
+    step = -(-max(array.shape[1:]) // LARGEST)
     if step > 1:
-        notes.append(f"{label} is {_size(found)} pixels large; one in {step} is drawn, each way.")
-    picture = found[:, ::step, ::step].astype(np.float64)
+        notes.append(f"{label} is {_size(array)} pixels large; one in {step} is drawn, each way.")
+    picture = array[:, ::step, ::step].astype(np.float64)
     broken = int((~np.isfinite(picture)).any(axis=0).sum())
     if broken:
         of = picture.shape[1] * picture.shape[2]
@@ -256,9 +191,7 @@ def _codes(picture: Floats64) -> NDArray[np.uint8]:
     return codes
 
 
-def _compared(
-    yours: Floats64, expected: Floats64, arrays: Mapping[str, Array], notes: list[str]
-) -> list[Panel]:
+def _compared(yours: Floats64, expected: Floats64, notes: list[str]) -> list[Panel]:
     with np.errstate(all="ignore"):
         difference = yours - expected
     worst = _largest(difference)
@@ -282,7 +215,7 @@ def _compared(
             scale=Scale(f"−{scale:.3g} darker", f"+{scale:.3g} brighter"),  # noqa: RUF001
         )
     ]
-    over_noise = _over_noise(difference, arrays, notes)
+    over_noise = _over_noise(difference, notes)
     if over_noise is not None:
         panels.append(over_noise)
     return panels + _enlarged(yours, expected, row, column)
@@ -307,37 +240,30 @@ def _map(values: Floats64, limit: float) -> NDArray[np.uint8]:
     return result
 
 
-def _over_noise(
-    difference: Floats64, arrays: Mapping[str, Array], notes: list[str]
-) -> Panel | None:
-    noise, source = _noise(difference, arrays)
-    if noise is None:
-        notes.append(source)
+def _over_noise(difference: Floats64, notes: list[str]) -> Panel | None:
+    noise = _noise(difference)
+    if not 0 < noise < np.inf:
+        notes.append(
+            "Most pixels agree exactly, so there is no noise to measure the difference by."
+        )
         return None
     with np.errstate(all="ignore"):
-        z = difference / noise
-    z[difference == 0] = 0.0
-    # A difference where there is no noise at all is as significant as can be.
-    z[np.isinf(z) & np.isfinite(difference)] = 1e9 * np.sign(
-        difference[np.isinf(z) & np.isfinite(difference)]
-    )
-    largest = _largest(z)
+        largest = _largest(difference / noise)
     beyond = int((np.abs(largest[np.isfinite(largest)]) > 3).sum())
     return Panel(
         "Difference over the noise",
         f"Map of the difference over the noise; it is beyond 3 at {beyond} of {largest.size} pixels.",
         f"How many times the noise the difference is; beyond 3 at {beyond} of {largest.size} pixels. "
-        f"{source} Colours end at ±{NOISE_LIMIT:g}.",
+        f"The noise is not known; it is taken as {noise:.2g}, from the median absolute difference between each pixel's "
+        "difference and its neighbours'; without noise the map only shows where the difference is large beside its own "
+        f"roughness. Colours end at ±{NOISE_LIMIT:g}.",
         _map(largest, NOISE_LIMIT),
         scale=Scale(f"−{NOISE_LIMIT:g} or less", f"+{NOISE_LIMIT:g} or more"),  # noqa: RUF001
     )
 
 
-def _noise(difference: Floats64, arrays: Mapping[str, Array]) -> tuple[Floats64 | None, str]:
-    """Standard deviation of each value, and where it is from; None and why it can't be told."""
-    known = np.asarray(arrays.get("noise", 0))
-    if known.shape in (difference.shape, difference.shape[1:]) and known.dtype.kind == "f":
-        return np.abs(known.astype(np.float64)), "The noise of each pixel is known."
+def _noise(difference: Floats64) -> float:
+    """Standard deviation of a pixel's difference beside those of its neighbours; 0 or NaN where it can't be told."""
     padded = np.pad(difference, ((0, 0), (1, 1), (1, 1)), mode="edge")
     around = padded[:, :-2, 1:-1] + padded[:, 2:, 1:-1] + padded[:, 1:-1, :-2] + padded[:, 1:-1, 2:]
     with np.errstate(all="ignore"):
@@ -345,17 +271,7 @@ def _noise(difference: Floats64, arrays: Mapping[str, Array]) -> tuple[Floats64 
     fine = fine[np.isfinite(fine)]
     # 1.4826 turns a median absolute deviation into a standard one; the mean of four neighbours adds a quarter of
     # the variance.
-    sigma = 1.4826 * float(np.median(np.abs(fine))) / np.sqrt(1.25) if fine.size else 0.0
-    if not 0 < sigma < np.inf:
-        return None, "Most pixels agree exactly, so there is no noise to measure the difference by."
-    return (
-        np.full(difference.shape, sigma),
-        (
-            f"The noise is not known; it is taken as {sigma:.2g}, from the median absolute difference between "
-            "each pixel's difference and its neighbours'; without noise the map only shows where the difference is "
-            "large beside its own roughness."
-        ),
-    )
+    return 1.4826 * float(np.median(np.abs(fine))) / np.sqrt(1.25) if fine.size else 0.0
 
 
 def _enlarged(yours: Floats64, expected: Floats64, row: int, column: int) -> list[Panel]:
@@ -382,8 +298,14 @@ def _rgb(picture: Floats64, row: int, column: int) -> str:
 
 
 def draw_points(figure: Figure) -> Drawing:
-    """Draw ``yours`` and ``expected``, (2, N) in the unit square or disk; ``NotDrawable`` where neither is points."""
-    sets, notes = _sets(figure, _points, "there are no points")
+    """Draw ``yours`` and, if they are there, ``expected``, (2, N) in the unit square or disk."""
+    sets: dict[str, Floats64] = {}
+    notes: list[str] = []
+    for name, array in figure.arrays.items():
+        label, step = _LABELS[name], -(-array.shape[1] // MOST_POINTS)
+        if step > 1:
+            notes.append(f"{label} has {array.shape[1]} points; one in {step} is drawn.")
+        sets[name] = _within(array[:, ::step].astype(np.float64), label, "points", notes)
     # The reference if it is there, else the student's.
     disk = bool(([*sets.values()][-1] < 0).mean() > 0.05)
     low, high = _view(sets, -1.0 if disk else 0.0)
@@ -392,21 +314,6 @@ def draw_points(figure: Figure) -> Drawing:
         for name, points in sets.items()
     ]
     return Drawing(figure.title, tuple(panels), tuple(notes))
-
-
-def _points(array: Array, label: str, notes: list[str]) -> Floats64:
-    found = _numbers(array, label)
-    if found.ndim != 2 or 2 not in found.shape:
-        if found.ndim < 2 or found.shape[0] != 2:
-            raise NotDrawable(f"{label} has the shape {found.shape}, which is no points (2, N)")
-        found = found.reshape(2, -1)
-    elif found.shape[0] != 2:
-        notes.append(f"{label} has the shape {found.shape}, with the two coordinates last.")
-        found = found.T
-    step = -(-found.shape[1] // MOST_POINTS)
-    if step > 1:
-        notes.append(f"{label} has {found.shape[1]} points; one in {step} is drawn.")
-    return _within(found[:, ::step].astype(np.float64), label, "points", notes)
 
 
 def _within(values: Floats64, label: str, what: str, notes: list[str]) -> Floats64:
@@ -419,7 +326,7 @@ def _within(values: Floats64, label: str, what: str, notes: list[str]) -> Floats
             "they are left out."
         )
     if not kept.any():
-        raise NotDrawable(f"{label} has no finite {what}")
+        raise ValueError(f"{label} has no finite {what}")
     result: Floats64 = values[..., kept]
     return result
 
@@ -462,72 +369,26 @@ def _scatter(
 
 
 def draw_histogram(figure: Figure) -> Drawing:
-    """Draw how often the values of ``yours`` occur, and of ``expected`` or the right ``density`` if it is there.
-
-    Parameters
-    ----------
-    figure : its ``yours`` and ``expected`` are values of any shape; ``density`` is (2, M), places and the density
-        there, or (M,), the density at places spread evenly over the values' range
-
-    Raises
-    ------
-    NotDrawable
-        There is no finite value.
-    """
-    sets, notes = _sets(figure, _values, "there are no values")
-    everything = np.concatenate(tuple(sets.values()))
-    low, high = float(everything.min()), float(everything.max())
+    """Draw how often the values of ``yours`` occur."""
+    notes: list[str] = []
+    values = _within(figure.arrays["yours"].astype(np.float64).ravel(), "Yours", "values", notes)
+    low, high = float(values.min()), float(values.max())
+    told = f"{values.size} values from {low:.4g} to {high:.4g}, mean {values.mean():.4g}"
     if 0 < low < 0.1 * high:
         low = 0.0
     if low >= 0 and 0.5 < high <= 1:
         low, high = 0.0, 1.0
     if high - low < 1e-9 * max(abs(low), abs(high), 1e-30):
         low, high = low - 0.5 * max(1.0, abs(low)), high + 0.5 * max(1.0, abs(high))
-    edges = np.linspace(low, high, int(np.clip(np.sqrt(everything.size), 8, 40)) + 1)
     canvas, axes = _axes((4.2, 2.9))
-    labels = {"yours": "yours", "expected": "reference"}
-    for name, values in sets.items():
-        share = np.histogram(values, edges)[0] / values.size / np.diff(edges)
-        if name == "yours":
-            axes.bar(edges[:-1], share, np.diff(edges), align="edge", color=YOURS, label="yours")
-        else:
-            axes.stairs(share, edges, color=EXPECTED, linewidth=2, label="reference")
-    if _density(axes, figure.arrays.get("density"), low, high, notes):
-        labels["density"] = "right density"
+    bins = int(np.clip(np.sqrt(values.size), 8, 40))
+    axes.hist(values, bins, range=(low, high), density=True, color=YOURS)
     axes.set_xlim(low, high)
     axes.set_ylim(bottom=0)
     axes.set_xlabel("value")
     axes.set_ylabel("density")
-    if len(sets) + ("density" in labels) > 1:
-        axes.legend(frameon=False, labelcolor=_INK, fontsize=10)
-    told = "; ".join(
-        f"{labels[name]}: {values.size} values from {values.min():.4g} to {values.max():.4g}, "
-        f"mean {values.mean():.4g}"
-        for name, values in sets.items()
-    )
-    panel = Panel("How often each value occurs", f"Histogram. {told}.", told, svg=_svg(canvas))
+    panel = Panel("How often each value occurs", f"Histogram: {told}.", told, svg=_svg(canvas))
     return Drawing(figure.title, (panel,), tuple(notes))
-
-
-def _values(array: Array, label: str, notes: list[str]) -> Floats64:
-    return _within(_numbers(array, label).astype(np.float64).ravel(), label, "values", notes)
-
-
-def _density(axes: Any, density: Array | None, low: float, high: float, notes: list[str]) -> bool:
-    if density is None:
-        return False
-    try:
-        found = _numbers(density, "The density").astype(np.float64)
-        if found.ndim == 1:
-            found = np.stack((np.linspace(low, high, found.size), found))
-        if found.ndim != 2 or found.shape[0] != 2:
-            raise NotDrawable(f"The density has the shape {found.shape}")
-        places, heights = _within(found, "The density", "values", notes)
-    except NotDrawable as reason:
-        notes.append(f"{reason}.")
-        return False
-    axes.plot(places, heights, color=EXPECTED, linewidth=2, label="right density")
-    return True
 
 
 def _axes(inches: tuple[float, float]) -> tuple[Any, Any]:

@@ -185,25 +185,16 @@ def test_endless_output_is_cut(report: Report) -> None:
     assert "characters left out" in page.text
 
 
-def test_a_wrong_sized_picture_is_readable(with_figure: Callable[..., Report]) -> None:
-    report = with_figure(
-        "pictures", yours=np.full((3, 20, 30), 0.5), expected=np.full((3, 36, 48), 0.5)
-    )
-    page = read(report)
-    check_closed(page)
-    assert "yours is 30 × 20 pixels, the reference 48 × 36" in page.text
-    images = [attributes for tag, attributes in page.tags if tag == "img"]
-    assert [(image["width"], image["height"]) for image in images] == [("48", "36"), ("30", "20")]
-    assert all(image["alt"] and image["src"].startswith("data:image/png") for image in images)
-
-
 def test_a_picture_of_nothing_but_nan_is_a_page(with_figure: Callable[..., Report]) -> None:
     report = with_figure(
         "pictures", yours=np.full((3, 36, 48), np.nan), expected=np.full((3, 36, 48), 0.5)
     )
     page = read(report)
+    check_closed(page)
     assert "NaN or infinite at 1728 of 1728 pixels" in page.text
-    assert page.count("img") >= 3
+    images = [attributes for tag, attributes in page.tags if tag == "img"]
+    assert len(images) >= 3
+    assert all(image["alt"] and image["src"].startswith("data:image/png") for image in images)
 
 
 @pytest.mark.parametrize("kind", ["points", "histogram"])
