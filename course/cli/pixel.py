@@ -10,8 +10,10 @@ from typing import TYPE_CHECKING
 
 import click
 
+from course.atomic import write_text
 from course.cli import options
 from course.cli.metu import check_not_metu
+from course.cli.outputs import check_outputs
 
 if TYPE_CHECKING:
     from course.recording.story import Line
@@ -38,6 +40,9 @@ def _place(_ctx: click.Context, _option: click.Parameter, text: str) -> tuple[in
 )
 @click.option("--seed", type=click.IntRange(0, 2**32 - 1), help="Seed of every random choice.")
 @options.effects_option
+@click.option(
+    "--html", type=options.PATH, help="Write a page that shows the rays in the scene, in one file."
+)
 @click.option("--json", "as_json", is_flag=True, help="Print every segment as JSON, for programs.")
 def pixel(
     scene: Path,
@@ -46,6 +51,7 @@ def pixel(
     size: tuple[int, int] | None,
     seed: int | None,
     effects: str | None,
+    html: Path | None,
     as_json: bool,
 ) -> None:
     """Tell why a pixel of a scene's picture has its colour.
@@ -56,9 +62,14 @@ def pixel(
     open is as the scene file says.
     """
     check_not_metu(scene, "pixel")
+    check_outputs(files=[("--html", html)], source=scene)
     from course.recording.pixel import pixel as tell
 
     story = tell(scene, *place, spp=spp, size=size, seed=seed, effects=effects)
+    if html is not None:
+        from course.recording.view import page
+
+        write_text(html, page(story))
     if as_json:
         click.echo(json.dumps(story.to_dict()))
     elif sys.stdout.isatty():

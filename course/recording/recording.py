@@ -10,6 +10,7 @@ import numpy as np
 
 from course.building.world import compile_scene
 from course.contracts import contract
+from course.core.camera import Camera
 from course.core.counters import Counters
 from course.core.film import Film
 from course.core.samplers import Block
@@ -45,6 +46,7 @@ class Recording:
     segments : in the order in which they were followed, each before those that leave its end
     asked : "module.function" -> how often it was asked; once for a whole pattern of samples, or for a batch whose
         columns aren't those of all rays
+    camera : of the compiled scene
     counters : the receipt's numbers, of all pixels that had to be rendered
     alone : whether no other pixels had to be rendered
     """
@@ -58,6 +60,7 @@ class Recording:
     weights: Floats32
     segments: list[Segment]
     asked: dict[str, int]
+    camera: Camera
     counters: Counters
     alone: bool
 
@@ -129,6 +132,7 @@ def record(
         weights[0],
         segments_of(recorder, scene, settings.width),
         recorder.asked,
+        tracer.integrator.camera,
         counters,
         alone,
     )

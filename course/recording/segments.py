@@ -63,6 +63,7 @@ class Segment:
     material : of that object; None for lights and the environment
     light : that a shadow ray asks for; None for other rays
     blocked : whether something is between a shadow ray's start and its light
+    aim : the point of the light that a shadow ray asks for; None for other rays
     before, after : throughput at the end of the parent, and at this segment's own end
     radiance : what it brings to its sample [W/(m^2 sr)]: light that its end gives off or that arrives from the
         environment, or that of the shadow ray's light, times the throughput
@@ -85,6 +86,7 @@ class Segment:
     material: str | None
     light: str | None
     blocked: bool
+    aim: Triple | None
     before: Triple
     after: Triple
     radiance: Triple
@@ -211,6 +213,7 @@ class _Reading:
             material=None if hit is None else self._names.material(int(hit["material"])),
             light=None,
             blocked=False,
+            aim=None,
             before=(1.0, 1.0, 1.0) if parent is None else parent.after,
             after=_triple(after),
             radiance=_triple(own),
@@ -223,12 +226,14 @@ class _Reading:
     def _shadow(self, row: dict[str, Any], parent: Segment, number: int) -> Segment:
         """A shadow ray from the end of a segment."""
         sky, blocked = row["light"] == ENVIRONMENT_LIGHT, not row["free"]
-        far = min(float(row["far"]), AFAR if row["far"] > 1e6 else np.inf)
+        # As a share of the way to the light; lights that are infinitely far away have a direction only.
+        reach = far = min(row["limit"], AFAR)
         met, material = ENVIRONMENT if sky else row["light"], None
         if blocked:
             # A ray that nothing blocks on its way is blocked where it begins, by the facet of its own surface.
-            met, material, far = parent.met, parent.material, far if row["triangle"] >= 0 else 0.0
+            met, material, far = parent.met, parent.material, 0.0
             if row["triangle"] >= 0:
+                far = float(row["far"])
                 met = self._names.object(int(row["triangle"]))
                 material = self._names.material(int(self._triangle_materials[row["triangle"]]))
         return Segment(
@@ -244,6 +249,7 @@ class _Reading:
             material=material,
             light=ENVIRONMENT if sky else row["light"],
             blocked=blocked,
+            aim=self._place(row["origin"] + row["direction"] * np.float32(reach)),
             before=parent.after,
             after=parent.after,
             radiance=_triple(row["value"] * np.asarray(parent.after)),

@@ -176,7 +176,7 @@ class Asking:
         return free
 
     def blockers(self, which: Indices) -> tuple[Floats32, Floats32, Floats32, Indices]:
-        """Origins (3, m), directions (3, m), lengths (m,) and blocking triangles (m,), -1 for none, of some rays."""
+        """Origins, directions (3, m), distances (m,) of what blocks them, and its triangles (m,), -1 for none."""
         origin, direction, limit, _, time = self._recorder.asked_last
         origin, direction = origin.take(which, axis=1), direction.take(which, axis=1)
         self._recorder.muted = True
@@ -184,8 +184,7 @@ class Asking:
         found = self._accelerator.intersect(origin, direction, QueryStats(), when)
         self._recorder.muted = False
         blocked = (found.triangle >= 0) & (found.t < limit)
-        far = np.where(blocked, found.t, np.float32(limit))
-        return origin, direction, far, np.where(blocked, found.triangle, -1)
+        return origin, direction, found.t, np.where(blocked, found.triangle, -1)
 
 
 class RecordedDirect(DirectLight):
@@ -258,6 +257,7 @@ class RecordedDirect(DirectLight):
             light=light,
             origin=origin,
             direction=direction,
+            limit=recorder.asked_last[2],
             far=far,
             free=recorder.asked_last[3].take(columns) if free is None else free,
             triangle=triangle,
