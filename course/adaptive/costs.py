@@ -21,10 +21,15 @@ FURTHER_RAY = 5.0
 
 
 class RowOfCosts:
-    """The cost of each path of a block."""
+    """The cost of each path of a block.
 
-    def __init__(self, cost: Floats32) -> None:
-        self._cost = cost
+    ``row`` (paths,) float32 has the costs so far, ``prices`` are those of a hit, a shadow ray and a further ray.
+    """
+
+    prices = HIT, SHADOW_RAY, FURTHER_RAY
+
+    def __init__(self, row: Floats32) -> None:
+        self.row = row
 
     @classmethod
     def of(cls, paths: int) -> RowOfCosts:
@@ -36,13 +41,13 @@ class RowOfCosts:
         if cost is None:
             cost = {"hit": HIT, "shadow": SHADOW_RAY}.get(kind, FURTHER_RAY)
         if path is None:
-            self._cost += np.float32(cost)
+            self.row += np.float32(cost)
         else:
-            np.add.at(self._cost, path, np.float32(cost))
+            np.add.at(self.row, path, np.float32(cost))
 
     def part(self, paths: slice) -> RowOfCosts:
         """The costs of some of the paths."""
-        return RowOfCosts(self._cost[paths])
+        return RowOfCosts(self.row[paths])
 
     def with_row(self, mean: Floats32, parts: int) -> Floats32:
         """(4, n * parts) from colours (3, n * parts) of n pixels; the last row is the mean cost of a pixel's paths.
@@ -50,5 +55,5 @@ class RowOfCosts:
         All parts of a pixel get the same mean: a mean for each part would take more time than it saves.
         """
         pixels = mean.shape[1] // parts
-        each = self._cost.reshape(pixels, -1).mean(axis=1)
+        each = self.row.reshape(pixels, -1).mean(axis=1)
         return np.concatenate((mean, np.repeat(each, parts)[None]))

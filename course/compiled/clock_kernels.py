@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import sys
 
-import numpy as np
 from numba import njit, types
 
-from course.compiled.options import OPTIONS
+from course.compiled.options import LEAN
 
 _WINDOWS = sys.platform == "win32"
 _MONOTONIC = 6 if sys.platform == "darwin" else 1
@@ -18,18 +17,16 @@ _read = types.ExternalFunction(
 
 if _WINDOWS:
 
-    @njit(**OPTIONS)
-    def nanoseconds():
-        """Time by the performance counter, whose step is 100 ns [ns]."""
-        ticks = np.empty(1, np.int64)
-        _read(ticks.ctypes.data)
-        return ticks[0] * 100
+    @njit(**LEAN)
+    def nanoseconds(moment):
+        """Time by the performance counter, whose step is 100 ns [ns]; ``moment`` (2,) int64 is overwritten."""
+        _read(moment.ctypes.data)
+        return moment[0] * 100
 
 else:
 
-    @njit(**OPTIONS)
-    def nanoseconds():
-        """Time since some moment [ns]."""
-        time = np.empty(2, np.int64)
-        _read(_MONOTONIC, time.ctypes.data)
-        return time[0] * 1_000_000_000 + time[1]
+    @njit(**LEAN)
+    def nanoseconds(moment):
+        """Time since some moment [ns]; ``moment`` (2,) int64 is overwritten."""
+        _read(_MONOTONIC, moment.ctypes.data)
+        return moment[0] * 1_000_000_000 + moment[1]

@@ -5,22 +5,11 @@ from __future__ import annotations
 import numpy as np
 from numba import njit, types
 
+from course.compiled.number_kernels import hashed
 from course.compiled.options import COLUMNS, OPTIONS
-from course.extras.samplers.hashing import FIRST, GOLDEN, SECOND
 from course.extras.samplers.sobol import TO_UNIT
 
-_GOLDEN, _FIRST, _SECOND = np.uint64(GOLDEN), np.uint64(FIRST), np.uint64(SECOND)
-_BITS, _MORE_BITS, _HALF = np.uint64(30), np.uint64(27), np.uint64(32)
 _BYTE = np.uint32(8)
-
-
-@njit(**OPTIONS)
-def _hashed(key, salt):
-    """``course.extras.samplers.hashing.hash_words`` of one key and one salt."""
-    state = np.uint64(key) * _GOLDEN + salt
-    state = (state ^ (state >> _BITS)) * _FIRST
-    state = (state ^ (state >> _MORE_BITS)) * _SECOND
-    return np.uint32(state >> _HALF)
 
 
 @njit(
@@ -52,10 +41,10 @@ def draw(pixels, samples, path, points, salts, first, u):
             pixel = np.uint32(path[i]) // np.uint32(samples)
             begin = np.int64(pixel) * samples
             end = begin + samples
-            order = np.int64(_hashed(pixels[pixel], salts[0]) % orders)
-            scramble = _hashed(pixels[pixel], salts[1 + first])
+            order = np.int64(hashed(pixels[pixel], salts[0]) % orders)
+            scramble = hashed(pixels[pixel], salts[1 + first])
             if u.shape[0] > 1:
-                other = _hashed(pixels[pixel], salts[2])
+                other = hashed(pixels[pixel], salts[2])
         sample = path[i] - begin
         u[0, i] = np.float32((points[first, order, sample] ^ scramble) >> _BYTE) * TO_UNIT
         if u.shape[0] > 1:

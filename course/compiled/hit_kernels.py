@@ -12,8 +12,8 @@ import numpy as np
 from numba import njit, types
 
 from course.compiled.options import COLUMNS, OBJECTS, OPTIONS, ROW
+from course.compiled.point_kernels import interpolated, place
 
-_LEAST = np.float32(1e-20)
 _NOTHING, _ONE = np.float32(0), np.float32(1)
 _AHEAD = 64
 """Hits whose rows are touched before they are worked on: then the processor waits for many of them at once."""
@@ -29,30 +29,6 @@ def _touched(begin, end, hit, triangle, planes, edges, corner_normals):
         if corner_normals.shape[0]:
             total += corner_normals[k, 0] + corner_normals[k, 8]
     return total
-
-
-@njit(**OPTIONS)
-def _pulled(x, y, z, a, b, c, plane, edges, inset):
-    """A point next to an edge moved inwards, in float64; see ``course.core.hits``."""
-    e1x, e1y, e1z = np.float64(edges[0]), np.float64(edges[1]), np.float64(edges[2])
-    e2x, e2y, e2z = np.float64(edges[3]), np.float64(edges[4]), np.float64(edges[5])
-    nx, ny, nz = np.float64(plane[3]), np.float64(plane[4]), np.float64(plane[5])
-    twice_area = (
-        (e1y * e2z - e1z * e2y) * nx + (e1z * e2x - e1x * e2z) * ny + (e1x * e2y - e1y * e2x) * nz
-    )
-    px, py, pz = np.float64(x), np.float64(y), np.float64(z)
-    for side in range(3):
-        if side == 0:
-            ex, ey, ez, lacking = e2x - e1x, e2y - e1y, e2z - e1z, max(inset[0] - c, _NOTHING)
-        elif side == 1:
-            ex, ey, ez, lacking = -e2x, -e2y, -e2z, max(inset[1] - a, _NOTHING)
-        else:
-            ex, ey, ez, lacking = e1x, e1y, e1z, max(inset[2] - b, _NOTHING)
-        far = lacking * twice_area / (ex * ex + ey * ey + ez * ez)
-        px += (ny * ez - nz * ey) * far
-        py += (nz * ex - nx * ez) * far
-        pz += (nx * ey - ny * ex) * far
-    return np.float32(px), np.float32(py), np.float32(pz)
 
 
 @njit(
@@ -116,12 +92,7 @@ def find(
             uvt[0, i], uvt[1, i], uvt[2, i] = a, b, t[j]
             arriving[0, i], arriving[1, i], arriving[2, i] = dx, dy, dz
         material[i] = materials[k]
-        x = edges[k, 0] * a + edges[k, 3] * b + planes[k, 0]
-        y = edges[k, 1] * a + edges[k, 4] * b + planes[k, 1]
-        z = edges[k, 2] * a + edges[k, 5] * b + planes[k, 2]
-        c = _ONE - a - b
-        if min(a, b, c) < edges[k, 6] and (c < inset[k, 0] or a < inset[k, 1] or b < inset[k, 2]):
-            x, y, z = _pulled(x, y, z, a, b, c, planes[k], edges[k], inset[k])
+        x, y, z = place(k, a, b, planes, edges, inset)
         nx, ny, nz = planes[k, 3], planes[k, 4], planes[k, 5]
         # A sum that begins with 0, as NumPy's does, is never -0.
         facing = _NOTHING + nx * dx + ny * dy + nz * dz
@@ -136,16 +107,7 @@ def find(
             if planes[k, 7] > 0:
                 ns[0, i], ns[1, i], ns[2, i] = nx, ny, nz
                 continue
-            nx = corner_normals[k, 3] * a + corner_normals[k, 6] * b + corner_normals[k, 0]
-            ny = corner_normals[k, 4] * a + corner_normals[k, 7] * b + corner_normals[k, 1]
-            nz = corner_normals[k, 5] * a + corner_normals[k, 8] * b + corner_normals[k, 2]
-            scale = _ONE / np.sqrt(max(nx * nx + ny * ny + nz * nz, _LEAST))
-            nx, ny, nz = nx * scale * way, ny * scale * way, nz * scale * way
-            away = nx * dx + ny * dy + nz * dz
-            if bends and away > 0:
-                nx, ny, nz = nx - away * dx, ny - away * dy, nz - away * dz
-                scale = _ONE / np.sqrt(max(nx * nx + ny * ny + nz * nz, _LEAST))
-                nx, ny, nz = nx * scale, ny * scale, nz * scale
+            nx, ny, nz = interpolated(k, a, b, way, dx, dy, dz, corner_normals, bends)
             ns[0, i], ns[1, i], ns[2, i] = nx, ny, nz
     return total
 

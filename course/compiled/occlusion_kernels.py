@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit, types
 
-from course.compiled.options import OPTIONS
+from course.compiled.options import LEAN
 from course.compiled.packet_kernels import (
     TFAR,
     TO,
@@ -30,7 +30,7 @@ BOXES = types.float32[:, :, ::1]
 """(K, 2, 3) of the movers, as ``convex.roomy_box`` makes them."""
 
 
-@njit(**OPTIONS)
+@njit(**LEAN)
 def keep(s, time, first, count):
     """Keep a packet's origins before they are shifted, with its times and 1 / direction."""
     for i in range(3 * WIDTH):
@@ -40,7 +40,7 @@ def keep(s, time, first, count):
         s[_TIME + i] = time[first + i]
 
 
-@njit(**OPTIONS)
+@njit(**LEAN)
 def shift(s, velocity, box, asked, valid):
     """Shift a packet's origins into a mover's frame, and fill which of the rays that are asked may meet its box.
 
@@ -71,7 +71,7 @@ def shift(s, velocity, box, asked, valid):
     return count
 
 
-@njit(**OPTIONS)
+@njit(**LEAN)
 def occlude(scenes, velocity, boxes, time, first, count, s, asked, valid, arguments):
     """Set ``tfar`` of the rays that are asked to minus infinity where something is in the way.
 

@@ -15,3 +15,7 @@ OBJECTS = types.int8[::1]
 
 OPTIONS = {"nogil": True, "cache": True, "error_model": "numpy"}
 """Without the interpreter lock, kept on disk, and with divisions by zero as NumPy has them."""
+
+LEAN = OPTIONS | {"_nrt": False, "forceinline": True}
+"""For parts of the fused loop: arrays aren't counted whenever one is handed on, which would take more time than the
+arithmetic. So none can be made there."""

@@ -63,9 +63,6 @@ class PacketScene:
         error = embree.rtcGetDeviceError(device())
         if error:
             raise RuntimeError(f"Embree's error {error}")
-        from course.compiled import packet_kernels
-
-        self._intersect, self._unoccluded = packet_kernels.intersect, packet_kernels.unoccluded
         self.box = roomy_box(vertices)
 
     def __del__(self) -> None:
@@ -92,20 +89,24 @@ class PacketScene:
         coherent : whether 16 rays that follow each other go much the same way
         which : (n,) the rays that are asked, in ascending order, for the others hit nothing; None for all
         """
+        from course.compiled import query_kernels
+
         n = direction.shape[1]
         triangle = np.empty(n, np.int32)
         uvt = np.empty((3, n), np.float32)
         arrays = map(np.ascontiguousarray, (origin, direction, limit))
         chosen = _EVERY if which is None else which, which is None
         hint = COHERENT if coherent else 0
-        self._intersect(self.scene, *arrays, *chosen, hint, triangle, uvt)
+        query_kernels.intersect(self.scene, *arrays, *chosen, hint, triangle, uvt)
         return triangle, *uvt
 
     def unoccluded(self, origin: Floats32, direction: Floats32, limit: float) -> Mask:
         """Whether nothing lies between origin and origin + limit * direction, (N,) bool."""
+        from course.compiled import query_kernels
+
         free = np.empty(direction.shape[1], np.bool_)
         arrays = map(np.ascontiguousarray, (origin, direction))
-        self._unoccluded(self.scene, *arrays, np.float32(limit), free)
+        query_kernels.unoccluded(self.scene, *arrays, np.float32(limit), free)
         return free
 
     def entering(self, origin: Floats32, direction: Floats32, limit: Floats32) -> Indices:

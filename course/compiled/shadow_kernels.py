@@ -174,7 +174,7 @@ def illuminate(
     asked_above, valid, others = masks[:WIDTH], masks[WIDTH : 2 * WIDTH], masks[2 * WIDTH :]
     begin(s, s.view(np.int32))
     begin(above, above.view(np.int32))
-    arguments = arguments_of(0)
+    arguments, moment = arguments_of(0), np.empty(2, np.int64)
     sampled, apart = len(inverse_length) > 0, points.ctypes.data != origin.ctypes.data
     for number in range((n + WIDTH - 1) // WIDTH):
         first = number * WIDTH
@@ -238,14 +238,14 @@ def illuminate(
         for i in range(WIDTH):
             s[TFAR + i] = limit
         if number % TIMED == 0:
-            counts[2] -= nanoseconds()
+            counts[2] -= nanoseconds(moment)
         if raised:
             occlude(
                 scenes, velocity, boxes, time, first, count, above, asked_above, others, arguments
             )
         occlude(scenes, velocity, boxes, time, first, count, s, valid, others, arguments)
         if number % TIMED == 0:
-            counts[2] += nanoseconds()
+            counts[2] += nanoseconds(moment)
         # Embree sets tfar to minus infinity where something is in the way.
         for i in range(WIDTH):
             free = (valid[i] != 0) & (s[TFAR + i] >= 0)

@@ -1,4 +1,4 @@
-"""Compiled stages in the place of a tracer's."""
+"""Compiled stages in the place of a tracer's, for scenes that the fused loop can't follow."""
 
 from __future__ import annotations
 

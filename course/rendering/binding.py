@@ -59,9 +59,9 @@ def bind(
     )
     if not compiled:
         return tracer
-    from course.compiled import stages
+    from course.compiled import engine
 
-    return stages.compiled(tracer)
+    return engine.compiled(tracer)
 
 
 def _reconstruction(scene: Scene, settings: Settings, bound: Bound) -> Reconstruction:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from functools import lru_cache
 
 import numpy as np
+from numpy.typing import NDArray
 
 from course.core.samplers import Block, Sampler
 from course.core.types import Floats32, Indices, Words
@@ -88,6 +89,11 @@ class SobolSampler(Sampler):
         """
         rows = _points(block.first, block.samples)[2 * pair if pair < _NET_PAIRS else 0 :]
         return rows, _salts(self._seed, range(pair, pair + 1))
+
+    def tables(self, block: Block, pairs: int) -> tuple[Words, NDArray[np.uint64]]:
+        """All points (4, orders, samples) of a block's range, and the salts (pairs, 3) of the first pairs."""
+        salts = np.array(_salts(self._seed, range(pairs)), np.uint64)
+        return _points(block.first, block.samples), salts.reshape(pairs, 3)
 
 
 def _places(block: Block, path: Indices) -> tuple[Indices, Indices]:

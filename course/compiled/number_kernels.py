@@ -1,0 +1,188 @@
+"""Random numbers and camera rays of sixteen paths, compiled by Numba; parts of the fused loop."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from course.compiled import numpy_kernels
+from course.compiled.lanes import JITTER, PATH, PIXEL, SAMPLE, TIME, A, B, C, U
+from course.compiled.options import LEAN
+from course.compiled.packet_kernels import TO, WIDTH
+from course.core.types import Floats32, Words
+from course.extras.samplers.hashing import FIRST, GOLDEN, SECOND
+from course.extras.samplers.sobol import TO_UNIT
+
+_GOLDEN, _FIRST, _SECOND = np.uint64(GOLDEN), np.uint64(FIRST), np.uint64(SECOND)
+_BITS, _MORE_BITS, _HALF = np.uint64(30), np.uint64(27), np.uint64(32)
+_BYTE = np.uint32(8)
+_ONE, _NOTHING = np.float32(1), np.float32(0)
+TURN = np.float32(2 * np.pi)
+
+
+class Numbers(NamedTuple):
+    """Sobol numbers of a block's paths.
+
+    Attributes
+    ----------
+    pixels : (n,) uint32 of the block
+    x, y : (n,) float32 their corners
+    samples : of each pixel
+    points : (4, orders, samples) uint32, see ``course.extras.samplers.sobol``
+    salts : (pairs, 3) uint64
+    """
+
+    pixels: Words
+    x: Floats32
+    y: Floats32
+    samples: int
+    points: Words
+    salts: NDArray[np.uint64]
+
+
+class Eye(NamedTuple):
+    """The camera.
+
+    Attributes
+    ----------
+    frame : (8, 3) float32, origin, right, up, forward, corner, step_x, step_y and velocity
+    lens : (3,) float32, radius of the aperture, 0 for a pinhole, distance of the focus, and of the near plane
+    lens_pair, time_pair : dimensions, by pairs; -1 for none
+    moves : 1 if the velocity isn't 0
+    """
+
+    frame: Floats32
+    lens: Floats32
+    lens_pair: int
+    time_pair: int
+    moves: int
+
+
+@njit(**LEAN)
+def hashed(key, salt):
+    """``course.extras.samplers.hashing.hash_words`` of one key and one salt."""
+    state = np.uint64(key) * _GOLDEN + salt
+    state = (state ^ (state >> _BITS)) * _FIRST
+    state = (state ^ (state >> _MORE_BITS)) * _SECOND
+    return np.uint32(state >> _HALF)
+
+
+@njit(**LEAN)
+def find_pixels(whole, samples):
+    """Fill pixel and sample of each path; true if all are of one pixel."""
+    begin = end = pixel = np.int64(0)
+    same = True
+    for i in range(WIDTH):
+        path = np.int64(whole[PATH + i])
+        if not begin <= path < end:
+            pixel = path // samples
+            begin = pixel * samples
+            end = begin + samples
+        whole[PIXEL + i] = pixel
+        whole[SAMPLE + i] = path - begin
+        same &= pixel == np.int64(whole[PIXEL])
+    return same
+
+
+@njit(**LEAN)
+def _draw_row(numbers, line, order, scramble, i, whole):
+    word = np.uint32(numbers.points[line, order, whole[SAMPLE + i]] ^ scramble)
+    return np.float32(np.int32(word >> _BYTE)) * TO_UNIT
+
+
+@njit(**LEAN)
+def draw(numbers, pair, width, same, s, whole, row):
+    """The numbers of a pair of dimensions into one row, or two; see ``SobolSampler``."""
+    salts, orders = numbers.salts, np.uint32(numbers.points.shape[1])
+    line = 2 * pair if pair < 2 else 0
+    pixel = np.int64(-1)
+    order, one, two = np.int64(0), np.uint32(0), np.uint32(0)
+    if same:
+        key = numbers.pixels[whole[PIXEL]]
+        order = np.int64(hashed(key, salts[pair, 0]) % orders)
+        one = hashed(key, salts[pair, 1])
+        for i in range(WIDTH):
+            s[row + i] = _draw_row(numbers, line, order, one, i, whole)
+        if width > 1:
+            two = hashed(key, salts[pair, 2])
+            for i in range(WIDTH):
+                s[row + WIDTH + i] = _draw_row(numbers, line + 1, order, two, i, whole)
+        return
+    for i in range(WIDTH):
+        if whole[PIXEL + i] != pixel:
+            pixel = np.int64(whole[PIXEL + i])
+            key = numbers.pixels[pixel]
+            order = np.int64(hashed(key, salts[pair, 0]) % orders)
+            one = hashed(key, salts[pair, 1])
+            if width > 1:
+                two = hashed(key, salts[pair, 2])
+        s[row + i] = _draw_row(numbers, line, order, one, i, whole)
+        if width > 1:
+            s[row + WIDTH + i] = _draw_row(numbers, line + 1, order, two, i, whole)
+
+
+@njit(**LEAN)
+def circle(call, s, turns):
+    """Cosine and sine of a row of shares of a turn, into A and B."""
+    for i in range(WIDTH):
+        s[C + i] = TURN * s[turns + i]
+    numpy_kernels.cos(call, s[C : C + WIDTH], s[A : A + WIDTH])
+    numpy_kernels.sin(call, s[C : C + WIDTH], s[B : B + WIDTH])
+
+
+@njit(**LEAN)
+def look(numbers, eye, same, call, s, whole):
+    """The rays of ``course.core.camera``, with the functions of ``thin_lens``, and the paths' times."""
+    frame = eye.frame
+    draw(numbers, 0, 2, same, s, whole, JITTER)
+    for i in range(WIDTH):
+        pixel = whole[PIXEL + i]
+        s[A + i] = numbers.x[pixel] + s[JITTER + i]
+        s[B + i] = numbers.y[pixel] + s[JITTER + WIDTH + i]
+    for i in range(WIDTH):
+        x = frame[5, 0] * s[A + i] + frame[4, 0] + frame[6, 0] * s[B + i]
+        y = frame[5, 1] * s[A + i] + frame[4, 1] + frame[6, 1] * s[B + i]
+        z = frame[5, 2] * s[A + i] + frame[4, 2] + frame[6, 2] * s[B + i]
+        scale = _ONE / np.sqrt(x * x + y * y + z * z)
+        s[TO + i], s[TO + WIDTH + i], s[TO + 2 * WIDTH + i] = x * scale, y * scale, z * scale
+        s[i], s[WIDTH + i], s[2 * WIDTH + i] = frame[0, 0], frame[0, 1], frame[0, 2]
+    if eye.time_pair >= 0:
+        draw(numbers, eye.time_pair, 1, same, s, whole, TIME)
+    if eye.lens_pair >= 0:
+        _through_lens(numbers, eye, same, call, s, whole)
+    if eye.moves:
+        for c in range(3):
+            for i in range(WIDTH):
+                s[c * WIDTH + i] += frame[7, c] * s[TIME + i]
+    if eye.lens[2] != 0:
+        for i in range(WIDTH):
+            x, y, z = s[TO + i], s[TO + WIDTH + i], s[TO + 2 * WIDTH + i]
+            forwards = _NOTHING + frame[3, 0] * x + frame[3, 1] * y + frame[3, 2] * z
+            distance = eye.lens[2] / max(forwards, np.float32(1e-12))
+            s[i] += x * distance
+            s[WIDTH + i] += y * distance
+            s[2 * WIDTH + i] += z * distance
+
+
+@njit(**LEAN)
+def _through_lens(numbers, eye, same, call, s, whole):
+    frame, radius, focus = eye.frame, eye.lens[0], eye.lens[1]
+    draw(numbers, eye.lens_pair, 2, same, s, whole, U)
+    circle(call, s, U + WIDTH)
+    for i in range(WIDTH):
+        r = np.sqrt(s[U + i])
+        a, b = r * s[A + i] * radius, r * s[B + i] * radius
+        x, y, z = s[TO + i], s[TO + WIDTH + i], s[TO + 2 * WIDTH + i]
+        far = focus / (frame[3, 0] * x + frame[3, 1] * y + frame[3, 2] * z)
+        ox = frame[1, 0] * a + frame[2, 0] * b
+        oy = frame[1, 1] * a + frame[2, 1] * b
+        oz = frame[1, 2] * a + frame[2, 2] * b
+        x, y, z = x * far - ox, y * far - oy, z * far - oz
+        length = np.sqrt(x * x + y * y + z * z)
+        s[TO + i], s[TO + WIDTH + i], s[TO + 2 * WIDTH + i] = x / length, y / length, z / length
+        s[i] += ox
+        s[WIDTH + i] += oy
+        s[2 * WIDTH + i] += oz
