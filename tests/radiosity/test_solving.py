@@ -15,7 +15,7 @@ from course.radiosity.corners import at_corners
 from course.radiosity.hemicubes import Views, make_hemicube
 from course.radiosity.patches import Functions, Patches, make_patches
 from course.radiosity.radiosity import chosen_patches, solve, solve_patches
-from course.radiosity.solving import Shooting, form_factors, gathered, with_ambient
+from course.radiosity.solving import Shooting, Solved, form_factors, gathered, with_ambient
 from course.scene.scene import load_scene
 from tests.conftest import MakeScene
 from tests.radiosity.rooms import FUNCTIONS, between_plates, hollow_sphere, plates
@@ -25,6 +25,14 @@ BOX = PROJECT / "scenes" / "radiosity.yaml"
 
 def mean(values: np.ndarray, areas: np.ndarray) -> float:
     return float((values * areas).sum() / areas.sum())
+
+
+def solved_by(method: str, patches: Patches) -> Solved:
+    if method == "gather":
+        return gathered(patches, FUNCTIONS, 1e-4, None, rays=8_000_000)
+    shooting = Shooting(patches, FUNCTIONS, lamp_rays=5_000_000)
+    shooting.run(1e-4)
+    return shooting.solved
 
 
 # ---------------------------------------------------------------- form factors
@@ -92,12 +100,7 @@ def test_a_plate_under_a_lamp_is_as_bright_as_its_form_factor_says(
 ) -> None:
     """B = rho F pi L on average, for nothing comes back from the lamp."""
     patches = make_patches(make_scene(**plates(0.6, radiance=2.0)), 300)
-    if method == "gather":
-        solved = gathered(patches, FUNCTIONS, 1e-4, None, rays=8_000_000)
-    else:
-        shooting = Shooting(patches, FUNCTIONS, lamp_rays=5_000_000)
-        shooting.run(1e-4)
-        solved = shooting.solved
+    solved = solved_by(method, patches)
     plate, areas = ~patches.lamps, patches.triangles.areas()
     found = mean(solved.radiosity[0, : patches.size][plate], areas[plate])
     assert found == pytest.approx(0.6 * between_plates(1.0) * math.pi * 2, rel=0.01)
@@ -116,12 +119,7 @@ def test_a_plate_that_glows_lights_another_as_a_lamp_does(
         objects=[*room["objects"], panel],
     )
     patches = make_patches(scene, 300)
-    if method == "gather":
-        solved = gathered(patches, FUNCTIONS, 1e-4, None, rays=8_000_000)
-    else:
-        shooting = Shooting(patches, FUNCTIONS, lamp_rays=5_000_000)
-        shooting.run(1e-4)
-        solved = shooting.solved
+    solved = solved_by(method, patches)
     plate, areas = ~patches.lamps, patches.triangles.areas()
     fronts, backs = solved.radiosity[0, : patches.size], solved.radiosity[0, patches.size :]
     found = mean(fronts[plate], areas[plate])

@@ -9,7 +9,7 @@ import pytest
 
 from course.core.triangles import Mesh
 from course.formats.meshes.files import read_mesh, save_ply
-from tests.scene.metu.conftest import CAMERA, MATT, Metu, Tree, tree
+from tests.scene.metu.conftest import MATT, Metu, Tree, tree
 
 POINT = {"_id": "1", "Position": "3 0 0", "Intensity": "800 800 800"}
 # Vertex 1 has a face of area 1/2 that looks along z, and one of area 3 that looks along x.
@@ -128,17 +128,6 @@ def test_of_five_numbers_of_a_near_plane_the_first_four_count(metu: Metu) -> Non
     assert (plane.left, plane.right, plane.bottom, plane.top) == (-1, 2, -3, 4)
     (warning,) = metu.warnings
     assert "NearPlane has 5 numbers: the first 4 are taken" in warning
-
-
-def test_a_gaze_point_and_a_field_of_view_make_a_look_at_camera(metu: Metu) -> None:
-    scene = tree()
-    scene["Cameras"]["Camera"] = {
-        key: value for key, value in CAMERA.items() if key not in ("Gaze", "NearPlane")
-    } | {"GazePoint": "0 0 -7", "FovY": "50"}
-    camera = metu.load(scene).loaded.description.camera
-    assert (camera.vertical_fov, camera.image_plane, camera.near) == (50, None, 0)
-    np.testing.assert_allclose(np.array(camera.look_at) / np.abs(camera.look_at).max(), [0, 0, -1])
-    assert metu.warnings == []
 
 
 @pytest.mark.parametrize(

@@ -31,6 +31,12 @@ def triangles(number: int) -> NDArray[np.float64]:
     return np.asarray(middle + rng.uniform(-0.45, 0.45, (number, 3, 3)))
 
 
+def flat(name: str, from_behind: str = "unseen", **keys: Any) -> dict[str, Any]:
+    """An object of the mesh and of the material of that name."""
+    own = {"material": name, "file": f"{name}.ply", "from_behind": from_behind}
+    return {"shape": "mesh", "shading": "flat"} | own | keys
+
+
 def of_triangles(
     make_scene: MakeScene, corners: NDArray[np.float64], from_behind: str, **parts: Any
 ) -> Scene:
@@ -40,15 +46,7 @@ def of_triangles(
     for grey in range(5):
         mine = corners[grey::5].reshape(-1, 3)
         save_ply(Mesh(mine, np.arange(len(mine)).reshape(-1, 3)), folder / f"{grey}.ply")
-        objects.append(
-            {
-                "shape": "mesh",
-                "file": f"{grey}.ply",
-                "material": f"{grey}",
-                "shading": "flat",
-                "from_behind": from_behind,
-            }
-        )
+        objects.append(flat(f"{grey}", from_behind=from_behind))
     return make_scene(
         **{
             "camera": {"eye": [0.3, 0.4, 5], "look_at": [0, 0, 0], "vertical_fov": 30},
@@ -103,17 +101,7 @@ def test_so_they_are_where_the_eye_moves_though_things_that_move_along_look_stil
     expected = greys(*pixel_rays(still), corners, True)
     camera = {"eye": [0.3, 0.4, 5], "look_at": [0, 0, 0], "vertical_fov": 30, "motion": motion}
     description = still.loaded.description
-    objects = [
-        {
-            "shape": "mesh",
-            "file": f"{g}.ply",
-            "material": f"{g}",
-            "shading": "flat",
-            "from_behind": "unseen",
-            "motion": motion,
-        }
-        for g in range(len(description.objects))
-    ]
+    objects = [flat(f"{grey}", motion=motion) for grey in range(len(description.objects))]
     scene = of_triangles(make_scene, corners, "unseen", camera=camera, objects=objects)
     got = render(scene, compiled=compiled).linear[..., 0]
     assert (np.abs(got - expected) > 1e-6).sum() <= 12
@@ -129,15 +117,7 @@ def test_a_front_and_a_back_in_one_place_show_the_front(
     objects = []
     for name, corners in (("front", one), ("back", two)):
         save_ply(Mesh(corners, np.arange(6).reshape(-1, 3)), folder / f"{name}.ply")
-        objects.append(
-            {
-                "shape": "mesh",
-                "file": f"{name}.ply",
-                "material": name,
-                "shading": "flat",
-                "from_behind": "unseen",
-            }
-        )
+        objects.append(flat(name))
     for z, grey in ((4, 0.5), (-4, 0.25)):
         scene = make_scene(
             camera={"eye": [0.2, 0.1, z], "look_at": [0, 0, 0.15], "vertical_fov": 12},

@@ -50,20 +50,6 @@ def test_the_highlight_is_plain_blinn_phong_without_a_cosine_and_a_norm(
     np.testing.assert_allclose(metu.pixel(scene), expected * np.array([1, 0.5, 2]), rtol=tolerance)
 
 
-def test_two_lights_add_up_and_blockers_cast_shadows(metu: Metu) -> None:
-    lights = {"PointLight": [POINT, POINT | {"_id": "2", "Position": "8 0 0"}]}
-    # A small triangle stands between the second light and what the pixel sees.
-    vertices = "-9 -9 -4  9 -9 -4  9 9 -4  -9 9 -4  4 -1 -2  4 1 -2.1  4.2 0 -1.8"
-    blocker = {"_id": "1", "Material": "1", "Indices": "5 6 7"}
-    wall = {"_id": "1", "Material": "1", "Faces": "1 2 3 1 3 4"}
-    free = metu.pixel(tree(lights=lights))
-    shadowed = metu.pixel(
-        tree(lights=lights, vertices=vertices, objects={"Mesh": wall, "Triangle": blocker})
-    )
-    np.testing.assert_allclose(shadowed[0], 800 / 16, rtol=3e-5)
-    np.testing.assert_allclose(free[0], 800 / 16 + 800 * 4 / 80**1.5, rtol=3e-5)
-
-
 @pytest.mark.parametrize("normal", ["0 0 -1", "0 0 7", "1 2 -3"])
 @pytest.mark.parametrize("key", ["Radiance", "Intensity"])
 def test_a_small_area_light_gives_radiance_area_cos_cos_over_d_squared_from_both_sides(
