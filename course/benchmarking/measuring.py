@@ -17,7 +17,6 @@ from course.benchmarking.references import FOLDER, Reference, reference
 from course.compiled.library import available
 from course.core.types import Floats64
 from course.effects import Effects
-from course.formats.yaml.overriding import Overrides
 from course.render_scene import render
 from course.scene.scene import Scene, load_variant
 
@@ -111,142 +110,121 @@ def measure(
         Ctrl-C.
     """
     effects = Effects()
-    scenes = _scenes(module, estimators, effects)
-    film = scenes[0].loaded.description.film
+    scenes = {
+        _key(each): load_variant(module.scene, each.overrides, effects) for each in estimators
+    }
+    film = next(iter(scenes.values())).loaded.description.film
     size = (max(round(effort.height * film.width / film.height), 1), effort.height)
-    work = _Work(module, estimators, effort, tick)
-    references = _references(module, estimators, effort, size, folder, effects, work)
-    records = [_Record(_samples(estimator, effort), effort.seeds) for estimator in estimators]
-    for scene in {id(scene): scene for scene in scenes}.values():
+    integrals = {each.integral: each.reference for each in estimators}
+    steps = sum(sum(_samples(each, effort)) * each.points for each in estimators)
+    everything = len(integrals) * effort.reference + steps * effort.seeds
+    done = 0
+
+    def work(samples: int) -> None:
+        nonlocal done
+        done += samples
+        if tick is not None:
+            tick(done / everything)
+
+    references = {}
+    for integral, overrides in integrals.items():
+        references[integral] = reference(
+            module.scene,
+            samples=effort.reference,
+            size=size,
+            folder=folder,
+            overrides=overrides,
+            effects=effects,
+        )
+        work(effort.reference)
+    for scene in scenes.values():
         # Embree's tree is built, tables are made, loops are compiled.
         render(scene, spp=1, size=size, compiled=available())
+    records = [
+        _Record(
+            each,
+            scenes[_key(each)],
+            references[each.integral],
+            _samples(each, effort),
+            effort.seeds,
+        )
+        for each in estimators
+    ]
     for seed in range(1, effort.seeds + 1):
         for samples in effort.samples:
-            for estimator, scene, record in zip(estimators, scenes, records, strict=True):
+            for record in records:
                 if samples in record.samples:
-                    ideal = references[estimator.integral]
-                    record.add(scene, estimator.sampler, samples, size, seed, ideal)
-                    work.done(samples * estimator.points)
-    curves = [
-        record.curve(estimator, references[estimator.integral])
-        for estimator, record in zip(estimators, records, strict=True)
-    ]
-    return Measured(module, size, tuple(curves))
+                    record.add(samples, size, seed)
+                    work(samples * record.estimator.points)
+    return Measured(module, size, tuple(record.curve() for record in records))
 
 
 def _samples(estimator: Estimator, effort: Effort) -> tuple[int, ...]:
     return tuple(n for n in effort.samples if n * estimator.points <= 4 * effort.samples[-1])
 
 
-def _scenes(module: Module, estimators: tuple[Estimator, ...], effects: Effects) -> list[Scene]:
-    """The scene of each estimator; those with the same overrides share one."""
-    loaded: list[tuple[Overrides, Scene]] = []
-    scenes = []
-    for estimator in estimators:
-        scene = next((s for overrides, s in loaded if overrides == estimator.overrides), None)
-        if scene is None:
-            scene = load_variant(module.scene, estimator.overrides, effects)
-            loaded.append((estimator.overrides, scene))
-        scenes.append(scene)
-    return scenes
-
-
-def _references(
-    module: Module,
-    estimators: tuple[Estimator, ...],
-    effort: Effort,
-    size: tuple[int, int],
-    folder: Path,
-    effects: Effects,
-    work: _Work,
-) -> dict[str, Reference]:
-    """Integral -> its converged picture."""
-    found: dict[str, Reference] = {}
-    for estimator in estimators:
-        if estimator.integral not in found:
-            found[estimator.integral] = reference(
-                module.scene,
-                samples=effort.reference,
-                size=size,
-                folder=folder,
-                overrides=estimator.reference,
-                effects=effects,
-            )
-            work.done(effort.reference)
-    return found
-
-
-class _Work:
-    """How much of a module's work is done, counted in samples."""
-
-    def __init__(
-        self, module: Module, estimators: tuple[Estimator, ...], effort: Effort, tick: Tick | None
-    ) -> None:
-        integrals = {estimator.integral for estimator in estimators}
-        measured = sum(sum(_samples(e, effort)) * e.points for e in estimators)
-        self._all = len(integrals) * effort.reference + measured * effort.seeds
-        self._done = 0
-        self._tick = tick
-
-    def done(self, samples: int) -> None:
-        self._done += samples
-        if self._tick is not None:
-            self._tick(self._done / self._all)
+def _key(estimator: Estimator) -> str:
+    """Estimators with the same overrides share a scene."""
+    return repr(estimator.overrides)
 
 
 class _Record:
     """The measurements of one estimator as they come in."""
 
-    def __init__(self, samples: tuple[int, ...], seeds: int) -> None:
-        self.samples = samples
+    def __init__(
+        self,
+        estimator: Estimator,
+        scene: Scene,
+        ideal: Reference,
+        samples: tuple[int, ...],
+        seeds: int,
+    ) -> None:
+        self.estimator, self.samples = estimator, samples
+        self._scene, self._ideal, self._seeds = scene, ideal, seeds
         self._values = {
             name: np.full((len(samples), seeds), np.nan)
             for name in ("mse", "relative_mse", "dissimilarity", "seconds")
         }
         self._sum: dict[int, Floats64] = {}
         self._squares: dict[int, Floats64] = {}
-        self._seeds = seeds
 
-    def add(
-        self,
-        scene: Scene,
-        sampler: str,
-        samples: int,
-        size: tuple[int, int],
-        seed: int,
-        ideal: Reference,
-    ) -> None:
+    def add(self, samples: int, size: tuple[int, int], seed: int) -> None:
         # Always or never: left to itself, a render decides by what was rendered before.
         picture = render(
-            scene, spp=samples, size=size, sampler=sampler, seed=seed, compiled=available()
+            self._scene,
+            spp=samples,
+            size=size,
+            sampler=self.estimator.sampler,
+            seed=seed,
+            compiled=available(),
         )
         if picture.interrupted:
             raise KeyboardInterrupt
-        linear = picture.linear.astype(np.float64)
+        linear, ideal = picture.linear.astype(np.float64), self._ideal.linear
         at = self.samples.index(samples), seed - 1
-        self._values["mse"][at] = rmse(linear, ideal.linear) ** 2
-        self._values["relative_mse"][at] = relative_mse(linear, ideal.linear)
-        self._values["dissimilarity"][at] = dissimilarity(linear, ideal.linear)
+        self._values["mse"][at] = rmse(linear, ideal) ** 2
+        self._values["relative_mse"][at] = relative_mse(linear, ideal)
+        self._values["dissimilarity"][at] = dissimilarity(linear, ideal)
         self._values["seconds"][at] = picture.receipt.wall_seconds
         self._sum[samples] = self._sum.get(samples, 0) + linear
         self._squares[samples] = self._squares.get(samples, 0) + linear**2
 
-    def curve(self, estimator: Estimator, ideal: Reference) -> Curve:
-        bias = [self._bias(samples, ideal) for samples in self.samples]
+    def curve(self) -> Curve:
+        ideal = self._ideal
         return Curve(
-            estimator,
+            self.estimator,
             Converged(ideal.key, ideal.error, ideal.samples),
             np.array(self.samples, np.float64),
-            bias=np.array(bias),
+            bias=np.array([self._bias(samples) for samples in self.samples]),
             **self._values,
         )
 
-    def _bias(self, samples: int, ideal: Reference) -> float:
+    def _bias(self, samples: int) -> float:
         """RMSE of the expected picture: the mean picture's, less the variance of the mean and of the reference."""
         if self._seeds < 2:
             return float("nan")
         mean = self._sum[samples] / self._seeds
         variance = np.maximum(self._squares[samples] / self._seeds - mean**2, 0)
-        noise = float(np.mean(variance)) / (self._seeds - 1) + ideal.error**2
-        squared = float(np.mean((mean - ideal.linear) ** 2)) - noise
+        noise = float(np.mean(variance)) / (self._seeds - 1) + self._ideal.error**2
+        squared = float(np.mean((mean - self._ideal.linear) ** 2)) - noise
         return math.sqrt(max(squared, 0.0))
