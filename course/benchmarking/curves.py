@@ -1,7 +1,5 @@
 """What was measured of one estimator: its errors and times over the number of samples, and its convergence order."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Any

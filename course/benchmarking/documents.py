@@ -4,8 +4,6 @@ docs/accuracy.md and docs/performance.md have the tables, module by module; buil
 docs/data/bench.json.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path

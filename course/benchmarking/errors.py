@@ -1,7 +1,5 @@
 """How far a picture is from its reference: three numbers, each 0 where they are the same."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -4,8 +4,6 @@ Two estimators whose pictures converge to the same one share a reference; where 
 (a ball instead of its surface, another lobe, another filter) it has a reference of its own.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import sqrt

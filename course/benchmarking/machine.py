@@ -1,7 +1,5 @@
 """What machine and which versions a measurement was made with."""
 
-from __future__ import annotations
-
 import os
 import platform
 from importlib.metadata import version

@@ -1,7 +1,5 @@
 """Measure a module: render its references, then every estimator at every number of samples, in turn."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -4,8 +4,6 @@ A file in docs/data maps modules to what was measured of them: each comparison o
 it depends on the day. Building the site draws the plots from these numbers.
 """
 
-from __future__ import annotations
-
 import json
 import re
 from collections.abc import Mapping, Sequence

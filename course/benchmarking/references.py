@@ -1,7 +1,5 @@
 """Converged pictures, kept on disk by a hash of all that decides them and of the code; each knows its own error."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import dataclass
 from functools import lru_cache

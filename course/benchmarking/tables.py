@@ -1,7 +1,5 @@
 """Tables of what was measured: for the terminal, and as Markdown for the documentation."""
 
-from __future__ import annotations
-
 import math
 import sys
 from collections.abc import Callable, Iterable, Sequence

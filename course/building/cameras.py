@@ -1,7 +1,5 @@
 """Cameras from where they are and which way they look, and lenses from their descriptions."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from course.building.frame import Frame, in_reach

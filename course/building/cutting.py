@@ -15,8 +15,6 @@ first. Angles never get smaller than half of what they were. (Mitchell, "Adaptiv
 finite-element spaces with hierarchical bases", 1991.)
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 

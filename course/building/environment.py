@@ -1,7 +1,5 @@
 """From an environment description to the environment of the compiled scene."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from course.building.frame import in_range

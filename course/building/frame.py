@@ -4,8 +4,6 @@ Everything is moved and scaled in float64 before it becomes float32, so a scene 
 origin or 10^8 of its sizes away, gives the same picture.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """From gloss descriptions to lobes, and from dielectrics with a roughness to rough glass."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import msgspec

@@ -1,7 +1,5 @@
 """How strong a described light is, and whether anything shows it."""
 
-from __future__ import annotations
-
 from course.core.materials import MaterialTable
 from course.core.types import Floats64
 from course.formats.yaml import description as d

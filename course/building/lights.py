@@ -1,7 +1,5 @@
 """From light descriptions to lights in the frame of the compiled scene, and to surfaces that rays can see."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """From material descriptions to the table that hits look things up in; and materials that make light."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass

@@ -5,8 +5,6 @@ something goes while the shutter is open, which float32 can carry however short 
 part of the positions, in float64. A closed shutter freezes everything at one time, and then nothing moves at all.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

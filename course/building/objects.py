@@ -1,7 +1,5 @@
 """From object descriptions to meshes in the units of the scene file."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import msgspec

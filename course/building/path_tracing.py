@@ -1,7 +1,5 @@
 """Path tracing and the hierarchy of the bounding_volumes module, where the scene asks for them."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 
 import numpy as np

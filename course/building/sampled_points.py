@@ -1,7 +1,5 @@
 """Where on spherical lights and on the lens points are: by `soft_shadows` and `thin_lens`, or by `sampling`."""
 
-from __future__ import annotations
-
 from course.formats.yaml.description import SceneDescription
 
 BALL, DISK = "ball by rejection", "rejection"

@@ -1,7 +1,5 @@
 """From texture descriptions to what paints the objects."""
 
-from __future__ import annotations
-
 import msgspec
 import numpy as np
 

@@ -1,7 +1,5 @@
 """Compile a checked description into what is rendered: meshes read, moved to the frame, rounded to float32."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

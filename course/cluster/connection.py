@@ -3,8 +3,6 @@
 Whatever waits here looks at the workers meanwhile: where none is left, it would wait for ever.
 """
 
-from __future__ import annotations
-
 import asyncio
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import CancelledError, ThreadPoolExecutor, wait

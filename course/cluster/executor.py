@@ -8,8 +8,6 @@ vector instructions: NumPy chooses by them how it works out sines and powers, wh
 A worker that is lost costs nothing but time: the scheduler hands its work to another one.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from importlib import import_module
 from itertools import islice

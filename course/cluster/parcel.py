@@ -5,8 +5,6 @@ costs little beside what follows: measured on loopback with two busy cores, a me
 worker in 0.4 s and with the next in 0.2 s; either needs 5 s to build what rays meet from it.
 """
 
-from __future__ import annotations
-
 import pickle
 import threading
 from collections import OrderedDict

@@ -4,8 +4,6 @@ Small blocks are the cells of the large ones. The mean of a block's cells is les
 cells are alike or rounded.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -14,8 +14,6 @@ If both pictures have the same noise, d is as often positive as negative, whatev
 less often than Student's law says (Efron, "Student's t-test under symmetry conditions", 1969).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

@@ -1,7 +1,5 @@
 """A picture of where two pictures differ: red where the first is brighter, blue where the second is."""
 
-from __future__ import annotations
-
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 

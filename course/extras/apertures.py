@@ -1,7 +1,5 @@
 """Apertures that are not round."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -3,8 +3,6 @@
 Rays that have left a surface meet all triangles alike, and so do shadow rays.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 

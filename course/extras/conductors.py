@@ -3,8 +3,6 @@
 Symbols: n the real and k the imaginary part of the index, cos_i = -d . normal.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

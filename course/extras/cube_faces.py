@@ -1,7 +1,5 @@
 """The six faces of a cube map, from pictures of other forms."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from course.core.types import Floats32, Floats64

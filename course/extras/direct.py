@@ -1,7 +1,5 @@
 """Direct light with what only some scenes have: the environment's light, and other renderers' conventions."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -5,8 +5,6 @@ irradiance over pi is its radiance times its cosine over pi times its density. B
 directions waste half of themselves near the horizon, where the cosine leaves little of the light.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -9,8 +9,6 @@ Radiance and cosine vary within texels and cells. Of all densities that are cons
 mean square leaves the least variance, so that is what the tables hold.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Any

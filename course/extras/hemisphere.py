@@ -1,7 +1,5 @@
 """Directions about an axis, for the engine's own use: cosine-weighted, or uniform in a cone."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from course.core.types import Floats32

@@ -4,8 +4,6 @@ Every query goes through ``traverse``, those of shadow rays too: what lies neare
 It counts its tests, so a picture made this way says how much work it was.
 """
 
-from __future__ import annotations
-
 from threading import Lock
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Lobes by other renderers' conventions."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from course.core.gloss import Lobe

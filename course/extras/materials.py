@@ -1,7 +1,5 @@
 """Materials with what only some scenes have: metals, and highlights by another convention."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from course.core.materials import MaterialTable

@@ -13,8 +13,6 @@ do this level by level: Conty Estevez and Kulla, "Importance Sampling of Many Li
 2018. Few groups can all be looked at.)
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

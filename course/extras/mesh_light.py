@@ -6,8 +6,6 @@ Gems, 1990). So points are uniform over each group. As the emission of a materia
 sides.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A camera with a near plane: it sees nothing that is nearer along its view."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -4,8 +4,6 @@ A shape is painted in coordinates of its own: each corner of its triangles carri
 corner's place on the ball before it was moved, and a function makes colours of the corners and the barycentrics.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 

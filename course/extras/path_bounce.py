@@ -5,8 +5,6 @@ would leave is large, and the throughput is divided by that probability. So the 
 doesn't grow.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -4,8 +4,6 @@ Few rays cost nearly as much as many, for each pass over them has its price. Mos
 soon is small; it waits until other pieces have come to the same depth, and goes on with them.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 

@@ -7,8 +7,6 @@ already counted, so it adds nothing; after a mirror or glass, where no shadow ra
 with a surface, from its front, and objects that are lights, from both sides.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The plan of a scene with extras: the core's stages, or fuller ones in their place where the scene asks for more."""
 
-from __future__ import annotations
-
 from dataclasses import fields, replace
 from typing import Any
 

@@ -8,8 +8,6 @@ some, they get out. What is still inside at the last bounce is let out, straight
 no light is lost.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 

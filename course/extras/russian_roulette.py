@@ -1,7 +1,5 @@
 """Russian roulette: paths that carry little end by chance, and those that survive carry more (`path_tracing`)."""
 
-from __future__ import annotations
-
 from course.core.types import Floats32, Functions, Mask
 
 

@@ -1,7 +1,5 @@
 """Scattering with what only some scenes have: metals, rough glass, and directions that are kept as they are."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

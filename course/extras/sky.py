@@ -4,8 +4,6 @@ A sampling chooses the directions. Radiance times cosine over pi times density, 
 the irradiance over pi as its mean.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Protocol
 

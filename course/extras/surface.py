@@ -1,7 +1,5 @@
 """Triangles with textures, with backs that camera rays see otherwise, or in another hierarchy than Embree's."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any

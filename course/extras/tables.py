@@ -3,8 +3,6 @@
 The scene has already been moved and scaled to [-1, 1], in float64.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Textures on shapes: from barycentrics to a place in the picture to a colour, through the `textures` module."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """The square on which a rough mirror's directions lie, turned by the smallest component of the direction itself."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from course.core.types import Floats32

@@ -5,8 +5,6 @@ bring the same radiance, so without blockers only the cosine at the surface is l
 Zimmerman, "Monte Carlo techniques for direct lighting calculations", 1996).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

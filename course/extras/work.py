@@ -1,7 +1,5 @@
 """Work in other sizes than the tiles of uniform passes: parts of tiles, and quick previews."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any

@@ -1,7 +1,5 @@
 """A scene as rays meet it, with what only some scenes have."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 from course.core.camera import Lens

@@ -1,7 +1,5 @@
 """A render as it was asked for, and the modes that it may be done in."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any

@@ -1,7 +1,5 @@
 """A rendered picture."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 

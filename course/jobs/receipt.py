@@ -1,7 +1,5 @@
 """The receipt: what a render has cost, and what it did without."""
 
-from __future__ import annotations
-
 from dataclasses import asdict, dataclass
 from typing import Any
 

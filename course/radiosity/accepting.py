@@ -1,7 +1,5 @@
 """Which scenes radiosity can do: surfaces that reflect diffusely, lamps with an area, and nothing that moves."""
 
-from __future__ import annotations
-
 from course.formats.yaml import description as d
 from course.formats.yaml.description import rgb
 from course.formats.yaml.document import Place

@@ -4,8 +4,6 @@ A patch's radiosity is that of its centre. Around a corner the patches' centres 
 rim of a surface, so their mean belongs to another place. A plane through their radiosities tells the corner's own.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

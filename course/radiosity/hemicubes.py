@@ -4,8 +4,6 @@ A cell has a ray from the patch's centre through the middle of the cell. The hem
 about their normals by different angles, so that the errors of their grids don't add up.
 """
 
-from __future__ import annotations
-
 import math
 import os
 from concurrent.futures import ThreadPoolExecutor

@@ -1,7 +1,5 @@
 """From a scene to its radiosity solution."""
 
-from __future__ import annotations
-
 from typing import Literal
 
 import numpy as np

@@ -5,8 +5,6 @@ rho / (1 - rho) U before all of it is absorbed, where rho is the largest reflect
 light than its patch has. Gathering changes no radiosity by more than rho times the largest change before it.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass

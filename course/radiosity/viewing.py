@@ -3,8 +3,6 @@
 A picture takes one ray a sample, and no light is computed any more.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields

@@ -6,8 +6,6 @@ lamps are turned away from each other. No function of a student is called, and w
 said.
 """
 
-from __future__ import annotations
-
 import warnings
 from pathlib import Path
 from typing import get_args

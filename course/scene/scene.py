@@ -1,7 +1,5 @@
 """A scene, ready to be rendered as often and in as many ways as one likes; and how it is to be rendered."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 

@@ -6,8 +6,6 @@ place have identical coordinates. The ranges of their parameters are those of th
 scene format (`course.formats.yaml.description`), which checks them.
 """
 
-from __future__ import annotations
-
 from course.shapes.curved import displaced_sphere, height_field, sphere
 from course.shapes.flat import box, cone, cylinder, disk, quad
 from course.shapes.tubes import torus, torus_knot

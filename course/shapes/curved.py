@@ -4,8 +4,6 @@ Directions are (cos(azimuth) s, y, -sin(azimuth) s): u goes eastwards, v from th
 north pole. A pole is one vertex; the seam at u = 0 and u = 1 is two with the same bits.
 """
 
-from __future__ import annotations
-
 import math
 import random
 from collections.abc import Sequence

@@ -1,7 +1,5 @@
 """Flat shapes, of which every face has its own vertices, and solids of revolution about y with flat caps."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 

@@ -6,8 +6,6 @@ very bits of column 0: it is a second vertex at the same place, for the sake of 
 the two.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 

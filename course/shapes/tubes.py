@@ -5,8 +5,6 @@ orthogonal to it and to each other, and the tube is c + tube (cos(2 pi v) n + si
 normal is that same sum, whichever way n and b turn along the curve.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Lights of triangles, of shapes as a scene compiles them, and points to look at them from."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from course import shapes

@@ -1,7 +1,5 @@
 """Compiled loops look up cube maps, and draw directions towards their light, with the same bits."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -5,8 +5,6 @@ angle, by the place that the cube_map module gives the direction. Statistical te
 rates of 1e-6 each: 4.9 standard errors, or the chi-squared of Wilson and Hilferty at 4.75.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from pathlib import Path

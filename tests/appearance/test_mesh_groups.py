@@ -4,8 +4,6 @@ Numbers are drawn with fixed seeds. A mean of N draws is held within 6.7 of its 
 file fails by chance once in 5 * 10^10 draws of other seeds. Other limits are far from what they hold.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

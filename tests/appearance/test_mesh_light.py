@@ -4,8 +4,6 @@ Numbers are drawn with fixed seeds. A statistic of N draws is held within 5.33 o
 within its quantile of 1e-7: each fails by chance once in 10^7 draws of other seeds, the 5 of them together in 5e-7.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

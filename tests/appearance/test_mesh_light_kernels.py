@@ -1,7 +1,5 @@
 """The compiled loop draws the same points on lights of triangles, bit for bit."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """A scene file that renders in milliseconds: a penumbra, and what it takes to bench it."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Any

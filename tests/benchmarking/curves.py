@@ -1,7 +1,5 @@
 """Curves that follow power laws exactly, for what is made of measurements."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

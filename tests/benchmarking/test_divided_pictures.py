@@ -1,7 +1,5 @@
 """Division by contrast beside rays that are spread evenly: equal errors on known curves, and a small run."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 

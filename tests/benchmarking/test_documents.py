@@ -1,7 +1,5 @@
 """The measured parts of the documentation: in their place, and nothing else touched."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import replace
 from pathlib import Path

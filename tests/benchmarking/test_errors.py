@@ -1,7 +1,5 @@
 """Errors of pictures, against values that can be worked out by hand."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

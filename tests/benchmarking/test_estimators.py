@@ -1,7 +1,5 @@
 """The list of what is measured: every entry can be loaded, and says of itself what is true."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What the engine's benchmark prints."""
 
-from __future__ import annotations
-
 import re
 import sys
 

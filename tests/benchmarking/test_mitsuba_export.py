@@ -5,8 +5,6 @@ least 23 degrees of freedom some block or channel of a right pair exceeds a |t| 
 ``test_blocks_beyond_the_limit_are_rare``. Seeds are fixed.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from pathlib import Path

@@ -5,8 +5,6 @@ least 11 degrees of freedom a |t| of 15 has a two-sided probability of 1.1e-8, s
 a right pair exceeds it less than once in 10^6 times. Seeds are fixed.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

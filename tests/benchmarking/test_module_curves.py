@@ -1,7 +1,5 @@
 """The curves that the modules' own benchmarks keep for the documentation: small runs, and what must come out."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from pathlib import Path

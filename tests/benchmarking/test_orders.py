@@ -1,7 +1,5 @@
 """Fitted orders: exact on power laws, with intervals that hold as often as they say."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

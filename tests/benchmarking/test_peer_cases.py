@@ -1,7 +1,5 @@
 """What is kept of the comparison with another program: a run of one case loses no other."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The referee of changes that are to change no picture: it sees one that does."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The numbers behind the documentation's plots: what comes back from a file is what was measured."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

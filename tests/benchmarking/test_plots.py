@@ -1,7 +1,5 @@
 """Plots: a figure for each comparison, labels that can be read, the same file for the same numbers."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The benchmark of `--error`: what counts as near, and that errors of references are taken off."""
 
-from __future__ import annotations
-
 from types import SimpleNamespace
 from typing import Any
 

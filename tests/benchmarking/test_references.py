@@ -1,7 +1,5 @@
 """References: made once, kept by what decides them, resumed after an interruption, honest about their error."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Sheets of pictures for lectures, and what is compared for them, in tiny sizes: each picture in its place."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 

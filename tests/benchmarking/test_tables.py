@@ -1,7 +1,5 @@
 """Tables: the numbers in them, on the terminal and as Markdown."""
 
-from __future__ import annotations
-
 import math
 import re
 

@@ -1,7 +1,5 @@
 """The experiment with two threads of the bounding volumes' benchmark: all rays once, and both threads at once."""
 
-from __future__ import annotations
-
 import threading
 from collections.abc import Callable
 from typing import Any

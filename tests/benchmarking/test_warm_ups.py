@@ -1,7 +1,5 @@
 """The lectures' figures on sampling, importance sampling and quasi-Monte Carlo: closed forms, small runs, files."""
 
-from __future__ import annotations
-
 import math
 from itertools import pairwise
 from pathlib import Path

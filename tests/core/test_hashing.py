@@ -1,7 +1,5 @@
 """Hashing: every bit of the input reaches every bit of the output, and salts give independent words."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from course.extras.samplers.hashing import combine, hash_words, mix

@@ -3,8 +3,6 @@
 Each statistical comparison fails for a right function with a probability of 1e-6 (tests/solutions/contract.py).
 """
 
-from __future__ import annotations
-
 import math
 from itertools import product
 

@@ -4,8 +4,6 @@ Expected numbers are exact fractions and Marsaglia's three shifts in Python's in
 asked. What a pixel is moved by is hidden in a hash, but Halton's point 0 is 0 in all coordinates: sample 0 shows it.
 """
 
-from __future__ import annotations
-
 from fractions import Fraction
 from typing import Any
 

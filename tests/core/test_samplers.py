@@ -1,7 +1,5 @@
 """Samplers: numbers in [0, 1) that a path can rely on, wherever and in whichever order they are drawn."""
 
-from __future__ import annotations
-
 from math import isqrt
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The (0, 2)-sequence and its shuffled orders."""
 
-from __future__ import annotations
-
 from itertools import product
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Picture files written by hand, from what the formats' specifications say, apart from the libraries that read them."""
 
-from __future__ import annotations
-
 import struct
 import zlib
 

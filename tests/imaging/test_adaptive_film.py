@@ -6,8 +6,6 @@ The estimate of a pixel's variance is a random number itself, with a standard de
 PIXELS pixels of a film; the mean over them may be 5.5 of its standard errors off, which it is by chance once in 2e7.
 """
 
-from __future__ import annotations
-
 import itertools
 import math
 import random

@@ -1,7 +1,5 @@
 """The camera: where its rays go, worked out by hand."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -4,8 +4,6 @@ Shares of fixed seeds are compared with what is promised; were a share exactly a
 would fail once in 1e7 for the single levels (5.2 standard deviations).
 """
 
-from __future__ import annotations
-
 import dataclasses
 from collections.abc import Callable
 

@@ -1,7 +1,5 @@
 """The picture of a difference: colours by sign, and a legend below."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

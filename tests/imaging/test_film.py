@@ -1,7 +1,5 @@
 """The film: weighted means of passes, whatever tile comes first."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from course.core.film import Film

@@ -1,7 +1,5 @@
 """Heat maps: which colours numbers get."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from numpy.typing import NDArray

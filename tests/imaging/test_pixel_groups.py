@@ -1,7 +1,5 @@
 """Groups of pixels from anywhere, and the order along Morton's curve that keeps neighbours together."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -3,8 +3,6 @@
 The files are written by hand (picture_files.py), so that the library that reads them is not judged by itself.
 """
 
-from __future__ import annotations
-
 import io
 import math
 import re

@@ -1,7 +1,5 @@
 """What a picture takes while it is read: measured as the most memory of a process of its own."""
 
-from __future__ import annotations
-
 import os
 import struct
 import subprocess

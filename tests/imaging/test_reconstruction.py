@@ -1,7 +1,5 @@
 """Reconstruction: what a pixel makes of its samples, through functions that may be a student's."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

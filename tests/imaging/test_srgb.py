@@ -1,7 +1,5 @@
 """The sRGB curve, against the formula of IEC 61966-2-1 in float64."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from numpy.typing import NDArray

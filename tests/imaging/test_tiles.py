@@ -1,7 +1,5 @@
 """Tiles: they cover the picture once, and hold about one batch of rays."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -6,8 +6,6 @@ such a mean has a relative standard deviation of sqrt(2 / SERIES), and 5.5 of th
 comparisons fails by chance once in 2e7.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Rooms whose light is known, and patches without a scene file."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Radiosities at corners: those of a plane are the plane's, also at the rim, and steps stay steps."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Surfaces in patches: halved without gaps, as many as asked for, of scenes that have a radiosity."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Radiosities against closed forms: parallel plates, a sphere's inside, and the bound of what is left."""
 
-from __future__ import annotations
-
 import math
 from typing import Literal
 

@@ -1,7 +1,5 @@
 """A solution doesn't depend on who looks at it, and shows what path tracing shows."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from functools import cache

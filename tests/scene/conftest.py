@@ -1,7 +1,5 @@
 """A scene that uses the whole format, and ways to load a changed copy of it."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Mistakes in the good scene of conftest.py: what is changed in its text, and with which message it is refused."""
 
-from __future__ import annotations
-
 from tests.tables import rows
 
 FORMAT = rows("""

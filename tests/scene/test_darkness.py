@@ -1,7 +1,5 @@
 """Pictures that are likely to be black: named with their reason, black indeed, and nothing else is."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any

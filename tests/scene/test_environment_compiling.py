@@ -1,7 +1,5 @@
 """From environment to compiled environment: layouts, and errors that name file, line, key and what was expected."""
 
-from __future__ import annotations
-
 import json
 import math
 import re

@@ -1,7 +1,5 @@
 """Keys that few scenes have: windows, matrices, backdrops, lights that nobody sees; and what contradicts itself."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

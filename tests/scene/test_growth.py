@@ -1,7 +1,5 @@
 """Light that grows from bounce to bounce is carried as far as float32 goes, and refused beyond."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

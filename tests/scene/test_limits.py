@@ -1,7 +1,5 @@
 """`limits` bounds the files that a scene names, every kind of them, before they are read."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any

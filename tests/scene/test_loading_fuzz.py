@@ -1,7 +1,5 @@
 """Whatever a scene file holds, loading ends in a description or in a SceneError."""
 
-from __future__ import annotations
-
 import copy
 import json
 from pathlib import Path

@@ -1,7 +1,5 @@
 """What a material is made of when the file says little."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Lights of type object in a scene file: what they may name, and what becomes of the materials."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Overrides of a scene file's values: in the right place, checked like the file, and told by the file's lines."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -1,7 +1,5 @@
 """What is farther away than float32 can carry is refused by its key."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

@@ -4,8 +4,6 @@ A sampler has a ``name``, says whether its points may be extended from n to 2n s
 ``(width, paths)`` float32 numbers in [0, 1) for consecutive dimensions of a block of paths.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Integer hashing: 32 well-mixed bits that depend only on pixel, dimension and seed."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from course.core.types import Words

@@ -6,8 +6,6 @@ moved point is, and every mean is unbiased whatever the points are. A pixel's nu
 alone, and not on the block that it is in.
 """
 
-from __future__ import annotations
-
 from abc import abstractmethod
 from typing import Any
 

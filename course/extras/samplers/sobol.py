@@ -4,8 +4,6 @@ The first two pairs of a path, of which the pixel's is the first, form one net i
 don't depend on the number of samples, so a picture can be continued.
 """
 
-from __future__ import annotations
-
 from functools import lru_cache
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A stream of random numbers for each pixel, made by the course's `sampling` module."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from course.core.samplers import Block, Sampler

@@ -3,8 +3,6 @@
 A mesh leaves `read_mesh` checked: finite, every index in range, one triangle or more, unit normals.
 """
 
-from __future__ import annotations
-
 import warnings
 from pathlib import Path
 from typing import Literal

@@ -5,8 +5,6 @@ pictures, cameras and empty meshes would break the chain of nodes above their ch
 compressed or sparse data would come out as zeros.
 """
 
-from __future__ import annotations
-
 import json
 import struct
 from io import BytesIO

@@ -8,8 +8,6 @@ have them; tinyobjloader 2.0rc13 takes the next corner's vertex for the normal o
 vertex for 0; meshio 5.3 misreads numbers that count back, and refuses uv of another number than the vertices'.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 

@@ -4,8 +4,6 @@ Python's own `float` and `int` read more than numbers as mesh files write them: 
 In a file these are slips, or it is cut up wrongly; and NumPy, which reads the usual file in one go, takes neither.
 """
 
-from __future__ import annotations
-
 import logging
 from dataclasses import dataclass
 from io import BytesIO

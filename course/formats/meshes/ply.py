@@ -8,8 +8,6 @@ one, it names no line.
 The format: Greg Turk, "The PLY polygon file format", 1994; types as later programs write them.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace

@@ -5,8 +5,6 @@ place (the three corners of each triangle in an STL file, the two sides of a tex
 normals too where these are within the crease angle, and stay a hard edge where they aren't.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Affine transforms: (4, 4) float64 matrices that act on columns (x, y, z, 1)."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any

@@ -1,7 +1,5 @@
 """`Cameras`: where each picture is taken from, its size and its samples."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 from pathlib import PurePath

@@ -1,7 +1,5 @@
 """From a METU scene file to scene files of the project's own format, one for each camera."""
 
-from __future__ import annotations
-
 import os
 import re
 from dataclasses import dataclass

@@ -4,8 +4,6 @@ The engine's reflected radiance is reflectance times irradiance over pi, a METU 
 are pi times as strong here. The ambient term has no pi in either.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """`Materials`: Blinn-Phong terms, mirrors, conductors and dielectrics."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from course.formats.metu.element import Element, Notes

@@ -5,8 +5,6 @@ about it, each twice as wide as the one inside. Triangles close by are small, so
 leave any floor, and those far off are large.
 """
 
-from __future__ import annotations
-
 import os
 from dataclasses import dataclass, field
 from pathlib import Path

@@ -4,8 +4,6 @@ An instance takes its mesh from another object; the engine has no instances, so 
 mesh file, which is read once.
 """
 
-from __future__ import annotations
-
 import json
 from collections import Counter
 from dataclasses import dataclass, field

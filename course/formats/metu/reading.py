@@ -4,8 +4,6 @@ In JSON an attribute's name has a `_` in front, the text of an element that has 
 one name make a list, and everything stands under `Scene`.
 """
 
-from __future__ import annotations
-
 import json
 import re
 from pathlib import Path

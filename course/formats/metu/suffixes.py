@@ -1,7 +1,5 @@
 """How the name of a METU scene file ends; commands look at it before they import what reads one."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Final
 

@@ -1,7 +1,5 @@
 """`Transformations`: named steps, and the lists by which objects ask for them."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

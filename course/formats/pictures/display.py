@@ -1,7 +1,5 @@
 """What a screen shows of radiance: the sRGB curve of IEC 61966-2-1, exposure, and heat maps of one number a pixel."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -4,8 +4,6 @@ Pillow and OpenImageIO are imported where they are used: a render that writes a 
 OpenImageIO, one that fails loads neither.
 """
 
-from __future__ import annotations
-
 import io
 from pathlib import Path
 

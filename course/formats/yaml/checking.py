@@ -6,8 +6,6 @@ that place through the document and the types, and words the mistake by the type
 as `a number > 0 [world unit]`, and by what a key or a value of another shape was probably meant to be.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable
 from typing import Any, Final, TypeVar

@@ -3,8 +3,6 @@
 Every value is of the right type and within its own range by now.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Final
 

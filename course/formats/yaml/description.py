@@ -5,8 +5,6 @@ In the file a step of `transform` is told by its only key, `{translate: [0, 1, 0
 loading adds `STEP: translate` to each step before it is converted; it stands in no file.
 """
 
-from __future__ import annotations
-
 from typing import Annotated, Any, Final, Literal, TypeAlias
 
 import msgspec

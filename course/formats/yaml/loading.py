@@ -1,7 +1,5 @@
 """A scene file, read and checked: YAML -> Document -> SceneDescription; and pictures it names, within its bounds."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The files that a scene names: meshes, and the pictures of its environment and of its objects' textures."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 from msgspec.structs import replace

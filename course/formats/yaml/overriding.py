@@ -1,7 +1,5 @@
 """A document with some of its values replaced: variants of a scene without files of their own."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

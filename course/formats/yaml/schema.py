@@ -4,8 +4,6 @@ An editor with a YAML language server uses it where a scene file says, in its fi
 `# yaml-language-server: $schema=scene.schema.json`.
 """
 
-from __future__ import annotations
-
 from typing import Any, Final
 
 import msgspec

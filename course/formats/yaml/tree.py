@@ -10,8 +10,6 @@ Unquoted words have the meaning of the core schema of YAML 1.2, with numbers kep
 PyYAML resolves, `1e-3` is a number and `yes`, `no`, `on`, `off` are texts.
 """
 
-from __future__ import annotations
-
 import math
 import re
 from dataclasses import dataclass, field

@@ -1,7 +1,5 @@
 """METU scenes as the tree that their JSON form is, written as XML or as JSON, converted and rendered."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The approximate Fresnel reflectance of metals, by arithmetic with complex numbers in float64."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 

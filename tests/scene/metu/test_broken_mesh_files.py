@@ -1,7 +1,5 @@
 """Mesh files that can't be used are told by the conversion, with the element that names them and by their own path."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

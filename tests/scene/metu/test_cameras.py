@@ -1,7 +1,5 @@
 """Cameras: image planes, near planes, lenses and samples, against the definitions worked out in float64."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

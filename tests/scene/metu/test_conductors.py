@@ -1,7 +1,5 @@
 """Fresnel reflectance of metals, against complex arithmetic in float64."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

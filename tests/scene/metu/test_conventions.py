@@ -1,7 +1,5 @@
 """Conventions of METU scenes that this course's own scenes don't have, and what older files write in other ways."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

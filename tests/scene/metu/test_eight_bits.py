@@ -1,7 +1,5 @@
 """From radiance to codes: clamped and cut down, without a gamma."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

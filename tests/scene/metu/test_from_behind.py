@@ -4,8 +4,6 @@ Expected pictures are worked out in float64, for axis-parallel walls by hand and
 that shares no code with the engine.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from typing import Any

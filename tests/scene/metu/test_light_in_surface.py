@@ -1,7 +1,5 @@
 """A point light that lies in a surface: seen from both sides, or hidden by it."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from typing import Any

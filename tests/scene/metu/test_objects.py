@@ -1,7 +1,5 @@
 """Meshes, instances, spheres, triangles: where they end up, which way their normals look, how they move."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Infinite planes: where they are, how far they reach, and that nothing else loses by them."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Files that are wrong: one message with file, element and remedy; and parts that nobody knows are named."""
 
-from __future__ import annotations
-
 import json
 import re
 from pathlib import Path

@@ -4,8 +4,6 @@ The tracer below is written from the rules, in float64, and shares no code with 
 it: then another picture comes out, which shows that the scene would find out if the engine left it out.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

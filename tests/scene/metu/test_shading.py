@@ -1,7 +1,5 @@
 """Lights and materials: pixels worked out by hand."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The METU scene that comes with the course: everything in it is known, and it renders."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -3,8 +3,6 @@
 What a picture should be is worked out in float64 by a tracer of horizontal rectangles that knows nothing of the engine.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from typing import Any

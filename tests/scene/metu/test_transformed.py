@@ -1,7 +1,5 @@
 """`Transformations` of cameras and lights: positions go as points, gaze and up as vectors, normals as normals."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """The square of rough mirrors that the smallest component of the direction turns."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 

@@ -1,7 +1,5 @@
 """Smooth meshes under an uneven scaling: normals are interpolated as the mesh has them, and transformed then."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np
