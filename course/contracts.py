@@ -1,4 +1,4 @@
-"""What each function that the renderer calls takes and returns: said here, for the renderer and for the checks.
+"""Arguments and results of each function that the renderer calls, for the renderer and for the checks.
 
 A contract is written "arguments -> results", separated by commas. An argument is its name and its shape, as in
 ``u: 2 N``; the shape of a number is empty. A word in a shape that is no number is a size, ``N`` that of the columns:
@@ -93,7 +93,7 @@ DTYPES: dict[str, Any] = {
     "int32": np.int32,
     "uint32": np.uint32,
 }
-"""What the numbers of a result are, by the word that says so: a dtype, or a kind that any dtype of it will do for."""
+"""Numbers of a result: a dtype, or a kind of which any dtype will do."""
 
 Size = int | str | tuple[tuple[str, ...], int]
 """A number, a word, or words whose sizes are multiplied and then divided by a number."""
@@ -119,7 +119,7 @@ class Result:
 
     @cached_property
     def kind(self) -> str:
-        """What the renderer goes on with: "" (floating and finite), "unit", "infinite", "whole" or "bool"."""
+        """Condition for results: "" (floating and finite), "unit", "infinite", "whole" or "bool"."""
         if self.unit:
             return "unit"
         if self.dtype is np.bool_:

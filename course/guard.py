@@ -21,7 +21,7 @@ from course.contracts import CONTRACTS, Contract, Result, contract
 from course.errors import CourseError, CourseWarning, Ended, FunctionError
 
 LONGEST_DEVIATION = 1e-3
-"""How far from 1 the length of a direction may be; the contract's 1e-5, with room for a renderer's own rounding."""
+"""Largest difference of a direction's length from 1: the contract's 1e-5, and some more for the renderer's rounding."""
 
 SHORTEST, LONGEST = (1 - LONGEST_DEVIATION) ** 2, (1 + LONGEST_DEVIATION) ** 2
 """Squares of lengths."""
@@ -189,7 +189,7 @@ _DTYPES = {
     "whole": ("whole numbers", "iu"),
     "bool": ("bool", "b"),
 }
-"""Of each kind how it is called, and the letters of its dtypes in NumPy."""
+"""The name of each kind, and the letters of its dtypes in NumPy."""
 
 
 def _settled(

@@ -49,14 +49,14 @@ _BLOCK: Final = 4096
 
 @dataclass(frozen=True)
 class Bound:
-    """How much may be read, in bytes or pixels, and the scene's key that says so; "" where there is none."""
+    """The most that may be read, in bytes or pixels, and the scene's key for it; "" where there is none."""
 
     most: int
     key: str = ""
 
     @property
     def remedy(self) -> str:
-        """What a message about too much ends with."""
+        """The end of a message about too large an input."""
         return f"; {self.key} in the scene file allows more" if self.key else ""
 
 

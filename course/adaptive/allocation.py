@@ -1,4 +1,4 @@
-"""Which pixels get more samples, so that the whole picture's error falls under a target with as few as possible.
+"""The pixels that get more samples, so that the picture's error falls below a target with as few samples as possible.
 
 If a pixel's variance is v n^-2a and a sample of it costs c, the sum over all pixels is smallest for a given cost where
 n is proportional to (v / c)^(1 / (2a + 1)): the derivative of the variance by the cost is then the same everywhere.
@@ -62,7 +62,7 @@ def rung(samples: Numbers) -> Numbers:
 def best_samples(
     variance: Floats32, samples: Numbers, cost: Floats32, order: float, target: float
 ) -> Floats32:
-    """How many samples each pixel should have in the end.
+    """Number of samples that each pixel should have in the end.
 
     Parameters
     ----------

@@ -51,7 +51,7 @@ class CornerGroup:
 
     @property
     def size(self) -> int:
-        """How many corners."""
+        """Number of corners."""
         return len(self.corners_of_lattice)
 
     def pixel_numbers(self, picture_width: int) -> Words:
@@ -97,7 +97,7 @@ class CornerFilm:
 
     @property
     def size(self) -> int:
-        """How many corners have had their rays."""
+        """Number of corners whose rays have been traced."""
         return len(self._known)
 
     def numbers(self, x: Floats32, y: Floats32) -> Numbers64:

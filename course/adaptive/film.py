@@ -134,7 +134,7 @@ class AdaptiveFilm:
 
     @property
     def uniform_samples(self) -> float:
-        """How many samples in every pixel would have brought the same error, by the same estimates."""
+        """Samples per pixel with which uniform sampling would have had the same error, by the same estimates."""
         if self.error == 0:
             return float(self.samples.max(initial=0))
         exponent = 2 * self.order

@@ -29,7 +29,7 @@ class PixelGroup:
 
     @property
     def size(self) -> int:
-        """How many pixels."""
+        """Number of pixels."""
         return len(self.pixels)
 
     def pixel_numbers(self, picture_width: int) -> Words:

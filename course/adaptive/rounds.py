@@ -193,7 +193,7 @@ def _audit(
 
 
 def _sum(samples: Numbers | Floats32, cost: Floats32) -> float:
-    """What some samples of each pixel cost."""
+    """The cost of some samples of each pixel."""
     # Not a dot product: for doubles BLAS would start threads, which then spin where rays could be traced.
     return float((samples * cost).sum(dtype=np.float64))
 

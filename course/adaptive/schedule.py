@@ -43,7 +43,7 @@ class AdaptiveSchedule(Schedule):
         return render_adaptively(self._film, self._target, budget, groups, run, first)
 
     def receipt(self) -> dict[str, Any]:
-        """How far the target was reached, and what that took."""
+        """The error that was reached, and the samples that it took."""
         film = self._film
         uniform = film.uniform_samples
         spent = (float(film.samples.sum()) + film.audited) / film.samples.size

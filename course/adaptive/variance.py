@@ -1,4 +1,4 @@
-"""How far a pixel's mean is still from the truth, judged by how far its parts are from each other.
+"""The variance of a pixel's mean, estimated from the differences between its parts.
 
 With independent samples the variance of a mean of n falls as 1 / n. With a (0, 2)-sequence it falls faster, as
 n^-2a with an order a between 1/2 and about 3/4 on edges and up to 1 on smooth ground, because later samples fill the

@@ -1,4 +1,4 @@
-"""What was measured of one estimator: its errors and times over the number of samples, and its convergence order."""
+"""Measurements of one estimator: its errors and times by number of samples, and its order of convergence."""
 
 import math
 from dataclasses import dataclass

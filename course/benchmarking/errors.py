@@ -1,4 +1,4 @@
-"""How far a picture is from its reference: three numbers, each 0 where they are the same."""
+"""The error of a picture against its reference: three numbers, each 0 if the pictures are the same."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""What is measured: for each module of the course its scene, and the estimators that render it.
+"""The measurements: for each module of the course its scene, and the estimators that render it.
 
 Two estimators whose pictures converge to the same one share a reference; where an estimator is of another integral
 (a ball instead of its surface, another lobe, another filter) it has a reference of its own.
@@ -46,7 +46,7 @@ class Estimator:
         return f"{self.variant} {self.sampler}".strip()
 
     def label(self, group: str) -> str:
-        """What tells it apart from the others of a comparison."""
+        """The label that tells it apart in a comparison."""
         sampler = "Sobol" if self.sampler == "sobol" else self.sampler
         names = {"samplers": sampler, "filters": f"{self.variant}, {sampler}"}
         return names.get(group, self.variant)
@@ -197,4 +197,4 @@ BENCHED = {
 """The modules that are measured, by name, in the course's order."""
 
 FURTHER_BENCHED = {name: _by_samplers(name) for name in ("blurred_transparency", "textures")}
-"""Those that are measured when they are asked for by name."""
+"""Estimators that are measured only if they are named."""

@@ -32,7 +32,7 @@ def ticks(low: float, high: float, most: int, *, fours: bool = False) -> list[fl
 
 
 def powers_of_four(values: Iterable[float]) -> bool:
-    """Whether all values are 1, 4, 16, 64 and so on."""
+    """True if all values are 1, 4, 16, 64 and so on."""
     return all(
         value >= 1 and isclose(log(value, 4), round(log(value, 4)), abs_tol=1e-9)
         for value in values

@@ -1,4 +1,4 @@
-"""What machine and which versions a measurement was made with."""
+"""The machine and the versions of a measurement."""
 
 import os
 import platform

@@ -24,7 +24,7 @@ Tick = Callable[[float], None]
 
 @dataclass(frozen=True)
 class Effort:
-    """How much is measured.
+    """The extent of a measurement.
 
     Attributes
     ----------
@@ -49,7 +49,7 @@ QUICK = Effort("quick", 48, (1, 4, 16, 64), 3, 2048)
 
 @dataclass(frozen=True)
 class Measured:
-    """What was measured of one module.
+    """The measurements of one module.
 
     Attributes
     ----------

@@ -69,7 +69,7 @@ class Plot(msgspec.Struct, frozen=True, omit_defaults=True):
 
 
 class Record(msgspec.Struct, frozen=True):
-    """What was measured of a module.
+    """The measurements of a module.
 
     Attributes
     ----------

@@ -172,7 +172,7 @@ def _evenly_sampled(loaded: Loaded, overrides: Overrides | None) -> Loaded:
 
 
 def _read(path: Path, key: str) -> Reference | None:
-    """What a file holds; None if there is none, or not the one that is looked for."""
+    """The contents of a file; None if there is none, or not the one that is looked for."""
     try:
         with path.open("rb") as file, np.load(file, allow_pickle=False) as data:
             head = json.loads(str(data["head"]))

@@ -172,7 +172,7 @@ def cut(parts: Sequence[FullPart], things: SmallThings, ratio: float) -> list[Fu
 
 
 def _too_large(p: Floats64, things: SmallThings, ratio: float) -> Mask:
-    """Which triangles (T, 3 corners, 3) are to be halved."""
+    """Mask (T,) of the triangles (T, 3 corners, 3) to be halved."""
     low, high = p.min(axis=1), p.max(axis=1)
     reach = np.maximum(-low, high).max(axis=1, initial=0)
     nearest = np.maximum(low, -high).max(axis=1, initial=0)

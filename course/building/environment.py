@@ -60,7 +60,7 @@ def compile_environment(
     brightest = faces.max(axis=(0, 1, 2)) * scale
     in_range(brightest, loaded, ("environment", "scale"), "radiance")
     if not brightest.any():
-        # What nobody looks at needs no lookup.
+        # A black environment needs no lookup.
         return None, None
     # In double precision, for a scale may be larger than any radiance.
     faces = np.multiply(faces, scale, out=np.empty_like(faces), casting="same_kind")
@@ -89,7 +89,7 @@ def hemisphere_functions(loaded: Loaded) -> list[str]:
 
 
 def _hemispheres(loaded: Loaded, bound: Bound) -> HemisphereSampling | None:
-    """None where no function of the importance_sampling module is called; it is not even imported then."""
+    """None if no function of the importance_sampling module is called; the module isn't imported then."""
     names = hemisphere_functions(loaded)
     if not names:
         return None
@@ -99,7 +99,7 @@ def _hemispheres(loaded: Loaded, bound: Bound) -> HemisphereSampling | None:
 
 
 def _anything_diffuse(loaded: Loaded) -> bool:
-    """Whether any object shows the light that falls on it."""
+    """True if any object reflects diffusely."""
     scene = loaded.description
     used = (scene.materials[thing.material] for thing in scene.objects)
     return any(has_body(m) and (base_color(m) * m.diffuse).any() for m in used)

@@ -35,7 +35,7 @@ def lobe_of(material: d.MaterialDescription, cutoff: float) -> tuple[str, str, f
 
 
 def calls_module(gloss: d.Gloss | None) -> bool:
-    """Whether a gloss takes its directions from the module glossy."""
+    """True if a gloss samples its directions by the module glossy."""
     return not (isinstance(gloss, d.PlaneLobe) and gloss.basis == "smallest")
 
 
@@ -62,11 +62,11 @@ def compile_lobes(
 
 
 FUNCTIONS = ("refract", "fresnel", "jitter_refraction")
-"""What rough glass calls of the blurred_transparency module."""
+"""The functions of the blurred_transparency module that rough glass calls."""
 
 
 def is_rough(material: d.MaterialDescription) -> bool:
-    """Whether a material is rough glass."""
+    """True if a material is rough glass."""
     return material.dielectric is not None and material.dielectric.roughness > 0
 
 

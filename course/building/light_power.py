@@ -1,4 +1,4 @@
-"""How strong a described light is, and whether anything shows it."""
+"""The power of a described light, and a test whether any surface reflects it."""
 
 from course.core.materials import MaterialTable
 from course.core.types import Floats64

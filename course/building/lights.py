@@ -130,7 +130,7 @@ class _Compiler:
     def _rectangle(self, light: d.RectangleLight) -> list[Light]:
         edge_u, edge_v = self.frame.vector(light.edge_u), self.frame.vector(light.edge_v)
         in_reach(np.stack((edge_u, edge_v)), self.loaded, self.path, "the light's size")
-        # Of unit edges: the area of a speck of a light may be 0 in float64, but it has a normal still.
+        # From unit edges: the area of a tiny light may be 0 in float64, but its normal exists.
         unit_u, unit_v = (edge / np.abs(edge).max() for edge in (edge_u, edge_v))
         normal = np.cross(unit_u, unit_v)
         sine = float(np.linalg.norm(normal))

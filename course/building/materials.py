@@ -16,7 +16,7 @@ from course.formats.yaml.description import MaterialDescription, ObjectLight, Sc
 from course.formats.yaml.loading import Loaded
 
 DEFAULT_COLOR = 0.8
-"""Of the light that the mirror leaves, where the file names no colour."""
+"""Share of the light that the mirror leaves, if the file names no colour."""
 
 LARGEST_INDEX = 1e8
 """An index of refraction beyond it is as good as infinite."""
@@ -51,7 +51,7 @@ def handed_on(material: MaterialDescription) -> Floats64:
 
 
 def has_body(material: MaterialDescription) -> bool:
-    """Whether a material has ambient and diffuse terms."""
+    """True if a material has ambient and diffuse terms."""
     return material.dielectric is None or material.dielectric.shaded
 
 
@@ -186,7 +186,7 @@ class Columns:
 
 
 def material_columns(description: SceneDescription) -> Columns:
-    """Which columns there are; materials that no object has are as good as not there."""
+    """The columns in use; materials without objects have none."""
     numbers = {thing.name: number for number, thing in enumerate(description.objects)}
     lit = {
         index: numbers[light.object]

@@ -1,4 +1,4 @@
-"""What moves while the shutter is open, where things stand when it opens, and the functions that motion takes.
+"""Motion while the shutter is open: velocities, positions when it opens, and the functions of motion_blur.
 
 Times are counted from the opening, in float32, in exposures: the shutter closes at 1. A velocity is then how far
 something goes while the shutter is open, which float32 can carry however short an exposure is. What moved before is
@@ -37,7 +37,7 @@ class Shutter:
         return np.array(motion.velocity) * self.duration
 
     def moves(self, motion: d.MotionDescription) -> bool:
-        """Whether it moves while the shutter is open."""
+        """True if it moves while the shutter is open."""
         return bool(self.sweep(motion).any())
 
     def velocity(self, motion: d.MotionDescription, frame: Frame) -> tuple[float, float, float]:
@@ -72,7 +72,7 @@ def movers(
         if shutter.moves(thing.motion):
             found.append((("objects", number, "motion"), True))
     for number, light in enumerate(scene.lights):
-        # What moves of an object that is a light is the object.
+        # If an object is a light, it is the object that moves.
         if isinstance(light, d.AmbientLight | d.DirectionalLight | d.ObjectLight):
             continue
         surface = not isinstance(light, d.PointLight) and light.radiance is not None

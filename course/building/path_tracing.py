@@ -80,7 +80,7 @@ def compile_acceleration(
 
 
 def _motions(scene: d.SceneDescription) -> Iterator[tuple[KeyPath, d.MotionDescription]]:
-    """Of everything that rays meet: objects, and lights that are surfaces."""
+    """Motions of all surfaces: those of objects, and those of lights."""
     for number, thing in enumerate(scene.objects):
         yield ("objects", number), thing.motion
     for number, light in enumerate(scene.lights):

@@ -1,9 +1,9 @@
-"""Where on spherical lights and on the lens points are: by `soft_shadows` and `thin_lens`, or by `sampling`."""
+"""Points on spherical lights and on the lens: by `soft_shadows` and `thin_lens`, or by `sampling`."""
 
 from course.formats.yaml.description import SceneDescription
 
 BALL, DISK = "ball by rejection", "rejection"
-"""What ``samples`` of a spherical light and of a lens say for points by rejection."""
+"""Values of ``samples`` of a spherical light and of a lens, for points by rejection."""
 
 SPHERES = {
     "sphere": ("soft_shadows", "point_on_sphere"),
@@ -16,14 +16,14 @@ SPHERES = {
 """The module and name of the function that a light's ``samples`` ask for; the visible part needs none."""
 
 NUMBERS = {"ball": 3, "ball by polar": 3}
-"""How many numbers a point takes where they are not 2; those of rejection only choose its generator."""
+"""Random numbers per point, if not 2. With rejection they only seed a generator."""
 
 DISKS = {"polar": "disk_by_polar", DISK: "disk_by_rejection"}
 """The function of the sampling module that a lens's ``samples`` ask for."""
 
 
 def takes_rejection(scene: SceneDescription) -> bool:
-    """Whether a light or the lens takes points by rejection."""
+    """True if a light or the lens samples points by rejection."""
     lens = scene.camera.lens
     if lens is not None and lens.shape == "disk" and lens.samples == DISK:
         return True

@@ -24,7 +24,7 @@ That distance is then a 512th of the object's size, and shifts a picture full of
 """
 
 CUT = 64.0
-"""Where anything is cut, triangles are at most this many times as large as what lies beside them."""
+"""Where triangles are cut, they become at most this many times as large as the objects beside them."""
 
 LARGEST_RATIO = 1e12
 """Of half the scene's extent over the smallest object, as far as float32 can render both."""
@@ -36,7 +36,7 @@ FEW = 64
 
 @dataclass(frozen=True)
 class Extents:
-    """Where objects and lamps lie, in the units of the scene file.
+    """Extents of objects and lamps, in the units of the scene file.
 
     Attributes
     ----------

@@ -17,7 +17,7 @@ from course.formats.yaml.loading import Loaded, read_named_picture
 
 
 def shows_texture(material: d.MaterialDescription) -> bool:
-    """Whether a material has a texture, and an ambient or diffuse term that it colours."""
+    """True if a material has a texture, and an ambient or diffuse term that it colours."""
     if material.texture is None or not has_body(material):
         return False
     colored = base_color(material) * material.diffuse + ambient_color(material) * material.ambient

@@ -216,7 +216,7 @@ def compile_camera(loaded: Loaded, frame: Frame, width: int, height: int) -> Cam
             return make_camera(eye, view, up, fov, width, height, near)
     if camera.handedness == "right":
         return make_window_camera(eye, view, up, edges, width, height, near)
-    # What lies at x to the right is shown where -x would be; the lens, too, is mirrored.
+    # A point at x to the right is shown at -x. The lens is mirrored, too.
     edges[:2] *= -1
     mirrored = make_window_camera(eye, view, up, edges, width, height, near)
     return replace(mirrored, right=-mirrored.right)

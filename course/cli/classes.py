@@ -1,4 +1,4 @@
-"""What `course grade` and `course regrade` share: options, progress, and what they tell in the end."""
+"""Shared by `course grade` and `course regrade`: options, progress, and the summary at the end."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ _OPTIONS = (
 
 @dataclass(frozen=True)
 class ClassOptions:
-    """How `course grade` and `course regrade` are told to grade.
+    """Options of `course grade` and `course regrade` for grading.
 
     Attributes
     ----------
@@ -106,7 +106,7 @@ class ClassOptions:
 
     @contextmanager
     def runner(self) -> Iterator[Runner]:
-        """How to grade, with a progress bar; raises ``UsageError`` as `class_engine` does."""
+        """Settings for grading, with a progress bar; raises ``UsageError`` as `class_engine` does."""
         from course.grading.classes.grading import Runner
 
         engine = self.class_engine()

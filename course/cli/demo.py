@@ -160,7 +160,7 @@ SCENES = PROJECT / "scenes"
 """The scenes that come with the course."""
 
 SHOWN = ("still_life", "knots", "hills", "hall_of_mirrors")
-"""Those that a demo renders."""
+"""The scenes that a demo renders."""
 
 PAGE = "index.html"
 

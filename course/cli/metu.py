@@ -39,7 +39,7 @@ def temporary_folder() -> Iterator[Path]:
 
 
 class _End:
-    """What becomes of a signal to end.
+    """The handling of signals to end.
 
     ``folder``: to be deleted before.
     """

@@ -16,7 +16,7 @@ from course.atomic import check_writable
 from course.errors import OutputError
 
 Named = tuple[str, Path | None]
-"""What the command line calls an output, such as -o, and its path; None where it isn't asked for."""
+"""The option for an output, such as -o, and its path; None where it isn't asked for."""
 
 
 def check_outputs(
@@ -65,7 +65,7 @@ def check_distinct(outputs: Sequence[Named], source: Path | None = None) -> None
 
 
 def is_same_file(a: Path, b: Path) -> bool:
-    """Whether two paths lead to one file, which need not be there: by links, by `..`, or in capitals."""
+    """True if two paths lead to one file, which need not exist: by links, by `..`, or in capitals."""
     try:
         # Where file systems pass over capitals, the file that is there tells.
         return _spelled(a) == _spelled(b) or (a.exists() and b.exists() and a.samefile(b))

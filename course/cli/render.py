@@ -86,7 +86,7 @@ def render(
 ) -> None:
     """Render a scene file to a picture.
 
-    What the options leave open is as the scene file says. Ctrl-C ends early and keeps what there
+    The scene file decides what the options leave open. Ctrl-C ends early and keeps what there
     is as NAME.partial.png. A METU scene (.xml or .json) gives a picture for each camera, under
     the names that it has for them.
     """

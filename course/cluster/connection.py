@@ -75,7 +75,7 @@ class Connection:
             raise CourseError(f"{self._address}: all workers have gone, for {ALONE} s now")
 
     def gone(self) -> CourseError:
-        """What there is to say when the scheduler is no longer there."""
+        """The message if the scheduler has gone."""
         return CourseError(f"{self._address}: the scheduler has gone before the work was done")
 
     def gather(self, futures: Sequence[Any], ends: Callable[[], bool] = lambda: False) -> list[Any]:
@@ -129,7 +129,7 @@ class Connection:
                 self.client.cancel(futures, force=True)
 
     def _told(self, error: BaseException) -> BaseException:
-        """What to raise for what a worker raised, or for the loss of several."""
+        """The error to raise for an error of a worker, or for the loss of several workers."""
         if isinstance(error, self._distributed.scheduler.KilledWorker):
             return CourseError(
                 f"{self._address}: workers were lost again and again over the same work; "

@@ -37,7 +37,7 @@ GRACE = 1.0
 """Seconds after a deadline in which tasks that were handed out before may still end."""
 
 RETRIES = 2
-"""How often a task that failed on a worker, for want of memory say, is tried again."""
+"""Number of retries of a task that failed on a worker, perhaps for want of memory."""
 
 Result = tuple[Floats32, Floats32 | float]
 

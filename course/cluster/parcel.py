@@ -107,7 +107,7 @@ MOST = 2
 
 @dataclass(frozen=True)
 class Order:
-    """What is to be done with the scene of a parcel.
+    """The work that is to be done with the scene of a parcel.
 
     Attributes
     ----------
@@ -123,7 +123,7 @@ class Order:
 
 @cache
 def edition() -> str:
-    """What decides the bits of a picture beside the scene: the course's sources, NumPy and Embree."""
+    """The versions that a picture's bits depend on beside the scene: those of the course, NumPy and Embree."""
     digest = sha256()
     for path in sorted(PACKAGE.rglob("*.py")):
         name = path.relative_to(PACKAGE)

@@ -181,7 +181,7 @@ class Tested:
 def differences(
     a: Floats64, b: Floats64, usable: Mask, steps: tuple[float | None, float | None], blocks: Blocks
 ) -> Tested:
-    """What each block tells of two pictures a and b, (H, W, 3) each.
+    """Statistics of each block of two pictures a and b, (H, W, 3) each.
 
     Parameters
     ----------

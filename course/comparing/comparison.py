@@ -36,7 +36,7 @@ FLOAT_STEP = 2.0**-14
 
 @dataclass(frozen=True)
 class Comparison:
-    """What two pictures a and b have shown.
+    """The result of a comparison of two pictures a and b.
 
     Attributes
     ----------

@@ -1,1 +1,1 @@
-"""What the lectures teach beside the six effects, and other renderers' conventions: stages that replace the core's."""
+"""Stages that replace the core's: the lectures' further subjects, and the conventions of other renderers."""

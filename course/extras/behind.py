@@ -1,4 +1,4 @@
-"""What camera rays see of triangles from behind: normals turned to the rays, normals as they are, or nothing.
+"""The view of triangles from behind, for camera rays: normals turned to the rays, normals as they are, or nothing.
 
 Rays that have left a surface meet all triangles alike, and so do shadow rays.
 """
@@ -21,7 +21,7 @@ STEP = np.float32(2.0**-19)
 
 @dataclass(frozen=True)
 class SeenThrough:
-    """What camera rays meet where they pass through some triangles from behind.
+    """An accelerator for camera rays, which pass through the backs of some triangles.
 
     Attributes
     ----------
@@ -67,7 +67,7 @@ class SeenThrough:
         return found
 
     def _from_behind(self, triangle: Numbers, direction: Floats32) -> Indices:
-        """Which of some rays have met the back of a triangle that they pass through."""
+        """Indices of the rays that hit the back of a triangle which they pass through."""
         met = np.flatnonzero(triangle >= 0)
         met = met.compress(self.unseen.take(triangle.take(met)))
         normal = self.planes[triangle.take(met), 3:6].T

@@ -13,12 +13,12 @@ from course.core.vectors import dot
 
 @dataclass(frozen=True)
 class FullDirectLight(DirectLight):
-    """What lights and the environment make visible at hits.
+    """Direct light that hits reflect.
 
     Attributes
     ----------
-    plain : (M,) which materials have highlights without the cosine in E, None where none has
-    lifted : whether rays leave surfaces so far off that light is worked out at the surface itself
+    plain : (M,) bool, materials whose highlights lack the cosine in E; None if there are none
+    lifted : true if rays start so far above surfaces that lights are sampled for the surface itself
     """
 
     plain: Mask | None = None
@@ -32,7 +32,7 @@ class FullDirectLight(DirectLight):
     def _to_light(self, light: Light, hits: Hits, candidates: Candidates) -> Floats32:
         to_light = super()._to_light(light, hits, candidates)
         if self.lifted and light.limit <= TO_THE_LIGHT:
-            # The light was looked at from the surface, the shadow ray starts above it.
+            # The light was sampled for the surface; the shadow ray starts above it.
             to_light = to_light + candidates.of(hits.p) - candidates.origin
         return to_light
 

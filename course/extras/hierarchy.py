@@ -82,7 +82,7 @@ class HierarchyAccelerator:
         *,
         active: Mask | None = None,
     ) -> Mask:
-        """Whether nothing lies between origin and origin + limit * direction; see ``Accelerator.unoccluded``.
+        """True where nothing lies between origin and origin + limit * direction; see ``Accelerator.unoccluded``.
 
         Raises
         ------
@@ -99,14 +99,14 @@ class HierarchyAccelerator:
         return (triangle < 0) | (t > limit)
 
     def box_tests(self, origin: Floats32, direction: Floats32) -> Numbers:
-        """How many boxes each ray is tested with, (N,); arguments are those of ``intersect``."""
+        """Number of boxes that each ray is tested with, (N,); arguments as in ``intersect``."""
         *_, boxes, _ = self._nearest(origin, direction, QueryStats())
         return boxes
 
     def _nearest(
         self, origin: Floats32, direction: Floats32, stats: QueryStats
     ) -> tuple[Numbers, Floats32, Numbers, Numbers]:
-        """What ``traverse`` finds, (n,) each; its tests are counted."""
+        """The results of ``traverse``, (n,) each; its tests are counted."""
         n = direction.shape[1]
         if self._size == 0 or n == 0:
             none = np.zeros(n, np.int32)

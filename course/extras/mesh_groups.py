@@ -25,8 +25,8 @@ GROUPS = 32
 """At most; each costs every sample some 10 ns in NumPy, 3 in a compiled loop."""
 
 TRUST = 15 / 16
-"""How far a closed body is trusted to hide its own back: a back is chosen (1 - TRUST) / (1 + TRUST) as often as a front
-that stands alike. Not never, for surfaces may cut through each other, or be seen from within."""
+"""Trust that a closed body hides its own back: a back is chosen (1 - TRUST) / (1 + TRUST) times as often as a front in
+the same position. It is chosen sometimes, for surfaces may intersect, or be seen from inside."""
 
 LEAK = 1e-3
 """Circulation around the edges of a closed body, of fields of about 1 and in units of its radius, is below this."""
@@ -217,7 +217,7 @@ def _moments(corners: Floats64, normal: Floats64, share: Floats64) -> Floats64:
 
 
 def _closed(corners: Floats64) -> bool:
-    """Whether triangles with corners (3, 3, T), each a (3, T) of about unit size, enclose something.
+    """True if triangles with corners (3, 3, T), of about unit size, enclose a volume.
 
     Around a closed surface every edge is passed once in either direction, so the integrals of any field along the edges
     of all triangles cancel. What is left of them for an open one is the integral along its rim (Stokes), and of four

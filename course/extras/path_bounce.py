@@ -1,4 +1,4 @@
-"""Where paths go on: one ray for each hit, whichever of its ways the light takes.
+"""The bounces of paths: one ray for each hit, which is diffuse, mirrored or refracted.
 
 A surface may scatter, mirror and refract at once. Of these ways one is chosen, as probable as the throughput that it
 would leave is large, and the throughput is divided by that probability. So the mean is right, and the number of rays

@@ -104,6 +104,6 @@ class Pieces:
         return Piece(rays, adds_lights, pixels, draws, self._path_radiance[:, paths])
 
     def _paths(self, pixels: slice) -> slice:
-        """Of the block's paths those of some pixels."""
+        """The paths of some pixels among those of the block."""
         samples = self._draws.block.samples
         return slice(pixels.start * samples, pixels.stop * samples)

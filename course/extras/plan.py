@@ -31,7 +31,7 @@ from course.extras.sky import NUMBERS, Sky
 from course.extras.world import FullWorld, Paths
 
 BOUNCE, CHOICE = ("bounce", 2), ("choice", 2)
-"""What a path draws after a diffuse hit; and which of its ways light takes from a surface, and whether it survives."""
+"""Numbers of a path: for the direction after a diffuse hit; for the choice of the bounce and for Russian roulette."""
 
 PIECES = 16
 """Batches of rays in a tile: most paths end soon, and the few that are left of several batches make one."""
@@ -45,7 +45,7 @@ def same_fields(stage: Any) -> dict[str, Any]:
 def plan(
     world: FullWorld, camera: Camera, max_depth: int, cutoff: float, sampler: Sampler
 ) -> tuple[Integrator, Dimensions]:
-    """What follows the rays of a scene, and which dimensions its numbers have."""
+    """The integrator of a scene, and the dimensions of its random numbers."""
     paths = world.paths
     scatter = _scatter(world, max_depth, cutoff if paths is None else 0.0)
     sky = _sky(world)

@@ -6,7 +6,7 @@ from course.core.types import Floats32, Functions, Mask
 def survivors(
     path_tracing: Functions | None, throughput: Floats32, u: Floats32 | None
 ) -> tuple[Mask, Floats32]:
-    """Which paths go on (n,), and the throughput (3, n) of all.
+    """Mask (n,) of the paths that survive, and the throughput (3, n) of all paths.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Scattering with what only some scenes have: metals, rough glass, and directions that are kept as they are."""
+"""Scattering by metals and rough glass, and without correcting directions that point into the surface."""
 
 from dataclasses import dataclass
 
@@ -24,14 +24,14 @@ class RoughBoundary(Boundary):
 
 @dataclass(frozen=True)
 class FullScatter(Scatter):
-    """Sends rays on that mirror or refract.
+    """Casts reflected and refracted rays.
 
     Attributes
     ----------
-    conductors : the metals, None where there are none
+    conductors : the metals; None if there are none
     rough : the rough glasses
-    keeps : whether directions into the surface are kept
-    max_depth : bounces
+    keeps : true if directions that point into the surface are kept
+    max_depth : largest number of bounces
     """
 
     conductors: Conductors | None = None
@@ -59,7 +59,7 @@ class FullScatter(Scatter):
         if which is not None:
             material, entering = material.take(which), entering.take(which)
             direction, ns = direction.take(which, axis=1), ns.take(which, axis=1)
-        # What is kept as the functions made it is another renderer's picture, which loses that light.
+        # If directions are kept, another renderer is reproduced, which loses that light.
         ends = ~entering if depth + 1 == self.max_depth and not self.keeps else None
         share = smooth.reflected
         cos_i, cos_t, eta = smooth.cos_i, smooth.cos_t, smooth.eta
@@ -71,7 +71,7 @@ class FullScatter(Scatter):
     def mirrored(
         self, hits: Hits, which: Indices, path: Indices, depth: int, draws: Draws
     ) -> Floats32:
-        """See ``Scatter``; on the inside of rough glass that has no gloss directions are jittered, too."""
+        """See ``Scatter``; inside rough glass without gloss, directions are jittered, too."""
         way = super().mirrored(hits, which, path, depth, draws)
         if not self.rough:
             return way

@@ -1,4 +1,4 @@
-"""Triangles with textures, with backs that camera rays see otherwise, or in another hierarchy than Embree's."""
+"""Triangles with textures, with special backs for camera rays, or in another BVH than Embree's."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -35,14 +35,14 @@ class FullPart(Part):
 
 @dataclass(frozen=True)
 class FullSurface(Surface):
-    """All triangles, with what only some scenes have.
+    """All triangles, with the parts that only some scenes have.
 
     Attributes
     ----------
-    painting : the textures, None where there are none
+    painting : the textures; None if there are none
     turned : (M,) bool, materials whose shading normals are turned to the viewer (``turn_to_viewer``); None for all
-    kept : (T,) bool, whose normals camera rays see as they are from behind; None for none
-    through : what camera rays meet where they see through backs; None where they meet what all rays do
+    kept : (T,) bool, triangles whose normals are not turned where camera rays hit their backs; None if there are none
+    through : accelerator for camera rays that pass through backs; None if they hit the same triangles as other rays
     """
 
     painting: Painting | None = None
@@ -118,12 +118,12 @@ def build_surface(
 
     Parameters
     ----------
-    motion_blur : functions of the module; needed where a part has a velocity
-    bulges : whether shadow rays start from the round surfaces that meshes stand for
-    hierarchy : functions of the bounding_volumes module and the size of a leaf, in Embree's place; nothing moves then
-    turned : as ``FullSurface`` has it
-    least_offset : rays leave surfaces at this distance or farther
-    camera_position : (3,) where all camera rays begin, None where they don't begin in one place
+    motion_blur : functions of the module; needed if a part has a velocity
+    bulges : true if shadow rays start from the round surfaces that meshes stand for
+    hierarchy : functions of the bounding_volumes module and the size of a leaf, to replace Embree; nothing may move
+    turned : see ``FullSurface``
+    least_offset : rays start at least this far from surfaces
+    camera_position : (3,) common origin of all camera rays; None if they have several
     """
     tables = make_tables(parts, least_offset)
     triangles = join_tables(tables, bulges)
@@ -137,7 +137,7 @@ def build_surface(
         hidden = np.concatenate([_hidden(table, camera_position) for table in tables])
         front = accelerator
         if isinstance(accelerator, EmbreeAccelerator) and hidden.any():
-            # Triangles that are a point: no ray meets them.
+            # These triangles become points, which no ray hits.
             corners = accelerator.triangles
             corners = np.where(hidden[:, None], corners[:, :1], corners)
             front = EmbreeAccelerator(accelerator.vertices, corners)
@@ -165,13 +165,13 @@ def _behind(table: Tables) -> Behind:
 
 
 def _seen(tables: Sequence[Tables], behind: Behind) -> Mask | None:
-    """(T,) which triangles are seen like that from behind; None for none."""
+    """(T,) bool, triangles whose backs are seen in that way; None if there are none."""
     kinds = [np.full(len(table.triangles), _behind(table) == behind) for table in tables]
     return np.concatenate(kinds) if any(kind.any() for kind in kinds) else None
 
 
 def _hidden(table: Tables, camera_position: Floats64 | None) -> Mask:
-    """(T,) which triangles are seen through from a camera's position (3,), None for one that is not known."""
+    """(T,) bool, triangles that are seen through from a camera's position (3,); none if it is None."""
     if camera_position is None or _behind(table) != "unseen":
         return np.zeros(len(table.triangles), np.bool_)
     corner, normal = table.planes[:, :3].T.astype(np.float64), table.planes[:, 3:6].T

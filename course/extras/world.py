@@ -1,4 +1,4 @@
-"""A scene as rays meet it, with what only some scenes have."""
+"""The compiled scene, with the parts that only some scenes have."""
 
 from dataclasses import dataclass, field
 
@@ -11,15 +11,15 @@ from course.extras.sky import SkySampling
 
 @dataclass(frozen=True)
 class Paths:
-    """What path tracing needs.
+    """Settings and functions of path tracing.
 
     Attributes
     ----------
-    roulette : bounces that a path makes before Russian roulette may end it, None for never
-    lamps : (M,) which materials are surfaces of lights, which direct light samples at every diffuse hit
-    objects : (M,) which materials are those of objects that are lights, sampled as well, which shine from both sides
-    path_tracing : functions of the module; None where nothing scatters
-    together : whether any paths may be followed together; else it makes a difference to the numbers that they draw
+    roulette : number of bounces before Russian roulette starts; None without Russian roulette
+    lamps : (M,) bool, materials of the surfaces of lights, which next-event estimation samples
+    objects : (M,) bool, materials of objects that are sampled as lights and emit from both sides
+    path_tracing : functions of the module; None if no surface is diffuse
+    together : true if paths of several batches may be merged without changing their random numbers
     """
 
     roulette: int | None
@@ -31,18 +31,18 @@ class Paths:
 
 @dataclass(frozen=True)
 class FullWorld(World):
-    """What rays meet.
+    """The compiled scene, with the parts that only some scenes have.
 
     Attributes
     ----------
-    skipped_lights : name -> why it was left out
-    sky : chooses the directions that the environment's light comes from; None where the environment lights nothing
+    skipped_lights : name of a light -> reason why it is left out
+    sky : samples directions to the environment; None if the environment is not a light
     rough : the rough glasses
-    lens : of the camera, None for a pinhole
+    lens : lens of the camera; None for a pinhole
     paths : None for the distribution ray tracer
-    backdrop : whether only camera rays see the environment
-    keeps : whether directions into the surface are kept
-    lifted : whether rays leave surfaces so far off that light is worked out at the surface itself
+    backdrop : true if only camera rays see the environment
+    keeps : true if directions that point into the surface are kept
+    lifted : true if rays start so far above surfaces that lights are sampled for the surface itself
     """
 
     skipped_lights: dict[str, str] = field(default_factory=dict)

@@ -1,4 +1,4 @@
-"""Which scenes radiosity can do: surfaces that reflect diffusely, lamps with an area, and nothing that moves."""
+"""The scenes that radiosity can solve: surfaces that reflect diffusely, lamps with an area, and nothing that moves."""
 
 from course.formats.yaml import description as d
 from course.formats.yaml.description import rgb

@@ -15,12 +15,12 @@ RIDGE = 1e-6
 """Keeps slopes 0 in directions about which the patches of a corner say nothing, such as that of their normal."""
 
 DARKEST = 0.25
-"""Of the patches' mean radiosity a corner has at least so much: else all contrasts at shadows' edges would be 1, and
-none of them larger than another."""
+"""Least radiosity of a corner, as a share of the mean of its patches. With less, all contrasts at shadows' edges would be
+1 and could not be compared."""
 
 
 def at_corners(patches: Patches, radiosity: Floats32) -> Floats32:
-    """What the patches that meet at each corner and belong to one smooth surface say of it.
+    """Radiosity at each corner, from the patches of one smooth surface that meet there.
 
     By least squares, weighted by area, as a plane over the patches' centres; what the patches then lack of their own
     radiosities is given back to their corners, so that no light is lost. No farther from the

@@ -63,7 +63,7 @@ def make_hemicube(k: int, functions: Functions) -> Hemicube:
 
 
 class Views:
-    """What each patch sees."""
+    """Views from the patches, through hemicubes."""
 
     def __init__(self, patches: Patches) -> None:
         corners = patches.triangles.corners.astype(np.int32)
@@ -88,7 +88,7 @@ class Views:
         self.rays = 0
 
     def look(self, which: Indices, hemicube: Hemicube) -> Seen:
-        """What some patches see through the cells of their hemicubes.
+        """The views from some patches through the cells of their hemicubes.
 
         ``which``: (m,) numbers of patches.
         Returns (m, C) int32.

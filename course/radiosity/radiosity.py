@@ -25,7 +25,7 @@ ROUNDS = 4
 """Solutions that hierarchical subdivision makes at most before the last."""
 
 ROUGH = 0.3
-"""How far from convergence a solution may be that only tells where to divide."""
+"""Largest distance from convergence of a solution that only decides where to divide."""
 
 
 def solve(
@@ -104,7 +104,7 @@ def solve_patches(
 
 
 def as_solution(scene: Scene, patches: Patches, solved: Solved) -> Solution:
-    """What is kept, saved and looked at."""
+    """A solution: it can be saved, and viewed from anywhere."""
     description, frame = scene.loaded.description, scene.compiled.frame
     camera = description.camera
     return Solution(

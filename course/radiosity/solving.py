@@ -139,7 +139,7 @@ class Shooting:
 
     @property
     def solved(self) -> Solved:
-        """Where it stands."""
+        """The state of the iteration."""
         return Solved(self.radiosity, self.unshot, self.steps, self.left, self._views.rays)
 
     @property
@@ -232,7 +232,7 @@ def with_ambient(
 
 
 class _Kept:
-    """What hemicubes have seen, in as few bytes as the number of patches allows."""
+    """Views through hemicubes, in as few bytes as the number of patches allows."""
 
     def __init__(self, patches: int) -> None:
         self._type = np.uint16 if patches < 2**16 - 1 else np.int32

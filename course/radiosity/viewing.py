@@ -86,7 +86,7 @@ def load_solution(path: Path) -> Solution:
 
 
 def _usable(solution: Solution) -> bool:
-    """Whether all arrays have the shapes and types that a solution has, and numbers that a picture can be made of."""
+    """True if all arrays have the shapes and types of a solution, and valid numbers."""
     count, vertices = solution.triangles.size // 3, solution.vertices.size // 3
     shapes = {
         "vertices": ("f4", (vertices, 3)),

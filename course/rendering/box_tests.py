@@ -18,7 +18,7 @@ BATCH = 16384
 
 
 def box_tests(scene: Scene, settings: Settings) -> Indices:
-    """How many boxes each camera ray was tested with, (H, W).
+    """Number of boxes that each camera ray was tested with, (H, W).
 
     Lens and motion are left out: a ray a pixel, from the middle of the lens when the shutter opens.
 

@@ -1,4 +1,4 @@
-"""What a scene holds and what rendering it will ask for, for people."""
+"""A summary of a scene for people: its contents, and the functions that rendering calls."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ def summarize(scene: Scene) -> dict[str, dict[str, object]]:
 
 
 def _bounds(scene: Scene) -> dict[str, object]:
-    """Where each object lies, in the units of the file, for those who want to place another."""
+    """Bounds of each object, in the units of the file, as a help to place another."""
     things, compiled = scene.loaded.description.objects, scene.compiled
     rows = []
     for number, thing in enumerate(things[:MOST_OBJECTS]):
@@ -91,7 +91,7 @@ def _bounds(scene: Scene) -> dict[str, object]:
 
 
 def _hints(scene: Scene) -> dict[str, object]:
-    """What can be rendered, but is probably not meant."""
+    """Warnings of settings that can be rendered, but are probably mistakes."""
     description, document = scene.loaded.description, scene.loaded.document
     hints: dict[str, object] = {}
     for name, material in description.materials.items():

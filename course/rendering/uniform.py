@@ -1,4 +1,4 @@
-"""Uniform sampling: it may go on from a picture with fewer samples, and fit as many passes as a time limit allows."""
+"""Uniform sampling: it can continue a picture with fewer samples, and stop at a time limit."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class TimedSchedule(DividedSchedule):
         settings = self.tracer.settings
         size = pass_size(settings, self.tracer.sampler)
         for quick in (1, 4):
-            # Where a whole pass surely fits, a preview only costs.
+            # If a whole pass surely fits, a preview would be wasted.
             if size <= quick or self.done:
                 break
             before = executor.seconds_left
@@ -50,7 +50,7 @@ TIMED = Mode(partial(make, TimedSchedule))
 
 
 def _film(job: Job, sampler: Sampler) -> tuple[Film, int]:
-    """An empty film, or what can be kept of the picture to continue, and the samples that it holds."""
+    """An empty film, or that of the picture to continue, and the number of samples that it holds."""
     start, settings = job.start, job.settings
     if start is None:
         return Film(settings.width, settings.height), 0

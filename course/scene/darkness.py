@@ -63,7 +63,7 @@ FEW = 64
 """Triangles of a lamp that are looked at."""
 
 FAR = np.float32(1e6)
-"""Where lights are that are infinitely far away, in the unit of the compiled scene."""
+"""Distance at which directional lights are placed, in the unit of the compiled scene."""
 
 _AROUND = np.array(
     [(x, y, z) for x in (-1, 0, 1) for y in (-1, 0, 1) for z in (-1, 0, 1) if x or y or z],
@@ -120,14 +120,14 @@ def _met(world: FullWorld, origin: Floats32, direction: Floats32) -> Hits:
 
 
 def _seen(world: FullWorld, camera: Camera, width: int, height: int) -> Hits:
-    """What the middles of GRID x GRID parts of the picture show."""
+    """Hits of rays through the centres of GRID x GRID parts of the picture."""
     steps = (np.arange(GRID, dtype=np.float32) + np.float32(0.5)) / GRID
     x, y = np.repeat(steps, GRID) * np.float32(width), np.tile(steps, GRID) * np.float32(height)
     return _met(world, *camera.rays(x.astype(np.float32), y.astype(np.float32), None, None))
 
 
 def _sees_nothing(scene: Scene, camera: Camera, width: int, height: int) -> bool:
-    """Whether all objects lie outside the pyramid of the picture; rays alone may miss what is small."""
+    """True if all objects lie outside the pyramid of the picture; rays alone may miss small objects."""
     surfaces = any(getattr(light, "radiance", None) for light in scene.loaded.description.lights)
     if surfaces or scene.compiled.world.lens is not None:
         return False
@@ -144,7 +144,7 @@ def _sees_nothing(scene: Scene, camera: Camera, width: int, height: int) -> bool
 
 
 def _may_show_light(world: FullWorld, hits: Hits) -> bool:
-    """Whether any of the hits gives off light of its own, or shows that of other places."""
+    """True if any of the hits emits light, or mirrors or refracts that of other places."""
     m = world.materials
     shows = (m.emission.max(0) > 0) | (m.mirror.max(0) > 0) | m.refracts
     shows |= (m.ambient * world.ambient[:, None]).max(0) > 0

@@ -12,12 +12,12 @@ from course.formats.yaml.loading import Loaded, load_description
 from course.formats.yaml.overriding import Overrides
 
 Subdivision = SubdivisionDescription
-"""Where pixels are divided, as the file says."""
+"""The file's settings for dividing pixels."""
 
 
 @dataclass(frozen=True)
 class Settings(core.Settings):
-    """How a scene is to be rendered.
+    """Render settings of a scene.
 
     Attributes
     ----------
@@ -53,12 +53,12 @@ class Scene:
 
     @property
     def title(self) -> str:
-        """What the picture shows, as the file says; its name where it says nothing."""
+        """Description of the picture from the file, or the file's name."""
         return self.loaded.description.title or self.loaded.path.stem
 
     @property
     def settings(self) -> Settings:
-        """How the file wants to be rendered."""
+        """Render settings of the file."""
         scene = self.loaded.description
         return Settings(
             width=scene.film.width,

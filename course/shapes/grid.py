@@ -1,4 +1,4 @@
-"""What the shapes share: lattices, circles that close exactly, and meshes joined to one.
+"""Tools of all shapes: lattices, circles that close exactly, and joined meshes.
 
 A lattice has `across` cells along u, `up` cells along v.
 Vertex (i, j) has index j (across + 1) + i, and uv (i / across, j / up). Where u goes around, column `across` holds the

@@ -19,10 +19,10 @@ ORDERS = 256
 """Permutations of a chained pattern; two pixels share one by chance of 1 in this many."""
 
 _KEPT_NUMBERS = 1 << 16
-"""Of one chained pattern in all its orders; long patterns get fewer orders."""
+"""Numbers of one chained pattern in all its orders; long patterns get fewer orders."""
 
 _KEPT_STRETCHES = 32
-"""Of Halton's points, for threads may be at different passes."""
+"""Passes of Halton's points that are kept, for threads may be at different passes."""
 
 _FEWEST_DIMENSIONS = 16
 

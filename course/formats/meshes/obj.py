@@ -18,7 +18,7 @@ from course.core.types import Floats64, Indices
 from course.formats.meshes.parts import Part, fans, numbers, real, same, too_few, whole
 
 KINDS = ("v", "vt", "vn")
-"""What the fields of a corner v/vt/vn count, in their order."""
+"""The fields of a corner v/vt/vn, in their order."""
 
 NOUNS = ("vertex", "uv", "normal")
 

@@ -1,4 +1,4 @@
-"""What the readers of mesh files share: what they return, numbers in text, lists of several lengths, and equal rows.
+"""Shared by the readers of mesh files: their result, numbers in text, lists of several lengths, and equal rows.
 
 Python's own `float` and `int` read more than numbers as mesh files write them: 1_0 as ten, and digits of other scripts.
 In a file these are slips, or it is cut up wrongly; and NumPy, which reads the usual file in one go, takes neither.
@@ -135,7 +135,7 @@ def fans(lengths: NDArray[np.int64]) -> Indices:
 
 
 def too_few(face: str, corners: int) -> str:
-    """What is wrong with a face that is none."""
+    """The error of an invalid face."""
     plural = "" if corners == 1 else "s"
     return f"{face} has {corners} corner{plural}: expected 3 or more, or no such face"
 

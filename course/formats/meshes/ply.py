@@ -33,7 +33,7 @@ WEDGES = "texcoord"
 """Name of a face's list of uv, u and v for each of its corners."""
 
 UV = (("texture_u", "texture_v"), ("u", "v"), ("s", "t"))
-"""What programs call the uv of a vertex; the format itself has no names for them."""
+"""Names that programs use for the uv of a vertex; the format defines none."""
 
 MOST_NAMES = 1000
 """Elements and properties that a header may have; usual ones have ten or twenty."""
@@ -72,7 +72,7 @@ class Element:
         return ValueError(f"it ends before its {self.rows} of element {self.name}: {_CUT_SHORT}")
 
     def too_short(self, row: int, each: Property, length: int) -> str:
-        """What is wrong with a list."""
+        """The error of a list."""
         if each.least:
             return too_few(f"face {row}", length)
         return f"the list {each.name} of {self.name} {row} has {length} numbers: expected 0 or more"
@@ -340,7 +340,7 @@ def _text_columns(element: Element, lines: list[str]) -> Columns | None:
 
 
 def _trouble(element: Element, row: int, words: list[str]) -> str | None:
-    """What is wrong with the words of a row."""
+    """The error of the words of a row."""
     at = 0
     for each in element.properties:
         length = 1

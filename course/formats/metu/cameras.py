@@ -107,7 +107,7 @@ def _gaze(element: Element, position: Floats64) -> Floats64:
 
 
 def _looks_at(element: Element) -> bool:
-    """Whether it is a lookAt camera: by its type, or by a field of view in place of a near plane."""
+    """True for a lookAt camera: by its type, or by a field of view in place of a near plane."""
     kind = element.attribute("type")
     if kind not in (None, "", "simple", "lookAt"):
         raise element.error(f"type is {kind!r}: expected lookAt or none")

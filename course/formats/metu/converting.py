@@ -127,7 +127,7 @@ def _common(
     eyes: list[list[float]],
     notes: Notes,
 ) -> dict[str, Any]:
-    """What all cameras see."""
+    """The scene that all cameras see."""
     _pass_over_empty(scene)
     # Hits are found by Embree, which has no tolerance to set.
     scene.number_of("IntersectionTestEpsilon", 0.0)

@@ -16,7 +16,7 @@ COUNTS_WITH = {
 
 
 def material_name(number: str) -> str:
-    """How a material is called in the project's own scene files."""
+    """Name of a material in the project's own scene files."""
     return f"material {number}"
 
 

@@ -89,7 +89,7 @@ def mesh_file(faces: Element, name: str, folder: Path) -> Path:
 
 
 def has_normals(path: Path) -> bool:
-    """Whether a PLY file has normals of its own."""
+    """True if a PLY file has normals of its own."""
     with opened(path, "mesh file", Bound(LARGEST_DATA), SceneError) as stream:
         header = stream.read(LONGEST_HEADER).partition(b"end_header")[0]
     names = {line.split()[-1] for line in header.splitlines() if line.startswith(b"property ")}

@@ -1,4 +1,4 @@
-"""How the name of a METU scene file ends; commands look at it before they import what reads one."""
+"""The endings of METU scene files; commands check them before they import the reader."""
 
 from pathlib import Path
 from typing import Final
@@ -7,5 +7,5 @@ SUFFIXES: Final = (".xml", ".json")
 
 
 def is_metu(path: Path) -> bool:
-    """Whether a file's name is that of a METU scene."""
+    """True if a file's name is that of a METU scene."""
     return path.suffix.lower() in SUFFIXES

@@ -59,13 +59,13 @@ def matrix_of_steps(chosen: Steps) -> Floats64:
 
 
 def point(matrix: Floats64, position: Floats64) -> Floats64:
-    """Where a point goes, (3,)."""
+    """The transformed point, (3,)."""
     moved: Floats64 = matrix[:3, :3] @ position + matrix[:3, 3]
     return moved
 
 
 def normal(matrix: Floats64, direction: Floats64) -> Floats64:
-    """Which way the normal of a surface looks afterwards, (3,) of any length."""
+    """The transformed normal of a surface, (3,) of any length."""
     linear = matrix[:3, :3] / np.abs(matrix[:3, :3]).max()
     turned: Floats64 = np.linalg.inv(linear).T @ direction
     return turned

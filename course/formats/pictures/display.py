@@ -1,4 +1,4 @@
-"""What a screen shows of radiance: the sRGB curve of IEC 61966-2-1, exposure, and heat maps of one number a pixel."""
+"""Radiance on a screen: the sRGB curve of IEC 61966-2-1, exposure, and heat maps of one number a pixel."""
 
 from dataclasses import dataclass
 
@@ -55,7 +55,7 @@ For means of 1 to 900 equal samples the share is at most 2^-18.2; see tests/scen
 
 @dataclass(frozen=True)
 class Display:
-    """How radiance becomes codes of 8 bits.
+    """The mapping of radiance to codes of 8 bits.
 
     Attributes
     ----------
@@ -79,7 +79,7 @@ class Display:
 
 
 SRGB = Display()
-"""What screens expect."""
+"""The mapping that screens expect."""
 
 
 # sRGB; of steadily growing lightness, so that the order of the values survives a grey printer.

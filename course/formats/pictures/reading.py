@@ -26,7 +26,7 @@ LINEAR: Final = (".exr", ".hdr")
 """Suffixes of the formats that hold radiance, up to a scale. A Radiance file's EXPOSURE is left alone, too."""
 
 MAGIC: Final = (b"\x76\x2f\x31\x01", b"#?RADIANCE", b"#?RGBE")
-"""How their files begin."""
+"""The first bytes of their files."""
 
 CODED: Final = ("PNG", "JPEG", "TIFF", "BMP", "GIF", "WEBP", "PPM", "TGA")
 """What Pillow is asked for; of its other formats some start programs, and most are drawings or films."""
@@ -152,7 +152,7 @@ def _from_deep_codes(path: Path) -> Floats32:
 
 
 def _is_deep_png(stream: BinaryIO) -> bool:
-    """Whether a file is a PNG of 16 bits a channel, of which Pillow shows 8 (PNG specification, 5.2 and 11.2.1)."""
+    """True for a PNG of 16 bits per channel, of which Pillow reads 8 (PNG specification, 5.2 and 11.2.1)."""
     stream.seek(0)
     start = stream.read(25)
     # Pillow minds no longer header; the library that reads 16 bits prints an error of its own.

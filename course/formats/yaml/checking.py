@@ -67,7 +67,7 @@ SYNONYMS: Final[dict[str, tuple[str, ...]]] = {
     "spp": ("samples",),
     "depth": ("max_depth",),
 }
-"""What other programs call a key: the keys here, each perhaps with a value to show how it is used."""
+"""Other programs' names of keys: the keys here, each perhaps with a value as an example."""
 
 _NOUNS: Final = {inspect.FloatType: "number", inspect.IntType: "whole number"}
 
@@ -95,7 +95,7 @@ def item_type(kind: Sequence, index: int) -> inspect.Type:
 
 
 def fixed_length(kind: Sequence) -> int | None:
-    """How many items a list must have; None where any number will do."""
+    """The number of items that a list must have; None where any number will do."""
     if isinstance(kind, inspect.TupleType):
         return len(kind.item_types)
     return kind.min_length if kind.min_length == kind.max_length else None

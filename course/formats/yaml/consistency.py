@@ -239,7 +239,7 @@ def _check_step(step: d.Transform, here: Place) -> None:
 
 
 def flattens(matrix: Floats64) -> bool:
-    """Whether an affine map (4, 4) has no inverse."""
+    """True if an affine map (4, 4) has no inverse."""
     linear = matrix[:3, :3]
     largest = np.abs(linear).max()
     # By the largest component first, so that no product underflows or overflows.

@@ -82,7 +82,7 @@ class Place:
     path: KeyPath = ()
 
     def at(self, *keys: Key) -> Place:
-        """What stands there at these keys."""
+        """The value at these keys."""
         return Place(self.document, (*self.path, *keys))
 
     def error(self, message: str) -> SceneError:

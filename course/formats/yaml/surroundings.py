@@ -105,7 +105,7 @@ _ASKEW = np.array([0.5431, 0.6173, 0.5692])
 
 
 def _contains(mesh: Mesh, point: Floats64) -> bool:
-    """Whether a ray from the point crosses a mesh an odd number of times (Möller and Trumbore, 1997)."""
+    """True if a ray from the point crosses a mesh an odd number of times (Möller and Trumbore, 1997)."""
     p0, p1, p2 = (mesh.vertices[mesh.triangles[:, k]] for k in range(3))
     e1, e2, s = p1 - p0, p2 - p0, point - p0
     h, q = np.cross(_ASKEW, e2), np.cross(s, e1)
