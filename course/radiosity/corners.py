@@ -15,8 +15,8 @@ RIDGE = 1e-6
 """Keeps slopes 0 in directions about which the patches of a corner say nothing, such as that of their normal."""
 
 DARKEST = 0.25
-"""Least radiosity of a corner, as a share of the mean of its patches. With less, all contrasts at shadows' edges would be
-1 and could not be compared."""
+"""Least radiosity of a corner, as a share of the mean of its patches. With less, all contrasts at shadows' edges would
+be 1 and could not be compared."""
 
 
 def at_corners(patches: Patches, radiosity: Floats32) -> Floats32:
