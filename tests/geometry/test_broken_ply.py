@@ -153,6 +153,8 @@ BAD: dict[str, tuple[bytes, str]] = {
     "cut in the faces, little": (ply(LITTLE)[:-5], f"an unexpected length: {NOT_ENOUGH}"),
     "cut in the vertices, little": (ply(LITTLE)[:-40], f"its 4 of element vertex: {NOT_ENOUGH}"),
     "mixed and cut": (ply(BIG, faces=[TWO[0], (0, 1, 2, 3)])[:-5], f"length: {NOT_ENOUGH}"),
+    # As long as two quads.
+    "mixed and padded": (ply(LITTLE, faces=[(0, 1, 2, 3), (0, 1, 2)], tail=bytes(4)), "unexpected"),
     "too long": (ply(LITTLE, tail=b"more"), "its 78 bytes of data are an unexpected length"),
     "very many vertices": (
         ply(counts=(10**12, 2)),

@@ -39,14 +39,13 @@ def ply_text(
     vertices: Sequence[Sequence[object]],
     faces: list[list[int]],
     properties: str = "x y z",
-    count: int | None = None,
 ) -> str:
     rows = [" ".join(str(x) for x in row) for row in vertices]
     return "\n".join(
         [
             "ply",
             "format ascii 1.0",
-            f"element vertex {len(rows) if count is None else count}",
+            f"element vertex {len(rows)}",
             *(f"property double {name}" for name in properties.split()),
             f"element face {len(faces)}",
             "property list uchar int vertex_indices",
@@ -413,11 +412,6 @@ BAD: dict[str, tuple[str, str | bytes, str]] = {
     "not a glb": ("a.glb", b"\x01" * 200, "doesn't begin as a GLB"),
     "short glb": ("a.glb", b"glTF", "doesn't begin as a GLB"),
     "cut glb": ("a.glb", glb_bytes(TORUS)[:-100], "not a GLB file that can be read"),
-    "cut ply": ("a.ply", ply_text(TRIANGLE, [[0, 1, 2]], count=9), "ends before its 9 of .*vertex"),
-    "header alone": ("a.ply", "ply\nformat ascii 1.0\n", "not a PLY file"),
-    "words in a ply": ("a.ply", ply_text([[0, "zero", 0], *TRIANGLE], [[0, 1, 2]]), "not a PLY"),
-    "words in an obj": ("a.obj", "v 0 0 0\nv 1 zero 0\nv 0 1 0\nf 1 2 3\n", "not a OBJ file"),
-    "ply points": ("a.ply", ply_text(TRIANGLE, []), "no triangles"),
     "obj points": ("a.obj", SQUARE_OBJ, "no triangles"),
     "stl of none": ("a.stl", b"".ljust(84, b"\0"), "no triangles"),
     "glb points": ("a.glb", glb_bytes(TORUS, edit=as_points), "no triangles"),
@@ -426,27 +420,7 @@ BAD: dict[str, tuple[str, str | bytes, str]] = {
     "glb sparse": ("a.glb", glb_bytes(TORUS, edit=sparse), "accessor 0 is sparse"),
     "glb hollow": ("a.glb", glb_bytes(TORUS, edit=without_data), "accessor 0 is sparse or without"),
     "glb flat node": ("a.glb", glb_bytes(TORUS, edit=flattened), "node's matrix can't be inverted"),
-    "ply index": (
-        "a.ply",
-        ply_text(TRIANGLE, [[0, 1, 2], [0, 1, 3]]),
-        "triangle 1 .* vertex 3: .*3",
-    ),
-    "ply negative": ("a.ply", ply_text(TRIANGLE, [[0, 1, -1]]), "triangle 0 refers to vertex -1"),
-    "obj index": ("a.obj", SQUARE_OBJ + "f 1 2 5\n", "vertex 5, but there are 4"),
-    "obj zero": ("a.obj", SQUARE_OBJ + "f 0 1 2\n", "refers to vertex 0"),
-    "obj back": ("a.obj", SQUARE_OBJ + "f -1 -2 -5\n", "refers to vertex -5, but before it there"),
-    "obj uv": ("a.obj", SQUARE_OBJ + "vt 0 0\nf 1/1 2/2 3/1\n", "uv 2, but there are 1"),
-    "obj normal": (
-        "a.obj",
-        SQUARE_OBJ + "vn 0 0 1\nf 1//1 2//1 3//7\n",
-        "normal 7, but there are 1",
-    ),
     "glb index": ("a.glb", glb_bytes(FAR_INDEX), "triangle .* refers to vertex .*there are 325"),
-    "ply nan": (
-        "a.ply",
-        ply_text([[0, 0, 0], [1, "nan", 0], [0, 1, 0]], [[0, 1, 2]]),
-        "vertex 1 is",
-    ),
     "ply unused nan": ("a.ply", ply_text([*TRIANGLE, [0, "inf", 0]], [[0, 1, 2]]), "vertex 3 is"),
     "obj inf": ("a.obj", "v 0 0 0\nv 1 0 0\nv 0 -inf 0\nf 1 2 3\n", "vertex 2 is .*-inf"),
     "stl nan": ("a.stl", stl_text(with_vertex(0, math.nan)), "vertex 0 is .*nan.*finite"),
@@ -488,60 +462,6 @@ def test_missing_file_and_folder_are_told_apart(tmp_path: Path) -> None:
     folder.mkdir()
     with pytest.raises(GeometryError, match="a folder"):
         read_mesh(folder)
-
-
-PENTAGON_AND_MORE = [[0, 3, 4], [0, 1, 2, 3], [0, 1, 2, 3, 4]]
-"""Polygons of three lengths."""
-
-
-def polygon_ply(order: str, faces: list[list[int]], extra: bool = False) -> bytes:
-    """A PLY file of five points, ascii or binary; with `extra` properties around the lists, and an element behind."""
-    around = ["property uchar flag\n", "property short mark\n"] if extra else ["", ""]
-    header = (
-        f"ply\nformat {order} 1.0\nelement vertex 5\n"
-        "property float x\nproperty float y\nproperty float z\n"
-        f"element face {len(faces)}\n{around[0]}property list ushort int vertex_indices\n{around[1]}"
-        + ("element rest 2\nproperty int number\n" if extra else "")
-        + "end_header\n"
-    )
-    points = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [-1, 0.5, 0]])
-    if order == "ascii":
-        rows = [*points.tolist(), *([len(face), *face] for face in faces)]
-        return (header + "".join(" ".join(map(str, row)) + "\n" for row in rows)).encode()
-    sign = "<" if "little" in order else ">"
-    data = points.astype(f"{sign}f4").tobytes()
-    for face in faces:
-        data += b"\7" if extra else b""
-        data += struct.pack(f"{sign}H{len(face)}i", len(face), *face) + (b"\7\7" if extra else b"")
-    return header.encode() + data + (b"\0" * 8 if extra else b"")
-
-
-@pytest.mark.parametrize("extra", [False, True])
-@pytest.mark.parametrize("order", ["binary_little_endian", "binary_big_endian"])
-def test_binary_ply_of_mixed_polygons_is_cut_into_fans(
-    tmp_path: Path, order: str, extra: bool
-) -> None:
-    mesh = read_mesh(saved(tmp_path, "mixed.ply", polygon_ply(order, PENTAGON_AND_MORE, extra)))
-    fans = [[0, 3, 4], [0, 1, 2], [0, 2, 3], [0, 1, 2], [0, 2, 3], [0, 3, 4]]
-    assert mesh.triangles.tolist() == fans
-    assert mesh.vertices[4].tolist() == [-1, 0.5, 0]
-
-
-def test_ascii_ply_of_mixed_polygons_has_the_same_triangles(tmp_path: Path) -> None:
-    mesh = read_mesh(saved(tmp_path, "mixed.ply", polygon_ply("ascii", PENTAGON_AND_MORE[:2])))
-    assert {frozenset(corners) for corners in mesh.triangles.tolist()} == {
-        frozenset(corners) for corners in ([0, 3, 4], [0, 1, 2], [0, 2, 3])
-    }
-
-
-@pytest.mark.parametrize("change", [lambda data: data + b"\0" * 4, lambda data: data[:-4]])
-def test_mixed_polygons_of_another_length_than_the_file_are_refused(
-    tmp_path: Path, change: Callable[[bytes], bytes]
-) -> None:
-    """Padded, it has the length of two quads."""
-    data = change(polygon_ply("binary_little_endian", [[0, 1, 2, 3], [0, 1, 2]]))
-    with pytest.raises(GeometryError, match=r"unexpected length|differ in length"):
-        read_mesh(saved(tmp_path, "mixed.ply", data))
 
 
 def test_trimesh_is_not_imported_before_a_file_is_read() -> None:

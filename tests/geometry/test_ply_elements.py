@@ -16,7 +16,15 @@ from course.errors import GeometryError
 from course.formats.meshes.files import read_mesh
 
 ORDERS = ("ascii", "binary_little_endian", "binary_big_endian")
-CODES = {"char": "b", "uchar": "B", "ushort": "H", "int": "i", "uint": "I", "float": "f"}
+CODES = {
+    "char": "b",
+    "uchar": "B",
+    "short": "h",
+    "ushort": "H",
+    "int": "i",
+    "uint": "I",
+    "float": "f",
+}
 
 SQUARE = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0))
 XYZ = ("float x", "float y", "float z")
@@ -121,6 +129,19 @@ READ: dict[str, Case] = {
         (VERTICES, faces([CORNERS, UV], [QUAD, UV4], [OTHER, UV3B])),
         [*FANNED, FANNED[1]],
         [*FANNED, TWO[1]],
+    ),
+    "polygons of three lengths among more": (
+        (
+            VERTICES,
+            faces(
+                ["uchar flag", CORNERS, "short mark"],
+                [7, TRIANGLE, 8],
+                [7, QUAD, 8],
+                [7, (*QUAD, 1), 8],
+            ),
+        ),
+        [FANNED[0], *FANNED, *FANNED, [0, 0, 0, 1, 1, 0]],
+        None,
     ),
     "one face with another list": ((VERTICES, faces([CORNERS, JUNK], [TRIANGLE, (5,)])), ONE, None),
     "another list before": ((VERTICES, faces([JUNK, CORNERS], [(5, 6), TRIANGLE])), ONE, None),
