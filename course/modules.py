@@ -1,54 +1,36 @@
 """Every module of the course, and the functions that students write in it."""
 
-from __future__ import annotations
 
-MODULES: dict[str, tuple[str, ...]] = {
-    "supersampling": ("regular", "random", "jittered", "gaussian_weights", "resolve"),
-    "soft_shadows": (
-        "light_grid",
-        "point_on_rectangle",
-        "point_on_sphere",
-        "point_in_ball",
-        "point_on_facing_disk",
-    ),
-    "glossy": (
-        "orthonormal_basis",
-        "jitter_on_plane",
-        "jitter_in_ball",
-        "sample_phong_lobe",
-        "keep_above",
-    ),
-    "thin_lens": ("point_on_disk", "lens_rays", "image_distance", "circle_of_confusion"),
-    "motion_blur": ("shutter_times", "displacement", "to_object_space"),
-    "cube_map": ("face_and_uv", "lookup", "lookup_seamless"),
-}
+def _named(functions: dict[str, str]) -> dict[str, tuple[str, ...]]:
+    return {module: tuple(names.split()) for module, names in functions.items()}
+
+
+MODULES = _named(
+    {
+        "supersampling": "regular random jittered gaussian_weights resolve",
+        "soft_shadows": "light_grid point_on_rectangle point_on_sphere point_in_ball point_on_facing_disk",
+        "glossy": "orthonormal_basis jitter_on_plane jitter_in_ball sample_phong_lobe keep_above",
+        "thin_lens": "point_on_disk lens_rays image_distance circle_of_confusion",
+        "motion_blur": "shutter_times displacement to_object_space",
+        "cube_map": "face_and_uv lookup lookup_seamless",
+    }
+)
 """The six core modules and their functions, in the course's order."""
 
-FURTHER: dict[str, tuple[str, ...]] = {
-    "sampling": (
-        "disk_by_rejection",
-        "disk_by_polar",
-        "ball_by_rejection",
-        "ball_by_polar",
-        "sphere_by_polar",
-        "xorshift32",
-    ),
-    "importance_sampling": (
-        "uniform_hemisphere",
-        "cosine_hemisphere",
-        "cosine_hemisphere_pdf",
-        "phong_lobe_pdf",
-        "estimate",
-        "power_heuristic",
-    ),
-    "blurred_transparency": ("refract", "jitter_refraction", "fresnel"),
-    "adaptive_sampling": ("needs_subdivision", "subdivide"),
-    "textures": ("rectangle_uv", "sphere_uv", "triangle_uv", "texture_lookup"),
-    "bounding_volumes": ("slab_test", "build", "traverse"),
-    "quasi_monte_carlo": ("radical_inverse", "halton", "hammersley", "chain"),
-    "path_tracing": ("diffuse_bounce", "throughput", "russian_roulette"),
-    "radiosity": ("hemicube_form_factors", "gather", "shoot", "needs_split"),
-}
+FURTHER = _named(
+    {
+        "sampling": "disk_by_rejection disk_by_polar ball_by_rejection ball_by_polar sphere_by_polar xorshift32",
+        "importance_sampling": "uniform_hemisphere cosine_hemisphere cosine_hemisphere_pdf phong_lobe_pdf estimate"
+        " power_heuristic",
+        "blurred_transparency": "refract jitter_refraction fresnel",
+        "adaptive_sampling": "needs_subdivision subdivide",
+        "textures": "rectangle_uv sphere_uv triangle_uv texture_lookup",
+        "bounding_volumes": "slab_test build traverse",
+        "quasi_monte_carlo": "radical_inverse halton hammersley chain",
+        "path_tracing": "diffuse_bounce throughput russian_roulette",
+        "radiosity": "hemicube_form_factors gather shoot needs_split",
+    }
+)
 """The other modules. The renderer calls the functions of both that are listed in ``course.contracts``."""
 
 COURSE = MODULES | FURTHER

@@ -60,7 +60,7 @@ def test_the_module_of_the_page_is_built_and_graded(tmp_path: Path) -> None:
     blocks = shown()
     names = blocks.pop("course/modules.py")
     effects = tmp_path / "course" / "modules.py"
-    further = "FURTHER: dict[str, tuple[str, ...]] = {\n"
+    further = "FURTHER = _named(\n    {\n"
     assert further in effects.read_text()
     effects.write_text(effects.read_text().replace(further, further + names))
     for path, code in blocks.items():

@@ -64,28 +64,16 @@ def six(**replaced: str) -> list[str]:
 def test_a_picture_that_cannot_be_read_is_told_by_its_key(
     told: Told, tmp_path: Path, kind: str, given: Callable[[str], dict[str, Any]], where: str
 ) -> None:
+    """What else pictures are refused for, and that nothing is printed, tests of reading them hold."""
     write(tmp_path / "good.exr", GOOD)
-    good = (tmp_path / "good.exr").read_bytes()
     dark = GOOD.copy()
     dark[1, 2, 0] = -0.5
     write(tmp_path / "negative.exr", dark)
-    dark[1, 2, 0] = math.nan
-    write(tmp_path / "nan.exr", dark)
-    (tmp_path / "cut.exr").write_bytes(good[:-20])
-    (tmp_path / "text.hdr").write_text("hello")
-    codes = np.full((4, 8, 4), 128)
-    (tmp_path / "cut.hdr").write_bytes(picture_files.radiance(codes)[:-3])
-    (tmp_path / "cut.png").write_bytes(picture_files.png(codes)[:-30])
-
-    def asked(file: str) -> str:
-        return told({"type": kind} | given(file))
-
-    pixel = "the pixel in column 2, row 1 is negative or not finite"
-    assert asked("none.png") == f"{where}none.png: no such file"
-    assert asked("negative.exr") == f"{where}negative.exr: {pixel}"
-    assert asked("nan.exr") == f"{where}nan.exr: {pixel}"
-    for file in ("cut.exr", "text.hdr", "cut.hdr", "cut.png"):
-        assert asked(file).startswith(f"{where}{file}: not a picture that can be read: ")
+    for file, said in (
+        ("none.png", "no such file"),
+        ("negative.exr", "the pixel in column 2, row 1 is negative or not finite"),
+    ):
+        assert told({"type": kind} | given(file)) == f"{where}{file}: {said}"
 
 
 @pytest.mark.parametrize(("height", "width"), [(4, 4), (4, 9), (8, 4), (3, 5), (1, 1)])
