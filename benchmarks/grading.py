@@ -13,8 +13,7 @@ from time import perf_counter
 from benchmarks.figures import Figure, summary
 from course.effects import PROJECT
 from course.grading.catalog import module_checks
-from course.grading.checks.check import Caller, Check, ModuleChecks
-from course.grading.checks.preparing import References
+from course.grading.checks.check import Caller, Check, ModuleChecks, References
 from course.grading.checks.result import Status
 from course.grading.checks.running import run_checks
 from course.grading.grading import grade

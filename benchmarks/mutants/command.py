@@ -30,11 +30,10 @@ from course.atomic import write_text
 from course.benchmarking.tables import NONE, Table
 from course.effects import PROJECT
 from course.grading.catalog import module_checks
-from course.grading.checks.preparing import prepared
 from course.grading.checks.result import Status
 from course.grading.checks.running import run_checks
 from course.grading.known import Known, known, trusted
-from course.grading.references import make_references, read_references, reference
+from course.grading.references import make_references, prepared, read_references, reference
 from course.grading.worker.client import Worker
 from course.grading.worker.limits import Limits
 from course.modules import COURSE

@@ -14,8 +14,7 @@ import numpy as np
 from course.effects import Effects
 from course.grading.catalog import module_checks
 from course.grading.checks.check import Array
-from course.grading.checks.declarations import declared_function
-from course.grading.checks.declare import Function
+from course.grading.checks.declare import Function, declared_function
 from course.grading.checks.result import Status
 from course.grading.checks.running import run_checks
 from course.grading.checks.trusted import TrustedModule

@@ -7,12 +7,10 @@ from dataclasses import dataclass, replace
 
 from benchmarks.mutants.severity import is_right_elsewhere, is_useless
 from course.grading.catalog import module_checks
-from course.grading.checks.check import Caller, Check
-from course.grading.checks.declarations import declared_function
-from course.grading.checks.preparing import References
+from course.grading.checks.check import SLIPS, Caller, Check, References
+from course.grading.checks.declare import declared_function
 from course.grading.checks.result import Result, Status
 from course.grading.checks.running import run_checks
-from course.grading.checks.slips import SLIPS
 from course.grading.known import Known, trusted
 from course.grading.references import reference
 from course.modules import COURSE

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from course.grading.checks.declarations import declared_function
+from course.grading.checks.declare import declared_function
 from course.grading.known import Known, known
 
 WRAPPED = '''

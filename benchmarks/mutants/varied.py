@@ -15,7 +15,7 @@ import numpy as np
 
 from course.grading.catalog import module_checks
 from course.grading.checks.check import Array, Caller, Trial
-from course.grading.checks.declarations import declared_function
+from course.grading.checks.declare import declared_function
 from course.grading.references import reference
 
 UNIT, WIDE = 2.1, 50.0

@@ -19,8 +19,7 @@ from course.effects import ASSIGNMENTS, CHECKOUT
 from course.errors import CourseError
 
 if TYPE_CHECKING:
-    from course.grading.checks.check import Check
-    from course.grading.checks.preparing import References
+    from course.grading.checks.check import Check, References
     from course.grading.checks.result import Result
     from course.grading.report import Report
 

@@ -17,12 +17,11 @@ from course import __version__
 from course.atomic import write_text
 from course.grading.catalog import module_checks
 from course.grading.checks.check import Caller, Check, ModuleChecks
-from course.grading.checks.preparing import prepared
 from course.grading.checks.running import run_checks
 from course.grading.known import Known, known, trusted
 from course.grading.pictures.judging import ssim
 from course.grading.pictures.whole import ALL, NAME, Together
-from course.grading.references import reference
+from course.grading.references import prepared, reference
 
 ROUNDING = 1e-4
 """1 - SSIM that a right picture may always have: float32 is rounded differently on other machines."""

@@ -11,8 +11,7 @@ from typing import Any
 
 from course import __version__
 from course.grading.catalog import module_checks, with_whole
-from course.grading.checks.check import Caller, Check
-from course.grading.checks.preparing import References
+from course.grading.checks.check import Caller, Check, References
 from course.grading.checks.result import Result, Status
 from course.grading.checks.running import Lenders, run_checks, unusable
 from course.grading.errors import StudentError

@@ -6,7 +6,7 @@ A student's copy has no solutions; ``course references`` writes there what the c
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from functools import cache
+from functools import cache, lru_cache
 from importlib.resources import as_file, files
 from pathlib import Path
 
@@ -16,8 +16,7 @@ from course.atomic import replacing
 from course.effects import PROJECT, Effects
 from course.errors import CourseError
 from course.grading.catalog import module_checks
-from course.grading.checks.check import Array, Caller, Check
-from course.grading.checks.preparing import References, prepared
+from course.grading.checks.check import Array, Caller, Check, References, generator
 from course.grading.checks.trusted import TrustedModule
 from course.grading.pictures.whole import ALL, NAME, Together
 from course.grading.report import USUAL_SEED
@@ -33,6 +32,24 @@ def reference(module: str) -> Caller:
     if module == NAME:
         return Together({name: reference(name) for name in ALL})
     return TrustedModule({name: effects.function(module, name) for name in COURSE[module]})
+
+
+KEPT = 32
+"""Checks of which a maker of references keeps the arrays; a module has fewer that need any."""
+
+
+def prepared(reference: Caller, seed: int) -> References:
+    """References made on the spot with the reference solution's module, once for each check; they are read-only."""
+
+    @lru_cache(maxsize=KEPT)
+    def make(module: str, check: Check) -> Mapping[str, Array]:
+        assert check.prepare is not None
+        arrays = check.prepare(reference, generator(seed, module, check))
+        for array in arrays.values():
+            array.setflags(write=False)
+        return arrays
+
+    return lambda module, check: {} if check.prepare is None else make(module, check)
 
 
 def make_references(modules: Iterable[str], seed: int, out: Path) -> int:

@@ -10,8 +10,7 @@ import pytest
 
 from course.contracts import CONTRACTS, contract
 from course.effects import PROJECT, Effects
-from course.grading.checks.declarations import declaration
-from course.grading.checks.declare import Function
+from course.grading.checks.declare import Function, declaration
 from course.grading.checks.drawing import Draw
 from course.guard import Guard
 

@@ -17,7 +17,7 @@ from course.cli.main import commands
 from course.contracts import CONTRACTS, contract
 from course.effects import PROJECT, Effects
 from course.errors import CourseWarning, FunctionError
-from course.grading.checks.declarations import declaration
+from course.grading.checks.declare import declaration
 from course.grading.checks.drawing import Draw
 from course.guard import Guard
 

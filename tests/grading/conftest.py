@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from course.grading.checks.preparing import References
+from course.grading.checks.check import References
 from course.grading.references import make_references, read_references
 from tests.once import Once
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from benchmarks.mutants.habits import HABITS, lost_by, written
-from course.grading.checks.declarations import declared_function
+from course.grading.checks.declare import declared_function
 from course.grading.checks.drawing import Draw
 from course.modules import COURSE
 

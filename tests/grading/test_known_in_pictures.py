@@ -10,8 +10,7 @@ import pytest
 
 from course.grading.calibration import trusted
 from course.grading.catalog import module_checks
-from course.grading.checks.check import ModuleChecks
-from course.grading.checks.preparing import References
+from course.grading.checks.check import ModuleChecks, References
 from course.grading.checks.result import Status
 from course.grading.checks.running import run_checks
 from course.grading.known import Known, known

@@ -13,8 +13,7 @@ import pytest
 
 from benchmarks.mutants.judging import Verdict, judge, matrix
 from course.grading.calibration import trusted
-from course.grading.checks.check import Check
-from course.grading.checks.preparing import References
+from course.grading.checks.check import Check, References
 from course.grading.known import Known, known
 from course.grading.references import reference
 from course.modules import COURSE

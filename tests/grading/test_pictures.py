@@ -9,8 +9,14 @@ import numpy as np
 import pytest
 
 from course.effects import PROJECT, Effects
-from course.grading.checks.check import Check, Failure, ModuleChecks, Trial
-from course.grading.checks.preparing import References, generator, prepared
+from course.grading.checks.check import (
+    Check,
+    Failure,
+    ModuleChecks,
+    References,
+    Trial,
+    generator,
+)
 from course.grading.checks.result import Result, Status
 from course.grading.checks.running import run_checks
 from course.grading.checks.trusted import TrustedModule
@@ -20,7 +26,7 @@ from course.grading.pictures.judging import BLOCKS, check_bias, ssim
 from course.grading.pictures.rendered import BIAS_REFERENCES, loaded, rendered
 from course.grading.pictures.scenes import moving
 from course.grading.pictures.whole import WHOLE, Together
-from course.grading.references import reference
+from course.grading.references import prepared, reference
 from course.modules import COURSE
 from course.scene.scene import Scene, load_scene
 

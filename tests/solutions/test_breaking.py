@@ -15,7 +15,7 @@ from course.grading.checks.drawing import Draw
 from course.grading.checks.trusted import TrustedModule
 from course.grading.errors import StudentError
 from tests.solutions.contract import SOLUTIONS
-from tests.solutions.test_conventions import MODULES
+from tests.solutions.test_conventions import DECLARED
 
 Solution = Callable[..., Any]
 
@@ -115,8 +115,8 @@ BROKEN = [
     pytest.param(
         module, function, law.name, break_, id=f"{module}.{function.name}-{break_.__name__}"
     )
-    for module, declared in MODULES.items()
-    for function in declared.functions
+    for module, declared in DECLARED.items()
+    for function in declared
     for law in conventions(function)
     for break_ in BREAKS[law.name]
     if has(function, break_)

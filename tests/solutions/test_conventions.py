@@ -5,7 +5,6 @@ from __future__ import annotations
 import inspect
 import math
 import re
-from importlib import import_module
 
 import numpy as np
 import pytest
@@ -13,17 +12,17 @@ import pytest
 from course.grading.catalog import module_checks
 from course.grading.checks.check import Array, Check, Trial
 from course.grading.checks.conventions import misshapen
-from course.grading.checks.declare import Argument, Arguments, Function
+from course.grading.checks.declare import Argument, Arguments, Function, declarations
 from course.grading.checks.drawing import Draw
 from course.grading.references import reference
 from course.modules import COURSE
 from tests.solutions.contract import SOLUTIONS
 
-MODULES = {name: import_module(f"course.grading.modules.{name}").MODULE for name in COURSE}
+DECLARED = {name: declarations(name) for name in COURSE}
 
 CHECKS = [
     pytest.param(name, check, id=f"{name}.{check.function}/{check.name}")
-    for name in MODULES
+    for name in DECLARED
     for check in module_checks(name).checks
     if check.kind not in ("picture", "bias", "speed")
 ]
@@ -45,14 +44,14 @@ def test_the_reference_keeps_its_declaration(module: str, check: Check) -> None:
 
 
 def test_what_chance_decides_here_fails_a_right_function_once_in_ten_thousand_at_most() -> None:
-    stated = sum(check.false_fail for name in MODULES for check in module_checks(name).checks)
+    stated = sum(check.false_fail for name in DECLARED for check in module_checks(name).checks)
     assert len(SEEDS) * stated < 1e-4
 
 
 ARGUMENTS = [
     pytest.param(name, function, argument, id=f"{name}.{function.name}-{argument.name}")
-    for name, module in MODULES.items()
-    for function in module.functions
+    for name, functions in DECLARED.items()
+    for function in functions
     for argument in function.arguments
     if argument.sizes
 ]
@@ -111,8 +110,8 @@ FUNCTIONS = pytest.mark.parametrize(
     ("module", "function"),
     [
         pytest.param(name, function, id=f"{name}.{function.name}")
-        for name, module in MODULES.items()
-        for function in module.functions
+        for name, functions in DECLARED.items()
+        for function in functions
     ],
 )
 
@@ -154,8 +153,8 @@ _MESSAGE = re.compile(r"(?P<who>.+) must (be|have) (?P<what>.+?)(, got (?P<came>
     ("module", "function", "argument"),
     [
         pytest.param(name, function, argument, id=f"{name}.{function.name}-{argument.name}")
-        for name, module in MODULES.items()
-        for function in module.functions
+        for name, functions in DECLARED.items()
+        for function in functions
         for argument in function.arguments
         if argument.wrong
     ],

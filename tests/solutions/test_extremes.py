@@ -15,7 +15,7 @@ from course.grading.checks.drawing import Draw
 from course.grading.checks.laws import DTYPES
 from course.grading.references import reference
 from tests.solutions.contract import assert_unit, worst_units
-from tests.solutions.test_conventions import FUNCTIONS, MODULES
+from tests.solutions.test_conventions import DECLARED, FUNCTIONS
 
 PRECISE = 1e-14
 """Takes the place of single precision's epsilon where all is computed in double precision."""
@@ -37,8 +37,8 @@ INEXACT = {
 
 LAWS = [
     pytest.param(name, function, law, id=f"{name}.{function.name}/{law.name}")
-    for name, module in MODULES.items()
-    for function in module.functions
+    for name, functions in DECLARED.items()
+    for function in functions
     for law in function.laws
     if law.kind == "property" and f"{function.name}/{law.name}" not in INEXACT
 ]

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal, Protocol
+from zlib import crc32
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,6 +37,20 @@ class Figure:
     arrays: Mapping[str, Array]
 
 
+SLIPS = {
+    "writes-to-arguments": "An array that was handed in holds other numbers after the call: "
+    "the function works in the caller's memory.",
+    "global-random-state": "NumPy's global random state is another one after the call, "
+    "and so are the numbers of everybody who uses it.",
+    "other-dtype": "The values may be right; the result has another dtype than was agreed for these arguments.",
+    "not-refused": "Arguments that can't be right give a result, and so a wrong picture that nobody is told of.",
+    "not-by-its-column": "A column's result hangs on more than its own arguments: "
+    "on other columns, on its place in the batch, or on numbers drawn elsewhere.",
+    "remembers-calls": "The same call gives another result the second time: something of the first is kept.",
+}
+"""Mistakes that a failure shows by itself, in whatever function, and what the student is told."""
+
+
 class Failure(Exception):  # noqa: N818 - it is no error of the program
     """A student's function is wrong.
 
@@ -44,7 +59,7 @@ class Failure(Exception):  # noqa: N818 - it is no error of the program
     expected, found : what should have come, and what came; short, with numbers
     where : the worst ray or pixel, with the arguments that show it
     hint : what to look at; never the code
-    slip : the name in ``slips.SLIPS`` of the mistake that the failure shows by itself, if it does
+    slip : the name in ``SLIPS`` of the mistake that the failure shows by itself, if it does
     """
 
     def __init__(
@@ -95,10 +110,6 @@ class Trial:
     def call(self, *arguments: Any, **named: Any) -> Any:
         """Call the function that the check is about."""
         return self.caller.call(self.function, *arguments, **named)
-
-    def uniform(self, rows: int, n: int, dtype: Any = np.float32) -> Array:
-        """Numbers u of a batch: (rows, n), independent, in [0, 1)."""
-        return self.rng.random((rows, n), dtype)
 
     def generator(self) -> np.random.Generator:
         """Numbers for one call: the student may get a copy of them, so no two calls share a generator."""
@@ -161,3 +172,15 @@ class ModuleChecks:
     named: Mapping[str, Callable[[Caller, Mapping[str, Array]], tuple[str, str] | None]] = field(
         default_factory=dict
     )
+
+
+# ---------------------------------------------------------------- what checks compare with
+
+References = Callable[[str, Check], Mapping[str, Array]]
+"""(module, check) -> the arrays that the check's ``prepare`` made."""
+
+
+def generator(seed: int, module: str, check: Check) -> np.random.Generator:
+    """The numbers of one check: its own, whatever other checks there are, and the same in every process."""
+    name = f"{module}.{check.function}/{check.name}"
+    return np.random.default_rng((seed, crc32(name.encode())))

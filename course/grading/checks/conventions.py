@@ -28,9 +28,8 @@ def conventions(function: Function) -> tuple[Law, ...]:
         ("refuses", "Wrong arguments raise ValueError", _refuses),
     ]
     if any(argument.sizes for argument in function.arguments):
-        found.append(
-            ("layouts", "Neither memory layout nor earlier calls change a result", _layouts)
-        )
+        title = "Neither memory layout nor earlier calls change a result"
+        found.append(("layouts", title, _layouts))
     if function.columns and any(argument.axis is not None for argument in function.arguments):
         found.append(("columns", "Each column depends on its own arguments alone", _columns))
     return tuple(Law(name, title, run, "convention", "contract") for name, title, run in found)
@@ -88,30 +87,27 @@ def _legal(function: Function, trial: Trial) -> Iterator[tuple[Arguments, str]]:
 
 def _untouched(function: Function, trial: Trial) -> None:
     for n in (3, 50):
-        _left_alone(function, trial, function.make(Draw(trial.rng, n, np.float32)))
-
-
-def _left_alone(function: Function, trial: Trial, a: Arguments) -> None:
-    before = deepcopy([_arrays(value) for value in a.values()])
-    _, after, moved = trial.caller.call_and_look(trial.function, *a.values())
-    for name, old, new in zip(a, before, after, strict=True):
-        pairs = zip(old, _arrays(new), strict=True)
-        if not all(np.array_equal(one, other, equal_nan=True) for one, other in pairs):
+        a = function.make(Draw(trial.rng, n, np.float32))
+        before = deepcopy([_arrays(value) for value in a.values()])
+        _, after, moved = trial.caller.call_and_look(trial.function, *a.values())
+        for name, old, new in zip(a, before, after, strict=True):
+            pairs = zip(old, _arrays(new), strict=True)
+            if not all(np.array_equal(one, other, equal_nan=True) for one, other in pairs):
+                raise Failure(
+                    f"{name} to be left as it was",
+                    "it has been written to",
+                    call(function.name, a),
+                    "Work on a copy.",
+                    slip="writes-to-arguments",
+                )
+        if moved:
             raise Failure(
-                f"{name} to be left as it was",
-                "it has been written to",
+                "NumPy's global random state to be left alone",
+                "the function seeds it or draws from it",
                 call(function.name, a),
-                "Work on a copy.",
-                slip="writes-to-arguments",
+                "The random numbers are given: u, or rng.",
+                slip="global-random-state",
             )
-    if moved:
-        raise Failure(
-            "NumPy's global random state to be left alone",
-            "the function seeds it or draws from it",
-            call(function.name, a),
-            "The random numbers are given: u, or rng.",
-            slip="global-random-state",
-        )
 
 
 def _arrays(value: Any) -> list[Array]:
@@ -128,15 +124,10 @@ def _refuses(function: Function, trial: Trial) -> None:
         a = function.make(Draw(trial.rng, 4, np.float32))
         for wrong in (*misshapen(function, argument, a[argument.name]), *argument.wrong):
             shown = f"of shape {np.shape(wrong)}" if isinstance(wrong, np.ndarray) else f"{wrong!r}"
+            together = {argument.name: wrong}
             if isinstance(wrong, dict):
-                # Arguments that are wrong together.
-                given, shown = (
-                    Arguments(a | wrong),
-                    ", ".join(f"{k} = {v}" for k, v in wrong.items()),
-                )
-            else:
-                given = Arguments(a | {argument.name: wrong})
-            _refused(function, trial, given, f"{argument.name} {shown}")
+                together, shown = wrong, ", ".join(f"{k} = {v}" for k, v in wrong.items())
+            _refused(function, trial, Arguments(a | together), f"{argument.name} {shown}")
 
 
 def _refused(function: Function, trial: Trial, a: Arguments, shown: str) -> None:
@@ -224,12 +215,10 @@ def frozen(array: Array) -> Array:
     return copy
 
 
-def _again(array: Array) -> Array:
-    return array
-
+AGAIN = "the same again"
 
 LAYOUTS: dict[str, Callable[[Array], Array]] = {
-    "the same again": _again,
+    AGAIN: lambda array: array,
     "Fortran's order": np.asfortranarray,
     "every third number of a larger array": scattered,
     "arrays that can't be written to": frozen,
@@ -241,7 +230,7 @@ def _layouts(function: Function, trial: Trial) -> None:
     expected = _parts(function.call(trial, made))
     for name, layout in LAYOUTS.items():
         a = Arguments({key: _laid(value, layout) for key, value in made.items()})
-        slip = "remembers-calls" if layout is _again else ""
+        slip = "remembers-calls" if name == AGAIN else ""
         _same(_parts(function.call(trial, a)), expected, made, f"the result for {name}", slip)
 
 

@@ -13,6 +13,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from copy import deepcopy
 from dataclasses import dataclass
+from functools import cache
+from importlib import import_module
 from math import gcd
 from typing import Any
 
@@ -21,6 +23,7 @@ import numpy as np
 from course.contracts import CONTRACTS, Result, parsed
 from course.grading.checks.check import Array, Failure, Kind, Role, Trial
 from course.grading.checks.drawing import Draw, worst_directions, worst_units
+from course.modules import COURSE
 
 COLUMNS = "N"
 
@@ -34,6 +37,9 @@ class Arguments(dict[str, Any]):
         except KeyError:
             raise AttributeError(name) from None
 
+
+WHOLE = 40.0
+"""Weight of a law that says all of a function's values: pictures, of weight 2, miss much that leaves it of no use."""
 
 Case = Callable[[Draw], Mapping[str, Any]]
 """Legal arguments; those that it leaves out are made as they are declared."""
@@ -340,17 +346,9 @@ def function(
     return Function(path.partition(".")[2], tuple(arguments), held.results, laws, **how)
 
 
-@dataclass(frozen=True)
-class Module:
-    """A module of the course."""
-
-    name: str
-    functions: tuple[Function, ...]
-
-
-def unstacked(value: Any, count: int | None) -> Any:
+def unstacked(value: Any, count: int) -> Any:
     """Several results that were handed back as one array, as a tuple; whatever else came as it is."""
-    if count is not None and count > 1 and isinstance(value, np.ndarray) and value.ndim:
+    if count > 1 and isinstance(value, np.ndarray) and value.ndim:
         return tuple(value) if len(value) == count else value
     return value
 
@@ -415,3 +413,27 @@ def _number(value: Any, result: Result) -> Any:
     ):
         raise Failure(f"{result.name} to be a number", described(value))
     return np.asarray(value)
+
+
+# ---------------------------------------------------------------- where declarations are found
+
+
+@cache
+def declarations(module: str) -> tuple[Function, ...]:
+    """Those of a module's functions; empty for what is no module of the course."""
+    if module not in COURSE:
+        return ()
+    declared: tuple[Function, ...] = import_module(f"course.grading.modules.{module}").FUNCTIONS
+    return declared
+
+
+def declaration(module: str, name: str) -> Function | None:
+    """That of one function; None where there is none."""
+    return next((function for function in declarations(module) if function.name == name), None)
+
+
+def declared_function(module: str, name: str) -> Function:
+    """That of a function of the course."""
+    found = declaration(module, name)
+    assert found is not None, f"{module}.{name}"
+    return found

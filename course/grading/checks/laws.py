@@ -13,10 +13,9 @@ from typing import Any
 import numpy as np
 
 from course.grading.checks.check import Failure, Kind, Role, Trial
-from course.grading.checks.declare import Arguments, Case, Function, Law
+from course.grading.checks.declare import WHOLE, Arguments, Case, Function, Law
 from course.grading.checks.drawing import Draw
 from course.grading.checks.examples import call, example, where
-from course.grading.checks.weights import WHOLE
 
 EPSILON = float(np.finfo(np.float32).eps)
 """Of single precision: nothing is asked to be more exact, whatever dtype it has."""

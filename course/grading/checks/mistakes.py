@@ -23,11 +23,10 @@ from unittest.mock import patch
 
 import numpy as np
 
-from course.grading.checks.check import Array, Caller, Check, Trial
+from course.grading.checks.check import SLIPS, Array, Caller, Check, Trial
 from course.grading.checks.declare import Arguments, Function
 from course.grading.checks.drawing import Draw
 from course.grading.checks.laws import exact
-from course.grading.checks.slips import SLIPS
 from course.grading.errors import StudentError
 from course.grading.known import Known, known, trusted
 from course.grading.modules.generators import drawn

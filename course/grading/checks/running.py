@@ -18,14 +18,21 @@ from typing import Any
 
 import numpy as np
 
-from course.grading.checks.check import Array, Caller, Check, Failure, ModuleChecks, Trial
-from course.grading.checks.declarations import declaration
-from course.grading.checks.declare import Arguments, Function, unstacked
+from course.grading.checks.check import (
+    SLIPS,
+    Array,
+    Caller,
+    Check,
+    Failure,
+    ModuleChecks,
+    References,
+    Trial,
+    generator,
+)
+from course.grading.checks.declare import Arguments, Function, declaration, unstacked
 from course.grading.checks.examples import where
 from course.grading.checks.mistakes import explains
-from course.grading.checks.preparing import References, generator
 from course.grading.checks.result import NOT_WRITTEN, Result, Status, broken, result_of, troubled
-from course.grading.checks.slips import SLIPS
 from course.grading.errors import StudentError
 from course.grading.worker.limits import NOT_RUN
 from course.grading.worker.wording import said, told
@@ -61,9 +68,7 @@ def run_checks(
     by_cause: dict[tuple[str, str], str] = {}
     wrong: dict[str, None] = {}
     attempt = partial(_attempt, checks.module, references=references, seed=seed, standard=standard)
-    for check in checks.checks:
-        if only is not None and not only(check):
-            continue
+    for check in filter(only, checks.checks):
         if check.function in given_up:
             # What ran out of time isn't waited for again; and a stub must not earn the checks of its arguments, which
             # it came with.
@@ -103,11 +108,10 @@ def unusable(
 ) -> Iterator[Result]:
     """Results where no function of the module can be called: none passes, and the first says why in full."""
     first = ""
-    for check in checks.checks:
-        if only is None or only(check):
-            result = replace(troubled(checks.module, check, error), expected="", module_wide=True)
-            yield replace(result, where="", same_as=first) if first else result
-            first = first or result.id
+    for check in filter(only, checks.checks):
+        result = replace(troubled(checks.module, check, error), expected="", module_wide=True)
+        yield replace(result, where="", same_as=first) if first else result
+        first = first or result.id
 
 
 STANDS_ON = "Right by itself: the check passes when the functions above it, which this one calls, are the course's own."
@@ -145,26 +149,27 @@ def _asked(
     -------
     what it gave, the error where there was one, and with which functions
     """
-    lender = lenders(check.function) if lent_first else None
-    lent: _Outcome | None = None
-    if lender is not None:
-        lent = attempt(check, lender, yardstick=None)
-        if lent[0].status is Status.PASSED:
-            return replace(lent[0], hint=STANDS_ON), None, lender
+
+    def with_reference() -> tuple[Result, StudentError | None, Caller] | None:
+        lender = lenders(check.function)
+        if lender is None:
+            return None
+        result, error = attempt(check, lender, yardstick=None)
+        hint = STANDS_ON if result.status is Status.PASSED else result.hint
+        return replace(result, hint=hint), error, lender
+
+    lent = with_reference() if lent_first else None
+    if lent and lent[0].status is Status.PASSED:
+        return lent
     result, error = attempt(check, caller, yardstick=yardstick)
     # What isn't in the file, or is in a file that can't be used, is nobody else's mistake.
     alone = error is not None and (error.kind == "missing" or error.module_wide)
-    if result.status in (Status.PASSED, Status.GRADER_ERROR) or alone:
-        return result, error, caller
-    if lent is None:
-        lender = lenders(check.function)
-        if lender is not None:
-            lent = attempt(check, lender, yardstick=None)
-            if lent[0].status is Status.PASSED:
-                return replace(lent[0], hint=STANDS_ON), None, lender
-    elif lender is not None and result.status is Status.TIMEOUT:
+    if not alone and result.status not in (Status.PASSED, Status.GRADER_ERROR):
         # It may have waited for the function that never ends; what is wrong with it itself says more.
-        return *lent, lender
+        says_more = lent_first and result.status is Status.TIMEOUT
+        lent = lent or with_reference()
+        if lent and (says_more or lent[0].status is Status.PASSED):
+            return lent
     return result, error, caller
 
 
@@ -189,14 +194,8 @@ def _attempt(
             return _ended(module, check, trial, references)
         except Exception:  # noqa: BLE001 - what breaks a check must not end the grading of others
             how = traceback.format_exc()
-    try:
-        right = None if standard is None else standard()
-    except Exception:  # noqa: BLE001 - nobody to compare with
-        right = None
-    verdict = None
-    if right is not None:
-        verdict = _breaks(module, check, trial_of(Gate(module, right)), references)
-    result = broken(module, check, verdict, gate.last)
+    too = None if standard is None else _breaks(module, check, trial_of, standard, references)
+    result = broken(module, check, too, gate.last)
     return replace(result, figures=tuple(trial.figures), instructor=how), None
 
 
@@ -233,10 +232,20 @@ def _prepared(module: str, check: Check, references: References) -> Mapping[str,
         raise RuntimeError("the check's references can't be made") from error
 
 
-def _breaks(module: str, check: Check, trial: Trial, references: References) -> bool:
-    """Whether it breaks with these functions."""
+def _breaks(
+    module: str,
+    check: Check,
+    trial_of: Callable[[Caller], Trial],
+    standard: Standard,
+    references: References,
+) -> bool | None:
+    """Whether it breaks with the reference; None where that can't be made."""
     try:
-        _ended(module, check, trial, references)
+        right = standard()
+    except Exception:  # noqa: BLE001 - nobody to compare with
+        return None
+    try:
+        _ended(module, check, trial_of(Gate(module, right)), references)
     except Exception:  # noqa: BLE001 - in whatever way
         return True
     return False
@@ -308,11 +317,11 @@ class Gate:
         self, function: str, value: Any, arguments: tuple[Any, ...], named: dict[str, Any]
     ) -> Any:
         declared = declaration(*self._path(function).split(".", 1))
-        value = unstacked(value, len(declared.results) if declared else None)
+        count = len(declared.results) if declared else 0
+        value = unstacked(value, count)
         self._last = function, value, arguments, named
         if declared is None:
             return value
-        count = len(declared.results)
         several = isinstance(value, tuple | list)
         parts = value if several else (value,)
         wrong, remedy, example = "", "", ""
@@ -321,20 +330,14 @@ class Gate:
             wrong = f"{told(value)} instead of {wanted}"
             remedy = COMMA if count == 1 and len(parts) == 1 else ""
         else:
-            shapes = None if named else declared.shapes(arguments)
-            for part, result, shape in zip(
-                parts, declared.results, shapes or [None] * count, strict=True
-            ):
-                wrong = _wrong(part, shape, result.finite)
-                if wrong:
+            shapes = (None if named else declared.shapes(arguments)) or [None] * count
+            for part, result, shape in zip(parts, declared.results, shapes, strict=True):
+                if not wrong and (wrong := _wrong(part, shape, result.finite)):
                     example = _column(declared, part, arguments)
-                    break
         if wrong:
+            given = said(self._path(function), arguments, named)
             error = StudentError(
-                "bad value",
-                f"{function} returned {wrong}",
-                arguments=said(self._path(function), arguments, named),
-                remedy=remedy,
+                "bad value", f"{function} returned {wrong}", arguments=given, remedy=remedy
             )
             error.example = example
             raise error

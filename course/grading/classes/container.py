@@ -22,7 +22,7 @@ from course import __version__
 from course.atomic import replacing
 from course.errors import CourseError
 from course.grading.catalog import module_checks, with_whole
-from course.grading.checks.preparing import References
+from course.grading.checks.check import References
 from course.grading.checks.result import Result, Status, result_of
 from course.grading.classes.bundles import REFERENCES
 from course.grading.classes.job import troubled

@@ -13,7 +13,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from course import __version__
-from course.grading.checks.preparing import References
+from course.grading.checks.check import References
 from course.grading.classes.settings import Settings
 from course.grading.grading import grade
 from course.grading.references import read_references

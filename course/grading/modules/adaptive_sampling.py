@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from course.grading.checks.check import Array, Failure
-from course.grading.checks.declare import Arguments, Case, Law, Made, Module, function
+from course.grading.checks.declare import Arguments, Case, Law, Made, function
 from course.grading.checks.drawing import Draw
 from course.grading.checks.examples import where
 from course.grading.checks.laws import close, holds, law
@@ -296,4 +296,4 @@ SUBDIVIDE = function(
     case=_cells,
 )
 
-MODULE = Module("adaptive_sampling", (NEEDS_SUBDIVISION, SUBDIVIDE))
+FUNCTIONS = (NEEDS_SUBDIVISION, SUBDIVIDE)

@@ -14,7 +14,7 @@ import numpy as np
 
 from course.grading.checks import declare
 from course.grading.checks.check import Array, Trial
-from course.grading.checks.declare import Arguments, Case, Made, Module, function
+from course.grading.checks.declare import Arguments, Case, Made, function
 from course.grading.checks.drawing import Draw, worst_directions, worst_units
 from course.grading.checks.laws import close, holds, unit_length, within
 from course.grading.checks.vectors import cross, dot
@@ -347,4 +347,4 @@ FRESNEL = function(
     ),
 )
 
-MODULE = Module("blurred_transparency", (REFRACT, JITTER_REFRACTION, FRESNEL))
+FUNCTIONS = (REFRACT, JITTER_REFRACTION, FRESNEL)

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from course.grading.checks.check import Array, Failure
-from course.grading.checks.declare import Arguments, Case, Law, Made, Module, function
+from course.grading.checks.declare import Arguments, Case, Law, Made, function
 from course.grading.checks.drawing import Draw
 from course.grading.checks.laws import Look, close, holds, law
 from course.grading.checks.vectors import unit_vectors
@@ -286,4 +286,4 @@ BUILD = function(
     speed=2048,
 )
 
-MODULE = Module("bounding_volumes", (SLAB_TEST, BUILD, TRAVERSE))
+FUNCTIONS = (SLAB_TEST, BUILD, TRAVERSE)

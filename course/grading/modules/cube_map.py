@@ -9,7 +9,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from course.grading.checks.check import Array, Trial
-from course.grading.checks.declare import Arguments, Case, Function, Law, Made, Module, function
+from course.grading.checks.declare import Arguments, Case, Function, Law, Made, function
 from course.grading.checks.drawing import Draw, worst_directions
 from course.grading.checks.laws import close, holds, within
 
@@ -351,4 +351,4 @@ LOOKUP_SEAMLESS = _lookup(
     ),
 )
 
-MODULE = Module("cube_map", (FACE_AND_UV, LOOKUP, LOOKUP_SEAMLESS))
+FUNCTIONS = (FACE_AND_UV, LOOKUP, LOOKUP_SEAMLESS)

@@ -15,7 +15,7 @@ import numpy as np
 
 from course.grading.checks import declare, laws
 from course.grading.checks.check import Array
-from course.grading.checks.declare import Arguments, Case, Function, Law, Made, Module, function
+from course.grading.checks.declare import Arguments, Case, Function, Law, Made, function
 from course.grading.checks.distributions import uniform
 from course.grading.checks.drawing import Draw, worst_directions
 from course.grading.checks.evenness import evenly, smooth
@@ -356,6 +356,4 @@ KEEP_ABOVE = function(
     scales=(),
 )
 
-MODULE = Module(
-    "glossy", (ORTHONORMAL_BASIS, JITTER_ON_PLANE, JITTER_IN_BALL, SAMPLE_PHONG_LOBE, KEEP_ABOVE)
-)
+FUNCTIONS = (ORTHONORMAL_BASIS, JITTER_ON_PLANE, JITTER_IN_BALL, SAMPLE_PHONG_LOBE, KEEP_ABOVE)

@@ -16,7 +16,7 @@ import numpy as np
 
 from course.grading.checks import declare
 from course.grading.checks.check import Array, Failure, Trial
-from course.grading.checks.declare import Arguments, Function, Law, Made, Module, function, values
+from course.grading.checks.declare import Arguments, Function, Law, Made, function, values
 from course.grading.checks.distributions import FALSE_FAIL, MANY, SIGMAS, uniform
 from course.grading.checks.drawing import Draw
 from course.grading.checks.evenness import evenly, smooth
@@ -407,14 +407,11 @@ POWER_HEURISTIC = function(
     scales=ENDS,
 )
 
-MODULE = Module(
-    "importance_sampling",
-    (
-        _hemisphere("uniform_hemisphere", 0, "1 / (2 pi)"),
-        _hemisphere("cosine_hemisphere", 1, "cos / pi"),
-        _pdf("cosine_hemisphere_pdf"),
-        PHONG,
-        ESTIMATE,
-        POWER_HEURISTIC,
-    ),
+FUNCTIONS = (
+    _hemisphere("uniform_hemisphere", 0, "1 / (2 pi)"),
+    _hemisphere("cosine_hemisphere", 1, "cos / pi"),
+    _pdf("cosine_hemisphere_pdf"),
+    PHONG,
+    ESTIMATE,
+    POWER_HEURISTIC,
 )

@@ -11,7 +11,7 @@ import numpy as np
 
 from course.grading.checks import declare
 from course.grading.checks.check import Array, Trial
-from course.grading.checks.declare import Arguments, Made, Module, function
+from course.grading.checks.declare import Arguments, Made, function
 from course.grading.checks.drawing import Draw
 from course.grading.checks.evenness import evenly
 from course.grading.checks.laws import close
@@ -213,4 +213,4 @@ TO_OBJECT_SPACE = function(
     ),
 )
 
-MODULE = Module("motion_blur", (SHUTTER_TIMES, DISPLACEMENT, TO_OBJECT_SPACE))
+FUNCTIONS = (SHUTTER_TIMES, DISPLACEMENT, TO_OBJECT_SPACE)

@@ -15,7 +15,7 @@ import numpy as np
 
 from course.grading.checks import declare, laws
 from course.grading.checks.check import Array
-from course.grading.checks.declare import Arguments, Law, Made, Module, function
+from course.grading.checks.declare import Arguments, Law, Made, function
 from course.grading.checks.distributions import means, uniform
 from course.grading.checks.drawing import Draw, worst_directions, worst_units
 from course.grading.checks.evenness import evenly, smooth
@@ -271,4 +271,4 @@ RUSSIAN_ROULETTE = function(
     case=_games,
 )
 
-MODULE = Module("path_tracing", (DIFFUSE_BOUNCE, THROUGHPUT, RUSSIAN_ROULETTE))
+FUNCTIONS = (DIFFUSE_BOUNCE, THROUGHPUT, RUSSIAN_ROULETTE)

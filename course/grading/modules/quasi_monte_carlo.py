@@ -19,7 +19,6 @@ from course.grading.checks.declare import (
     Function,
     Law,
     Made,
-    Module,
     count,
     function,
 )
@@ -292,4 +291,4 @@ HAMMERSLEY = function(
     corners=(lambda _: {"n": 0, "dims": 1},),
 )
 
-MODULE = Module("quasi_monte_carlo", (RADICAL_INVERSE, HALTON, HAMMERSLEY, CHAIN))
+FUNCTIONS = (RADICAL_INVERSE, HALTON, HAMMERSLEY, CHAIN)

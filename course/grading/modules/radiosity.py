@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from course.grading.checks.check import Array, Failure
-from course.grading.checks.declare import Arguments, Case, Law, Made, Module, function
+from course.grading.checks.declare import Arguments, Case, Law, Made, function
 from course.grading.checks.drawing import Draw
 from course.grading.checks.examples import where
 from course.grading.checks.laws import close, holds, law
@@ -382,4 +382,4 @@ NEEDS_SPLIT = function(
     ),
 )
 
-MODULE = Module("radiosity", (HEMICUBE, GATHER, SHOOT, NEEDS_SPLIT))
+FUNCTIONS = (HEMICUBE, GATHER, SHOOT, NEEDS_SPLIT)

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.special import ndtri
 
 from course.grading.checks.check import Array, Failure, Trial
-from course.grading.checks.declare import Arguments, Function, Law, Made, Module, function
+from course.grading.checks.declare import Arguments, Function, Law, Made, function
 from course.grading.checks.distributions import FALSE_FAIL, MANY
 from course.grading.checks.drawing import Draw
 from course.grading.checks.laws import close, from_generator, holds, law
@@ -216,14 +216,11 @@ XORSHIFT = function(
     ),
 )
 
-MODULE = Module(
-    "sampling",
-    (
-        _by_rejection(DISK, 2),
-        unit_points("sampling.disk_by_polar", DISK),
-        _by_rejection(BALL, 3),
-        unit_points("sampling.ball_by_polar", BALL),
-        unit_points("sampling.sphere_by_polar", SPHERE),
-        XORSHIFT,
-    ),
+FUNCTIONS = (
+    _by_rejection(DISK, 2),
+    unit_points("sampling.disk_by_polar", DISK),
+    _by_rejection(BALL, 3),
+    unit_points("sampling.ball_by_polar", BALL),
+    unit_points("sampling.sphere_by_polar", SPHERE),
+    XORSHIFT,
 )

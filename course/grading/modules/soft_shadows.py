@@ -10,7 +10,7 @@ import numpy as np
 
 from course.grading.checks import declare
 from course.grading.checks.check import Array
-from course.grading.checks.declare import Arguments, Case, Function, Law, Made, Module, function
+from course.grading.checks.declare import Arguments, Case, Function, Law, Made, function
 from course.grading.checks.distributions import uniform
 from course.grading.checks.drawing import Draw
 from course.grading.checks.evenness import evenly
@@ -289,13 +289,10 @@ POINT_ON_FACING_DISK = function(
     ),
 )
 
-MODULE = Module(
-    "soft_shadows",
-    (
-        LIGHT_GRID,
-        POINT_ON_RECTANGLE,
-        _light("point_on_sphere", round_shapes.SPHERE),
-        _light("point_in_ball", round_shapes.BALL),
-        POINT_ON_FACING_DISK,
-    ),
+FUNCTIONS = (
+    LIGHT_GRID,
+    POINT_ON_RECTANGLE,
+    _light("point_on_sphere", round_shapes.SPHERE),
+    _light("point_in_ball", round_shapes.BALL),
+    POINT_ON_FACING_DISK,
 )

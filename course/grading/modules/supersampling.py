@@ -15,7 +15,6 @@ from course.grading.checks.declare import (
     Function,
     Law,
     Made,
-    Module,
     count,
     function,
     number,
@@ -432,4 +431,4 @@ RESOLVE = function(
     speed=1024,
 )
 
-MODULE = Module("supersampling", (REGULAR, RANDOM, JITTERED, GAUSSIAN_WEIGHTS, RESOLVE))
+FUNCTIONS = (REGULAR, RANDOM, JITTERED, GAUSSIAN_WEIGHTS, RESOLVE)

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from course.grading.checks.check import Array, Trial
-from course.grading.checks.declare import Arguments, Case, Made, Module, function
+from course.grading.checks.declare import Arguments, Case, Made, function
 from course.grading.checks.drawing import Draw
 from course.grading.checks.laws import close, within
 
@@ -401,4 +401,4 @@ TEXTURE_LOOKUP = function(
     ),
 )
 
-MODULE = Module("textures", (RECTANGLE_UV, SPHERE_UV, TRIANGLE_UV, TEXTURE_LOOKUP))
+FUNCTIONS = (RECTANGLE_UV, SPHERE_UV, TRIANGLE_UV, TEXTURE_LOOKUP)

@@ -11,7 +11,7 @@ import numpy as np
 
 from course.grading.checks import declare
 from course.grading.checks.check import Array
-from course.grading.checks.declare import Arguments, Case, Made, Module, function
+from course.grading.checks.declare import Arguments, Case, Made, function
 from course.grading.checks.drawing import Draw
 from course.grading.checks.laws import close, unit_length
 from course.grading.checks.vectors import dot, normalized
@@ -266,4 +266,4 @@ CIRCLE_OF_CONFUSION = function(
     case=_depths(0.2, 5),
 )
 
-MODULE = Module("thin_lens", (POINT_ON_DISK, LENS_RAYS, IMAGE_DISTANCE, CIRCLE_OF_CONFUSION))
+FUNCTIONS = (POINT_ON_DISK, LENS_RAYS, IMAGE_DISTANCE, CIRCLE_OF_CONFUSION)

@@ -13,9 +13,7 @@ from typing import Any
 import numpy as np
 
 from course.grading.checks.check import Array, Caller
-from course.grading.checks.declarations import declared_function
-from course.grading.checks.declare import unstacked
-from course.grading.errors import StudentError
+from course.grading.checks.declare import declared_function
 
 
 def _mean(radiance: Array, weights: Array) -> Array:
@@ -112,9 +110,8 @@ class Stage:
     def function(self, module: str, name: str) -> Callable[..., Any]:
         """The function that the picture is to be made with."""
         if (module, name) == (self._own, self._only):
-            return lambda *arguments: usable(
-                f"{module}.{name}", self._caller.call(name, *arguments), arguments
-            )
+            path = f"{module}.{name}"
+            return lambda *arguments: usable(path, self._caller.call(name, *arguments))
         stand_in = STAND_INS.get(f"{module}.{name}")
         if stand_in is not None:
             return stand_in
@@ -148,54 +145,24 @@ LARGEST = 1e12
 """Beyond any number in the grader's scenes; the engine can square it in float32."""
 
 
-def usable(function: str, value: Any, arguments: tuple[Any, ...]) -> Any:
+def usable(function: str, value: Any) -> Any:
     """A student's value as the engine may use it: its own copy, in float32, no number larger than LARGEST; or bool.
 
-    A wrong dtype costs where it is checked; here it is made harmless. Shapes are those that the engine counts on, so
-    that a wrong one is the student's trouble and not the renderer's.
-
-    Raises
-    ------
-    StudentError
-        It isn't arrays of finite numbers of the shapes that the contract says.
+    The gate has seen that it is arrays of finite numbers of the right shapes (`course/grading/checks/running.py`). A
+    wrong dtype costs where it is checked; here it is made harmless.
     """
-    declared = declared_function(*function.split("."))
-    shapes = declared.shapes(arguments)
-    assert shapes is not None
-    value = unstacked(value, len(shapes))
-    # What a worker sends is a tuple; a function that is called here may return a list as well.
-    several = isinstance(value, tuple | list)
-    parts = value if several else (value,)
-    if several != (len(shapes) > 1) or [*map(_shape, parts)] != [*shapes]:
-        wanted = " and ".join(map(str, shapes))
-        raise StudentError("bad value", f"{function} returned {_told(value)} instead of {wanted}")
-    if not all(np.isfinite(part).all() for part in parts):
-        raise StudentError("bad value", f"{function} returned numbers that are not finite")
+    results = declared_function(*function.split(".")).results
+    parts = value if len(results) > 1 else (value,)
     arrays = tuple(
-        part.astype(bool, order="C")
+        np.array(part, bool)
         if result.dtype is np.bool_
         else np.clip(_wide(part), -LARGEST, LARGEST).astype(np.float32, order="C")
-        for result, part in zip(declared.results, parts, strict=True)
+        for result, part in zip(results, parts, strict=True)
     )
-    return arrays if several else arrays[0]
-
-
-def _shape(part: Any) -> tuple[int, ...] | None:
-    """Of an array of numbers; None for anything else."""
-    return part.shape if type(part) is np.ndarray and part.dtype.kind in "fiub" else None
+    return arrays if len(results) > 1 else arrays[0]
 
 
 def _wide(part: Array) -> Array:
     """The array, of a dtype that holds LARGEST."""
     holds = part.dtype.kind == "f" and part.dtype.itemsize >= 4
     return part if holds else part.astype(np.float64)
-
-
-def _told(value: Any) -> str:
-    if isinstance(value, tuple | list):
-        return "(" + ", ".join(map(_told, value)) + ")"
-    return (
-        f"an array of shape {value.shape} and dtype {value.dtype}"
-        if isinstance(value, np.ndarray)
-        else f"a {type(value).__name__}"
-    )

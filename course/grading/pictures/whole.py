@@ -52,7 +52,7 @@ def _all_of(caller: Caller) -> Find:
 
     def find(module: str, name: str) -> Callable[..., Any]:
         path = f"{module}.{name}"
-        return lambda *arguments: usable(path, caller.call(path, *arguments), arguments)
+        return lambda *arguments: usable(path, caller.call(path, *arguments))
 
     return find
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from course.grading.checks.declarations import declaration
+from course.grading.checks.declare import declaration
 from course.grading.errors import StudentError, Trouble, meant
 from course.grading.worker.framing import LARGEST_INTEGER, Passed
 from course.modules import COURSE

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from course.grading.catalog import module_checks
-from course.grading.checks.preparing import prepared
 from course.grading.checks.result import Result, Status
 from course.grading.checks.running import BEGIN, run_checks
-from course.grading.references import reference
+from course.grading.references import prepared, reference
 from course.grading.worker.client import Worker
 
 SOURCE = """

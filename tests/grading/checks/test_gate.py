@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 
 from course.grading.catalog import module_checks
-from course.grading.checks.check import Caller, Check, ModuleChecks
-from course.grading.checks.preparing import References
+from course.grading.checks.check import Caller, Check, ModuleChecks, References
 from course.grading.checks.result import Status
 from course.grading.checks.running import Gate, run_checks
 from course.grading.checks.trusted import TrustedModule

@@ -9,12 +9,20 @@ from typing import Any
 import numpy as np
 import pytest
 
-from course.grading.checks.check import Array, Caller, Check, Failure, ModuleChecks, Trial
-from course.grading.checks.preparing import KEPT, generator, prepared
+from course.grading.checks.check import (
+    Array,
+    Caller,
+    Check,
+    Failure,
+    ModuleChecks,
+    Trial,
+    generator,
+)
 from course.grading.checks.result import Result, Status
 from course.grading.checks.running import run_checks
 from course.grading.checks.trusted import TrustedModule
 from course.grading.errors import StudentError
+from course.grading.references import KEPT, prepared
 
 MODULE = TrustedModule({"it": lambda: 1})
 

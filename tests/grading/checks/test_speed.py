@@ -7,10 +7,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from course.grading.catalog import module_checks
-from course.grading.checks.building import ROUNDS
-from course.grading.checks.check import Check, Trial
-from course.grading.checks.preparing import generator
+from course.grading.catalog import ROUNDS, module_checks
+from course.grading.checks.check import Check, Trial, generator
 from course.grading.checks.trusted import TrustedModule
 from course.grading.errors import StudentError
 from course.grading.references import reference

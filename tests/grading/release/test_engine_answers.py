@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from course.grading.checks.preparing import References
+from course.grading.checks.check import References
 from course.grading.grading import grade
 from course.grading.references import references
 from course.grading.release.archive import FOLDERS

@@ -13,13 +13,12 @@ import numpy as np
 import pytest
 
 from course.grading.catalog import module_checks
-from course.grading.checks.preparing import prepared
 from course.grading.checks.result import Result
 from course.grading.checks.running import run_checks
 from course.grading.checks.trusted import TrustedModule
 from course.grading.classes.policy import Mark
 from course.grading.classes.roster import Matched
-from course.grading.references import reference
+from course.grading.references import prepared, reference
 from course.grading.report import Report, docs_page, reproduce
 from course.grading.reports.classes import Line, write_class_page
 from course.grading.reports.page import as_page

@@ -13,8 +13,7 @@ import pytest
 
 from course.effects import PROJECT
 from course.grading import grading
-from course.grading.checks.check import Check
-from course.grading.checks.preparing import References
+from course.grading.checks.check import Check, References
 from course.grading.checks.result import Result, Status
 from course.grading.checks.running import OUT_OF_TIME
 from course.grading.errors import StudentError

@@ -14,8 +14,7 @@ import psutil
 import pytest
 
 from course.effects import PROJECT
-from course.grading.checks.check import Check
-from course.grading.checks.preparing import References
+from course.grading.checks.check import Check, References
 from course.grading.checks.result import Status
 from course.grading.checks.trusted import TrustedModule
 from course.grading.errors import StudentError

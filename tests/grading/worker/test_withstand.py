@@ -18,8 +18,7 @@ import pytest
 
 from course.effects import PROJECT
 from course.grading.catalog import module_checks
-from course.grading.checks.check import Check
-from course.grading.checks.preparing import References
+from course.grading.checks.check import Check, References
 from course.grading.checks.result import Status
 from course.grading.grading import grade
 from course.grading.references import references
@@ -304,7 +303,7 @@ def test_a_hidden_seed_needs_no_new_code() -> None:
 
 
 def test_checks_draw_the_same_numbers_whoever_is_graded() -> None:
-    from course.grading.checks.preparing import generator
+    from course.grading.checks.check import generator
 
     check = module_checks(MODULE).checks[0]
     assert np.array_equal(
