@@ -6,6 +6,7 @@ function of it is asked for. A scene that doesn't use an effect never imports it
 
 from __future__ import annotations
 
+import ast
 import os
 import sys
 from collections.abc import Callable, Iterable
@@ -53,7 +54,8 @@ class Effects:
 
     Parameters
     ----------
-    folder : where the modules are; ``solutions`` and ``assignments`` mean the project's own folders. None means the
+    folder : where the modules are; ``solutions`` and ``assignments`` mean the project's own folders, and ``mine`` means
+        the assignments, with the solution's function in the place of each that is not written. None means the
         solutions where they are, and else the assignments.
     trusted : whether what the functions return is taken as it is; None means the project's own solutions, and no others
     """
@@ -63,6 +65,11 @@ class Effects:
             # A student's copy has no solutions.
             folder = "solutions" if (PROJECT / "solutions").is_dir() else "assignments"
         path = Path(folder)
+        self._rest: Effects | None = None
+        if str(folder) == "mine" and not path.is_dir():
+            folder, path = "assignments", Path("assignments")
+            if (PROJECT / "solutions").is_dir():
+                self._rest = Effects("solutions")
         if str(folder) in ("solutions", "assignments") and not path.is_dir():
             path = PROJECT / path
         if str(folder) == "assignments" and not path.is_dir() and not CHECKOUT:
@@ -74,8 +81,21 @@ class Effects:
             )
         self.folder = path
         self.trusted = path.resolve() == PROJECT / "solutions" if trusted is None else trusted
+        self._written: dict[str, frozenset[str]] = {}
         self._functions: dict[tuple[str, str], Callable[..., Any]] = {}
         self._modules: dict[str, ModuleType] = {}
+
+    @property
+    def mixed(self) -> bool:
+        """True if functions that are not written are replaced by those of the solutions."""
+        return self._rest is not None
+
+    def written(self, module: str, name: str) -> bool:
+        """True if the folder has the function, and its last word isn't that it is not written yet."""
+        if module not in self._written:
+            file = self.folder / f"{module}.py"
+            self._written[module] = written_functions(file) if file.is_file() else frozenset()
+        return name in self._written[module]
 
     @property
     def imported(self) -> tuple[str, ...]:
@@ -87,6 +107,8 @@ class Effects:
 
         Raises EffectError when the file or the function is missing or the file can't be imported.
         """
+        if self._rest is not None and not self.written(module, name):
+            return self._rest.function(module, name)
         known = self._functions.get((module, name))
         if known is not None:
             return known
@@ -106,6 +128,31 @@ class Effects:
         if name not in self._modules:
             self._modules[name] = _import_file(self.folder / f"{name}.py")
         return self._modules[name]
+
+
+def written_functions(file: Path) -> frozenset[str]:
+    """Names in a module, without functions that only raise NotImplementedError in the end, as stubs do.
+
+    A file that Python can't read has every name of the module: importing it says what is wrong.
+    """
+    try:
+        body = ast.parse(file.read_bytes()).body
+    except (SyntaxError, ValueError):
+        return frozenset(COURSE.get(file.stem, ()))
+    names: set[str] = set()
+    for node in body:
+        if isinstance(node, ast.FunctionDef):
+            last = node.body[-1]
+            stub = isinstance(last, ast.Raise) and "NotImplementedError" in ast.dump(last)
+            # The line may have been left where nothing reaches it any more.
+            stub = stub and not any(isinstance(each, ast.Return) for each in ast.walk(node))
+            # The last definition of a name is the one that counts.
+            names = names - {node.name} if stub else names | {node.name}
+        elif isinstance(node, ast.Import | ast.ImportFrom):
+            names |= {alias.asname or alias.name for alias in node.names}
+        elif isinstance(node, ast.Assign):
+            names |= {target.id for target in node.targets if isinstance(target, ast.Name)}
+    return frozenset(names)
 
 
 class Bound:

@@ -101,6 +101,10 @@ def render(
         raise CourseError(
             "threads are for renders on this machine; the workers of a cluster have their own"
         )
+    if address is not None and scene.effects.mixed:
+        raise CourseError(
+            'a cluster gets one folder of functions; "mine" is for renders on this machine'
+        )
     bound = Bound(scene.effects, scene.compiled.needs)
     began = monotonic()
     with lines_named(scene, bound):
@@ -174,10 +178,14 @@ def _receipt(
         skipped["environment"] = "it is black"
     tests = {"boxes": counters.embree.box_tests, "triangles": counters.embree.triangle_tests}
     samples = float(film.samples.mean())
+    called, effects = [need.function for need in bound.needs], job.scene.effects
+    yours = {}
+    if effects.mixed:
+        yours["yours"] = [name for name in called if effects.written(*name.split("."))]
     return Receipt(
         rays=dict(counters.rays),
         numbers=dict(counters.numbers),
-        effects={"called": [need.function for need in bound.needs], "skipped": skipped},
+        effects={"called": called, "skipped": skipped} | yours,
         seconds=dict(counters.seconds),
         embree_seconds=counters.embree.seconds,
         wall_seconds=wall,

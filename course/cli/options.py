@@ -88,7 +88,8 @@ scene_argument = click.argument("scene", metavar="SCENE", type=PATH)
 
 effects_option = click.option(
     "--effects",
-    help="Whose functions to call: solutions, assignments, or a folder of modules."
+    help="Whose functions to call: solutions, assignments, a folder of modules, or mine: the assignments, with the"
+    " solutions where a function is not written."
     "  [default: solutions, or assignments where there are none]",
 )
 

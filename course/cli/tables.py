@@ -64,6 +64,7 @@ def receipt_sections(receipt: Mapping[str, Any]) -> list[Section]:
     wall, threads = receipt["wall_seconds"], receipt["threads"]
     spent, embree = wall * threads, receipt["embree_seconds"]
     effects = receipt["effects"]
+    yours = effects.get("yours", ())
     sections = [
         ("rays", [*_counts(rays), *_total(rays, wall)]),
         ("samples", _samples(receipt)),
@@ -73,7 +74,7 @@ def receipt_sections(receipt: Mapping[str, Any]) -> list[Section]:
         (
             "effects",
             [
-                *(("called", name) for name in effects["called"]),
+                *(("yours" if name in yours else "called", name) for name in effects["called"]),
                 *((f"skipped {name}", reason) for name, reason in effects["skipped"].items()),
             ],
         ),

@@ -13,7 +13,8 @@ class Receipt:
     rays : kind (camera, shadow, reflection, refraction) -> rays cast; path tracing has a kind path for all that go
         on from a surface, whichever way
     numbers : dimension -> numbers drawn
-    effects : "called" -> list of functions, "skipped" -> name -> reason
+    effects : "called" -> list of functions, "skipped" -> name -> reason; with "mine" for effects also "yours" -> the
+        functions called that aren't the solutions'
     seconds : stage -> seconds, summed over threads
     embree_seconds : inside Embree, summed over threads
     wall_seconds : from the call to the finished picture

@@ -251,7 +251,7 @@ class Story:
         recording, settings = self.recording, self.recording.settings
         _, pixels, samples = recording.radiance.shape
         area = recording.area
-        offsets = recording.offsets
+        offsets, effects = recording.offsets, recording.scene.effects
         return {
             "scene": str(recording.scene.path),
             "area": {"x": area.x, "y": area.y, "width": area.width, "height": area.height},
@@ -261,6 +261,9 @@ class Story:
             "reason": self.reason,
             "sources": self.sources,
             "functions": recording.asked,
+            "yours": [name for name in recording.asked if effects.written(*name.split("."))]
+            if effects.mixed
+            else [],
             "rays": dict(recording.counters.rays),
             "samples": [
                 {

@@ -1,0 +1,135 @@
+"""`--effects mine`: the student's functions where they are written, and the solutions' where they aren't."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from course import EffectError, load_scene, pixel, render
+from course.cli.main import commands
+from course.effects import PROJECT, Effects, written_functions
+from course.modules import COURSE
+
+SCENE = PROJECT / "scenes" / "glossy.yaml"
+SMALL = {"size": (24, 16), "spp": 4}
+MIRRORED = '''
+
+def sample_phong_lobe(direction, exponent, u):
+    """Without any jitter."""
+    return direction.copy()
+'''
+
+
+@pytest.fixture
+def mine(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder to work in, with one function written."""
+    folder = tmp_path / "assignments"
+    shutil.copytree(PROJECT / "assignments", folder)
+    with (folder / "glossy.py").open("a") as file:
+        file.write(MIRRORED)
+    monkeypatch.chdir(tmp_path)
+    return folder
+
+
+@pytest.mark.usefixtures("mine")
+def test_a_picture_has_the_functions_that_are_written() -> None:
+    effects = Effects("mine")
+    assert effects.mixed
+    found = effects.function("glossy", "sample_phong_lobe")
+    way = np.array([[0.0], [0.6], [0.8]], np.float32)
+    assert np.array_equal(found(way, 9.0, np.full((2, 1), 0.3, np.float32)), way)
+    solution = Effects("solutions").function("glossy", "keep_above")
+    other = effects.function("glossy", "keep_above")
+    assert other.__code__.co_filename == solution.__code__.co_filename
+    pictures = [render(load_scene(SCENE, e), **SMALL) for e in ("mine", "solutions")]
+    assert not np.array_equal(*(picture.linear for picture in pictures))
+    told = pictures[0].receipt.to_dict()["effects"]
+    assert told["yours"] == ["glossy.sample_phong_lobe"]
+    assert "soft_shadows.point_on_sphere" in told["called"]
+    assert "yours" not in pictures[1].receipt.to_dict()["effects"]
+
+
+def test_without_a_written_function_it_is_the_solutions_picture(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "assignments").mkdir()
+    monkeypatch.chdir(tmp_path)
+    scene = load_scene(SCENE, "mine")
+    found, wanted = (render(each, **SMALL) for each in (scene, load_scene(SCENE, "solutions")))
+    assert np.array_equal(found.linear, wanted.linear)
+    assert found.receipt.to_dict()["effects"]["yours"] == []
+
+
+@pytest.mark.usefixtures("mine")
+def test_a_pixel_is_told_with_the_functions_that_are_written() -> None:
+    story = pixel(SCENE, 12, 9, effects="mine", **SMALL)
+    assert story.to_dict()["yours"] == ["glossy.sample_phong_lobe"]
+    picture = render(load_scene(SCENE, "mine"), **SMALL)
+    assert np.array_equal(story.recording.linear[:, 0, 0], picture.film.linear[:, 9, 12])
+
+
+@pytest.mark.usefixtures("mine")
+def test_the_command_says_which_are_yours() -> None:
+    arguments = ["render", str(SCENE), "--effects", "mine", "--size", "24x16", "--spp", "4"]
+    result = CliRunner().invoke(commands, [*arguments, "-o", "a.png", "--receipt", "a.json"])
+    assert result.exit_code == 0
+    assert ["yours", "glossy.sample_phong_lobe"] in [
+        line.split()[-2:] for line in result.stdout.splitlines()
+    ]
+    assert json.loads(Path("a.json").read_text())["effects"]["yours"]
+    refused = CliRunner().invoke(
+        commands, [*arguments, "--engine", "dask", "--address", "tcp://127.0.0.1:1"]
+    )
+    assert refused.exit_code == 1
+    assert '"mine" is for renders on this machine' in refused.stderr
+
+
+def test_a_mistake_is_still_told_with_its_line(mine: Path) -> None:
+    with (mine / "glossy.py").open("a") as file:
+        file.write("\n\ndef keep_above(direction, normal):\n    return direction[0]\n")
+    with pytest.raises(EffectError, match=r"glossy\.keep_above .*glossy\.py:\d+\) returned"):
+        render(load_scene(SCENE, "mine"), **SMALL)
+    (mine / "glossy.py").write_text("def keep_above(:\n")
+    with pytest.raises(EffectError, match="SyntaxError"):
+        load_scene(SCENE, "mine")
+
+
+@pytest.mark.parametrize(
+    ("text", "written"),
+    [
+        ("def f():\n    raise NotImplementedError('m.f: not written yet')", set()),
+        ("def f():\n    check()\n    raise NotImplementedError", set()),
+        ("def f():\n    return 1", {"f"}),
+        ("def f():\n    if x:\n        raise NotImplementedError\n    return 1", {"f"}),
+        ("def f():\n    raise NotImplementedError\ndef f():\n    return 1", {"f"}),
+        ("def f():\n    return 1\ndef f():\n    raise NotImplementedError", set()),
+        ("def f():\n    return 1\n    raise NotImplementedError", {"f"}),
+        ("from own import g as f", {"f"}),
+        ("f = lambda: 1", {"f"}),
+    ],
+)
+def test_a_function_is_written_unless_it_ends_as_a_stub_does(
+    tmp_path: Path, text: str, written: set[str]
+) -> None:
+    file = tmp_path / "m.py"
+    file.write_text(text)
+    assert written_functions(file) == written
+
+
+def test_every_stub_of_the_course_is_one() -> None:
+    for file in sorted((PROJECT / "assignments").glob("*.py")):
+        assert not written_functions(file) & set(COURSE[file.stem])
+        assert written_functions(PROJECT / "solutions" / file.name) >= set(COURSE[file.stem])
+
+
+def test_a_folder_of_that_name_is_meant_first(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "mine").mkdir()
+    monkeypatch.chdir(tmp_path)
+    assert not Effects("mine").mixed
