@@ -289,7 +289,7 @@ def test_orders_of_point_sets() -> None:
 def test_rays_saved_by_division_in_the_module_s_scene() -> None:
     corners, width, height, lattice, saved, shared = said(
         "adaptive_sampling",
-        r"N at N by N pixels, of N in the lattice of the smallest cells\. So N% were saved\. N times a cell found",
+        r"N at N by N pixels, of N in the lattice of the smallest cells\. So N% were saved\. N times, the ray for",
     )
     picture = render(load_scene(adaptive_sampling.SCENE), compiled=available())
     assert picture.linear.shape[:2] == (int(height), int(width))
@@ -324,14 +324,16 @@ def test_rays_that_a_grid_would_need() -> None:
         # The file's six digits move the fourth of what is interpolated.
         assert told(equal, needed, within=1e-3 * needed), depth
         assert told(times, needed / point.rays, within=1e-3 * needed / point.rays), depth
-    threshold, fallen, left, needed_rays = said(
+    threshold, fallen, left, depth, needed_rays = said(
         "adaptive_sampling",
-        r"With a threshold of N it falls to N\. With the wires in the scene it stays at N whatever the depth, and a "
-        r"grid reaches that with N rays\.",
+        r"With a threshold of N it falls to N\. With the wires in the scene it stays at N from depth N on, which a "
+        r"grid reaches with N rays\.",
     )
     assert told(fallen, _points(edges, f"divided over {threshold}")[-1].error)
-    deepest = _points(wires, "divided over 0.1")[-1]
-    assert told(left, deepest.error)
+    thin = _points(wires, "divided over 0.1")
+    deepest = thin[-1]
+    assert [told(left, point.error) for point in thin].index(True) == int(depth)
+    assert all(told(left, point.error) for point in thin[int(depth) :])
     assert told(needed_rays, rays_for(deepest.error, _points(wires, "k x k grid")))
     width, height, scene_threshold = said(
         "adaptive_sampling", r"scene at N by N pixels, by `[^`]*`, with threshold N\. The error"

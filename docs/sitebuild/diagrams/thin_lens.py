@@ -185,11 +185,11 @@ def confusion() -> Figure:
     canvas.label(tip, "point", "ne", 6)
     canvas.length((0, -radius), (0, radius), "$2R$", 8, 3)
     canvas.length((focus, width / 2), (focus, -width / 2), "$c$", 8)
-    canvas.length((0, -1.15), (focus, -1.15), "$f$", -1, 3)
+    canvas.length((0, -1.15), (focus, -1.15), "$z_f$", -1, 3)
     canvas.length((0, -1.6), (depth, -1.6), "$z$", -1, 3)
     return Figure(
         "A point at depth $z$ spreads over a circle of diameter $c$ in the plane in focus. Both triangles have their "
-        "tip at the point, so $c$ is to $2R$ as $|f - z|$ to $z$.",
+        "tip at the point, so $c$ is to $2R$ as $|z_f - z|$ to $z$.",
         (
             Panel(
                 canvas,
