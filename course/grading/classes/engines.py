@@ -1,10 +1,9 @@
 """Work on many items: in processes of this machine, on a dask cluster, and apart from the grader, within limits.
 
-When a process of a pool dies the pool can't say at which item, so as many items as there are processes are under way
-and no more, and those are then done once again each alone. The item whose process dies once more is the one; all others
-get their results. A worker of a cluster that is lost costs nothing but time: the scheduler hands its work to another
-one, until as many have been lost with the same item as its setting ``distributed.scheduler.allowed-failures`` says, 3
-if nothing else is set.
+A process that dies takes its item with it and no other: that one is done once again, alone, when all others have ended.
+The item whose process dies once more is at fault. A worker of a cluster that is lost costs nothing but time: the
+scheduler hands its work to another one, until as many have been lost with the same item as its setting
+``distributed.scheduler.allowed-failures`` says, 3 if nothing else is set.
 """
 
 from __future__ import annotations
@@ -14,14 +13,15 @@ import os
 import signal
 import sys
 import threading
-from collections import deque
 from collections.abc import Callable, Generator, Sequence
-from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import closing
 from dataclasses import dataclass
 from functools import cache
+from multiprocessing import get_context
 from multiprocessing.connection import wait as wait_for
+from multiprocessing.process import BaseProcess
 from queue import SimpleQueue
 from time import monotonic, sleep
 from typing import Any, Generic, TypeVar
@@ -73,7 +73,7 @@ The function takes an item and what is shared. Closing the iterator ends all wor
 def in_processes(
     function: Callable[[Item, Shared], Value], items: Sequence[Item], shared: Shared, jobs: int
 ) -> Generator[Outcome[Item, Value], None, None]:
-    """Call a function for each item in a pool of processes.
+    """Call a function for each item in processes.
 
     Parameters
     ----------
@@ -86,86 +86,63 @@ def in_processes(
     Outcome
         One for each item, as they end. Close the generator to end all work at once.
     """
-    waiting = deque(items)
-    suspects: deque[Item] = deque()
-    while waiting or suspects:
-        # A suspect has the pool for itself.
-        work, size = (deque([suspects.popleft()]), 1) if suspects else (waiting, jobs)
-        alone = size == 1 and work is not waiting
-        with closing(_until_broken(function, work, shared, size)) as outcomes:
-            for outcome in outcomes:
-                if not isinstance(outcome, list):
-                    yield outcome
-                elif alone:
-                    yield from (Outcome(item, None, DIED) for item in outcome)
-                else:
-                    suspects.extend(outcome)
+    suspects: list[Item] = []
+    with closing(_each(function, items, shared, jobs)) as outcomes:
+        for outcome in outcomes:
+            if outcome.fault == DIED:
+                suspects.append(outcome.item)
+            else:
+                yield outcome
+    with closing(_each(function, suspects, shared, 1)) as outcomes:
+        yield from outcomes
 
 
-def _until_broken(
-    function: Callable[[Item, Shared], Value], work: deque[Item], shared: Shared, size: int
-) -> Generator[Outcome[Item, Value] | list[Item], None, None]:
-    """Outcomes until all work is done or the pool breaks; then a list of the items that were under way."""
+def _each(
+    function: Callable[[Item, Shared], Value], items: Sequence[Item], shared: Shared, jobs: int
+) -> Generator[Outcome[Item, Value], None, None]:
+    """Outcomes as they end; each of as many threads has a process, so it is known whose item a process was at."""
     before = set(multiprocessing.active_children())
-    pool = ProcessPoolExecutor(min(size, len(work)), multiprocessing.get_context("spawn"), _start)
-    running: dict[Future[Value], Item] = {}
+    pools: dict[int, ProcessPoolExecutor] = {}
+    starting, closed = threading.Lock(), threading.Event()
+
+    def outcome(item: Item) -> Outcome[Item, Value]:
+        thread = threading.get_ident()
+        try:
+            with starting:
+                if closed.is_set():
+                    return Outcome(item, None, DIED)
+                if thread not in pools:
+                    pools[thread] = ProcessPoolExecutor(1, get_context("spawn"), _start)
+                work = pools[thread].submit(_call, function, item, shared)
+            return Outcome(item, work.result())
+        except BrokenProcessPool:
+            del pools[thread]
+            return Outcome(item, None, DIED)
+        except Exception as error:  # noqa: BLE001 - of the work on this item, and of no other
+            return Outcome(item, None, _told(error))
+
+    threads = ThreadPoolExecutor(max(1, min(jobs, len(items))))
     try:
-        while work or running:
-            while work and len(running) < size:
-                item = work.popleft()
-                running[_submitted(pool, function, item, shared)] = item
-            done, _ = wait(running, timeout=1.0, return_when=FIRST_COMPLETED)
-            broken = False
-            for future in done:
-                error = future.exception()
-                if isinstance(error, BrokenProcessPool):
-                    broken = True
-                    continue
-                item = running.pop(future)
-                if error is not None:
-                    yield Outcome(item, None, _told(error))
-                else:
-                    yield Outcome(item, future.result())
-            if broken:
-                # Those that had ended before the pool broke have their results.
-                wait(running)
-                for future, item in [*running.items()]:
-                    if future.exception() is None:
-                        del running[future]
-                        yield Outcome(item, future.result())
-                lost, running = [*running.values()], {}
-                yield lost
-                return
-        pool.shutdown()
+        for future in as_completed([threads.submit(outcome, item) for item in items]):
+            yield future.result()
     finally:
-        _end(pool, set(multiprocessing.active_children()) - before)
+        with starting:
+            closed.set()
+        threads.shutdown(wait=False, cancel_futures=True)
+        _end(set(multiprocessing.active_children()) - before)
+        threads.shutdown()
 
 
-def _submitted(
-    pool: ProcessPoolExecutor, function: Callable[[Item, Shared], Value], item: Item, shared: Shared
-) -> Future[Value]:
-    try:
-        return pool.submit(_call, function, item, shared)
-    except BrokenProcessPool as error:
-        # A process died with nothing to do, or in starting; that is told like any other death.
-        lost: Future[Value] = Future()
-        lost.set_exception(error)
-        return lost
-
-
-def _end(pool: ProcessPoolExecutor, processes: set[multiprocessing.process.BaseProcess]) -> None:
-    """End the processes of a pool, busy or not."""
+def _end(processes: set[BaseProcess]) -> None:
+    """End processes, busy or not."""
     for process in processes:
         process.terminate()
     for process in _left(processes, GRACE):
         process.kill()
     _left(processes, GRACE)
-    pool.shutdown(wait=False, cancel_futures=True)
 
 
-def _left(
-    processes: set[multiprocessing.process.BaseProcess], seconds: float
-) -> set[multiprocessing.process.BaseProcess]:
+def _left(processes: set[BaseProcess], seconds: float) -> set[BaseProcess]:
     """The processes that still run after that many seconds at most.
 
     They are not joined: the pool's own thread joins them too, and one whose end that thread was told of looks alive
