@@ -11,9 +11,8 @@ from __future__ import annotations
 
 import json
 import zipfile
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from copy import deepcopy
-from dataclasses import dataclass
 from functools import cache, lru_cache
 from importlib.resources import files
 from io import BytesIO
@@ -45,23 +44,7 @@ CLOSE = 0.05
 columns are farther from their own distribution once in a billion."""
 
 Print = Mapping[str, Array]
-"""What is kept of a submission: by probe, and of its features."""
-
-
-@dataclass(frozen=True)
-class Misconception:
-    """A mistake that students make.
-
-    Attributes
-    ----------
-    name : short and unique within the module: "crowded-centre"
-    says : what the student is told; names the mistake without the code that mends it
-    print : of a submission that makes it
-    """
-
-    name: str
-    says: str
-    print: Print
+"""What is kept of a submission: by probe, of its features, and what the student is told."""
 
 
 def probes(function: Function) -> Iterator[tuple[str, Arguments]]:
@@ -183,26 +166,24 @@ def _lenient(
 
 
 def matching(
-    function: Function, caller: Caller, known: Iterable[Misconception], right: Print
-) -> Misconception | None:
-    """The mistake that the function makes; None if it is none of these, or if two fit.
+    function: Function, caller: Caller, wrong: Sequence[tuple[str, Print]], right: Print
+) -> str:
+    """The name of the mistake that the function makes; empty if it is none of these, or if two fit.
 
     Parameters
     ----------
     caller : of the student's module
-    known : mistakes of this function
+    wrong : names of mistakes of this function, with the prints of submissions that make them
     right : the reference solution's print: a mistake is told by what differs from it
     """
-    known = list(known)
-    if not known:
-        return None
+    if not wrong:
+        return ""
     own = _Own(function, caller)
-    by_name = {}
+    found: set[str] = set()
     if function.features is None or not function.draws:
-        by_name = {one.name: one for one in known if own.is_like(one.print, right)}
-    if not by_name:
-        by_name = own.by_features(known, right)
-    return next(iter(by_name.values())) if len(by_name) == 1 else None
+        found = {name for name, kept in wrong if own.is_like(kept, right)}
+    found = found or own.by_features(wrong, right)
+    return found.pop() if len(found) == 1 else ""
 
 
 class _Own:
@@ -245,23 +226,21 @@ class _Own:
             self._kept[turn, name] = _outcome(self.caller, self.function, turned)
         return self._kept[turn, name]
 
-    def by_features(self, known: list[Misconception], right: Print) -> dict[str, Misconception]:
-        """The mistake whose features are distributed alike, if it is nearer than any other and than what is right."""
+    def by_features(self, wrong: Sequence[tuple[str, Print]], right: Print) -> set[str]:
+        """Mistakes whose features are distributed alike; none where they are as near to what is right."""
         found = [_features(self.function, self.caller, axes) for axes in self._axes]
         features = [each for each in found if each is not None]
-        if not features:
-            return {}
-        apart: dict[str, float] = {}
-        kept = {}
-        for one in known:
-            if "features" in one.print and _by_features(one.print, right):
-                distance = min(_distance(each, one.print["features"]) for each in features)
-                if distance < apart.get(one.name, np.inf):
-                    apart[one.name], kept[one.name] = distance, one
-        near = {name: kept[name] for name, distance in apart.items() if distance < CLOSE}
-        if "features" in right and _distance(features[0], right["features"]) < CLOSE:
-            return {}
-        return near
+        if not features or (
+            "features" in right and _distance(features[0], right["features"]) < CLOSE
+        ):
+            return set()
+        return {
+            name
+            for name, kept in wrong
+            if "features" in kept
+            and _by_features(kept, right)
+            and min(_distance(each, kept["features"]) for each in features) < CLOSE
+        }
 
 
 def _by_features(one: Print, right: Print) -> bool:
@@ -420,9 +399,11 @@ def mistake_of(
     if not prints:
         return None
     grouped = _unpacked(prints["packed"].tobytes())
-    wrong = {start: arrays for start, arrays in grouped.items() if start}
-    found = matching(function, caller, _misconceptions(wrong), grouped.get("", {}))
-    return (found.name, found.says) if found else None
+    wrong = [(start.partition("~")[0], arrays) for start, arrays in grouped.items() if start]
+    found = matching(function, caller, wrong, grouped.get("", {}))
+    # One of several submissions that make a mistake says it.
+    says = (str(arrays["says"]) for name, arrays in wrong if name == found)
+    return (found, next(filter(None, says), "")) if found else None
 
 
 @lru_cache(maxsize=32)
@@ -435,16 +416,6 @@ def _unpacked(packed: bytes) -> Mapping[str, Mapping[str, Any]]:
             array = grouped.setdefault(start, {})[key] = arrays[name]
             array.setflags(write=False)
     return grouped
-
-
-def _misconceptions(grouped: Mapping[str, Mapping[str, Any]]) -> Iterable[Misconception]:
-    says: dict[str, str] = {}
-    for start, arrays in grouped.items():
-        name = start.partition("~")[0]
-        says[name] = says.get(name) or str(arrays["says"])
-    for start, arrays in grouped.items():
-        name = start.partition("~")[0]
-        yield Misconception(name, says[name], arrays)
 
 
 # ---------------------------------------------------------------- what a mistake explains

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from course.grading.checks.declare import function
-from course.grading.checks.mistakes import Misconception, Print, matching, taken
+from course.grading.checks.mistakes import Print, matching, taken
 from course.grading.checks.trusted import TrustedModule
 
 DISK = function(
@@ -47,9 +47,8 @@ def _print(warp: Warp) -> Print:
 
 
 def _named(warp: Warp) -> str:
-    known = [Misconception(name, "", _print(wrong)) for name, wrong in WRONG.items()]
-    found = matching(DISK, TrustedModule({"disk": warp}), known, _print(RIGHT))
-    return found.name if found else ""
+    wrong = [(name, _print(made)) for name, made in WRONG.items()]
+    return matching(DISK, TrustedModule({"disk": warp}), wrong, _print(RIGHT))
 
 
 @pytest.mark.parametrize("name", WRONG)
