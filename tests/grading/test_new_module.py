@@ -57,6 +57,8 @@ def test_the_module_of_the_page_is_built_and_graded(tmp_path: Path) -> None:
         shutil.copytree(
             PROJECT / name, tmp_path / name, ignore=shutil.ignore_patterns("__pycache__", "out")
         )
+    # By it the package knows that it is a checkout.
+    shutil.copy(PROJECT / "pyproject.toml", tmp_path)
     blocks = shown()
     names = blocks.pop("course/modules.py")
     effects = tmp_path / "course" / "modules.py"
