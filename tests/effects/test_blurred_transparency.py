@@ -9,22 +9,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-import yaml
 
-from course import EffectError, Scene, load_scene, render
+from course import Scene, render
 from course.compiled import library
-from course.effects import PROJECT
 from course.modules import COURSE
 from tests.drawn import numbers_drawn, rows
 
 MakeScene = Callable[..., Scene]
 
-SCENES = PROJECT / "scenes"
 MODULE = "blurred_transparency"
 FUNCTIONS = {f"{MODULE}.{name}" for name in COURSE[MODULE]}
 TRACERS = ["distribution", "path"]
@@ -333,25 +329,6 @@ def test_glass_without_a_bounce_calls_nothing(make_scene: MakeScene) -> None:
     assert MODULE not in scene.effects.imported
 
 
-def test_a_function_that_is_not_written_is_asked_for_by_the_roughness(
-    make_scene: MakeScene, tmp_path: Path
-) -> None:
-    for name in ("supersampling", MODULE):
-        text = (PROJECT / "solutions" / f"{name}.py").read_text(encoding="utf-8")
-        text = text.replace(
-            "def jitter_refraction(direction, normal, roughness, u):",
-            "def jitter_refraction(direction, normal, roughness, u):\n"
-            f'    raise NotImplementedError("{MODULE}.jitter_refraction: not written yet")\n\n\n'
-            "def _the_rest(direction, normal, roughness, u):",
-        )
-        (tmp_path / f"{name}.py").write_text(text, encoding="utf-8")
-    camera = {"eye": [0, 2, 1], "look_at": [0, 0, 0]}
-    written = make_scene(camera=camera, environment=WHITE, materials=glass(0.1), objects=[PLATE])
-    scene = load_scene(written.loaded.path, effects=tmp_path)
-    with pytest.raises(EffectError, match=r"materials\.glass\.dielectric\.roughness asks for it"):
-        render(scene, size=(8, 8))
-
-
 def test_refraction_has_dimensions_of_its_own(make_scene: MakeScene) -> None:
     gloss = {"lobe": "ball", "glossiness": 0.2}
     for kind, more in (("distribution", 0), ("path", 2)):
@@ -371,23 +348,3 @@ def test_refraction_has_dimensions_of_its_own(make_scene: MakeScene) -> None:
         # the way that is taken and where a diffuse hit sends the path. What is inside at the last bounce is let
         # out, so that no gloss is drawn there.
         assert len(found) == 1 + 4 + 3 * (2 + more) - 1
-
-
-@pytest.mark.parametrize(("folder", "calls"), [("", True), ("before", False)])
-def test_only_the_scene_calls_the_module(folder: str, calls: bool) -> None:
-    scene = load_scene(SCENES / folder / f"{MODULE}.yaml")
-    receipt = render(scene, size=(16, 10), spp=4).receipt
-    called = {name for name in receipt.effects["called"] if name.startswith(f"{MODULE}.")}
-    assert called == (FUNCTIONS if calls else set())
-    assert (MODULE in scene.effects.imported) == calls
-
-
-def test_the_twins_differ_in_the_roughness_alone() -> None:
-    after, before = (
-        yaml.safe_load((SCENES / folder / f"{MODULE}.yaml").read_text(encoding="utf-8"))
-        for folder in ("", "before")
-    )
-    for name in ("pane", "amber"):
-        assert after["materials"][name]["dielectric"].pop("roughness") > 0
-    after["environment"]["image"] = "../" + after["environment"]["image"]
-    assert after == before

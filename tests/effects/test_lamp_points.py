@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from course import EffectError, Scene, load_scene, render
+from course import Scene, render
 from course.building.sampled_points import NUMBERS, SPHERES
 from course.core.lights.sample import towards
 from course.core.lights.sphere import SphereLight
@@ -197,14 +197,6 @@ def test_a_receipt_names_the_function_and_what_it_draws(
     assert receipt.numbers["light 0"] == width * 16 * 12 * 4
     assert "soft_shadows" in receipt.effects["skipped"]
     assert "soft_shadows" not in scene.effects.imported
-
-
-def test_a_function_that_is_not_written_is_told_with_the_line_that_asks(
-    make_scene: MakeScene,
-) -> None:
-    path = lit(make_scene, samples="ball by polar").path
-    with pytest.raises(EffectError, match=r"sampling\.ball_by_polar.*lights\.0 asks for it"):
-        render(load_scene(path, effects="assignments"), spp=1)
 
 
 @pytest.mark.parametrize("samples", ["ball by polar", "ball by rejection"])

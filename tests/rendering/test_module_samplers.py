@@ -9,20 +9,17 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-import yaml
 from numpy.typing import NDArray
 
-from course import Scene, load_scene, render
+from course import Scene, render
 from course.errors import CourseError, SceneError
 from course.extras.samplers import FUNCTIONS
 
 MakeScene = Callable[..., Scene]
-SCENES = Path(__file__).parents[2] / "scenes"
 NEW = ("halton", "hammersley", "chained", "xorshift")
 SEEDS = 16
 
@@ -158,50 +155,6 @@ def test_a_receipt_names_the_function_that_places_points(
     disks = ["thin_lens.point_on_disk", *name.values()]
     called = [function for function in disks if function in receipt["effects"]["called"]]
     assert called == [name.get(samples, "thin_lens.point_on_disk")]
-
-
-def keys(tree: Any, path: tuple[str, ...] = ()) -> dict[str, Any]:
-    if not isinstance(tree, dict | list):
-        return {".".join(path): tree}
-    items = tree.items() if isinstance(tree, dict) else enumerate(tree)
-    return {
-        key: leaf for name, below in items for key, leaf in keys(below, (*path, str(name))).items()
-    }
-
-
-@pytest.mark.parametrize(
-    ("module", "differing", "called"),
-    [
-        ("quasi_monte_carlo", {"sampler.type"}, {"hammersley", "chain"}),
-        (
-            "sampling",
-            {"sampler.type", "camera.lens.samples", *(f"lights.{n}.samples" for n in range(3))},
-            {"xorshift32", "disk_by_polar"}
-            | {"sphere_by_polar", "ball_by_polar", "ball_by_rejection"},
-        ),
-    ],
-)
-def test_a_modules_scene_calls_it_and_its_twin_differs_in_that_alone(
-    module: str, differing: set[str], called: set[str]
-) -> None:
-    paths = [SCENES / f"{module}.yaml", SCENES / "before" / f"{module}.yaml"]
-    after, before = (keys(yaml.safe_load(path.read_text(encoding="utf-8"))) for path in paths)
-    assert {key for key in after | before if after.get(key) != before.get(key)} == differing
-    found = [
-        set(render(load_scene(path), size=(16, 12)).receipt.to_dict()["effects"]["called"])
-        for path in paths
-    ]
-    assert {f"{module}.{name}" for name in called} <= found[0]
-    assert not {name for name in found[1] if name.startswith(f"{module}.")}
-
-
-def test_a_function_that_is_not_written_yet_is_named(tmp_path: Path, make_scene: MakeScene) -> None:
-    make_scene(objects=[PLATE | {"material": "grey"}])
-    stub = "def halton(i, dims):\n    raise NotImplementedError('quasi_monte_carlo.halton')\n"
-    (tmp_path / "quasi_monte_carlo.py").write_text(stub, encoding="utf-8")
-    scene = load_scene(tmp_path / "scene.yaml", effects=tmp_path)
-    with pytest.raises(CourseError, match=r"quasi_monte_carlo\.halton"):
-        render(scene, sampler="halton", spp=1)
 
 
 def test_every_sampler_of_the_format_has_its_functions() -> None:

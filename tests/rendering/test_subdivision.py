@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-import yaml
 
 from course import CourseError, EffectError, Picture, Scene, load_scene, render
 from course.adaptive.corners import CornerFilm
@@ -302,14 +301,6 @@ def test_what_functions_return_is_looked_at(
         render(scene)
 
 
-def test_a_function_that_is_not_written_is_told_with_the_line_that_asks(
-    make_scene: MakeScene,
-) -> None:
-    scene = load_scene(ground(make_scene, (6, 4)).path, effects="assignments")
-    with pytest.raises(EffectError, match=r"needs_subdivision.*film\.subdivision asks for it"):
-        render(scene)
-
-
 def test_a_level_that_is_interrupted_leaves_the_one_before() -> None:
     # The first round brings a step between columns, the second is broken off.
     corners = CornerFilm(2, 1, 3, 1)
@@ -332,16 +323,3 @@ def test_a_level_that_is_interrupted_leaves_the_one_before() -> None:
     assert len(rounds) == 2
     assert corners.linear[0].tolist() == [[0.0, 0.5]]
     assert schedule.receipt()["subdivision"]["corners"] == 6
-
-
-SCENES = PROJECT / "scenes"
-
-
-def test_the_scene_and_its_twin_differ_in_how_rays_are_spread_alone() -> None:
-    after, before = (
-        yaml.safe_load((SCENES / folder / "adaptive_sampling.yaml").read_text(encoding="utf-8"))
-        for folder in ("", "before")
-    )
-    assert after["film"].pop("subdivision")
-    assert after.pop("sampler") != before.pop("sampler")
-    assert after == before

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from course import Scene, render, shapes
 from course.effects import PROJECT
-from course.errors import EffectError, SceneError
+from course.errors import SceneError
 from course.extras import path_pieces, path_tracing, plan, work
 from course.scene.scene import load_scene
 from tests.transport.over_a_floor import assert_mean
@@ -365,25 +365,6 @@ def test_what_is_not_needed_is_not_called(
     if integrator["type"] == "distribution":
         assert "path" not in receipt.rays
         assert not {"bounce", "choice"} & set(receipt.numbers)
-
-
-def test_a_function_that_is_not_written_names_the_line_that_asks_for_it(
-    make_scene: MakeScene, tmp_path: Path
-) -> None:
-    path = everything(make_scene).path
-    folder = tmp_path / "mine"
-    folder.mkdir()
-    for file in (PROJECT / "solutions").glob("*.py"):
-        (folder / file.name).write_bytes(file.read_bytes())
-    (folder / "path_tracing.py").write_text(
-        "def diffuse_bounce(normal, u):\n"
-        "    raise NotImplementedError('path_tracing.diffuse_bounce: not written yet')\n"
-        "def throughput(beta, albedo):\n    return beta * albedo\n"
-        "def russian_roulette(beta, u):\n    return u < 1, beta\n",
-        encoding="utf-8",
-    )
-    with pytest.raises(EffectError, match=r"diffuse_bounce.*integrator\.type asks for it"):
-        render(load_scene(path, folder))
 
 
 def test_another_integrator_is_refused_by_name(make_scene: MakeScene) -> None:
