@@ -94,7 +94,7 @@ def test_titles_and_texts_come_from_the_page() -> None:
         "The wrong sign, or always positive.",
         "Breaks at the limits.",
     ]
-    assert found[2].text == "Infinity over infinity is no number."
+    assert found[2].text == "Infinity divided by infinity is NaN."
     assert plain(r"*Divided* by [that](a.md#b): $2\pi$, `u`") == "Divided by that: 2, u"
 
 
