@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from course import Scene, load_scene
 from course import render_scene as rendering
-from course.compiled import library
+from tests.forms import FORMS
 from tests.once import Once, made_once, shared_folder
 
 MakeScene = Callable[..., Scene]
@@ -64,18 +64,7 @@ def make_scene(tmp_path: Path) -> MakeScene:
     return make
 
 
-@pytest.fixture(
-    params=[
-        False,
-        pytest.param(
-            True,
-            marks=pytest.mark.skipif(
-                not library.available(), reason="Numba is not installed (pip install .[fast])"
-            ),
-        ),
-    ],
-    ids=["NumPy", "compiled"],
-)
+@pytest.fixture(params=FORMS)
 def each_form(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> bool:
     """Run a test once with passes over arrays and once with compiled loops, whichever small renders would take.
 

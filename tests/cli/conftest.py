@@ -12,6 +12,13 @@ import course
 from course.cli.main import commands
 from tests.cli.stand_in import Engine
 
+Run = Callable[..., Result]
+
+
+def files(folder: Path) -> set[str]:
+    """The names of what is in a folder."""
+    return {path.name for path in folder.iterdir()}
+
 
 @pytest.fixture
 def engine(monkeypatch: pytest.MonkeyPatch) -> Engine:
@@ -25,7 +32,7 @@ def engine(monkeypatch: pytest.MonkeyPatch) -> Engine:
 
 
 @pytest.fixture
-def run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., Result]:
+def run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Run:
     """Run `course` with these arguments in an empty folder."""
     monkeypatch.chdir(tmp_path)
 

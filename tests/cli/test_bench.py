@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
-from click.testing import Result
 
 from benchmarks.__main__ import MEASURES
 from course.benchmarking import measuring
@@ -19,8 +17,7 @@ from course.benchmarking.measuring import FULL, QUICK, Effort, Measured
 from course.cli.bench import ELSEWHERE
 from course.modules import COURSE, MODULES
 from tests.benchmarking.curves import curve
-
-Run = Callable[..., Result]
+from tests.cli.conftest import Run
 
 
 class Bench:

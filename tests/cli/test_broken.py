@@ -7,15 +7,14 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from click.testing import Result
 
 from course.cli.options import FAILED
 from course.effects import PROJECT
 from course.grading import grading
 from course.grading.checks.check import Check, ModuleChecks, Trial
 from course.grading.classes.engines import Outcome
+from tests.cli.conftest import Run
 
-Run = Callable[..., Result]
 MODULE = "motion_blur"
 SECRET = "lines of the check itself"
 

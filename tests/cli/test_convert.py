@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import Result
 from PIL import Image
 
-Run = Callable[..., Result]
+from tests.cli.conftest import Run, files
 
 CAMERA = """<Camera id="{id}">
   <Position>0 0 3</Position><Gaze>0 0 -1</Gaze><Up>0 1 0</Up>
@@ -47,10 +45,6 @@ def two_cameras(tmp_path: Path) -> Path:
     path = tmp_path / "two.xml"
     path.write_text(SCENE.format(cameras=cameras), encoding="utf-8")
     return path
-
-
-def files(folder: Path) -> set[str]:
-    return {path.name for path in folder.iterdir()}
 
 
 @pytest.mark.usefixtures("scene")

@@ -4,16 +4,12 @@ from __future__ import annotations
 
 import re
 from base64 import b64decode
-from collections.abc import Callable
 from html.parser import HTMLParser
 from pathlib import Path
 
-from click.testing import Result
-
 from course.cli.demo import SHOWN
+from tests.cli.conftest import Run
 from tests.cli.stand_in import Engine
-
-Run = Callable[..., Result]
 
 
 class Page(HTMLParser):

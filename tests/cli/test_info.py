@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
 from pathlib import Path
 
 import jsonschema
-from click.testing import Result
 
+from tests.cli.conftest import Run
 from tests.cli.stand_in import Engine
 
-Run = Callable[..., Result]
 ROOT = Path(__file__).parents[2]
 
 

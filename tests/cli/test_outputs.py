@@ -2,22 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from click.testing import Result
 
 from course.cli.outputs import check_outputs
 from course.errors import OutputError
+from tests.cli.conftest import Run, files
 from tests.cli.stand_in import Engine
 
-Run = Callable[..., Result]
 NOWHERE = "there is no folder nowhere: make it first"
-
-
-def names(folder: Path) -> set[str]:
-    return {path.name for path in folder.iterdir()}
 
 
 @pytest.mark.parametrize(
@@ -53,7 +47,7 @@ def test_no_command_makes_the_folder_of_a_file(
     result = run(*command.split())
     assert result.exit_code == 1
     assert NOWHERE in result.stderr
-    assert not names(tmp_path)
+    assert not files(tmp_path)
 
 
 @pytest.mark.parametrize(
@@ -86,12 +80,12 @@ def test_no_output_replaces_another_or_what_is_read(
         "Objects": {"Mesh": {"_id": "1", "Material": "1", "Faces": "1 2 3"}}}}"""
     )
     (tmp_path / "scene.yaml").symlink_to(tmp_path / "box.json")
-    before = names(tmp_path)
+    before = files(tmp_path)
     result = run(*(word.format(here=tmp_path) for word in command.split()))
     assert result.exit_code == 1, result.output
     assert told in result.stderr
     assert not engine.rendered
-    assert names(tmp_path) == before
+    assert files(tmp_path) == before
 
 
 def test_two_scenes_of_one_name_are_told_before_the_folder_is_made(
@@ -99,7 +93,7 @@ def test_two_scenes_of_one_name_are_told_before_the_folder_is_made(
 ) -> None:
     result = run("demo", "a/box.yaml", "b/box.yaml", "-o", "new")
     assert result.exit_code == 1
-    assert not names(tmp_path)
+    assert not files(tmp_path)
 
 
 def test_files_beside_each_other_are_let_through(tmp_path: Path) -> None:

@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import Result
 
 from course.formats.pictures.reading import read_picture
+from tests.cli.conftest import Run
 from tests.radiosity.rooms import plates
-
-Run = Callable[..., Result]
 
 
 @pytest.fixture

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from click.testing import Result
 
 from course.cli import release
+from tests.cli.conftest import Run
 from tests.cli.test_process import imported_by
-
-Run = Callable[..., Result]
 
 SOLUTION = "def f(a):\n    ### BEGIN SOLUTION\n    return a\n    ### END SOLUTION\n"
 STUB = (
@@ -161,6 +158,6 @@ def test_the_stubs_of_this_project_are_what_its_solutions_make(run: Run) -> None
 
 
 def test_releasing_needs_no_arrays(project: Path) -> None:
-    names = imported_by(project, "release", "--check")
+    names = imported_by(project, "release --check")
     assert "click" in names
     assert not names & {"numpy", "yaml", "msgspec", "rich", "PIL", "embreex", "solutions"}

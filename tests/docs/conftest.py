@@ -6,6 +6,7 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -48,3 +49,28 @@ def browser() -> Iterator[Any]:
         browser = driver.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
         yield browser
         browser.close()
+
+
+@contextmanager
+def untroubled(browser: Any, **options: Any) -> Iterator[Any]:
+    """A page without a network, for which nothing may fail, be asked of another host or be told as an error."""
+    context = browser.new_context(offline=True, **options)
+    page = context.new_page()
+    trouble: list[str] = []
+    page.on("pageerror", lambda error: trouble.append(str(error)))
+    page.on("console", lambda said: trouble.append(said.text) if said.type == "error" else None)
+
+    def failed(request: Any) -> None:
+        # Whoever goes on before all pictures are there gives up those that are on the way.
+        if request.failure != "net::ERR_ABORTED":
+            trouble.append(f"failed: {request.url}")
+
+    def asked(request: Any) -> None:
+        if not request.url.startswith(("file:", "data:")):
+            trouble.append(f"asked: {request.url}")
+
+    page.on("requestfailed", failed)
+    page.on("request", asked)
+    yield page
+    context.close()
+    assert trouble == []

@@ -8,50 +8,28 @@ from typing import Any
 
 import pytest
 
+from tests.docs.conftest import untroubled
+
 
 @pytest.mark.parametrize(("width", "scheme"), [(390, "dark"), (1280, "light")])
 def test_every_page_opens_without_trouble(
     browser: Any, site: Path, width: int, scheme: str
 ) -> None:
-    context = browser.new_context(
-        viewport={"width": width, "height": 800}, color_scheme=scheme, offline=True
-    )
-    page = context.new_page()
-    trouble: list[str] = []
-    page.on("pageerror", lambda error: trouble.append(str(error)))
-    page.on("console", lambda said: trouble.append(said.text) if said.type == "error" else None)
-    page.on(
-        "requestfailed",
-        # Whoever goes on before all pictures are there gives up those that are on the way.
-        lambda request: (
-            None
-            if request.failure == "net::ERR_ABORTED"
-            else trouble.append(f"failed: {request.url}")
-        ),
-    )
-    page.on(
-        "request",
-        lambda request: (
-            None
-            if request.url.startswith(("file:", "data:"))
-            else trouble.append(f"asked: {request.url}")
-        ),
-    )
     files = sorted(site.rglob("*.html"))
     assert len(files) > 25
     other = "light" if scheme == "dark" else "dark"
-    for file in files:
-        page.goto(file.as_uri())
-        # The other scheme may be chosen while a page is open.
-        for chosen in (scheme, other):
-            page.emulate_media(color_scheme=chosen)
-            wide = page.evaluate("document.documentElement.scrollWidth")
-            assert wide <= width, f"{file.name}: {wide} pixels"
-            dark = page.evaluate("getComputedStyle(document.body).backgroundColor")
-            assert (sum(map(int, dark.strip("rgb()").split(","))) < 300) == (chosen == "dark")
-        page.emulate_media(color_scheme=scheme)
-        assert trouble == [], file.name
-    context.close()
+    view = {"viewport": {"width": width, "height": 800}, "color_scheme": scheme}
+    with untroubled(browser, **view) as page:
+        for file in files:
+            page.goto(file.as_uri())
+            # The other scheme may be chosen while a page is open.
+            for chosen in (scheme, other):
+                page.emulate_media(color_scheme=chosen)
+                wide = page.evaluate("document.documentElement.scrollWidth")
+                assert wide <= width, f"{file.name}: {wide} pixels"
+                dark = page.evaluate("getComputedStyle(document.body).backgroundColor")
+                assert (sum(map(int, dark.strip("rgb()").split(","))) < 300) == (chosen == "dark")
+            page.emulate_media(color_scheme=scheme)
 
 
 PICTURES = """async () => {

@@ -14,7 +14,7 @@ from course.effects import PROJECT
 
 pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')
 
-from sitebuild import kept, other_shots, parts, pictures
+from sitebuild import other_shots, parts, pictures
 from sitebuild.place import Place
 
 
@@ -49,17 +49,6 @@ def test_a_room_is_lit_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> 
     before = sorted(tmp_path.iterdir())
     assert other_shots.radiosity_shot(place, "radiosity", "A room") == text
     assert sorted(tmp_path.iterdir()) == before
-
-
-def test_what_no_page_uses_is_removed(tmp_path: Path) -> None:
-    for name in ("a.webp", "a.json", "b.webp", "b.json"):
-        (tmp_path / name).touch()
-    elsewhere = tmp_path / "other" / "b.webp"
-    elsewhere.parent.mkdir()
-    removed = kept.forget_unused(tmp_path, [tmp_path / "a.webp", elsewhere])
-    assert [path.name for path in removed] == ["b.json", "b.webp"]
-    assert (tmp_path / "a.json").is_file()
-    assert kept.forget_unused(tmp_path / "nowhere", []) == []
 
 
 def test_all_of_them_are_parts() -> None:

@@ -19,8 +19,8 @@ from sitebuild.key_variants import HEAT_MAPS, VARIANTS
 from sitebuild.key_words import ELSEWHERE, FLAT, WORDS
 from sitebuild.place import Place
 
-SMALL = (120, 80)
-BLOCK = 4
+SMALL = (60, 40)
+BLOCK = 2
 """Pictures are compared by the means of blocks, of so many pixels each way."""
 
 APART = 4

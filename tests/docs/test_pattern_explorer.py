@@ -14,6 +14,7 @@ from course.core.types import Floats32
 from course.effects import PROJECT, Effects
 from course.errors import CourseError
 from course.extras.samplers.sobol import owen_scrambled, sobol_words
+from tests.docs.conftest import untroubled
 
 pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')
 
@@ -218,17 +219,10 @@ def test_the_still_drawings_measures_are_right(tmp_path: Path) -> None:
 @pytest.fixture
 def explorer(browser: Any, site: Path) -> Iterator[Any]:
     """The explorer's own page; nothing may go wrong on it."""
-    context = browser.new_context(
-        viewport={"width": 1280, "height": 1000}, offline=True, color_scheme="light"
-    )
-    page = context.new_page()
-    trouble: list[str] = []
-    page.on("pageerror", lambda error: trouble.append(str(error)))
-    page.on("console", lambda said: trouble.append(said.text) if said.type == "error" else None)
-    page.goto((site / "explorer.html").as_uri())
-    yield page
-    context.close()
-    assert trouble == []
+    view = {"viewport": {"width": 1280, "height": 1000}, "color_scheme": "light"}
+    with untroubled(browser, **view) as page:
+        page.goto((site / "explorer.html").as_uri())
+        yield page
 
 
 def _drawn(page: Any) -> bytes:

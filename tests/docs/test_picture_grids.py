@@ -48,22 +48,28 @@ objects:
 """A floor and a wall; few triangles make a quick test."""
 
 
+@pytest.fixture(scope="module")
+def corner(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder in which the scene lies, and what is kept of its pictures by whoever asks first."""
+    folder = tmp_path_factory.mktemp("corner")
+    (folder / "scenes").mkdir()
+    (folder / "scenes" / "corner.yaml").write_text(CORNER, encoding="utf-8")
+    return folder
+
+
 @pytest.fixture
-def small(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def small(corner: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Few patches, small pictures, and a folder of their own for what is kept."""
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(pictures, "KEPT", tmp_path / "kept")
+    monkeypatch.chdir(corner)
+    monkeypatch.setattr(pictures, "KEPT", corner / "kept")
     monkeypatch.setattr(radiosity_pictures, "SIZE", SIZE)
     monkeypatch.setattr(radiosity_pictures, "GATHERED", 16)
     monkeypatch.setattr(radiosity_pictures, "SHOT", 400)
     monkeypatch.setattr(radiosity_pictures, "FLOWN", 16)
     monkeypatch.setattr(radiosity_pictures, "FRAMES", 4)
-    monkeypatch.setattr(other_shots, "PROJECT", tmp_path)
-    corner = tmp_path / "scenes" / "corner.yaml"
-    corner.parent.mkdir()
-    corner.write_text(CORNER, encoding="utf-8")
-    monkeypatch.setattr(pictures, "scene_path", corner.with_stem)
-    return tmp_path
+    monkeypatch.setattr(other_shots, "PROJECT", corner)
+    monkeypatch.setattr(pictures, "scene_path", (corner / "scenes" / "corner.yaml").with_stem)
+    return corner
 
 
 def _place(folder: Path, *, blank: bool = False) -> Place:

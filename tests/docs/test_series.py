@@ -18,6 +18,7 @@ from course.cli.main import commands
 from course.effects import PROJECT
 from course.errors import CourseError
 from course.formats.yaml.loading import load_description
+from tests.docs.conftest import untroubled
 
 pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')
 
@@ -191,15 +192,9 @@ def test_blank_pictures_differ(tmp_path: Path) -> None:
 @pytest.fixture
 def shadows(browser: Any, site: Path) -> Iterator[Any]:
     """The page with two sliders; nothing may go wrong on it."""
-    context = browser.new_context(viewport={"width": 1280, "height": 1000}, offline=True)
-    page = context.new_page()
-    trouble: list[str] = []
-    page.on("pageerror", lambda error: trouble.append(str(error)))
-    page.on("console", lambda said: trouble.append(said.text) if said.type == "error" else None)
-    page.goto((site / "modules" / "soft_shadows.html").as_uri())
-    yield page
-    context.close()
-    assert trouble == []
+    with untroubled(browser, viewport={"width": 1280, "height": 1000}) as page:
+        page.goto((site / "modules" / "soft_shadows.html").as_uri())
+        yield page
 
 
 def _shown(page: Any) -> list[str]:

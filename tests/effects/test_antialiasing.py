@@ -9,15 +9,14 @@ binomial distribution.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
 from course import Scene, render
+from tests.conftest import MakeScene
 
-MakeScene = Callable[..., Scene]
 Array = NDArray[np.float64]
 SIZE = 24
 ANGLE = 0.4123

@@ -1,32 +1,26 @@
 """Frosted glass through the engine: nothing is lost, the cone is as wide as its formula, and clear glass stays clear.
 
-A picture through a very small field of view sees one point of the glass; its 256 pixels are independent estimates of
-one number, whose mean is within 5 of its standard errors with a false-fail rate of 1e-6 (Student's t for 255 degrees
-of freedom) for each of the 18 numbers below.
+Means are compared as in tests/estimates.py, 18 of them.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import pytest
 
 from course import Scene, render
-from course.compiled import library
 from course.modules import COURSE
+from tests.conftest import MakeScene
 from tests.drawn import numbers_drawn, rows
-
-MakeScene = Callable[..., Scene]
+from tests.estimates import estimate, fresnel
+from tests.forms import in_both_forms
 
 MODULE = "blurred_transparency"
 FUNCTIONS = {f"{MODULE}.{name}" for name in COURSE[MODULE]}
 TRACERS = ["distribution", "path"]
-needs_numba = pytest.mark.skipif(
-    not library.available(), reason="Numba is not installed (pip install .[fast])"
-)
 INDEX = 1.5
 PLATE = {"shape": "quad", "material": "glass", "width": 200, "depth": 200}
 WHITE = {"type": "constant", "radiance": 1}
@@ -37,16 +31,6 @@ def glass(roughness: float | None, index: float = INDEX, **more: Any) -> dict[st
     if roughness is not None:
         dielectric["roughness"] = roughness
     return {"glass": {"color": 0, "dielectric": dielectric} | more}
-
-
-def reflectance(angle: float, eta: float) -> float:
-    """Fresnel's formulae in their textbook form, by the two angles."""
-    bent = math.asin(eta * math.sin(angle))
-    if angle == 0:
-        return ((1 - eta) / (1 + eta)) ** 2
-    across = (math.sin(angle - bent) / math.sin(angle + bent)) ** 2
-    within = (math.tan(angle - bent) / math.tan(angle + bent)) ** 2
-    return (across + within) / 2
 
 
 @pytest.mark.parametrize("kind", TRACERS)
@@ -85,9 +69,7 @@ def test_white_furnace_of_a_body_of_index_1(
     assert np.allclose(render(scene).linear, 1, rtol=0, atol=1e-6)
 
 
-@pytest.mark.parametrize(
-    "compiled", [False, pytest.param(True, marks=needs_numba)], ids=["NumPy", "compiled"]
-)
+@in_both_forms
 @pytest.mark.parametrize(("kind", "depth"), [("distribution", 6), ("path", 6), ("path", 64)])
 @pytest.mark.parametrize("roughness", [0, 0.01, 0.1, 0.3, 0.5, 0.8, 1])
 @pytest.mark.parametrize(
@@ -155,6 +137,19 @@ def within(alpha: float, roughness: float) -> float:
     return float(np.minimum(2 * height, 1).mean())
 
 
+def shows_the_share_of_the_square(
+    scene: Scene, roughness: float, alpha: float, through: float
+) -> float:
+    """A point shows as much of a red ball of that half-angle, before a green environment, as the square has of it."""
+    (red, green, _), (tolerance, *_) = estimate(scene, 256)
+    assert red + green == pytest.approx(1, abs=1e-5), "either the ball or the environment"
+    assert tolerance < 0.03, "the estimate is worth something"
+    # The ball's mesh lies up to 3e-4 radii inside of it.
+    least, most = (through * within(a, roughness) for a in (alpha * (1 - 4e-4), alpha))
+    assert least - tolerance - 1e-6 <= red <= most + tolerance + 1e-6
+    return most
+
+
 @pytest.mark.parametrize("kind", TRACERS)
 @pytest.mark.parametrize("degrees", [0.0, 50.0])
 @pytest.mark.parametrize("width", [0.5, 0.8, 1.3])
@@ -187,15 +182,8 @@ def test_the_cone_behind_the_surface_is_as_wide_as_the_square(
         lights=[ball],
         integrator={"type": kind, "max_depth": 1},
     )
-    linear = render(scene, spp=256).linear.astype(np.float64)
-    assert np.allclose(linear.sum(axis=2), 1, atol=1e-5), "either the ball or the environment"
-    mean, spread = linear[..., 0].mean(), linear[..., 0].std(ddof=1)
-    tolerance = 5 * spread / 16
-    assert tolerance < 0.03, "the estimate is worth something"
-    through = 1 - reflectance(angle, 1 / INDEX)
-    # The ball's mesh lies up to 3e-4 radii inside of it.
-    least, most = (through * within(a, roughness) for a in (alpha * (1 - 4e-4), alpha))
-    assert least - tolerance - 1e-6 <= mean <= most + tolerance + 1e-6
+    through = 1 - fresnel(math.cos(angle), 1 / INDEX)[0]
+    most = shows_the_share_of_the_square(scene, roughness, alpha, through)
     if width == 0.5:
         assert most == pytest.approx(through * math.pi / 16, rel=1e-3)
 
@@ -221,14 +209,8 @@ def test_total_reflection_inside_is_spread_as_refraction_is(
         lights=[ball | {"radiance": [1, 0, 0]}],
         integrator={"type": kind, "max_depth": 2, "cutoff": 0},
     )
-    picture = render(scene, spp=256)
-    assert picture.receipt.rays["refraction"] == 0, "nothing goes through"
-    linear = picture.linear.astype(np.float64)
-    assert np.allclose(linear.sum(axis=2), 1, atol=1e-5), "either the ball or the environment"
-    mean, tolerance = linear[..., 0].mean(), 5 * linear[..., 0].std(ddof=1) / 16
-    assert tolerance < 0.03, "the estimate is worth something"
-    least, most = (within(a, roughness) for a in (alpha * (1 - 4e-4), alpha))
-    assert least - tolerance - 1e-6 <= mean <= most + tolerance + 1e-6
+    assert render(scene, spp=1).receipt.rays["refraction"] == 0, "nothing goes through"
+    shows_the_share_of_the_square(scene, roughness, alpha, 1)
 
 
 @pytest.mark.parametrize("kind", TRACERS)

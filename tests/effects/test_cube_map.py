@@ -6,7 +6,6 @@ The functions themselves are judged in tests/solutions/test_cube_map.py; here it
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from itertools import product
 from pathlib import Path
 from typing import Any
@@ -16,11 +15,11 @@ import pytest
 from numpy.typing import NDArray
 
 from course import Scene, render
+from tests.conftest import MakeScene, PixelRays
 from tests.effects.skies import TABLE, cube_directions
+from tests.estimates import estimate
 from tests.imaging import picture_files
 
-MakeScene = Callable[..., Scene]
-PixelRays = Callable[[Scene], tuple[NDArray[np.float64], NDArray[np.float64]]]
 Array = NDArray[np.float64]
 
 ONE = {"type": "regular", "samples": 1}
@@ -213,9 +212,7 @@ def test_a_plane_is_lit_by_the_solid_angles_of_the_texels_above_it(
         objects=[{"shape": "quad", "material": "m", "transform": turn}],
         environment=sky,
     )
-    pixels = render(scene, spp=256).linear.astype(float).reshape(-1, 3)
-    # Student's t for 255 degrees of freedom, 1e-6 for each of the 12 numbers.
-    tolerance = 5 * pixels.std(axis=0, ddof=1) / 16
+    mean, tolerance = estimate(scene, 256)
     n = 200
     directions = cube_directions(n)
     cosine = np.maximum(np.tensordot(normal, directions, 1), 0)
@@ -227,5 +224,5 @@ def test_a_plane_is_lit_by_the_solid_angles_of_the_texels_above_it(
         )
         radiance = np.moveaxis(found.reshape(3, 6, n, n), 0, -1).astype(float)
     exact = np.einsum("fab,ab,fabc->c", cosine, solid_angles(n), radiance) / math.pi
-    assert (np.abs(pixels.mean(axis=0) - exact) < tolerance + 1e-4).all()
+    assert (np.abs(mean - exact) < tolerance + 1e-4).all()
     assert tolerance.max() < 0.01

@@ -13,19 +13,16 @@ no pair takes over 1.6. The false-fail rate of the whole file is below 1e-9.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from course import Scene
 from course.core.samplers import Block
 from course.effects import Effects
 from course.extras.samplers import FUNCTIONS, make_sampler
+from tests.conftest import MakeScene
 from tests.drawn import numbers_drawn, rows
 
-MakeScene = Callable[..., Scene]
 PIXELS = 512
 LOCKED = 2.0
 

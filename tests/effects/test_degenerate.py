@@ -6,7 +6,6 @@ and the simpler scene needs none of its numbers.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -18,8 +17,8 @@ from course.core.counters import Counters
 from course.core.rays import Draws, Rays
 from course.core.samplers import Block
 from course.rendering.binding import bind
+from tests.conftest import MakeScene
 
-MakeScene = Callable[..., Scene]
 BALL = {"shape": "sphere", "material": "grey", "radius": 0.6, "segments": 32} | {
     "transform": [{"translate": [-0.6, 0.7, 0]}]
 }

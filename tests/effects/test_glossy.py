@@ -1,14 +1,11 @@
 """Glossy reflection through the engine: nothing is lost, and each lobe has the shape of its formula.
 
-A picture through a very small field of view sees one point of a mirror; its 256 pixels are independent estimates of
-one number, whose mean is within 5 of its standard errors with a false-fail rate of 1e-6 (Student's t for 255 degrees
-of freedom) for each of the about 60 numbers below.
+Means are compared as in tests/estimates.py, about 60 of them.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -21,8 +18,9 @@ from course.core.gloss import Gloss
 from course.core.rays import Dimensions, Draws
 from course.core.samplers import Block
 from course.extras.samplers import make_sampler
+from tests.conftest import MakeScene
+from tests.estimates import estimate
 
-MakeScene = Callable[..., Scene]
 Array = NDArray[np.float64]
 
 LOBES: list[dict[str, Any]] = [
@@ -97,10 +95,9 @@ def seen(make_scene: MakeScene, lobe: dict[str, Any], eye: list[float], *lights:
 
 def share(scene: Scene, samples: int) -> tuple[float, float]:
     """How much of the lobe hits the light, and 5 standard errors."""
-    linear = render(scene, spp=samples).linear.astype(np.float64)
-    assert np.allclose(linear.sum(axis=2), 1, atol=1e-5), "either the light or the environment"
-    pixels = linear[..., 0]
-    return float(pixels.mean()), float(5 * pixels.std(ddof=1) / np.sqrt(pixels.size))
+    mean, tolerance = estimate(scene, samples)
+    assert mean.sum() == pytest.approx(1, abs=1e-5), "either the light or the environment"
+    return float(mean[0]), float(tolerance[0])
 
 
 def within(lobe: dict[str, Any], alpha: float) -> float:

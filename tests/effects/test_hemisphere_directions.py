@@ -8,7 +8,6 @@ Some thirty such numbers are tested here, with fixed seeds.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -17,14 +16,14 @@ import pytest
 import yaml
 from numpy.typing import NDArray
 
-from course import EffectError, Scene, SceneError, load_scene, render
+from course import Scene, SceneError, load_scene, render
 from course.core.environment import ConstantEnvironment, CubeEnvironment
 from course.core.vectors import dot
 from course.effects import PROJECT
 from course.extras.environment_hemispheres import HemisphereSampling
 from course.formats.pictures.files import save
+from tests.conftest import MakeScene
 
-MakeScene = Callable[..., Scene]
 Array = NDArray[np.float64]
 
 WAYS = ("uniform", "cosine", "power")
@@ -214,19 +213,6 @@ def test_without_diffuse_surfaces_the_module_is_not_imported(make_scene: MakeSce
     )
     render(scene, spp=1)
     assert "importance_sampling" not in scene.effects.imported
-
-
-def test_a_function_that_is_not_written_is_named_with_its_line(tmp_path: Path) -> None:
-    path = tmp_path / "scene.yaml"
-    path.write_text(
-        "camera: {eye: [0, 1, 4], look_at: [0, 0, 0]}\nfilm: {width: 4, height: 4}\nsampler: {samples: 1}\n"
-        "environment:\n  type: constant\n  radiance: 1\n  lights: true\n  sampling: cosine\n"
-        "materials: {white: {}}\nobjects: [{shape: quad, material: white, width: 9, depth: 9}]\n",
-        encoding="utf-8",
-    )
-    with pytest.raises(EffectError, match=r"scene\.yaml:8: environment\.sampling asks") as caught:
-        render(load_scene(path, effects=PROJECT / "assignments"))
-    assert "importance_sampling.cosine_hemisphere" in str(caught.value)
 
 
 def test_a_wrong_density_shows_in_the_brightness(make_scene: MakeScene, tmp_path: Path) -> None:

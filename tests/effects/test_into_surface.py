@@ -1,15 +1,12 @@
 """Directions into the surface that they leave: mirrored out of it, or kept, and then they meet it again.
 
 In a white environment a black surface sends back 1 for each ray that leaves it, and nothing for one that meets it
-again where that was the last bounce. A picture through a very small field of view sees one point; its 256 pixels are
-independent estimates of one number, whose mean is within 5 of its standard errors with a false-fail rate of 1e-6
-(Student's t for 255 degrees of freedom).
+again where that was the last bounce. Means are compared as in tests/estimates.py, ten of them.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -17,21 +14,13 @@ import numpy as np
 import pytest
 
 from course import Scene, render
-from course.compiled import library
 from course.core.triangles import Mesh
 from course.formats.meshes.files import save_ply
+from tests.conftest import MakeScene
+from tests.estimates import estimate, fresnel
+from tests.forms import in_both_forms
 
-MakeScene = Callable[..., Scene]
 TRACERS = ["distribution", "path"]
-COMPILED = (
-    False,
-    pytest.param(
-        True,
-        marks=pytest.mark.skipif(
-            not library.available(), reason="Numba is not installed (pip install .[fast])"
-        ),
-    ),
-)
 WHITE = {"type": "constant", "radiance": 1}
 PLATE = {"shape": "quad", "material": "plate", "width": 200, "depth": 200}
 
@@ -51,18 +40,9 @@ def one_bounce(kind: str, into_surface: str) -> dict[str, Any]:
     return {"integrator": {"type": kind, "max_depth": 1, "into_surface": into_surface}}
 
 
-def fresnel(cos_i: float, eta: float) -> float:
-    """The textbook form, by both cosines; ``eta`` is the index on this side over that on the other."""
-    cos_t = math.sqrt(1 - eta**2 * (1 - cos_i**2))
-    across = (eta * cos_i - cos_t) / (eta * cos_i + cos_t)
-    within = (cos_i - eta * cos_t) / (cos_i + eta * cos_t)
-    return (across**2 + within**2) / 2
-
-
 def expect_mean(scene: Scene, expected: float) -> None:
-    values = render(scene, spp=64).linear[..., 0].astype(float)
-    error = np.std(values, ddof=1) / math.sqrt(values.size)
-    assert abs(values.mean() - expected) <= 5 * error + 1e-5
+    mean, tolerance = estimate(scene)
+    assert (np.abs(mean - expected) <= tolerance + 1e-5).all()
 
 
 @pytest.mark.parametrize("kind", TRACERS)
@@ -105,7 +85,7 @@ def tilted(folder: Path, normal: tuple[float, float, float]) -> dict[str, Any]:
     return {"shape": "mesh", "file": "tilted.ply", "material": "plate"}
 
 
-@pytest.mark.parametrize("compiled", COMPILED)
+@in_both_forms
 @pytest.mark.parametrize("kind", TRACERS)
 @pytest.mark.parametrize(("into_surface", "share"), [("mirror", 1), ("keep", 0)])
 def test_a_mirror_by_interpolated_normals(
@@ -144,7 +124,7 @@ def test_glass_by_interpolated_normals(
         materials={"plate": plate},
         objects=[tilted(tmp_path, (-math.sin(angle), math.cos(angle), 0.0))],
     )
-    reflected = fresnel(math.cos(math.radians(40)), 1.5)
+    reflected = float(fresnel(math.cos(math.radians(40)), 1.5)[0])
     expect_mean(scene, 1 if into_surface == "mirror" else reflected)
 
 
@@ -156,7 +136,7 @@ def test_rough_glass(make_scene: MakeScene, kind: str, into_surface: str) -> Non
     scene = make_scene(
         **seen_at(60), **one_bounce(kind, into_surface), materials={"plate": plate}, objects=[PLATE]
     )
-    reflected = fresnel(0.5, 1 / 1.5)
+    reflected = float(fresnel(0.5, 1 / 1.5)[0])
     expect_mean(scene, 1 if into_surface == "mirror" else reflected + (1 - reflected) / 2)
 
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -24,8 +23,8 @@ from course.core.types import Functions
 from course.effects import PROJECT, Bound, Effects
 from course.errors import SceneError
 from course.extras.sampled import SampledSphereLight
+from tests.conftest import MakeScene
 
-MakeScene = Callable[..., Scene]
 Array = NDArray[np.float64]
 SOLUTIONS = Effects(PROJECT / "solutions")
 WAYS = ("sphere by polar", "ball by polar", "ball by rejection")

@@ -19,8 +19,8 @@ import pytest
 from numpy.typing import NDArray
 
 from course import Scene, render
+from tests.conftest import MakeScene
 
-MakeScene = Callable[..., Scene]
 Array = NDArray[np.float64]
 SIZE = 32
 SAMPLES = 64

@@ -17,9 +17,8 @@ from course.cli.main import commands
 from course.contracts import CONTRACTS, contract
 from course.effects import PROJECT, Effects
 from course.errors import CourseWarning, FunctionError
-from course.grading.checks.declare import declaration
-from course.grading.checks.drawing import Draw
 from course.guard import Guard
+from tests.effects.test_contracts import arguments
 
 SOLUTIONS = Effects(PROJECT / "solutions")
 SCENE = """
@@ -37,16 +36,6 @@ environment: {type: constant, radiance: 1}
 ASKED = r"scene\.yaml:8: materials\.brushed\.gloss asks for it"
 
 
-def arguments(path: str, n: int = 7) -> list[Any]:
-    """Legal arguments, as the renderer has them."""
-    function = declaration(*path.split("."))
-    assert function is not None
-    made = function.make(Draw(np.random.default_rng(1), n, np.float32)).values()
-    if not contract(path).several:
-        return list(made)
-    return [[part.astype(np.float32) for part in a] if isinstance(a, tuple) else a for a in made]
-
-
 def spoiled(path: str, spoil: Callable[[Any], Any], number: int) -> Callable[[], Any]:
     """A call of a guarded function, one of whose results is spoiled."""
     module, name = path.split(".")
@@ -59,7 +48,7 @@ def spoiled(path: str, spoil: Callable[[Any], Any], number: int) -> Callable[[],
         return tuple(spoil(part) if i == number else part for i, part in enumerate(value))
 
     guarded = Guard(path, function, Path("mine") / f"{module}.py")
-    return lambda: guarded(*arguments(path))
+    return lambda: guarded(*arguments(path, 1, 7))
 
 
 RESULTS = [

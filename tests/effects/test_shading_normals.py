@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 import pytest
 
 from course import Scene, render
+from tests.conftest import MakeScene
 
 pytestmark = pytest.mark.usefixtures("each_form")
-
-MakeScene = Callable[..., Scene]
 
 
 def ball(make_scene: MakeScene, normals: str, **parts: object) -> Scene:

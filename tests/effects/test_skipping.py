@@ -5,16 +5,15 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from course import Scene, render
+from course import render
+from tests.conftest import MakeScene
 
-MakeScene = Callable[..., Scene]
 PATHS = 32 * 32 * 4
 CAMERA = {"eye": [0, 0, 4], "look_at": [0, 0, 0]}
 WALL = {"shape": "quad", "material": "grey", "width": 100, "depth": 100} | {
@@ -67,6 +66,7 @@ NOTHING: list[tuple[str, dict[str, Any]]] = [
     ("no radius", {"lights": [BALL | {"radius": 0}]}),
     ("no power", {"lights": [BALL | {"intensity": 0}, PANEL | {"intensity": [0, 0, 0]}]}),
     ("grid without power", {"lights": [PANEL | {"intensity": 0, "samples": "grid 9"}]}),
+    ("ambient light alone", {"lights": [{"type": "ambient", "radiance": 1}]}),
 ]
 
 
@@ -182,34 +182,48 @@ def test_an_effect_costs_its_own_numbers_rays_and_module_and_no_other(
     assert not set(receipt.effects["skipped"]) & modules
 
 
-@pytest.mark.parametrize("effect", ["plain", *EFFECTS])
-def test_a_process_imports_the_modules_of_its_scene_only(tmp_path: Path, effect: str) -> None:
-    parts: dict[str, Any] = {}
-    functions: set[str] = set()
-    if effect != "plain":
-        parts, _, _, functions = EFFECTS[effect]
+RENDERED = """
+import json, sys
+from pathlib import Path
+from course import load_scene, render
+for name in sys.argv[1:]:
+    there = set(sys.modules)
+    render(load_scene(name))
+    new = [n for n in sys.modules if n.startswith(("course_effects", "numpy.random"))]
+    print(json.dumps(new))
+    # The next scene finds none of them.
+    for n in set(sys.modules) - there:
+        if n.startswith("course_effects"):
+            del sys.modules[n]
+"""
+"""Renders scenes, and prints what each has imported."""
+
+
+def test_a_process_imports_the_modules_of_its_scene_only(tmp_path: Path) -> None:
     one = {"sampler": {"type": "sobol", "samples": 1}, "film": {"width": 4, "height": 4}}
-    (tmp_path / "s.yaml").write_text(json.dumps(description(**parts) | one), encoding="utf-8")
-    code = (
-        "import json, sys\n"
-        "from course import load_scene, render\n"
-        "render(load_scene('s.yaml'))\n"
-        "print(json.dumps([n for n in sys.modules if n.startswith(('course_effects', 'numpy.random'))]))\n"
-    )
-    root = Path(__file__).parents[2]
+    scenes = {"plain": ({}, set[str]())} | {
+        name: (parts, functions) for name, (parts, _, _, functions) in EFFECTS.items()
+    }
+    for name, (parts, _) in scenes.items():
+        (tmp_path / name).write_text(json.dumps(description(**parts) | one), encoding="utf-8")
     done = subprocess.run(
-        [sys.executable, "-c", code],
+        [sys.executable, "-c", RENDERED, *scenes],
         cwd=tmp_path,
-        env={"PYTHONPATH": str(root), "PATH": ""},
+        env={"PYTHONPATH": str(Path(__file__).parents[2]), "PATH": ""},
         capture_output=True,
         text=True,
         check=True,
     )
-    found = {name.rpartition(".")[2] for name in json.loads(done.stdout)}
-    assert found == {function.partition(".")[0] for function in functions}
+    for (name, (_, functions)), line in zip(scenes.items(), done.stdout.splitlines(), strict=True):
+        found = {each.rpartition(".")[2] for each in json.loads(line)}
+        assert found == {function.partition(".")[0] for function in functions}, name
 
 
 AWAY = [
+    ("no power", POINT | {"intensity": 0}),
+    ("point behind", POINT | {"position": [0, 1, -5]}),
+    ("sun behind", {"type": "directional", "direction": [0, 0, 1], "irradiance": 1}),
+    ("sphere behind", BALL | {"center": [0, 1, -5]}),
     ("behind", PANEL | {"corner": [-1, 0, -5], "intensity": 1}),
     ("grid behind", PANEL | {"corner": [-1, 0, -5], "intensity": 1, "samples": "grid 4"}),
     ("looks away", PANEL | {"edge_u": [2, 0, 0], "edge_v": [0, 2, 0], "radiance": 1}),

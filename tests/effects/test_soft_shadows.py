@@ -1,15 +1,12 @@
 """Area lights against closed forms and quadrature, seen from single points of a floor.
 
-A picture through a very small field of view sees one point; its 256 pixels are independent estimates of one number.
-The mean is within 5 of its standard errors with a false-fail rate of 1e-6 (Student's t for 255 degrees of freedom),
-for each of the about 150 numbers below. Beside that stands 1e-4 of the unshadowed value, for shadow rays leave 2^-19
-of the half extent above the floor.
+Means are compared as in tests/estimates.py, about 150 of them. Beside their errors stands 1e-4 of the unshadowed value,
+for shadow rays leave 2^-19 of the half extent above the floor.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -17,12 +14,14 @@ import pytest
 from numpy.typing import NDArray
 
 from course import Scene, render
+from tests import estimates
+from tests.conftest import MakeScene, PixelRays
 from tests.effects import skies
 
-pytestmark = pytest.mark.usefixtures("each_form")
+# Both forms where a light is half hidden and where it is a grid: tests/transport/test_shadow_kernels.py holds compiled
+# loops to the same bits for the points of every kind of light.
+each_form = pytest.mark.usefixtures("each_form")
 
-MakeScene = Callable[..., Scene]
-PixelRays = Callable[[Scene], tuple[NDArray[np.float64], NDArray[np.float64]]]
 Array = NDArray[np.float64]
 FLOOR = {"shape": "quad", "material": "white", "width": 6, "depth": 6}
 
@@ -40,8 +39,8 @@ def at_point(make_scene: MakeScene, x: float, light: Any, *objects: dict[str, An
 
 def estimate(scene: Scene, samples: int = 64) -> tuple[float, float]:
     """Irradiance and 5 of its standard errors."""
-    pixels = render(scene, spp=samples).linear[..., 0].astype(np.float64) * np.pi
-    return float(pixels.mean()), float(5 * pixels.std(ddof=1) / np.sqrt(pixels.size))
+    mean, tolerance = estimates.estimate(scene, samples)
+    return float(np.pi * mean[0]), float(np.pi * tolerance[0])
 
 
 def lambert(corners: Array) -> float:
@@ -67,6 +66,7 @@ LAMP = {"type": "rectangle", "corner": [-A, TOP, -B], "edge_u": [2 * A, 0, 0]} |
 ACROSS = [-0.25, -0.12, -0.03, 0.06, 0.17, 0.25]
 
 
+@each_form
 @pytest.mark.parametrize("x", ACROSS)
 def test_the_penumbra_of_a_half_plane_before_a_rectangle_by_radiance(
     make_scene: MakeScene, x: float
@@ -100,6 +100,7 @@ def test_the_penumbra_of_a_half_plane_before_a_rectangle_by_intensity(
     assert abs(mean - exact) <= tolerance + 1e-4 * 5 * from_points(np.array([-x, TOP, 0]))
 
 
+@each_form
 @pytest.mark.parametrize("x", ACROSS)
 def test_the_penumbra_of_a_half_plane_before_a_disk_is_a_segment_of_it(
     make_scene: MakeScene, x: float
@@ -312,6 +313,7 @@ def test_the_methods_of_a_sphere_differ() -> None:
     assert np.ptp(values) > 0.05 * min(values)
 
 
+@each_form
 @pytest.mark.parametrize("kind", ["intensity", "radiance"])
 @pytest.mark.parametrize("k", [1, 2, 5])
 def test_a_grid_is_the_sum_of_its_point_lights(

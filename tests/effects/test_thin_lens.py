@@ -12,7 +12,6 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -22,8 +21,8 @@ from numpy.typing import NDArray
 from course import Scene, render
 from course.building.world import compile_camera
 from course.rendering.binding import bind
+from tests.conftest import MakeScene
 
-MakeScene = Callable[..., Scene]
 Array = NDArray[np.float64]
 SIZE = 24
 FOCUS = 4.0
@@ -56,7 +55,7 @@ def knife(
 
 
 def outline(shape: str, blades: int) -> Array:
-    """(n, 2) corners of an aperture of radius 1; a disk is close to a polygon of 1000 corners."""
+    """(n, 2) corners of an aperture of radius 1, for a disk those of a polygon close to it."""
     if shape == "square":
         return np.array([[1.0, 1], [-1, 1], [-1, -1], [1, -1]])
     n = blades if shape == "polygon" else 1000
@@ -79,11 +78,16 @@ def share_below(corners: Array, normal: Array, level: Array) -> Array:
     return area / total
 
 
-def test_the_closed_form_of_a_disk_is_the_segment_of_a_circle() -> None:
+def segment(level: Array) -> Array:
+    """The same share of a disk of radius 1."""
+    s = np.clip(level, -1, 1)
+    return np.asarray(0.5 + (np.arcsin(s) + s * np.sqrt(1 - s * s)) / np.pi)
+
+
+def test_both_closed_forms_agree_on_a_disk() -> None:
     t = np.linspace(-1.2, 1.2, 97)
-    s = np.clip(t, -1, 1)
-    segment = 0.5 + (np.arcsin(s) + s * np.sqrt(1 - s * s)) / np.pi
-    assert np.allclose(share_below(outline("disk", 0), np.array([0.6, 0.8]), t), segment, atol=1e-5)
+    polygon = share_below(outline("disk", 0), np.array([0.6, 0.8]), t)
+    assert np.allclose(polygon, segment(t), atol=1e-5)
 
 
 def expected(depth: float, angle: float, shape: str, blades: int) -> Array:
@@ -94,7 +98,10 @@ def expected(depth: float, angle: float, shape: str, blades: int) -> Array:
     # From lens point l through the focus plane's P to depth d: l (1 - d / f) + P d / f.
     spread = RADIUS * (1 - depth / FOCUS)
     level = -on_focus * depth / FOCUS / abs(spread)
-    share = share_below(outline(shape, blades), math.copysign(1, spread) * normal, level)
+    if shape == "disk":
+        share = segment(level)
+    else:
+        share = share_below(outline(shape, blades), math.copysign(1, spread) * normal, level)
     return np.asarray(share.reshape(SIZE, 8, SIZE, 8).mean(axis=(1, 3)))
 
 

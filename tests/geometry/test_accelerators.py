@@ -8,27 +8,19 @@ from typing import Any
 import numpy as np
 import pytest
 
-from course.compiled import library
 from course.compiled.accelerator import MovingPackets, PacketAccelerator, in_packets
 from course.core.embree import Accelerator, EmbreeAccelerator, QueryStats
 from course.core.motion import Motion, MovingAccelerator
 from course.core.types import Functions
 from course.extras.hierarchy import HierarchyAccelerator
 from solutions import bounding_volumes, motion_blur
+from tests.forms import needs_numba
 
 KINDS = (
     EmbreeAccelerator,
     MovingAccelerator,
     HierarchyAccelerator,
-    *(
-        pytest.param(
-            kind,
-            marks=pytest.mark.skipif(
-                not library.available(), reason="Numba is not installed (pip install .[fast])"
-            ),
-        )
-        for kind in (PacketAccelerator, MovingPackets)
-    ),
+    *(pytest.param(kind, marks=needs_numba) for kind in (PacketAccelerator, MovingPackets)),
 )
 QUERIES = ("intersect", "unoccluded")
 
@@ -73,7 +65,7 @@ def test_who_knows_the_interface_alone_gets_the_same_answers(kind: type) -> None
     assert accelerator.unoccluded(origin, direction, 1.5, stats, time).tolist() == [True, True]
 
 
-@pytest.mark.skipif(not library.available(), reason="Numba is not installed (pip install .[fast])")
+@needs_numba
 def test_packets_take_the_place_of_embree_alone() -> None:
     for kind, other in (
         (EmbreeAccelerator, PacketAccelerator),

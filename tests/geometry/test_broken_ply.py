@@ -234,6 +234,34 @@ def test_what_is_wrong_is_told_with_the_file(tmp_path: Path, content: bytes, mes
     assert "\n" not in str(caught.value)
 
 
+def long_header(most: int, end: str = "end_header\n") -> bytes:
+    """Of so many properties more than are needed, and one vertex and face."""
+    more = "".join(f"property float p{k}\n" for k in range(most))
+    rows = "0 0 0" + " 0" * most + "\n3 0 0 0\n"
+    header = ply().decode().partition("element face")[0].replace("vertex 4", "vertex 1")
+    return f"{header}{more}element face 1\nproperty {CORNERS}\n{end}{rows}".encode()
+
+
+def test_headers_longer_than_any_mesh_needs_are_refused(tmp_path: Path) -> None:
+    path = tmp_path / "long.ply"
+    # Elements and properties are counted together: 2 and 4 of them beside these are the most.
+    path.write_bytes(long_header(994))
+    assert len(read_mesh(path).triangles) == 1
+    elements = "".join(f"element e{k} 0\n" for k in range(100_000)).encode()
+    for content in (
+        long_header(995),
+        long_header(100_000),
+        ply().replace(b"element vertex", elements + b"element vertex"),
+    ):
+        path.write_bytes(content)
+        with pytest.raises(GeometryError, match="more than 1000 elements and prop") as caught:
+            read_mesh(path)
+        assert len(str(caught.value)) < len(str(path)) + 300
+    path.write_bytes(long_header(0, "comment more\n" * 1_300_000 + "end_header\n"))
+    with pytest.raises(GeometryError, match="no line end_header in the first 16 MB"):
+        read_mesh(path)
+
+
 def test_a_scene_says_where_it_names_the_file(tmp_path: Path) -> None:
     (tmp_path / "broken.ply").write_bytes(ply(faces=[(0, 1, 2), (0, 2)]))
     text = (

@@ -19,10 +19,7 @@ from course.core.vectors import cross, dot
 from course.extras.surface import FullPart, FullSurface, build_surface
 from course.formats.meshes import transforms
 from course.formats.yaml import description as d
-
-compiled = pytest.mark.skipif(
-    not library.available(), reason="Numba is not installed (pip install .[fast])"
-)
+from tests.forms import needs_numba
 
 TURN = transforms.compose(
     [
@@ -138,7 +135,7 @@ def test_an_object_without_area_is_in_nobodys_way() -> None:
     assert found.worth.tolist() == [True, False]
 
 
-@compiled
+@needs_numba
 def test_where_things_move_nothing_is_left_out() -> None:
     functions = Functions(
         displacement=lambda velocity, time: velocity[:, None] * time,
@@ -169,7 +166,7 @@ def left_behind(surface: Surface, seed: int) -> tuple[Hits, Any, Any]:
     return hits, np.arange(n), way
 
 
-@compiled
+@needs_numba
 def test_hits_are_the_same_as_if_all_had_been_asked() -> None:
     surface = in_loops(apart())
     hits, which, way = left_behind(surface, 1)
@@ -189,7 +186,7 @@ def test_hits_are_the_same_as_if_all_had_been_asked() -> None:
     assert len(which) - len(asked) > 0.25 * (every.triangle < 0).sum()
 
 
-@compiled
+@needs_numba
 def test_limits_hold_for_rays_that_are_not_asked() -> None:
     surface = in_loops(apart())
     hits, which, way = left_behind(surface, 2)
@@ -202,7 +199,7 @@ def test_limits_hold_for_rays_that_are_not_asked() -> None:
         assert getattr(some, name).tobytes() == getattr(every, name).tobytes(), name
 
 
-@compiled
+@needs_numba
 def test_only_what_leaves_a_ball_outwards_leaves_it() -> None:
     surface = in_loops(apart())
     hits, which, way = left_behind(surface, 3)
@@ -221,7 +218,7 @@ def test_only_what_leaves_a_ball_outwards_leaves_it() -> None:
     assert (left >= 0).mean() > 0.1
 
 
-@compiled
+@needs_numba
 def test_without_convex_objects_nobody_asks_what_a_ray_leaves() -> None:
     surface = in_loops(scene((BALL, False), (KNOT, False)))
     hits, which, way = left_behind(surface, 4)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -16,9 +15,8 @@ from course.core.ray_offset import bulge
 from course.core.triangles import Mesh, Triangles
 from course.extras.surface import FullPart, FullSurface, build_surface
 from course.formats.meshes import transforms
+from tests.conftest import MakeScene, PixelRays
 
-MakeScene = Callable[..., Scene]
-PixelRays = Callable[[Scene], tuple[NDArray[np.float64], NDArray[np.float64]]]
 Array = NDArray[np.float64]
 ULP = 2.0**-23
 

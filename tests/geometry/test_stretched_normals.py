@@ -7,12 +7,12 @@ import pytest
 from numpy.typing import NDArray
 
 from course import shapes
-from course.compiled import library
 from course.core.embree import Intersections
 from course.core.hits import Hits
 from course.core.triangles import Mesh
 from course.extras.surface import FullPart, FullSurface, build_surface
 from course.formats.meshes import transforms
+from tests.forms import needs_numba
 
 Array = NDArray[np.float64]
 
@@ -75,7 +75,7 @@ def test_shading_normals_of_stretched_meshes_are_unit(name: str) -> None:
     assert np.abs(np.linalg.norm(hits.ns.astype(float), axis=0) - 1).max() < 1e-6
 
 
-@pytest.mark.skipif(not library.available(), reason="Numba is not installed (pip install .[fast])")
+@needs_numba
 @pytest.mark.parametrize("name", STRETCHES)
 def test_both_kinds_of_loops_give_the_same_bits(name: str) -> None:
     image = stretched_ball(name)[1]

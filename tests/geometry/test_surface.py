@@ -21,15 +21,15 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from course import Scene, render, shapes
+from course import render, shapes
 from course.core import ray_offset
 from course.core.embree import QueryStats
 from course.core.hits import Hits
 from course.core.triangles import Mesh
 from course.extras.surface import FullPart, FullSurface, build_surface
 from course.formats.meshes import transforms
+from tests.conftest import MakeScene
 
-MakeScene = Callable[..., Scene]
 Array = NDArray[np.float64]
 STATS = QueryStats()
 

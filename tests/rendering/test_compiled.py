@@ -3,19 +3,14 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
 
 import pytest
 
-from course import Scene, render
+from course import render
 from course import render_scene as rendering
-from course.compiled import library
 from course.errors import CourseError
-
-EveryStage = Callable[..., Scene]
-needs_numba = pytest.mark.skipif(
-    not library.available(), reason="Numba is not installed (pip install .[fast])"
-)
+from tests.forms import needs_numba
+from tests.rendering.conftest import EveryStage
 
 
 @needs_numba

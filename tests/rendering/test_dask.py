@@ -22,17 +22,15 @@ from course.cluster import connection as connection_module
 from course.cluster import executor as cluster_module
 from course.cluster.executor import PIECE, next_piece
 from course.cluster.parcel import KeptScenes, Order, edition, pack, unpack
-from course.core.film import Film
 from course.core.tiles import Tile, Work
 from course.errors import CourseError, EffectError
 from course.formats.meshes.files import save_ply
 from course.formats.pictures.files import save
 from course.modules import MODULES
-from course.rendering.threads import InOrder
 from course.shapes.curved import sphere
 from tests.dask_cluster import Cluster
+from tests.rendering.conftest import EveryStage
 
-EveryStage = Callable[..., Scene]
 ROOT = Path(__file__).parents[2]
 
 
@@ -454,16 +452,3 @@ def test_pieces_are_worth_handing_out(seconds_a_tile: float, tiles: int) -> None
     pieces = list(iter(lambda: next_piece(rest, seconds_a_tile / 64), []))
     assert [item for piece in pieces for item in piece] == work
     assert {len(piece) for piece in pieces[:-1]} == {tiles}
-
-
-def test_passes_enter_the_film_in_order_whichever_comes_first() -> None:
-    tile = Tile(0, 0, 0, 2, 2)
-    film = Film(2, 2)
-    in_order = InOrder(film)
-    for order in (2, 1, 0):
-        assert in_order.done == 0
-        work = Work(tile, order, 16 * order, 16, True)
-        in_order.add(work, np.full((3, 4), np.float32(1 + order)), 16.0)
-    assert (in_order.done, in_order.done_first) == (3, 1)
-    assert (film.samples == 48).all()
-    assert (film.linear == 2).all()

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from course import Picture, Scene, render
+from course import Picture, render
 from course.core.counters import Counters
 from course.core.film import Film
 from course.core.tiles import Tile, Work, passes
@@ -20,10 +20,10 @@ from course.extras.samplers import FUNCTIONS
 from course.extras.work import divided_passes
 from course.rendering.binding import bind
 from course.rendering.threads import Pool
+from tests.rendering.conftest import EveryStage
 
 SAMPLERS = tuple(FUNCTIONS)
 FILTERS = ("box", "gaussian")
-EveryStage = Callable[..., Scene]
 
 
 def film_of(kind: str) -> dict[str, Any]:

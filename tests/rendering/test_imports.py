@@ -73,16 +73,10 @@ def test_one_box_imports_no_heavy_library_and_no_module_of_effects_it_does_not_c
     ("change", "options", "effects"),
     [
         ({}, ("--spp", "1"), set()),
-        ({}, (), {"supersampling"}),
         (
             {"lights": [{"type": "sphere", "center": [2, 4, 3], "radius": 1, "intensity": 9}]},
             (),
             {"supersampling", "soft_shadows"},
-        ),
-        (
-            {"lights": [{"type": "sphere", "center": [2, 4, 3], "radius": 1, "intensity": 0}]},
-            ("--spp", "1"),
-            set(),
         ),
     ],
 )

@@ -13,15 +13,14 @@ sample that falls on the other side of an edge changes its pixel by more, and wo
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import pytest
 
-from course import Scene, render
+from course import render
+from tests.rendering.conftest import EveryStage
 
-EveryStage = Callable[..., Scene]
 SIZE = 6.0
 
 

@@ -8,7 +8,6 @@ difference of 7 standard errors comes by chance once in 1e7 (Student's t); 24 ar
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -18,8 +17,8 @@ from numpy.typing import NDArray
 from course import Scene, render
 from course.errors import CourseError, SceneError
 from course.extras.samplers import FUNCTIONS
+from tests.conftest import MakeScene
 
-MakeScene = Callable[..., Scene]
 NEW = ("halton", "hammersley", "chained", "xorshift")
 SEEDS = 16
 

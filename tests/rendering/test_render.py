@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
 import pytest
 
-from course import CourseError, Scene, render
+from course import CourseError, render
 from course.core.film import Film
 from course.core.render import Run, Schedule
 from course.core.render import render as render_film
 from course.core.tiles import Tile, Work
 from course.rendering.threads import Execution, ThreadedExecutor
-
-MakeScene = Callable[..., Scene]
+from tests.conftest import MakeScene
 
 
 class Steps(ThreadedExecutor):

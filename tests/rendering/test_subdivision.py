@@ -18,8 +18,7 @@ from course.effects import PROJECT, Bound, Effects
 from course.rendering.summary import summarize
 from course.rendering.threads import Pool
 from course.scene.scene import Subdivision
-
-MakeScene = Callable[..., Scene]
+from tests.conftest import MakeScene
 
 HEIGHT = 4.0
 HALF = math.tan(math.radians(25)) * HEIGHT

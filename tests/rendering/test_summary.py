@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import pytest
 
-from course import Scene, render
+from course import render
 from course.rendering.summary import summarize
 from course.scene.darkness import why_black
-
-MakeScene = Callable[..., Scene]
+from tests.conftest import MakeScene
 
 QUAD = {"shape": "quad", "material": "grey"}
 POINT = {"type": "point", "position": [0, 5, 0], "intensity": 9}

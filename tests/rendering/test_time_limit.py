@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -15,8 +14,8 @@ from course.core.tracer import Tracer
 from course.extras.samplers import FUNCTIONS
 from course.rendering import threads as pool
 from course.rendering.binding import bind
+from tests.conftest import MakeScene
 
-MakeScene = Callable[..., Scene]
 LIMITS = (6.0, 12.0, 24.0, 48.0)
 """In looks at the clock, of which there is one before each tile."""
 

@@ -81,35 +81,18 @@ def column(point: Any, dtype: type) -> Any:
     return exact(np.array(point, dtype)).reshape(3, 1)
 
 
-def test_every_function_of_the_course_is_tried() -> None:
+FIXED = {"regular", "random", "circle_of_confusion"}
+"""Functions of one formula, or of counts: tests/solutions has all their worst numbers."""
+
+
+def test_every_other_function_of_the_core_modules_is_tried() -> None:
     here = globals()
     for module, functions in MODULES.items():
         for name in functions:
-            assert f"test_{module}_{name}" in here, name
+            assert (f"test_{module}_{name}" in here) != (name in FIXED), name
 
 
 # ---------------------------------------------------------------- supersampling
-
-
-@TRIES
-@given(k=st.integers(1, 40), n=st.integers(0, 4))
-def test_supersampling_regular(k: int, n: int) -> None:
-    points = function("supersampling.regular")(k, n)
-    assert_finite(points, np.float32)
-    middle = (np.arange(k) + 0.5) / k
-    x, y = np.meshgrid(middle, middle)
-    # One rounding of the quotient.
-    assert (np.abs(points[0] - x.ravel()) <= eps(np.float32) / 2).all()
-    assert (np.abs(points[1] - y.ravel()) <= eps(np.float32) / 2).all()
-
-
-@TRIES
-@given(k=st.integers(1, 40), n=st.integers(0, 4), seed=st.integers(0, 2**32 - 1))
-def test_supersampling_random(k: int, n: int, seed: int) -> None:
-    points = function("supersampling.random")(k, n, np.random.default_rng(seed))
-    assert points.shape == (2, n, k * k)
-    assert_finite(points, np.float32)
-    assert ((points >= 0) & (points < 1)).all()
 
 
 class Worst(np.random.Generator):
@@ -395,18 +378,6 @@ def test_thin_lens_image_distance(f: float, o: float) -> None:
     assert (distance > 0) == (o > f)
     expected = exact(f) * exact(o) / (exact(o) - exact(f))
     assert abs(distance - expected) <= 4 * eps(np.float64) * abs(expected)
-
-
-@TRIES
-@BATCH
-def test_thin_lens_circle_of_confusion(data: st.DataObject, dtype: type, n: int) -> None:
-    depth = data.draw(columns(dtype, 1, lengths(dtype).filter(lambda x: x > 0), n))[0]
-    aperture = data.draw(lengths(np.float64))
-    focus = data.draw(lengths(np.float64).filter(lambda x: x > 0))
-    diameter = function("thin_lens.circle_of_confusion")(depth, aperture, focus)
-    assert_finite(diameter, dtype)
-    expected = 2 * exact(aperture) * np.abs(exact(dtype(focus)) - exact(depth)) / exact(depth)
-    assert (np.abs(diameter - expected) <= 8 * eps(dtype) * expected).all()
 
 
 # ---------------------------------------------------------------- motion_blur

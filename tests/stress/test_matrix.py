@@ -178,32 +178,25 @@ def test_the_closed_form_is_what_the_well_conditioned_twin_shows(
         assert np.abs(picture - module.radiance(each)).max() <= module.tolerance(each).max()
 
 
-@pytest.mark.parametrize("axis", ["roughness", "motion"])
-def test_what_is_nothing_changes_no_bit(axis: str, tmp_path: Path) -> None:
-    """A lobe and a motion of 1e-30 draw numbers, but the picture is that without them."""
-    tiny = {"roughness": "1e-06", "motion": "object 1e-7"}[axis]
-    plain = cell("room", sampler="regular", resolution="33 x 17", light="directional")
+@pytest.mark.parametrize(
+    ("axis", "tiny", "levels", "units"),
+    [
+        # A lobe and a motion of 1e-30 draw numbers, but the picture is that without them.
+        ("roughness", "1e-06", {}, 0),
+        ("motion", "object 1e-7", {}, 0),
+        # These rays go to the point in focus and not along the pinhole's, which is the same to rounding only.
+        *(("aperture", "1e-05", {"lens": lens}, 32) for lens in ("disk", "square", "polygon")),
+        # These lobes make their directions unit length, which the mirrored ones are to rounding only.
+        *(("roughness", "1e-06", {"lobe": lobe}, 32) for lobe in ("ball", "phong")),
+    ],
+)
+def test_what_is_nothing_changes_nothing(
+    axis: str, tiny: str, levels: dict[str, str], units: int, tmp_path: Path
+) -> None:
+    plain = cell("room", sampler="regular", resolution="33 x 17", light="directional", **levels)
     expected = room.room(plain).picture(tmp_path)
     twin = room.room(plain.with_level(axis, tiny).twin()).picture(tmp_path)
-    assert np.array_equal(twin, expected)
-
-
-@pytest.mark.parametrize("lens", ["disk", "square", "polygon"])
-def test_a_lens_that_is_nothing_changes_no_more_than_rounding(lens: str, tmp_path: Path) -> None:
-    """Its rays go to the point in focus and not along the pinhole's, which is the same to rounding only."""
-    plain = cell("room", sampler="regular", resolution="33 x 17", light="directional", lens=lens)
-    expected = room.room(plain).picture(tmp_path)
-    twin = room.room(plain.with_level("aperture", "1e-05").twin()).picture(tmp_path)
-    assert np.abs(twin - expected).max() <= 32 * U * expected.max()
-
-
-@pytest.mark.parametrize("lobe", ["ball", "phong"])
-def test_what_is_nothing_changes_no_more_than_rounding(lobe: str, tmp_path: Path) -> None:
-    """These lobes make their directions unit length, which the mirrored ones are to rounding only."""
-    plain = cell("room", sampler="regular", resolution="33 x 17", light="directional", lobe=lobe)
-    expected = room.room(plain).picture(tmp_path)
-    twin = room.room(plain.with_level("roughness", "1e-06").twin()).picture(tmp_path)
-    assert np.abs(twin - expected).max() <= 32 * U * expected.max()
+    assert np.abs(twin - expected).max() <= units * U * expected.max()
 
 
 def test_no_pixel_of_the_room_exceeds_its_bound_which_is_not_far_off(tmp_path: Path) -> None:

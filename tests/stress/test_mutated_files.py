@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import select
 import subprocess
 import sys
@@ -119,6 +120,11 @@ def test_mutated_files_are_read_or_refused_in_a_line(tmp_path: Path) -> None:
             right = reading.ask(kind.name, path)
             if right[:3] != ("read", "", ""):
                 wrong.append(f"{kind.name} as it is: {right}")
+            if kind.name == "text.stl":
+                # Of normals that are no numbers the library notes a traceback in its log.
+                path.write_bytes(re.sub(rb"normal \S+ \S+", b"normal 1 x", kind.content))
+                if (quiet := reading.ask(kind.name, path)[:3]) != ("read", "", ""):
+                    wrong.append(f"{kind.name} without normals: {quiet}")
             refused = 0
             files = max(2, int(FILES * kind.share))
             for number in range(files):

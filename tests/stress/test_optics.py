@@ -12,17 +12,9 @@ import pytest
 from benchmarks.stress import optics
 from benchmarks.stress.cells import Cell, tame
 from benchmarks.stress.running import judge_some
-from course.compiled import library
 from course.core import scatter
 from course.extras import conductors, rough_glass
-
-FORMS = [
-    False,
-    pytest.param(
-        True,
-        marks=pytest.mark.skipif(not library.available(), reason="Numba is not installed"),
-    ),
-]
+from tests.forms import in_both_forms, needs_numba
 
 
 def made_of(substance: str, beyond: str = "darker") -> list[Cell]:
@@ -41,7 +33,7 @@ def failed(cells: list[Cell], compiled: bool) -> int:
     return sum(not verdict.passed for verdict in judge_some(cells, compiled))
 
 
-@pytest.mark.parametrize("compiled", FORMS, ids=["NumPy", "compiled"])
+@in_both_forms
 @pytest.mark.parametrize("substance", optics.SUBSTANCES)
 def test_every_substance_is_as_physics_has_it(substance: str, compiled: bool) -> None:
     beyond = "the same" if substance == "frosted glass" else "darker"
@@ -69,7 +61,7 @@ def test_a_wrong_reflectance_of_glass_is_told(
     assert failed(cells, compiled=False) >= max(1, len(cells) - 1)
 
 
-@pytest.mark.skipif(not library.available(), reason="Numba is not installed (pip install .[fast])")
+@needs_numba
 @pytest.mark.parametrize("substance", ["glass", "thin", "diamond", "coloured glass"])
 def test_a_wrong_reflectance_of_glass_is_told_of_the_compiled_loops(
     substance: str, monkeypatch: pytest.MonkeyPatch

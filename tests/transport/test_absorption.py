@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from course import Scene, render
-
-MakeScene = Callable[..., Scene]
-PixelRays = Callable[[Scene], tuple[NDArray[np.float64], NDArray[np.float64]]]
+from course import render
+from tests.conftest import MakeScene, PixelRays
+from tests.estimates import fresnel
+from tests.forms import in_both_forms
 
 ABSORPTION = np.array([0.2, 1.0, 4.0])
 EXACT = {"max_depth": 40, "cutoff": 0}
@@ -88,51 +87,44 @@ def test_a_camera_inside_glass_looks_through_it(
     close(render(scene).linear, np.exp(-length[..., None] * ABSORPTION), 3e-5)
 
 
-@pytest.mark.parametrize("gap", [0.25, 0.75])
-def test_an_opaque_thing_inside_glass_is_seen_through_the_glass(
-    make_scene: MakeScene, gap: float
+def inside(material: str, gap: float) -> list[dict[str, Any]]:
+    """A box of glass with something of another material so far below its surface."""
+    return [
+        {"shape": "box", "material": "glass", "size": [10, 2, 10]},
+        {"shape": "box", "material": material, "size": [9, 2 - 2 * gap, 9]},
+    ]
+
+
+@pytest.mark.parametrize(
+    ("objects", "length", "tolerance"),
+    [
+        (inside("white", 0.25), 0.25, 1e-4),
+        (inside("white", 0.75), 0.75, 1e-4),
+        (inside("mirror", 0.75), 2 * 0.75, 1e-4),
+        # Two panes: the way between them costs nothing.
+        *(
+            ([slab(0.3) | {"transform": [{"translate": [0, y, 0]}]} for y in (0, -far)], 0.6, 6e-4)
+            for far in (1.0, 20.0)
+        ),
+    ],
+    ids=["shallow", "deep", "a mirror", "panes", "panes far apart"],
+)
+def test_light_fades_on_its_way_within_glass_alone(
+    make_scene: MakeScene, objects: list[dict[str, Any]], length: float, tolerance: float
 ) -> None:
-    inner = {"shape": "box", "material": "white", "size": [9, 2 - 2 * gap, 9]}
-    outer = {"shape": "box", "material": "glass", "size": [10, 2, 10]}
     scene = make_scene(
         camera={"eye": [0, 4, 0], "look_at": [0, 0, 0], "up": [0, 0, 1], "vertical_fov": 0.1},
-        objects=[outer, inner],
-        materials={"glass": glass(), "white": {"color": 1}},
-        lights=[{"type": "ambient", "radiance": 1}],
-        integrator=EXACT,
-    )
-    close(render(scene).linear, np.broadcast_to(np.exp(-ABSORPTION * gap), (32, 32, 3)), 1e-4)
-
-
-def test_a_mirror_inside_glass_is_seen_through_twice_the_glass(make_scene: MakeScene) -> None:
-    mirror = {"shape": "quad", "material": "mirror", "width": 9, "depth": 9}
-    outer = {"shape": "box", "material": "glass", "size": [10, 2, 10]}
-    scene = make_scene(
-        camera={"eye": [0, 4, 0], "look_at": [0, 0, 0], "up": [0, 0, 1], "vertical_fov": 0.1},
-        objects=[outer, mirror],
-        materials={"glass": glass(), "mirror": {"mirror": 1}},
+        objects=objects,
+        materials={
+            "glass": glass(),
+            "white": {"color": 0, "emission": 1},
+            "mirror": {"color": 0, "mirror": 1},
+        },
         environment=WHITE,
         integrator=EXACT,
     )
-    close(render(scene).linear, np.broadcast_to(np.exp(-ABSORPTION * 2), (32, 32, 3)), 1e-4)
-
-
-def test_light_does_not_fade_outside_of_glass(make_scene: MakeScene) -> None:
-    # Two panes far apart: the way between them costs nothing.
-    def panes(distance: float) -> NDArray[np.float32]:
-        objects = [slab(0.3) | {"transform": [{"translate": [0, y, 0]}]} for y in (0, -distance)]
-        scene = make_scene(
-            camera={"eye": [0, 4, 0], "look_at": [0, 0, 0], "up": [0, 0, 1], "vertical_fov": 0.1},
-            objects=objects,
-            materials={"glass": glass()},
-            environment=WHITE,
-            integrator=EXACT,
-        )
-        return render(scene).linear
-
-    expected = np.broadcast_to(np.exp(-ABSORPTION * 0.6), (32, 32, 3))
-    for distance in (1.0, 20.0):
-        close(panes(distance), expected, 6e-4)
+    expected = np.broadcast_to(np.exp(-ABSORPTION * length), (32, 32, 3))
+    close(render(scene).linear, expected, tolerance)
 
 
 def test_absorption_counts_in_the_units_of_the_scene_file(make_scene: MakeScene) -> None:
@@ -162,17 +154,7 @@ def test_glass_that_lets_nothing_through_is_black_and_finite(make_scene: MakeSce
     assert 0 <= linear.min() <= linear.max() < 1e-12
 
 
-def test_clear_glass_absorbs_nothing(make_scene: MakeScene) -> None:
-    scene = make_scene(
-        objects=[{"shape": "sphere", "material": "glass"}],
-        materials={"glass": glass(1.0, 0)},
-        environment=WHITE,
-        integrator=EXACT,
-    )
-    close(render(scene).linear, np.ones((32, 32, 3)), 1e-6)
-
-
-@pytest.mark.parametrize("compiled", [False, True])
+@in_both_forms
 @pytest.mark.parametrize("path", [False, True])
 @pytest.mark.parametrize("away", [0.0, 500.0])
 @pytest.mark.parametrize("wide", [2.0, 400.0])
@@ -237,10 +219,7 @@ def test_a_ball_absorbs_along_its_chords(make_scene: MakeScene, pixel_rays: Pixe
     sine2 = to_middle @ to_middle - along * along
     # Farther out a place of the ball that is rounded to 2^-24 of 300 counts for as much.
     near = sine2 < 0.3
-    cos_i, cos_t = np.sqrt(1 - sine2[near]), np.sqrt(1 - sine2[near] / index**2)
-    s = (cos_i - index * cos_t) / (cos_i + index * cos_t)
-    p = (index * cos_i - cos_t) / (index * cos_i + cos_t)
-    share = (s * s + p * p) / 2
+    share, cos_t = fresnel(np.sqrt(1 - sine2[near]), 1 / index)
     # What comes back after a bounce inside is beyond the depth.
     expected = share + (1 - share) ** 2 * np.exp(-a * 2 * cos_t)
     shown = render(scene).linear[near, 0].astype(np.float64)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -15,25 +14,16 @@ from course.core.embree import QueryStats
 from course.core.rays import Draws
 from course.core.samplers import Block
 from course.rendering.binding import bind
+from tests.conftest import MakeScene, PixelRays
+from tests.estimates import fresnel
 
 pytestmark = pytest.mark.usefixtures("each_form")
 
-MakeScene = Callable[..., Scene]
-PixelRays = Callable[[Scene], tuple[NDArray[np.float64], NDArray[np.float64]]]
 Array = NDArray[np.float64]
 
 ONE = {"type": "regular", "samples": 1}
 FLOOR = {"shape": "quad", "material": "m", "width": 20, "depth": 20}
 EXACT = {"max_depth": 64, "cutoff": 0}
-
-
-def fresnel(cos_i: Array, eta: float) -> tuple[Array, Array]:
-    """Unpolarised reflectance and the cosine of refraction, eta = n_from / n_to, written as in Hecht 4.6."""
-    sin_t = eta * np.sqrt(1 - cos_i**2)
-    cos_t = np.sqrt(np.maximum(1 - sin_t**2, 0))
-    perpendicular = (eta * cos_i - cos_t) / (eta * cos_i + cos_t)
-    parallel = (cos_i - eta * cos_t) / (cos_i + eta * cos_t)
-    return np.where(sin_t >= 1, 1.0, (perpendicular**2 + parallel**2) / 2), cos_t
 
 
 def lamp(y: float, up: bool, half: float, radiance: float = 1.0) -> dict[str, Any]:
@@ -48,18 +38,6 @@ def grey(scene: Scene) -> Array:
     linear = render(scene).linear.astype(np.float64)
     assert np.array_equal(linear[..., 0], linear[..., 2])
     return linear[..., 0]
-
-
-def test_a_mirror_shows_a_known_environment_in_its_own_colour(make_scene: MakeScene) -> None:
-    environment, mirror = [0.3, 2.0, 7.0], [0.9, 0.5, 0.25]
-    scene = make_scene(
-        camera={"eye": [0, 1, 2], "look_at": [0, 0, 0]},
-        objects=[FLOOR],
-        materials={"m": {"mirror": mirror}},
-        environment={"type": "constant", "radiance": environment},
-    )
-    expected = np.float32(environment) * np.float32(mirror)
-    assert np.allclose(render(scene).linear, expected, rtol=1e-6)
 
 
 def test_a_mirror_shows_a_lamp_where_the_law_of_reflection_puts_it(
@@ -138,22 +116,6 @@ def test_reflectance_at_normal_incidence(make_scene: MakeScene, index: float) ->
         integrator={"cutoff": 0},
     )
     assert np.allclose(grey(scene), ((index - 1) / (index + 1)) ** 2, rtol=1e-5)
-
-
-@pytest.mark.parametrize("index", [1.1, 1.5, 2.4])
-def test_at_brewsters_angle_only_one_polarisation_is_reflected(
-    make_scene: MakeScene, index: float
-) -> None:
-    # tan(angle of incidence) = index
-    scene = make_scene(
-        camera={"eye": [0, 1, index], "look_at": [0, 0, 0], "vertical_fov": 0.01},
-        objects=[FLOOR],
-        materials={"m": {"dielectric": {"refraction_index": index}}},
-        lights=[lamp(2, False, 9)],
-        integrator={"cutoff": 0},
-    )
-    expected = ((index**2 - 1) / (index**2 + 1)) ** 2 / 2
-    assert np.allclose(grey(scene), expected, rtol=1e-3)
 
 
 @pytest.mark.parametrize("index", [1 / 1.5, 1.2, 1.5, 2.4])

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import pytest
 
-from course import Scene, render
+from course import render
 from course.compiled.accelerator import MovingPackets, PacketAccelerator
 from course.core.embree import EmbreeAccelerator
 from course.core.motion import MovingAccelerator
+from tests.conftest import MakeScene
 
-MakeScene = Callable[..., Scene]
 LENS = {"lens": {"aperture_radius": 0.1, "focus_distance": 4}}
 SHUTTER = {"shutter": {"open": 0, "close": 1}}
 MOVER = {"shape": "sphere", "radius": 0.2, "segments": 8, "motion": {"velocity": [1, 0, 0]}}

@@ -8,19 +8,10 @@ import pytest
 
 from course import Picture, render
 from course.adaptive import costs
-from course.compiled import library
 from course.extras import path_tracing, sky
 from tests.conftest import MakeScene
+from tests.forms import in_both_forms
 
-LOOPS = [
-    False,
-    pytest.param(
-        True,
-        marks=pytest.mark.skipif(
-            not library.available(), reason="Numba is not installed (pip install .[fast])"
-        ),
-    ),
-]
 DOWN = {"eye": [0, 2, 0.001], "look_at": [0, 0, 0], "vertical_fov": 40}
 FLOOR = {"shape": "quad", "material": "floor", "width": 90, "depth": 90}
 SKY = {"type": "constant", "radiance": 1}
@@ -31,7 +22,7 @@ def adaptive(scene: Any, compiled: bool, **settings: Any) -> Picture:
     return render(scene, error=0.02, compiled=compiled, **settings)
 
 
-@pytest.mark.parametrize("compiled", LOOPS)
+@in_both_forms
 @pytest.mark.parametrize(
     ("scene", "cost"),
     [
@@ -65,7 +56,7 @@ def test_what_a_sample_costs_in_closed_form(
     assert found.film.cost == pytest.approx(cost, rel=1e-5)
 
 
-@pytest.mark.parametrize("compiled", LOOPS)
+@in_both_forms
 @pytest.mark.parametrize("kind", ["distribution", "path"])
 def test_all_costs_are_those_of_all_rays(
     make_scene: MakeScene, monkeypatch: pytest.MonkeyPatch, compiled: bool, kind: str

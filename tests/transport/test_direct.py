@@ -15,12 +15,10 @@ import pytest
 from numpy.typing import NDArray
 
 from course import Scene, render
-from tests.drawn import numbers_drawn, rows
+from tests.conftest import MakeScene, PixelRays
 
 pytestmark = pytest.mark.usefixtures("each_form")
 
-MakeScene = Callable[..., Scene]
-PixelRays = Callable[[Scene], tuple[NDArray[np.float64], NDArray[np.float64]]]
 Array = NDArray[np.float64]
 
 FLOOR = {"shape": "quad", "material": "grey", "width": 6, "depth": 6}
@@ -154,12 +152,6 @@ def test_points_in_shadow_keep_exactly_their_ambient_term(make_scene: MakeScene)
     assert np.array_equal(linear[16:24, 10:22], np.broadcast_to(ambient, (8, 12, 3)))
 
 
-def test_a_sphere_of_radius_zero_is_a_point_light(floor: MakeScene) -> None:
-    sphere = {"type": "sphere", "center": [0.3, 1, 0.2], "radius": 0, "intensity": 2}
-    point = {"type": "point", "position": [0.3, 1, 0.2], "intensity": 2}
-    assert np.array_equal(picture(floor(sphere)), picture(floor(point)))
-
-
 @pytest.mark.parametrize(
     "light",
     [
@@ -181,25 +173,6 @@ def test_a_rectangle_light_is_dark_from_behind(make_scene: MakeScene) -> None:
     environment = {"type": "constant", "radiance": 1}
     shown = render(make_scene(lights=[light | {"radiance": 5}], environment=environment)).linear
     assert not shown.any(), "it hides what is behind it, too"
-
-
-def test_every_light_and_every_depth_has_numbers_of_its_own(make_scene: MakeScene) -> None:
-    # Were they shared, a mirror image would be lit from the same points as what it mirrors.
-    lamps = [
-        {"type": "sphere", "center": [x, 3, 1], "radius": 0.5, "intensity": 1} for x in (-1, 1)
-    ]
-    scene = make_scene(
-        camera={"eye": [0, 0.5, 1], "look_at": [0, 0, 0]},
-        materials={"grey": {"mirror": 0.9}},
-        objects=[
-            FLOOR | {"transform": [{"scale": 20}, {"translate": [0, y, 0]}]} for y in (0, 3.5)
-        ],
-        lights=[*lamps, {"type": "point", "position": [0, 1, 0], "intensity": 1}],
-        integrator={"max_depth": 2},
-    )
-    assert rows(numbers_drawn(scene)) == list(range(2 + 3 * 4)), (
-        "the pixel, then two lamps at each of three depths"
-    )
 
 
 def test_a_light_in_its_own_plane_or_at_a_surface_stays_finite(floor: MakeScene) -> None:

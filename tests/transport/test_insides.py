@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import pytest
 
-from course import Scene, render
-from course.compiled import library
+from course import render
+from tests.conftest import MakeScene
+from tests.forms import in_both_forms
 
-MakeScene = Callable[..., Scene]
 LIGHTS: dict[str, dict[str, Any]] = {
     "lamp": {"lights": [{"type": "point", "position": [0, 0, 3], "intensity": 40}]},
     "sky": {"environment": {"type": "constant", "radiance": 1, "lights": True}},
@@ -37,14 +36,12 @@ def seen(make_scene: MakeScene, light: str, front: bool, **parts: Any) -> Any:
     return render(make_scene(**(description | parts)), compiled=compiled)
 
 
-@pytest.mark.parametrize("compiled", [False, True], ids=["arrays", "loops"])
+@in_both_forms
 @pytest.mark.parametrize("integrator", [{"max_depth": 2}, {"type": "path", "max_depth": 2}])
 @pytest.mark.parametrize("light", LIGHTS)
 def test_only_the_outside_shows_light(
     make_scene: MakeScene, light: str, integrator: dict[str, Any], compiled: bool
 ) -> None:
-    if compiled and not library.available():
-        pytest.skip("Numba is not installed (pip install .[fast])")
     outside, inside = (
         seen(make_scene, light, front, integrator=integrator, compiled=compiled)
         for front in (True, False)

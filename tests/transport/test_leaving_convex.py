@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -11,11 +10,10 @@ import pytest
 from course import Scene, render
 from course.compiled import accelerator, convex, library
 from course.core import integrator
+from tests.conftest import MakeScene
 
 if not library.available():
     pytest.skip("Numba is not installed (pip install .[fast])", allow_module_level=True)
-
-MakeScene = Callable[..., Scene]
 
 
 def balls(make_scene: MakeScene, **parts: Any) -> Scene:

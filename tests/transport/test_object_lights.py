@@ -15,9 +15,9 @@ import pytest
 
 from benchmarks.mitsuba_export import NotExportableError, export
 from course import render
-from course.compiled.library import available
 from course.radiosity.patches import make_patches
 from tests.conftest import MakeScene
+from tests.forms import needs_numba
 from tests.transport.over_a_floor import (
     DISTRIBUTION,
     DOWN,
@@ -301,7 +301,7 @@ def test_any_number_of_threads_gives_the_same_bits(
     assert one.tobytes() == two.tobytes()
 
 
-@pytest.mark.skipif(not available(), reason="the compiled loops need: pip install numba")
+@needs_numba
 @both
 def test_compiled_loops_give_the_same_bits(
     make_scene: MakeScene, integrator: dict[str, Any]

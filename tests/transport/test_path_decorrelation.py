@@ -6,16 +6,13 @@ points; the bound at 2 is 16 standard deviations away, false-fail rate below 1e-
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 import pytest
 
-from course import Scene
+from tests.conftest import MakeScene
 from tests.drawn import numbers_drawn, rows
 from tests.effects.test_decorrelation import LOCKED, measures
 
-MakeScene = Callable[..., Scene]
 DEPTH = 4
 
 

@@ -8,7 +8,6 @@ rate 1e-7 for each of the about 40 numbers, 4e-6 for the file).
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -21,11 +20,11 @@ from course.effects import PROJECT
 from course.errors import SceneError
 from course.extras import path_pieces, path_tracing, plan, work
 from course.scene.scene import load_scene
+from tests.conftest import MakeScene
 from tests.transport.over_a_floor import assert_mean
 
 pytestmark = pytest.mark.usefixtures("each_form")
 
-MakeScene = Callable[..., Scene]
 Array = NDArray[np.float64]
 
 INSIDE = {"eye": [0.1, 0.05, 0.2], "look_at": [1, 0.3, 0.2], "vertical_fov": 70}
@@ -198,7 +197,7 @@ def test_one_half_of_a_ball_colours_the_other(
     scene = make_scene(
         camera={"eye": [0.1, 0.05, 0.2], "vertical_fov": 30, "up": [1, 0, 0]}
         | {"look_at": [0, 1 if half == "above" else -1, 0.1]},
-        film={"width": 40, "height": 40},
+        film={"width": 28, "height": 28},
         materials={name: {"color": list(color)} for name, color in colors.items()},
         objects=two_halves(tmp_path),
         lights=[{"type": "point", "position": [0, 0, 0], "intensity": math.pi}],

@@ -1,16 +1,13 @@
 """Light from environments that are sampled by their tables, through the renderer.
 
-Pictures through a very small field of view see one point; their 256 pixels are independent estimates of one number,
-whose mean is within 5 of its standard errors with a false-fail rate of 1e-6 (Student's t for 255 degrees of freedom),
-for each of the about 60 numbers below. Beside it stands 1e-4 for shadow rays, which leave 2^-19 of the half extent
-above the surface.
+Means are compared as in tests/estimates.py, about 60 of them. Beside their errors stands 1e-4 for shadow rays, which
+leave 2^-19 of the half extent above the surface.
 """
 
 from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -25,10 +22,11 @@ from course.extras.environment_sampling import ProductSampling
 from course.extras.hemisphere import cosine_directions
 from course.extras.sky import CosineSampling
 from course.formats.pictures.files import save
+from tests.conftest import MakeScene
+from tests.estimates import estimate
 
 pytestmark = pytest.mark.usefixtures("each_form")
 
-MakeScene = Callable[..., Scene]
 Array = NDArray[np.float64]
 
 FLOOR = {"shape": "quad", "material": "white", "width": 6, "depth": 6}
@@ -86,17 +84,6 @@ def spot(make_scene: MakeScene) -> MakeScene:
     return make
 
 
-def pixels(scene: Scene, samples: int, seed: int = 0) -> Array:
-    """(256, 3)."""
-    return render(scene, spp=samples, seed=seed).linear.reshape(-1, 3).astype(np.float64)
-
-
-def estimate(scene: Scene, samples: int = 64, seed: int = 0) -> tuple[Array, Array]:
-    """Radiance (3,) and 5 of its standard errors."""
-    found = pixels(scene, samples, seed)
-    return found.mean(axis=0), 5 * found.std(axis=0, ddof=1) / 16
-
-
 def by_cosine(scene: Scene) -> Scene:
     """The same scene without tables."""
     world = scene.compiled.world
@@ -111,8 +98,10 @@ def by_cosine(scene: Scene) -> Scene:
 # ---------------------------------------------------------------- with tables
 
 
-@pytest.mark.parametrize("lookup", ["seamless", "clamped"])
-@pytest.mark.parametrize("degrees", [0, 35, 70, 85, 120, 180])
+@pytest.mark.parametrize(
+    ("degrees", "lookup"),
+    [*((each, "seamless") for each in (0, 35, 70, 85, 120, 180)), (35, "clamped"), (85, "clamped")],
+)
 def test_a_plane_under_sun_and_sky_has_their_irradiance(
     spot: MakeScene, tmp_path: Path, degrees: float, lookup: str
 ) -> None:
@@ -140,20 +129,20 @@ def test_the_sun_casts_a_shadow(spot: MakeScene, tmp_path: Path) -> None:
     assert (tolerance < 0.02 * exact).all()
 
 
-@pytest.mark.parametrize("sampler", ["sobol", "random", "jittered"])
-@pytest.mark.parametrize("degrees", [-60, 20, 150])
+@pytest.mark.parametrize(
+    ("degrees", "sampler"),
+    [(-60, "sobol"), (20, "sobol"), (150, "sobol"), (20, "random"), (20, "jittered")],
+)
 def test_tables_and_cosine_agree(
     spot: MakeScene, tmp_path: Path, degrees: float, sampler: str
 ) -> None:
     wall = {"shape": "quad", "material": "black", "width": 2, "depth": 2}
     wall["transform"] = [{"rotate": {"axis": [0, 0, 1], "degrees": 80}}, {"translate": [1, 0, 0]}]
     scene = spot(environment(tmp_path, uneven()), degrees, wall)
-    means = []
-    for number, each in enumerate((scene, by_cosine(scene))):
-        linear = render(each, spp=256, sampler=sampler, seed=number).linear
-        found = linear.reshape(-1, 3).astype(np.float64)
-        means.append((found.mean(axis=0), 5 * found.std(axis=0, ddof=1) / 16))
-    (a, da), (b, db) = means
+    (a, da), (b, db) = (
+        estimate(each, 256, sampler=sampler, seed=number)
+        for number, each in enumerate((scene, by_cosine(scene)))
+    )
     assert (np.abs(a - b) < np.hypot(da, db)).all()
     assert (np.hypot(da, db) < 0.05 * b).all(), "the comparison is worth something"
 
@@ -164,7 +153,8 @@ def test_the_squared_error_under_a_sun_is_five_thousand_times_less(
     direction, solid_angle = towards_sun()
     share = solid_angle * direction[1] / np.pi
     exact = SKY + SUN * share
-    squared = ((pixels(spot(environment(tmp_path, sunny())), 64) - exact) ** 2).mean()
+    shown = render(spot(environment(tmp_path, sunny())), spp=64).linear.astype(np.float64)
+    squared = ((shown - exact) ** 2).mean()
     # The bilinear pyramid over a texel of height 1 has a mean square of 4/9 over the texel's area; the cosine's 64
     # samples hit it so rarely that strata don't help. The tables' texels are as large as the sun's own, and leave a
     # variance as large as its squared mean for each sample.

@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from course import Scene, render
+from course import render
 from course.errors import CourseWarning, SceneError
+from tests.conftest import MakeScene, PixelRays
+from tests.estimates import fresnel
 
 pytestmark = pytest.mark.usefixtures("each_form")
 
-MakeScene = Callable[..., Scene]
-PixelRays = Callable[[Scene], tuple[NDArray[np.float64], NDArray[np.float64]]]
 Array = NDArray[np.float64]
 
 WATER, GLASS = np.array([0.1, 0.4, 0.9]), np.array([0.5, 0.2, 1.5])
@@ -37,14 +36,6 @@ def slab(material: str, thickness: float, across: float = 50) -> dict[str, Any]:
     return {"shape": "box", "material": material, "size": [across, thickness, across]}
 
 
-def reflectance(cosine: Array | float, n: float, m: float) -> Array:
-    """Of the boundary between indices n and m, for light that comes from n: Hecht 4.6, in both angles."""
-    bent = np.sqrt(1 - (1 - np.square(cosine)) * (n / m) ** 2)
-    across = (n * cosine - m * bent) / (n * cosine + m * bent)
-    within = (m * cosine - n * bent) / (m * cosine + n * bent)
-    return np.asarray((across**2 + within**2) / 2)
-
-
 @pytest.mark.parametrize(("water", "glass"), [(1.33, 1.5), (1.5, 1.33), (1.33, 2.4)])
 def test_layers_seen_head_on_add_up(make_scene: MakeScene, water: float, glass: float) -> None:
     scene = make_scene(
@@ -56,7 +47,7 @@ def test_layers_seen_head_on_add_up(make_scene: MakeScene, water: float, glass: 
         integrator=EXACT,
     )
     left = [np.exp(-WATER * 0.3), np.exp(-GLASS * 0.4), np.exp(-WATER * 0.3)]
-    outer, inner = reflectance(1.0, 1.0, water), reflectance(1.0, water, glass)
+    outer, inner = fresnel(1.0, 1.0 / water)[0], fresnel(1.0, water / glass)[0]
     # From below: each boundary and the layer under it are put on top of what there is (adding of layers).
     back, through = np.full(3, outer), np.full(3, 1 - outer)
     for r, a in zip((inner, inner, outer), left[::-1], strict=True):
@@ -86,8 +77,8 @@ def test_a_slab_in_water_bends_by_the_ratio(
         integrator=EXACT,
     )
     cosine = np.abs(pixel_rays(scene)[1][1])[..., None]
-    bent = np.sqrt(1 - (1 - cosine**2) * (water / glass) ** 2)
-    r, a = reflectance(cosine, water, glass), np.exp(-GLASS * 0.5 / bent)
+    r, bent = fresnel(cosine, water / glass)
+    a = np.exp(-GLASS * 0.5 / bent)
     slab_lets_through = (1 - r) ** 2 * a / (1 - r * r * a * a)
     expected = np.exp(-WATER * (1.75 + 0.75) / cosine) * slab_lets_through
     assert np.allclose(render(scene).linear, expected, rtol=1e-4, atol=1e-6)

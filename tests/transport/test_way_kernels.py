@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import fields
 from typing import Any
 
 import numpy as np
 import pytest
 
-from course import Scene, render
+from course import render
 from course.compiled import library
 from course.compiled.scatter import CompiledPathBounce, CompiledScatter
 from course.core.materials import Lookup
@@ -21,12 +20,12 @@ from course.extras.path_bounce import (
     PathBounce,
 )
 from course.extras.plan import same_fields
+from tests.conftest import MakeScene
 from tests.transport.coarse_sphere import hits_on_a_coarse_sphere
 
 if not library.available():
     pytest.skip("Numba is not installed (pip install .[fast])", allow_module_level=True)
 
-MakeScene = Callable[..., Scene]
 GLASS = {"color": 0, "dielectric": {"refraction_index": 1.5}}
 MATERIALS = {
     "floor": {"color": [0.6, 0.3, 0.1], "mirror": [0.1, 0.2, 0.3]},

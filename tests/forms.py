@@ -1,0 +1,13 @@
+"""The renderer's two forms as parameters of tests: passes over arrays, and compiled loops where Numba is installed."""
+
+from __future__ import annotations
+
+import pytest
+
+from course.compiled import library
+
+needs_numba = pytest.mark.skipif(
+    not library.available(), reason="Numba is not installed (pip install .[fast])"
+)
+FORMS = [pytest.param(False, id="NumPy"), pytest.param(True, marks=needs_numba, id="compiled")]
+in_both_forms = pytest.mark.parametrize("compiled", FORMS)
