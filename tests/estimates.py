@@ -4,8 +4,6 @@ A picture through a very small field of view sees one point. The mean of its 256
 errors with a false-fail rate of 1e-6 (Student's t for 255 degrees of freedom).
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The renderer's two forms as parameters of tests: passes over arrays, and compiled loops where Numba is installed."""
 
-from __future__ import annotations
-
 import pytest
 
 from course.compiled import library
