@@ -29,6 +29,7 @@ from sitebuild.pattern_explorer import pattern_explorer
 from sitebuild.peer_times import peer_times
 from sitebuild.place import Place
 from sitebuild.radiosity_pictures import radiosity_flight, radiosity_steps
+from sitebuild.rays import rays
 from sitebuild.scene_keys import scene_keys
 from sitebuild.series import series
 from sitebuild.series_grid import series_grid
@@ -55,6 +56,7 @@ PARTS: dict[str, Part] = {
     "radiosity_flight": radiosity_flight,
     "radiosity_shot": radiosity_shot,
     "radiosity_steps": radiosity_steps,
+    "rays": rays,
     "scene_keys": scene_keys,
     "series": series,
     "series_grid": series_grid,
