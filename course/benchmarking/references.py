@@ -6,7 +6,6 @@ from functools import lru_cache
 from hashlib import sha256
 from importlib.metadata import version
 from pathlib import Path
-from zipfile import BadZipFile
 
 import numpy as np
 
@@ -19,6 +18,7 @@ from course.errors import CourseError, SceneError
 from course.formats.yaml.loading import Loaded, load_description
 from course.formats.yaml.named_files import named_files
 from course.formats.yaml.overriding import Overrides
+from course.inputs import read_arrays
 from course.render_scene import render
 from course.scene.scene import Scene
 
@@ -174,13 +174,11 @@ def _evenly_sampled(loaded: Loaded, overrides: Overrides | None) -> Loaded:
 def _read(path: Path, key: str) -> Reference | None:
     """The contents of a file; None if there is none, or not the one that is looked for."""
     try:
-        with path.open("rb") as file, np.load(file, allow_pickle=False) as data:
-            head = json.loads(str(data["head"]))
-            linear = np.ascontiguousarray(data["linear"], np.float32)
-    except FileNotFoundError:
-        return None
-    except (OSError, ValueError, KeyError, EOFError, BadZipFile):
-        return None  # Damaged: rendered anew and replaced.
+        data = read_arrays(path, "reference")
+        head = json.loads(str(data["head"]))
+        linear = np.ascontiguousarray(data["linear"], np.float32)
+    except (CourseError, ValueError, KeyError):
+        return None  # Missing, or damaged: rendered anew and replaced.
     if head.get("key") != key:
         return None
     return Reference(linear, float(head["error"]), int(head["samples"]), key)

@@ -10,10 +10,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from course import Picture, render
+from course import Picture, load_scene, render
 from course.core.counters import Counters
 from course.core.film import Film
 from course.core.tiles import Tile, Work, passes
+from course.effects import PROJECT
 from course.errors import CourseError
 from course.extras import work as extra_work
 from course.extras.samplers import FUNCTIONS
@@ -46,6 +47,19 @@ def test_any_number_of_threads_gives_the_same_bits(
     assert np.isfinite(one.linear).all()
     assert one.linear.std() > 0
     assert same(one, render(scene, sampler=sampler, spp=samples, threads=3))
+
+
+@pytest.mark.parametrize("sampler", ["sobol", "random"])
+@pytest.mark.parametrize("name", ["path_tracing", "mesh_light", "gallery/everything"])
+def test_so_it_does_for_paths_for_lights_of_triangles_and_for_everything(
+    name: str, sampler: str
+) -> None:
+    scene = load_scene(PROJECT / "scenes" / f"{name}.yaml")
+    one, three = (
+        render(scene, sampler=sampler, spp=16, size=(90, 80), threads=threads) for threads in (1, 3)
+    )
+    assert np.isfinite(one.linear).all()
+    assert same(one, three)
 
 
 @pytest.mark.parametrize("sampler", SAMPLERS)

@@ -285,22 +285,6 @@ def test_a_light_of_another_kind_beside_it_counts_once_as_well(
 # ---------------------------------------------------------------- contract of the engine
 
 
-@both
-def test_any_number_of_threads_gives_the_same_bits(
-    make_scene: MakeScene, integrator: dict[str, Any]
-) -> None:
-    parts: dict[str, Any] = {
-        "camera": {"eye": [2.5, 0.8, 2], "look_at": [0, 0.3, 0]},
-        "film": {"width": 90, "height": 80},
-        "sampler": {"type": "sobol", "samples": 16},
-    }
-    knot = panel(shape="torus_knot", radius=0.3, tube=0.1, segments=64, sides=8)
-    scene = over_a_floor(make_scene, [knot, WALL], [LISTED], integrator, **parts)
-    one, two = (render(scene, threads=threads).linear for threads in (1, 2))
-    assert np.isfinite(one).all()
-    assert one.tobytes() == two.tobytes()
-
-
 @needs_numba
 @both
 def test_compiled_loops_give_the_same_bits(

@@ -302,16 +302,6 @@ def everything(make_scene: MakeScene, **more: Any) -> Scene:
     return make_scene(**parts | more)
 
 
-@pytest.mark.parametrize("sampler", ["sobol", "random"])
-def test_any_number_of_threads_gives_the_same_bits(make_scene: MakeScene, sampler: str) -> None:
-    scene = everything(make_scene)
-    one = render(scene, sampler=sampler, threads=1)
-    assert np.isfinite(one.linear).all()
-    for threads in (2, 3):
-        other = render(scene, sampler=sampler, threads=threads)
-        assert one.linear.tobytes() == other.linear.tobytes()
-
-
 def test_batches_that_are_followed_together_give_the_same_bits(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
