@@ -22,12 +22,13 @@ FIRST = 8
 """Independent samples that every pixel gets first. With 4, rare light would be darkened by a third."""
 
 FIRST_OF_NET = 4
-"""... and points of a net, which tell as much sooner: with 8 the six effects need 4 to 28% more in all."""
+"""... and points of a net, which tell as much sooner: with 8 the six effects need 4 to 28% more in all. Where few
+pixels have the error by what these tell, all get FIRST (``rounds.CONCENTRATED``)."""
 
 LONGEST = 1024
 """Samples of a pixel between two rungs: as many as one table of points holds."""
 
-GROWTH = 4
+GROWTH = 2
 """By what a pixel's samples may grow in one round; more would be decided on too little knowledge."""
 
 

@@ -48,7 +48,7 @@ QUIET = 0.2
 ALIKE = 0.8
 """Logarithm of a ratio of two estimated variances from which on it is rather a difference than noise."""
 
-DOUBT = 0.4
+DOUBT = 0.28
 """Standard deviation of the logarithm of the variance that a film tells by itself, over scenes."""
 
 DRIFT = 0.2
@@ -138,7 +138,7 @@ def judge(film: AdaptiveFilm, sample: Sample) -> None:
 
     The audit and what was told before it are two opinions, whose logarithms are averaged by their certainty.
     """
-    told = float(film.variance.mean(dtype=np.float64))
+    told = film.told
     apart, of_second = film.twins_apart(sample.pixels)
     # B may have fewer samples than A, and a larger variance then.
     a = film.samples.reshape(-1)[sample.pixels] / sample.samples

@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from course.adaptive.pixel_groups import TwinGroup
+from course.adaptive.smoothing import Guide, smoothed
 from course.adaptive.variance import INDEPENDENT, measured_order, variance_share
 from course.core.tiles import Area
 from course.core.types import Floats32, Floats64, Indices
@@ -31,11 +32,13 @@ class AdaptiveFilm:
     Parameters
     ----------
     width, height : pixels
+    net : samples are points of a net, whose order of convergence is measured; that of independent ones is known
     """
 
-    def __init__(self, width: int, height: int) -> None:
+    def __init__(self, width: int, height: int, net: bool = True) -> None:
         self.width = width
         self.height = height
+        self._net = net
         pixels = width * height
         self.linear = np.zeros((3, height, width), np.float32)
         """(3, H, W) linear radiance, valid where samples have been added."""
@@ -48,8 +51,9 @@ class AdaptiveFilm:
         self.order = INDEPENDENT
         """Order of convergence, as measured in the last round."""
         self._sums = np.zeros((pixels, 4))
-        self._differences: dict[int, tuple[float, float]] = {}
+        self._differences: dict[int, tuple[float, float, float]] = {}
         self._begun = False
+        self._spread = 1.0
         self.correction = 1.0
         """By what audits multiply the variance of the whole picture."""
         self.doubt = 0.0
@@ -84,8 +88,7 @@ class AdaptiveFilm:
             return
         compared = _Compared(mean, weight, n)
         stretch = compared.stretch
-        sums = float(compared.of_halves.sum()), float(compared.of_quarters.sum())
-        self._differences[group.number] = sums
+        self._differences[group.number] = compared.sums()
 
         earlier = self._sums.take(which, axis=0)
         before = int(self.samples.reshape(-1)[which[0]])
@@ -130,7 +133,22 @@ class AdaptiveFilm:
     @property
     def error(self) -> float:
         """Estimated root-mean-square error of the whole picture [radiance]."""
-        return math.sqrt(self.correction * self.variance.mean(dtype=np.float64))
+        return math.sqrt(self.correction * self.told)
+
+    @property
+    def told(self) -> float:
+        """Mean of the variances of all pixels, each with its neighbours, before what audits correct [radiance^2].
+
+        Where rare light was found, pixels next to it have found nothing yet, and have more of the error than they tell.
+        """
+        return self._spread * float(self.variance.mean(dtype=np.float64))
+
+    @property
+    def concentrated(self) -> float:
+        """How many pixels have the error, effectively: sum(v)^2 / sum(v^2), and all of them where there is none."""
+        v = self.variance.astype(np.float64)
+        squares = float((v * v).sum())
+        return float(v.sum()) ** 2 / squares if squares else float(v.size)
 
     @property
     def uniform_samples(self) -> float:
@@ -141,17 +159,25 @@ class AdaptiveFilm:
         unit = self.variance * self.samples.astype(np.float64) ** exponent
         return float((self.correction * unit.mean() / self.error**2) ** (1 / exponent))
 
-    def end_round(self) -> None:
-        """Measure the order of convergence on the stretches that were added since the last call.
+    def end_round(self) -> tuple[Floats32, Floats32]:
+        """Take stock of the stretches that were added since the last call: the order of convergence, and what is told.
 
         Only parts of one stretch are compared: which pixels got it was decided before, by other samples, so no
         selection makes these differences smaller or larger than they are.
+
+        Returns
+        -------
+        tuple of array
+            Variances and costs (H, W) of pixels that learn from their neighbours (``smoothing``).
         """
         # In the order of the groups, so the sums don't depend on which thread was first.
-        pairs = [self._differences[number] for number in sorted(self._differences)]
+        sums = [self._differences[number] for number in sorted(self._differences)]
         self._differences.clear()
-        of_halves, of_quarters = map(sum, zip(*pairs, strict=True))
-        order = measured_order(of_halves, of_quarters)
+        of_halves, of_quarters, squares = map(sum, zip(*sums, strict=True))
+        order = INDEPENDENT
+        if self._net:
+            pixels = of_quarters**2 / (squares or 1.0)
+            order = measured_order(of_halves, of_quarters, pixels)
         if not self._begun:
             # The first estimates were made with the order of independent samples. With order a the quarters and the
             # halves both say V = D r^2 / (4 (1 - r)), r = 2^-2a, D the squared difference of the quarters.
@@ -159,6 +185,11 @@ class AdaptiveFilm:
             self.variance *= np.float32(r * r / (4 * (1 - r)) / (0.0625 + 0.125 * r))
             self._begun = True
         self.order = order
+        guide = Guide(self.linear, self.variance)
+        variance = smoothed(self.variance, self.samples, order, guide)
+        own = float(self.variance.sum(dtype=np.float64))
+        self._spread = float(variance.sum(dtype=np.float64)) / own if own else 1.0
+        return variance, smoothed(self.cost, self.samples, 0, guide)
 
 
 class _Compared:
@@ -182,6 +213,11 @@ class _Compared:
         self.of_quarters += _apart(parts[:, :, 2], parts[:, :, 3])
         self.of_quarters *= np.float32(0.5)
         self.of_halves = _apart(halves[:, :, 0], halves[:, :, 1])
+
+    def sums(self) -> tuple[float, float, float]:
+        """Sums of both squared differences, and of the squares of those of the quarters."""
+        quarters = self.of_quarters.astype(np.float64)
+        return float(self.of_halves.sum()), float(quarters.sum()), float((quarters**2).sum())
 
 
 class _Estimates:

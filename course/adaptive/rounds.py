@@ -13,7 +13,6 @@ import numpy as np
 
 from course.adaptive.allocation import (
     FIRST,
-    GROWTH,
     LADDER,
     best_samples,
     next_rung,
@@ -23,7 +22,6 @@ from course.adaptive.allocation import (
 from course.adaptive.audit import draw, judge, work_for
 from course.adaptive.film import PARTS, AdaptiveFilm
 from course.adaptive.pixel_groups import PixelGroup, nearby_order
-from course.adaptive.smoothing import Guide, smoothed
 from course.core.rays import RAYS
 from course.core.tiles import Work
 from course.core.types import Floats32, Indices, Numbers
@@ -31,6 +29,9 @@ from course.extras.work import fair_share, spread_pixels
 
 ADAPTABLE = ("sobol", "random", "xorshift")
 """Samplers that can go on where the error is, and whose samples tell it."""
+
+CONCENTRATED = 100
+"""Where fewer pixels than this have the error by what FIRST_OF_NET samples tell, all get FIRST: light is rare there."""
 
 SAFETY = 0.97
 """Part of the target that a round aims at, so that the last one doesn't miss it by a hair and another must follow."""
@@ -79,53 +80,126 @@ def render_adaptively(
     budget : samples of all pixels together
     first : samples of each pixel in the first round, a rung of LADDER
     """
-    order = nearby_order(film.width, film.height)
-    have = film.samples.reshape(-1)
-    wanted = np.full(len(have), min(first, max(budget // len(have), 1)), np.int32)
-    audits = 0
-    # Of the film alone, like everything between the rounds.
-    rng = np.random.default_rng(0)
-    # Nothing is known yet of how much there is to do.
-    done, total = 0.0, GROWTH * float(wanted.sum())
-    cost = film.cost.reshape(-1)
-    while True:
-        pixels, taken, begun = rng.permutation(np.flatnonzero(wanted > have)), 0, _told(film)
-        while taken < len(pixels):
-            goal = _look(audits) * error
-            part = pixels[taken : taken + _enough(film, pixels, taken, wanted, begun, goal)]
-            reach = have.copy()
-            reach[part] = wanted[part]
-            work = groups.stretches(have, reach, order)
-            share = _sum(reach - have, cost) / (total - _sum(have, cost))
-            after = done + (1 - done) * share
-            if not run(work, done, after):
-                return False
-            done = after
-            taken += len(part)
-            if taken == len(pixels):
-                film.end_round()
-            while (passed := _passed(film.error / error)) > audits:
-                audits = passed
-                if not _audit(film, audits - 1, budget, groups, run, done):
-                    return False
-            if film.error <= error:
-                return True
-        aim = (SAFETY * error) ** 2 / film.correction
-        guide = Guide(film.linear, film.variance)
-        variance = smoothed(film.variance, film.samples, film.order, guide).reshape(-1)
-        cost = smoothed(film.cost, film.samples, 0, guide).reshape(-1)
-        best = best_samples(variance, have, cost, film.order, aim)
-        wanted = next_rung(have, best)
-        if (wanted == have).all():
-            excess = (film.error**2 / film.correction - aim) * len(have)
-            wanted = one_rung_more(have, variance, cost, film.order, excess)
-        wanted = _within(wanted, have, best, budget - film.audited)
-        if (wanted == have).all():
-            return True
+    try:
+        _Rounds(film, error, budget, groups, run).render(first)
+    except _InterruptedError:
+        return False
+    return True
+
+
+class _InterruptedError(Exception):
+    """A round wasn't finished."""
+
+
+class _Rounds:
+    """The rounds of one render; parameters as in ``render_adaptively``."""
+
+    def __init__(
+        self, film: AdaptiveFilm, error: float, budget: int, groups: Groups, run: Run
+    ) -> None:
+        self._film, self._error, self._budget = film, error, budget
+        self._groups, self._run = groups, run
+        self._order = nearby_order(film.width, film.height)
+        self._have = film.samples.reshape(-1)
+        self._cost = film.cost.reshape(-1)
+        self._variance = film.variance.reshape(-1)
+        self._audits = 0
+        self._done = 0.0
+        # Of the film alone, like everything between the rounds.
+        self._rng = np.random.default_rng(0)
+
+    def render(self, first: int) -> None:
+        """Render all rounds."""
+        count = len(self._have)
+        wanted = np.full(count, min(first, max(self._budget // count, 1)), np.int32)
+        # Nothing is known yet of how much there is to do.
+        total = 4 * float(wanted.sum())
+        self._add(wanted, total)
+        self._end_round()
+        if self._film.concentrated < CONCENTRATED and first < FIRST <= self._budget // count:
+            self._add(np.full(count, FIRST, np.int32), 2 * total)
+            self._end_round()
+        while not self._enough():
+            best = self._best()
+            wanted = self._next(best)
+            if (wanted == self._have).all() or self._round(wanted, best):
+                return
+
+    def _round(self, wanted: Numbers, best: Floats32) -> bool:
+        """Render a round in parts of random pixels; whether the target was reached before its end."""
+        have, film = self._have, self._film
         most = np.maximum(best, have)
         # Within the budget, which is of samples.
-        most *= min(1, budget / float(most.sum()))
-        total = _sum(np.maximum(most, wanted), cost)
+        most *= min(1, self._budget / float(most.sum()))
+        total = _sum(np.maximum(most, wanted), self._cost)
+        pixels, taken, begun = self._rng.permutation(np.flatnonzero(wanted > have)), 0, film.told
+        while taken < len(pixels):
+            goal = _look(self._audits) * self._error
+            part = pixels[taken : taken + _part(film, pixels, taken, wanted, begun, goal)]
+            reach = have.copy()
+            reach[part] = wanted[part]
+            self._add(reach, total)
+            taken += len(part)
+            if taken < len(pixels) and self._enough():
+                return True
+        self._end_round()
+        return False
+
+    def _add(self, wanted: Numbers, total: float) -> None:
+        """Render pixels up to the samples (P,) that they shall have; ``total`` is what all rounds may cost."""
+        have = self._have
+        work = self._groups.stretches(have, wanted, self._order)
+        share = _sum(wanted - have, self._cost) / (total - _sum(have, self._cost))
+        self._do(work, self._done + (1 - self._done) * share)
+
+    def _do(self, work: list[Work], after: float) -> None:
+        if not self._run(work, self._done, after):
+            raise _InterruptedError
+        self._done = after
+
+    def _end_round(self) -> None:
+        variance, cost = self._film.end_round()
+        self._variance, self._cost = variance.reshape(-1), cost.reshape(-1)
+
+    def _enough(self) -> bool:
+        """Audit where the told error has come near enough; whether the target is reached."""
+        film, error = self._film, self._error
+        while (passed := _passed(film.error / error)) > self._audits:
+            self._audits = passed
+            self._audit(*AUDITED[passed - 1])
+        return film.error <= error
+
+    def _audit(self, _level: float, share: float) -> None:
+        """Correct the film's error by an audit, where it is worth one and paid for."""
+        film, groups, number = self._film, self._groups, self._audits - 1
+        sample = draw(film, number, share)
+        if sample is None:
+            return
+        cost = int(sample.samples.sum())
+        if cost > self._budget - film.audited - int(film.samples.sum()):
+            return
+        work = work_for(sample, film, number, groups.next_number)
+        groups.next_number += len(work)
+        self._do(work, self._done)
+        judge(film, sample)
+        film.audited += cost
+
+    def _aim(self) -> float:
+        """Mean variance that a round aims at, before what audits correct."""
+        return (SAFETY * self._error) ** 2 / self._film.correction
+
+    def _best(self) -> Floats32:
+        """How many samples (P,) each pixel should have in the end."""
+        return best_samples(self._variance, self._have, self._cost, self._film.order, self._aim())
+
+    def _next(self, best: Floats32) -> Numbers:
+        """How many samples (P,) each pixel shall have after the next round."""
+        have, film = self._have, self._film
+        wanted = next_rung(have, best)
+        if (wanted == have).all():
+            excess = (film.told - self._aim()) * len(have)
+            wanted = one_rung_more(have, self._variance, self._cost, film.order, excess)
+        return _within(wanted, have, best, self._budget - film.audited)
 
 
 def _passed(ratio: float) -> int:
@@ -138,12 +212,7 @@ def _look(audits: int) -> float:
     return min(AUDITED[audits][0], CLOSE) if audits < len(AUDITED) else 1.0
 
 
-def _told(film: AdaptiveFilm) -> float:
-    """Sum of the variances of all pixels, before what audits have corrected."""
-    return float(film.variance.sum(dtype=np.float64))
-
-
-def _enough(
+def _part(
     film: AdaptiveFilm, pixels: Indices, taken: int, wanted: Numbers, begun: float, error: float
 ) -> int:
     """How many more of a round's pixels to render before the told error is looked at again.
@@ -155,41 +224,21 @@ def _enough(
     ----------
     taken : how many of ``pixels`` have been rendered in this round
     wanted : (P,) int32 samples of all pixels after it
-    begun : what ``_told`` said before it
+    begun : what the film told before it
     error : at which to look
     """
     left = pixels[taken:]
     have = film.samples.reshape(-1)[left]
-    if not have[0]:
-        return len(left)
-    now = _told(film)
+    now = film.told
     gain = (begun - now) / max(taken, 1)
     if not taken:
+        # Of each pixel, as a part of what all have.
         gains = film.variance.reshape(-1)[left] * (1 - (have / wanted[left]) ** 2)
-        gain = float(gains.mean(dtype=np.float64))
-    excess = now - error**2 / film.correction * film.variance.size
+        gain = now * float(gains.mean(dtype=np.float64) / film.variance.sum(dtype=np.float64))
+    excess = now - error**2 / film.correction
     if excess >= gain * len(left):
         return len(left)
     return max(math.ceil(excess / gain), len(pixels) // FINEST, FEWEST)
-
-
-def _audit(
-    film: AdaptiveFilm, number: int, budget: int, groups: Groups, run: Run, done: float
-) -> bool:
-    """Correct the film's error by an audit, where it is worth one and paid for; whether that was finished."""
-    sample = draw(film, number, AUDITED[number][1])
-    if sample is None:
-        return True
-    cost = int(sample.samples.sum())
-    if cost > budget - film.audited - int(film.samples.sum()):
-        return True
-    work = work_for(sample, film, number, groups.next_number)
-    groups.next_number += len(work)
-    if not run(work, done, done):
-        return False
-    judge(film, sample)
-    film.audited += cost
-    return True
 
 
 def _sum(samples: Numbers | Floats32, cost: Floats32) -> float:

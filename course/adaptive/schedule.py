@@ -15,6 +15,9 @@ from course.errors import CourseError
 from course.extras.work import preview
 from course.jobs.job import Job, Mode
 
+NET = "sobol"
+"""The sampler whose points are a net; those of the others are independent."""
+
 
 class AdaptiveSchedule(Schedule):
     """Rounds in which samples go where the film's estimated error is.
@@ -62,7 +65,7 @@ class AdaptiveSchedule(Schedule):
 
 def first_samples(sampler: str) -> int:
     """Samples of each pixel before anything is known of it."""
-    return FIRST_OF_NET if sampler == "sobol" else FIRST
+    return FIRST_OF_NET if sampler == NET else FIRST
 
 
 def check(job: Job) -> None:
@@ -89,7 +92,8 @@ def check(job: Job) -> None:
 def make(job: Job, tracer: Tracer, _bound: Bound) -> tuple[AdaptiveFilm, AdaptiveSchedule]:
     """See ``Mode``."""
     assert job.settings.error is not None
-    film = AdaptiveFilm(job.settings.width, job.settings.height)
+    settings = job.settings
+    film = AdaptiveFilm(settings.width, settings.height, settings.sampler == NET)
     return film, AdaptiveSchedule(film, tracer, job.settings.error)
 
 

@@ -12,11 +12,20 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from course.adaptive.variance import BELIEVED, INDEPENDENT, measured_order, variance_share
+from course.adaptive.variance import (
+    BELIEVED,
+    EXPECTED,
+    INDEPENDENT,
+    measured_order,
+    variance_share,
+)
 
 ORDERS = (0.5, 0.55, 0.6, 0.75, 0.9, 1.0)
 SIZES = [(4, 4, 16), (8, 8, 16), (16, 8, 24), (24, 24, 48), (1024, 1024, 2048), (5, 11, 64)]
 SERIES = 20000
+MANY = 1e18
+"""Pixels, so that only what is measured counts."""
+
 ROOM = 5.5 * math.sqrt(2 / SERIES)
 
 
@@ -69,10 +78,21 @@ def test_noise_that_follows_the_model_is_judged_right(n: int, m: int, order: flo
     assert estimate == pytest.approx(32 ** (-2 * order), rel=ROOM)
 
 
+@pytest.mark.parametrize("order", [0.5, 0.8])
+def test_the_fewer_pixels_tell_an_order_the_less_it_counts(order: float) -> None:
+    expected = INDEPENDENT + BELIEVED * (EXPECTED - INDEPENDENT)
+    assert measured_order(2 ** (-2 * order), 1.0, 1e-6) == pytest.approx(expected, abs=1e-5)
+    found = [measured_order(2 ** (-2 * order), 1.0, pixels) for pixels in (1, 100, 1e4)]
+    apart = [abs(one - expected) for one in found]
+    assert apart == sorted(apart)
+    # On a hundred pixels it is measured to 0.12, which is how far scenes are apart.
+    assert found[1] == pytest.approx((expected + measured_order(2 ** (-2 * order), 1.0, MANY)) / 2)
+
+
 @pytest.mark.parametrize("order", ORDERS)
 @pytest.mark.parametrize("quarters", [1e-12, 0.3, 1e9])
 def test_a_measured_order_is_believed_in_part(order: float, quarters: float) -> None:
-    found = measured_order(quarters * 2 ** (-2 * order), quarters)
+    found = measured_order(quarters * 2 ** (-2 * order), quarters, MANY)
     assert found == pytest.approx(INDEPENDENT + BELIEVED * (order - INDEPENDENT), abs=1e-12)
 
 
@@ -81,13 +101,13 @@ def test_a_measured_order_is_believed_in_part(order: float, quarters: float) -> 
     [
         (1.0, 1.0, 0.5),  # the halves are as far apart as the quarters
         (9.0, 1.0, 0.5),
-        (1e-9, 1.0, 0.75),  # the quarters cancel each other
+        (1e-9, 1.0, 0.95),  # the quarters cancel each other
         (0.0, 1.0, 0.5),
         (1.0, 0.0, 0.5),
         (0.0, 0.0, 0.5),
     ],
 )
-def test_an_order_is_never_worse_than_independent_nor_better_than_three_quarters(
+def test_an_order_is_never_worse_than_independent_nor_better_than_one(
     halves: float, quarters: float, order: float
 ) -> None:
-    assert measured_order(halves, quarters) == order
+    assert measured_order(halves, quarters, MANY) == pytest.approx(order, abs=1e-12)

@@ -180,7 +180,7 @@ def test_only_rungs_of_the_ladder_are_reached_from_a_rung() -> None:
 def test_what_is_in_reach_is_rounded_to_the_nearest_rung_by_ratio() -> None:
     rng = np.random.default_rng(7)
     best = rng.integers(16, 1000, 6000).astype(np.float32)
-    samples = LADDER.take(rng.integers(0, 10, 6000))
+    samples = LADDER.take(rng.integers(0, 14, 6000))
     free = (best > samples) & (best < GROWTH * samples) & (best < samples + LONGEST / 2)
     ratio = np.abs(np.log(best[:, None] / LADDER[None]))
     nearest = LADDER.take(ratio.argmin(axis=1))

@@ -42,7 +42,7 @@ def add(
 
 
 def noisy(seed: int, wrong: float = 1.0) -> AdaptiveFilm:
-    film = AdaptiveFilm(WIDTH, HEIGHT)
+    film = AdaptiveFilm(WIDTH, HEIGHT, net=False)
     group = PixelGroup(0, np.arange(WIDTH * HEIGHT), WIDTH)
     add(film, group, np.random.default_rng(seed), wrong)
     film.end_round()
@@ -124,14 +124,14 @@ def test_a_later_audit_is_weighed_against_the_earlier_ones(fallen: float) -> Non
     for correction in (1.0, 2.0):
         film = noisy(3)
         film.correction, film.doubt = correction, 0.01
-        film.judged = fallen * float(film.variance.mean(dtype=np.float64))
+        film.judged = fallen * film.told
         logs.append(math.log(audited(film, 1, 3)))
     share = 1 - (logs[1] - logs[0]) / math.log(2)
     doubt = film.doubt / share
     assert 2 / (3 * PIXELS) < doubt < 0.01
     before = 0.01 + DRIFT**2 * math.log(fallen)
     assert share == pytest.approx(before / (before + doubt), rel=1e-6)
-    assert film.judged == float(film.variance.mean(dtype=np.float64))
+    assert film.judged == film.told
 
 
 def test_pixels_are_drawn_by_their_variance_and_by_the_film_alone() -> None:
