@@ -68,24 +68,7 @@ def test_the_reference_looks_like_itself(module: str, check: Check, judged: Judg
     assert arrays["expected"].std() > 0.05
 
 
-JUNK: dict[str, Any] = {
-    "None": None,
-    "one number": 0.5,
-    "a list": (1.0, 2.0, 3.0, 4.0),
-    "transposed": np.zeros((7, 3), np.float32),
-    "booleans": np.zeros((9, 5), bool),
-}
-
-
-@pytest.mark.parametrize("junk", JUNK)
-@pytest.mark.parametrize(("module", "check"), LOOKS, ids=IDS)
-def test_junk_is_the_students_failure(module: str, check: Check, junk: str, judged: Judged) -> None:
-    result = judged(module, check, solution(module, **{check.function: lambda *_: JUNK[junk]}))
-    assert result.status is Status.FAILED, result
-    assert "instead of" in result.found
-
-
-@pytest.mark.parametrize("number", [np.nan, np.inf, -np.inf, 3e38, 0.0])
+@pytest.mark.parametrize("number", [np.nan, 3e38, 0.0])
 @pytest.mark.parametrize(("module", "check"), LOOKS, ids=IDS)
 def test_numbers_that_make_no_sense_fail_too(
     module: str, check: Check, number: float, judged: Judged

@@ -49,6 +49,8 @@ CHANGES = {
     "a list of it": lambda value: [value],
     "None": lambda _: None,
     "a text": lambda _: "text",
+    "one number": lambda _: 0.5,
+    "booleans": lambda _: np.zeros((9, 5), bool),
 }
 
 
@@ -60,7 +62,7 @@ CHANGES = {
 def test_no_picture_bias_or_order_is_earned_by_what_is_no_array(
     module: str, check: Check, change: str, usual_references: References
 ) -> None:
-    """The checks take the four kinds of values in turn."""
+    """The checks take the kinds of values in turn."""
     changed = Changed(module, check.function, CHANGES[change])
     result = ended(module, check, changed, usual_references)
     assert (result.status, result.points, result.broken) == (Status.FAILED, 0, False)

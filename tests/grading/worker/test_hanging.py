@@ -5,7 +5,6 @@ How long something takes decides no test: what is counted is how often something
 
 from __future__ import annotations
 
-from functools import cache
 from pathlib import Path
 from textwrap import indent
 
@@ -13,40 +12,26 @@ import pytest
 
 from course.effects import PROJECT
 from course.grading import grading
-from course.grading.checks.check import Check, References
 from course.grading.checks.result import Result, Status
 from course.grading.checks.running import OUT_OF_TIME
 from course.grading.errors import StudentError
 from course.grading.grading import grade
 from course.grading.pictures.whole import Together
-from course.grading.references import references
 from course.grading.report import Report
 from course.grading.worker.client import Worker
 from course.grading.worker.limits import ALTOGETHER, NOT_RUN, Limits, Patience
 from course.modules import COURSE
+from tests.grading.worker.graded import arrays, quick, solution
 
 MODULE = "motion_blur"
 # No function of it calls another.
-SOLUTION = (
-    (PROJECT / "solutions" / f"{MODULE}.py")
-    .read_text(encoding="utf-8")
-    .replace(
-        "gone = displacement(velocity, ",
-        "gone = np.multiply.outer(np.asarray(velocity, time.dtype), ",
-    )
+SOLUTION = solution(MODULE).replace(
+    "gone = displacement(velocity, ",
+    "gone = np.multiply.outer(np.asarray(velocity, time.dtype), ",
 )
 LIMITS = Limits(call_seconds=2.0)
 LOOP = "while True: pass"
 EXIT = "import os\nos._exit(3)"
-
-
-def quick(check: Check) -> bool:
-    return check.kind not in ("picture", "bias", "order", "speed")
-
-
-@cache
-def arrays() -> References:
-    return references()
 
 
 @pytest.fixture

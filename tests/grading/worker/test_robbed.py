@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import os
 from collections.abc import Iterator
-from functools import cache
 from pathlib import Path
 from time import monotonic, sleep
 
@@ -13,32 +12,17 @@ import numpy as np
 import psutil
 import pytest
 
-from course.effects import PROJECT
-from course.grading.checks.check import Check, References
 from course.grading.checks.result import Status
 from course.grading.checks.trusted import TrustedModule
 from course.grading.errors import StudentError
 from course.grading.grading import grade
-from course.grading.references import references
 from course.grading.worker.client import Worker
 from course.grading.worker.limits import NOT_RUN, Budget, Limits
 from course.grading.worker.process import MOST_PRINTED, Process
+from tests.grading.worker.graded import arrays, quick, solution
 
 LONG = 60.0
 """Seconds that none of the calls here may take; each is given one or two."""
-
-
-def solution(module: str) -> str:
-    return (PROJECT / "solutions" / f"{module}.py").read_text(encoding="utf-8")
-
-
-def quick(check: Check) -> bool:
-    return check.kind not in ("picture", "bias", "order", "speed")
-
-
-@cache
-def arrays() -> References:
-    return references()
 
 
 @pytest.fixture

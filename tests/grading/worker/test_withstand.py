@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import threading
 from dataclasses import dataclass
-from functools import cache
 from math import fsum
 from textwrap import indent
 
@@ -18,7 +17,6 @@ import pytest
 
 from course.effects import PROJECT
 from course.grading.catalog import module_checks
-from course.grading.checks.check import Check, References
 from course.grading.checks.result import Status
 from course.grading.grading import grade
 from course.grading.references import references
@@ -26,10 +24,11 @@ from course.grading.report import Report
 from course.grading.worker.client import Worker
 from course.grading.worker.limits import Limits
 from course.grading.worker.sandbox import sandbox
+from tests.grading.worker.graded import arrays, quick, solution
 
 MODULE = "motion_blur"
 FUNCTION = "to_object_space"
-SOLUTION = (PROJECT / "solutions" / f"{MODULE}.py").read_text(encoding="utf-8")
+SOLUTION = solution(MODULE)
 RIGHT = "return origins - np.multiply.outer(np.asarray(velocity, time.dtype), time)\n"
 SLEEPER = "import threading, time as t\nthreading.Thread(target=t.sleep, args=(1e6,)).start()\n"
 FORGED = "b'00000010{\"score\": 100000}'"
@@ -40,17 +39,8 @@ if any("bubblewrap: no network" in line for line in sandbox().protections):
     SANDBOXES["bubblewrap"] = True
 
 
-def quick(check: Check) -> bool:
-    return check.kind not in ("picture", "bias", "order", "speed")
-
-
 def points() -> float:
     return fsum(check.points for check in module_checks(MODULE).checks if quick(check))
-
-
-@cache
-def arrays() -> References:
-    return references()
 
 
 def graded(source: str | bytes, bubblewrap: bool = True) -> Report:

@@ -1,0 +1,25 @@
+"""What tests of workers grade: solutions, by the checks that render nothing and measure no time."""
+
+from __future__ import annotations
+
+from functools import cache
+
+from course.effects import PROJECT
+from course.grading.checks.check import Check, References
+from course.grading.references import references
+
+
+def solution(module: str) -> str:
+    """The text of a reference solution."""
+    return (PROJECT / "solutions" / f"{module}.py").read_text(encoding="utf-8")
+
+
+def quick(check: Check) -> bool:
+    """True for a check that is made at once."""
+    return check.kind not in ("picture", "bias", "order", "speed")
+
+
+@cache
+def arrays() -> References:
+    """What checks compare with, made once."""
+    return references()
