@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -84,10 +84,10 @@ def picture_checks(path: str, make: MakeScene) -> tuple[Check, ...]:
         tape: dict[str, Array] = {}
         stage = Stage(module, caller, function, recording=tape)
         picture = rendered(loaded(make(rng), stage.function, rng))
-        return {"picture": picture} | {f"tape/{k}": v for k, v in tape.items()}
+        return {"picture": picture} | tape
 
     def run(trial: Trial) -> None:
-        stage = Stage(module, trial.caller, function, tape=_tape(trial.references))
+        stage = Stage(module, trial.caller, function, tape=trial.references)
         scene = loaded(make(trial.rng), stage.function, trial.rng)
         try:
             yours = rendered(scene)
@@ -126,14 +126,13 @@ def picture_checks(path: str, make: MakeScene) -> tuple[Check, ...]:
             draw(seed=first + number)
             if not tape:
                 break
-        kept = {f"tape/{name}": array for name, array in tape.items()}
         seeds = range(first + BIAS_PICTURES, first + BIAS_PICTURES + BIAS_REFERENCES)
-        return {"blocks": np.stack([block_means(draw(seed=seed)) for seed in seeds])} | kept
+        return {"blocks": np.stack([block_means(draw(seed=seed)) for seed in seeds])} | tape
 
     def run_bias(trial: Trial) -> None:
         description = make(trial.rng)
         first = int(trial.rng.integers(1 << 20))
-        stage = Stage(module, trial.caller, function, tape=_tape(trial.references))
+        stage = Stage(module, trial.caller, function, tape=trial.references)
         draw = drawing(description, stage, trial.rng)
         check_bias(
             [draw(seed=first + number) for number in range(BIAS_PICTURES)],
@@ -151,8 +150,3 @@ def picture_checks(path: str, make: MakeScene) -> tuple[Check, ...]:
         prepare=prepare_bias,
     )
     return looks, bias
-
-
-def _tape(references: Mapping[str, Array]) -> dict[str, Array]:
-    kept = (name for name in references if name.startswith("tape/"))
-    return {name.removeprefix("tape/"): references[name] for name in kept}

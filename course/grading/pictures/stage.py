@@ -90,8 +90,8 @@ class Stage:
     module : whose functions ``caller`` has
     caller : the student's, or the reference's
     only : the one function that the picture is about
-    tape : recorded results of functions that come before it, ``NAME/NUMBER`` -> array, and ``NAME/NUMBER/PART`` where a
-        result is a tuple
+    tape : recorded results of functions that come before it, ``tape/NAME/NUMBER`` -> array, and
+        ``tape/NAME/NUMBER/PART`` where a result is a tuple
     recording : where to put results of the others instead, when the caller is the reference
     """
 
@@ -121,7 +121,7 @@ class Stage:
 
     def _record(self, name: str, value: Any) -> Any:
         assert self._recording is not None
-        call = f"{name}/{self._next(name)}"
+        call = self._next(name)
         if isinstance(value, tuple):
             self._recording |= {f"{call}/{number}": part for number, part in enumerate(value)}
             return tuple(part.copy() for part in value)
@@ -129,16 +129,16 @@ class Stage:
         return value.copy()
 
     def _replay(self, name: str) -> Any:
-        call = f"{name}/{self._next(name)}"
+        call = self._next(name)
         if call in self._tape:
             return self._tape[call].copy()
         parts = sum(recorded.startswith(f"{call}/") for recorded in self._tape)
         return tuple(self._tape[f"{call}/{number}"].copy() for number in range(parts))
 
-    def _next(self, name: str) -> int:
+    def _next(self, name: str) -> str:
         number = self._played.get(name, 0)
         self._played[name] = number + 1
-        return number
+        return f"tape/{name}/{number}"
 
 
 LARGEST = 1e12

@@ -157,16 +157,6 @@ def test_a_region_at_the_end_of_the_file_leaves_no_blank_lines() -> None:
     assert stub_text(text) == stub_text(FUNCTION)
 
 
-def test_a_public_function_without_a_region_is_refused() -> None:
-    told = refusal(FUNCTION + "\n\ndef g(a):\n    return a\n")
-    assert told == "solutions/lens.py:7: g has no region, so its stub would be the solution"
-
-
-def test_a_public_function_inside_a_region_is_refused() -> None:
-    told = refusal("### BEGIN SOLUTION\ndef g(a):\n    return a\n\n\n### END SOLUTION\n")
-    assert told == "solutions/lens.py:2: g stands inside a region, so no stub would have it"
-
-
 @pytest.mark.parametrize(
     ("helper", "name"),
     [
@@ -221,18 +211,29 @@ def test_a_region_that_cuts_a_statement_is_refused(text: str, line: int) -> None
     assert told.startswith(f"solutions/lens.py:{line}: the region cuts the statement of line")
 
 
-def test_a_solution_that_is_not_python_is_refused() -> None:
-    assert refusal("x = 1\ndef f(:\n").startswith("solutions/lens.py:2: not Python: ")
-    assert "not Python" in refusal("x = '\0'\n")
-
-
-def test_a_stub_that_is_not_python_is_refused() -> None:
-    text = "def f(\n    ### BEGIN SOLUTION\n    a,\n    ### END SOLUTION\n):\n    return a\n"
-    assert refusal(text).startswith("solutions/lens.py (without its regions):3: not Python: ")
-
-
-def test_errors_of_regions_name_file_and_line() -> None:
-    assert refusal("x = 1\n### END SOLUTION\n").startswith("solutions/lens.py:2: ")
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        (
+            FUNCTION + "\n\ndef g(a):\n    return a\n",
+            "lens.py:7: g has no region, so its stub would be the solution",
+        ),
+        (
+            "### BEGIN SOLUTION\ndef g(a):\n    return a\n\n\n### END SOLUTION\n",
+            "lens.py:2: g stands inside a region, so no stub would have it",
+        ),
+        ("x = 1\n### END SOLUTION\n", "lens.py:2: '### END SOLUTION' closes no region"),
+        ("x = 1\ndef f(:\n", "lens.py:2: not Python: "),
+        ("x = '\0'\n", "lens.py:1: not Python: "),
+        # It is its stub that is none.
+        (
+            "def f(\n    ### BEGIN SOLUTION\n    a,\n    ### END SOLUTION\n):\n    return a\n",
+            "lens.py (without its regions):3: not Python: ",
+        ),
+    ],
+)
+def test_what_makes_no_stub_is_refused_with_file_and_line(text: str, told: str) -> None:
+    assert refusal(text).startswith(f"solutions/{told}")
 
 
 def test_written_tasks_are_those_whose_error_is_gone() -> None:
