@@ -59,17 +59,17 @@ def compile_environment(
     scale = rgb(environment.scale)
     brightest = faces.max(axis=(0, 1, 2)) * scale
     in_range(brightest, loaded, ("environment", "scale"), "radiance")
-    if not brightest.any():
-        # A black environment needs no lookup.
-        return None, None
     # In double precision, for a scale may be larger than any radiance.
     faces = np.multiply(faces, scale, out=np.empty_like(faces), casting="same_kind")
     faces = np.ascontiguousarray(faces, np.float32)
+    if not faces.any():
+        # Black, or its light is lost to single precision: nothing is to be looked up.
+        return None, None
     lookup = LOOKUPS[environment.lookup]
     cube_map = bound.functions("cube_map", lookup, asked_by=("environment", "type"))
     chosen: SkySampling | None = _hemispheres(loaded, bound)
     seamless = environment.lookup == "seamless"
-    if chosen is None and environment.lights and faces.any() and _anything_diffuse(loaded):
+    if chosen is None and environment.lights and _anything_diffuse(loaded):
         chosen = product_sampling(faces, seamless)
     return CubeEnvironment(faces, cube_map, seamless), _sampling(environment.lights, chosen)
 

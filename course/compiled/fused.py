@@ -63,7 +63,8 @@ def fits(tracer: Tracer) -> bool:
     direct = integrator.direct
     return (
         numpy_kernels.AVAILABLE
-        and isinstance(tracer.sampler, SobolSampler)
+        # Not one that draws other numbers, as division by contrast has it.
+        and type(tracer.sampler) is SobolSampler
         and integrator.scatter is None
         and integrator.motion is None
         and camera.lens is None

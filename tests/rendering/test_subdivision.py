@@ -109,6 +109,7 @@ def test_no_contrast_is_over_a_threshold_beyond_all_light(
     assert functions.divides(np.tile(bright[:, None], (3, 1, 1))) == (threshold < 3e38)
 
 
+@pytest.mark.usefixtures("each_form")
 @pytest.mark.parametrize("depth", [0, 1, 2, 3, 4, 5])
 def test_an_upright_edge_takes_as_many_rays_as_can_be_counted(
     make_scene: MakeScene, depth: int
