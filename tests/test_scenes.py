@@ -6,10 +6,11 @@ nothing but the effect, so that whoever compares the two pictures sees the effec
 
 from __future__ import annotations
 
+import json
 import re
 import subprocess
 import sys
-from functools import cache
+from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
@@ -19,9 +20,9 @@ import yaml
 from course import load_scene, render
 from course.cli.tables import summary_sections
 from course.formats.pictures.reading import read_picture
-from course.jobs.picture import Picture
 from course.modules import COURSE, MODULES
 from course.rendering.summary import summarize
+from tests.once import Once
 
 SCENES = Path(__file__).parent.parent / "scenes"
 ALL = sorted(SCENES.rglob("*.yaml"))
@@ -59,35 +60,48 @@ CALLS = {
 
 
 class Shown(NamedTuple):
-    """A small picture of a scene, and what is known of the scene: to load it takes most of the time."""
+    """What is known of a scene and of a small picture of it: to load it takes most of the time."""
 
-    picture: Picture
+    brightest: float
+    spread: float
+    called: list[str]
+    """The student functions that the picture calls."""
+    imported: list[str]
     said: str
     """What `course info` says."""
     triangles: int
     pieces: int
     """Triangles more, where large ones are cut."""
     reach: float
-    imported: set[str]
 
 
-@cache
-def rendered(path: Path) -> Shown:
+@pytest.fixture(scope="session")
+def rendered(once: Once) -> Callable[[Path], Shown]:
+    """Have each scene loaded by one process of this run, for all of them."""
+
+    def shown(path: Path) -> Shown:
+        def make(file: Path) -> None:
+            file.write_text(json.dumps(_rendered(path)), encoding="utf-8")
+
+        kept = once(f"{'-'.join(path.relative_to(SCENES).parts)}.json", make)
+        return Shown(*json.loads(kept.read_text(encoding="utf-8")))
+
+    return shown
+
+
+def _rendered(path: Path) -> Shown:
     samples = yaml.safe_load(path.read_text(encoding="utf-8")).get("sampler", {}).get("samples", 16)
     scene = load_scene(path)
     picture = render(scene, size=(16, 12), spp=1 if samples == 1 else 4)
     world = scene.compiled
     said = str(summary_sections(summarize(scene)))
+    seen = float(picture.linear.max()), float(picture.linear.std())
+    functions = picture.receipt.effects["called"], list(scene.effects.imported)
     of_world = sum(world.triangles), world.pieces, world.frame.reach
-    return Shown(picture, said, *of_world, set(scene.effects.imported))
+    return Shown(*seen, *functions, said, *of_world)
 
 
-def called(path: Path) -> set[str]:
-    """The student functions that a small picture of a scene calls."""
-    return set(rendered(path).picture.receipt.to_dict()["effects"]["called"])
-
-
-def modules(functions: set[str]) -> set[str]:
+def modules(functions: list[str]) -> set[str]:
     return {function.partition(".")[0] for function in functions}
 
 
@@ -110,10 +124,10 @@ def document(path: Path) -> dict[str, object]:
 
 
 @pytest.mark.parametrize("path", ALL, ids=lambda path: str(path.relative_to(SCENES)))
-def test_every_scene_renders_to_something_that_is_not_black_and_can_be_described(path):
+def test_every_scene_renders_to_something_that_is_not_black_and_can_be_described(rendered, path):
     shown = rendered(path)
-    assert shown.picture.linear.max() > 0.05
-    assert shown.picture.linear.std() > 0.01
+    assert shown.brightest > 0.05
+    assert shown.spread > 0.01
     assert "triangles" in shown.said
     assert "supersampling" in shown.said
     if path.parent == SCENES:
@@ -129,16 +143,16 @@ def test_every_module_has_a_pair_of_scenes_but_for_radiosity():
 
 
 @pytest.mark.parametrize("name", MAY_DIFFER)
-def test_a_modules_scene_calls_it_and_its_twin_does_not(name):
-    after, before = SCENES / f"{name}.yaml", SCENES / "before" / f"{name}.yaml"
-    mine = sorted(each for each in called(after) if each.startswith(f"{name}."))
+def test_a_modules_scene_calls_it_and_its_twin_does_not(rendered, name):
+    after, before = (rendered(SCENES / folder / f"{name}.yaml") for folder in ("", "before"))
+    mine = sorted(each for each in after.called if each.startswith(f"{name}."))
     if name in MODULES:
         assert mine
     else:
         assert mine == [f"{name}.{function}" for function in CALLS[name].split()]
     # Of importance_sampling the twin takes uniform directions.
     if name != "importance_sampling":
-        assert name not in modules(called(before)) | rendered(before).imported
+        assert name not in modules(before.called) | {*before.imported}
 
 
 @pytest.mark.parametrize("name", MAY_DIFFER)
@@ -174,16 +188,17 @@ def test_the_twin_of_the_cube_map_has_its_mean_colour():
     assert before["environment"]["radiance"] == pytest.approx(list(mean), abs=0.006)
 
 
-def test_the_gallery_shows_every_effect():
+def test_the_gallery_shows_every_effect(rendered):
     assert len(GALLERY) >= 7
-    shown = set().union(*(modules(called(path)) for path in GALLERY))
+    shown = set().union(*(modules(rendered(path).called) for path in GALLERY))
     assert shown == set(MODULES)
 
 
-def test_everything_has_every_effect_at_once_on_many_triangles():
+def test_everything_has_every_effect_at_once_on_many_triangles(rendered):
     path = SCENES / "gallery" / "everything.yaml"
-    assert modules(called(path)) == set(MODULES)
-    assert rendered(path).triangles > 200_000
+    shown = rendered(path)
+    assert modules(shown.called) == set(MODULES)
+    assert shown.triangles > 200_000
 
 
 def test_the_environments_are_what_their_script_paints(tmp_path):

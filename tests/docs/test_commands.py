@@ -31,9 +31,15 @@ FOLLOWED = [
     # tests/grading/test_new_module.py builds what the page on new modules shows.
     if blocks(path) and path.name != "new_module.md"
 ]
+LONG = {"README.md", "docs/performance.md"}
+LONG |= {f"docs/guides/{name}.md" for name in ("grades", "instructors", "students")}
+"""Pages that have classes graded, modules checked and measured, or the scenes of the demo rendered."""
+
 MODULES = [page for page in FOLLOWED if page.startswith("docs/modules/")]
-TOGETHER = [MODULES[i::5] for i in range(5)] + [[page] for page in FOLLOWED if page not in MODULES]
-"""Pages that one process follows, in one copy: to start it takes longer than what most of the modules' pages say."""
+SHORT = [page for page in FOLLOWED if page not in (*MODULES, *LONG)]
+TOGETHER = [*(MODULES[i::5] for i in range(5)), *(SHORT[i::3] for i in range(3))]
+TOGETHER += [[page] for page in FOLLOWED if page in LONG]
+"""Pages that one process follows, in one copy: to start it takes longer than what most of them say."""
 
 KNOWN_SUBMISSIONS = 3
 """Right and wrong submissions of a module that are kept for `course calibrate`."""
