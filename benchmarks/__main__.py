@@ -29,6 +29,7 @@ from benchmarks.radiosity import measure_radiosity
 from benchmarks.reached_error import measure_quickly, measure_reached_error
 from benchmarks.report import publish
 from benchmarks.sampling import measure_sampling
+from benchmarks.scaling import measure_scaling
 from course.benchmarking.machine import machine
 from course.benchmarking.tables import print_tables
 from course.cli.bench import DOCUMENTS, bench
@@ -40,6 +41,7 @@ MEASURES = {
     "effects": measure_effects,
     "degenerate": measure_degenerate,
     "process": measure_processes,
+    "scaling": measure_scaling,
     "convergence": measure_convergence,
     "dragons": measure_dragons,
     "adaptive": measure_adaptive,

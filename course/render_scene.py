@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import sys
-from contextlib import closing
+from contextlib import ExitStack, closing
+from functools import partial
 from time import monotonic
 
 from course import __version__
@@ -97,6 +98,8 @@ def render(
         _check_start(settings, start.settings)
     check_memory(settings, mode.bytes_a_pixel)
     packets = _use_compiled(settings, compiled)
+    # Corners of cells are no work that may change over: their tracer is compiled before they begin.
+    later = packets and not compiled and address is None and settings.subdivision is None
     if address is not None and threads is not None:
         raise CourseError(
             "threads are for renders on this machine; the workers of a cluster have their own"
@@ -108,16 +111,22 @@ def render(
     bound = Bound(scene.effects, scene.compiled.needs)
     began = monotonic()
     with lines_named(scene, bound):
-        tracer = bind(scene, settings, bound, packets and address is None)
+        tracer = bind(scene, settings, bound, packets and not later and address is None)
         film, schedule = mode.make(job, tracer, bound)
-        executor: ThreadedExecutor
-        if address is None:
-            executor = Pool(tracer, threads or default_threads())
-        else:
-            from course.cluster.executor import Cluster
+        with ExitStack() as closed:
+            executor: ThreadedExecutor
+            if address is None:
+                executor = pool = Pool(tracer, threads or default_threads())
+                if later:
+                    from course.rendering.later import Later
 
-            executor = Cluster(address, scene, settings, packets)
-        with closing(executor):
+                    make = partial(bind, scene, settings, None, True)
+                    closed.enter_context(closing(Later(pool, make, scene, settings)))
+            else:
+                from course.cluster.executor import Cluster
+
+                executor = Cluster(address, scene, settings, packets)
+            closed.enter_context(closing(executor))
             if time_limit is not None:
                 executor.limit_time(time_limit, since)
             complete = render_film(film, schedule, executor, progress)

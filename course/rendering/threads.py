@@ -169,11 +169,16 @@ class ThreadedExecutor(Executor):
 
 
 class Pool(ThreadedExecutor):
-    """Threads of this process that take tiles one by one."""
+    """Threads of this process that take tiles one by one.
+
+    Attributes
+    ----------
+    tracer : of the next tiles; it may be exchanged for one that makes the same bits
+    """
 
     def __init__(self, tracer: Tracer, threads: int) -> None:
         super().__init__(servers=threads)
-        self._tracer = tracer
+        self.tracer = tracer
 
     @property
     def threads(self) -> int:
@@ -184,7 +189,7 @@ class Pool(ThreadedExecutor):
         counters = Counters()
         try:
             while (work := self._take(run)) is not None:
-                pixels, weight = self._tracer.render_tile(
+                pixels, weight = self.tracer.render_tile(
                     work.tile, work.first, work.samples, counters, lambda: run.stop, work.parts
                 )
                 counters.start()

@@ -1,0 +1,149 @@
+"""Compiled loops that get ready while NumPy renders; then pieces of work change over, for both make the same bits.
+
+Loops that this machine has not compiled yet are compiled by a process of its own, ``python -m course.rendering.later``,
+which keeps them on disk. In this process, compiling would hold the interpreter's lock, which rendering threads need.
+"""
+
+import os
+import pickle
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from threading import Event, Thread
+from typing import Any
+
+from course.core.counters import Counters
+from course.core.tiles import Tile, pass_size
+from course.core.tracer import Tracer
+from course.effects import PROJECT
+from course.errors import CourseError
+from course.rendering.threads import Pool
+from course.scene.scene import Scene, Settings, load_scene
+
+LAST = 10
+"""Added to the niceness of the process that compiles: the picture comes first."""
+
+POLL = 0.05
+"""Seconds between two looks at the process that compiles."""
+
+_COMPILING: list[subprocess.Popen[bytes]] = []
+
+
+class NotCompiledError(Exception):
+    """A loop is not on disk."""
+
+
+@contextmanager
+def compiling_nothing() -> Iterator[None]:
+    """Let loops be read from disk; NotCompiledError where one would be compiled."""
+    from numba.core import event
+
+    class Refusal(event.Listener):  # type: ignore[misc]
+        def on_start(self, event: Any) -> None:
+            raise NotCompiledError
+
+        def on_end(self, event: Any) -> None:
+            pass
+
+    with event.install_listener("numba:compile", Refusal()):
+        yield
+
+
+def tried(tracer: Tracer) -> Tracer:
+    """The tracer, after it has rendered the pixel in the middle: some loops are compiled when they are first called."""
+    settings = tracer.settings
+    middle = Tile(0, settings.width // 2, settings.height // 2, 1, 1)
+    tracer.render_tile(middle, 0, pass_size(settings, tracer.sampler), Counters())
+    return tracer
+
+
+class Later:
+    """Gives the threads of a pool a compiled tracer as soon as its loops are ready.
+
+    Parameters
+    ----------
+    pool : renders with a tracer of NumPy's
+    compiled : makes the compiled tracer
+    scene, settings : for the process that compiles
+    """
+
+    def __init__(
+        self, pool: Pool, compiled: Callable[[], Tracer], scene: Scene, settings: Settings
+    ) -> None:
+        self._pool, self._compiled = pool, compiled
+        self._task = scene.path.resolve(), scene.effects.folder.resolve(), settings
+        self._closed = Event()
+        # Once Numba is there, loops are read from disk before the first piece of work is done.
+        at_once = "numba" in sys.modules
+        ready = at_once and self._read()
+        self._thread = None if ready else Thread(target=self._run, args=(at_once,), daemon=True)
+        if self._thread is not None:
+            self._thread.start()
+
+    def _run(self, tried_to_read: bool) -> None:
+        # A function that fails fails in the threads that render, too, and they tell of it.
+        with suppress(CourseError, NotImplementedError):
+            self._get_ready(tried_to_read)
+
+    def _get_ready(self, tried_to_read: bool) -> None:
+        if not tried_to_read:
+            import numba  # noqa: F401
+
+            if self._closed.is_set() or self._read():
+                return
+        self._compile()
+        if not self._closed.is_set():
+            # What that process has not compiled, for the scene may differ from its file, is compiled here.
+            self._pool.tracer = tried(self._compiled())
+
+    def _read(self) -> bool:
+        """Exchange the tracer if all its loops are on disk."""
+        try:
+            with compiling_nothing():
+                self._pool.tracer = tried(self._compiled())
+        except NotCompiledError:
+            return False
+        return True
+
+    def _compile(self) -> None:
+        """Wait for a process that compiles, at most until the picture is there."""
+        path = os.pathsep.join([str(PROJECT), *filter(None, sys.path)])
+        process = subprocess.Popen(
+            [sys.executable, "-m", "course.rendering.later"],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+            env={**os.environ, "PYTHONPATH": path},
+            # Ctrl-C ends the picture; what is compiled is for the next one, too.
+            start_new_session=True,
+        )
+        _COMPILING.append(process)
+        assert process.stdin is not None
+        with process.stdin as pipe:
+            pipe.write(pickle.dumps(self._task))
+        while process.poll() is None:
+            if self._closed.wait(POLL):
+                return
+        _COMPILING.remove(process)
+
+    def close(self) -> None:
+        """Exchange nothing any more. A process that compiles goes on to its end, so that the next render is fast."""
+        self._closed.set()
+        if self._thread is not None:
+            # Not left behind where the program may end.
+            self._thread.join()
+
+
+def main() -> None:
+    """Compile the loops of the scene and the settings that come in, and keep them on disk."""
+    path, folder, settings = pickle.load(sys.stdin.buffer)
+    if hasattr(os, "nice"):
+        os.nice(LAST)
+    from course.rendering.binding import bind
+
+    tried(bind(load_scene(path, folder), settings, compiled=True))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,92 @@
+"""Loops that get ready while NumPy renders: this process compiles nothing meanwhile, and the bits stay the same."""
+
+import sys
+from collections.abc import Callable
+from io import BytesIO
+from typing import Any
+
+import pytest
+
+from course import Scene, render
+from course import render_scene as rendering
+from course.compiled import library
+from course.core.tracer import Tracer
+from course.rendering.binding import bind
+from course.rendering.threads import Pool
+
+if not library.available():
+    pytest.skip("Numba is not installed", allow_module_level=True)
+
+from course.rendering import later
+
+EveryStage = Callable[..., Scene]
+
+
+def test_a_picture_by_both_tracers_in_turn_has_the_same_bits(
+    every_stage: EveryStage, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    scene = every_stage(film={"width": 60, "height": 44})
+    expected = render(scene, spp=64, threads=2, compiled=False)
+    taken = []
+
+    class Alternating(Pool):
+        @property
+        def tracer(self) -> Tracer:  # type: ignore[override]
+            taken.append(len(taken) % 2)
+            return self._both[taken[-1]]
+
+        @tracer.setter
+        def tracer(self, tracer: Tracer) -> None:
+            self._both = tracer, bind(scene, tracer.settings, compiled=True)
+
+    monkeypatch.setattr(rendering, "Pool", Alternating)
+    mixed = render(scene, spp=64, threads=2, compiled=False)
+    assert set(taken) == {0, 1}
+    assert mixed.linear.tobytes() == expected.linear.tobytes()
+    assert mixed.receipt.rays == expected.receipt.rays
+
+
+def test_loops_are_read_but_not_compiled() -> None:
+    import numba
+
+    with later.compiling_nothing(), pytest.raises(later.NotCompiledError):
+        numba.njit("int64(int64)")(lambda x: x + 1)
+    assert numba.njit("int64(int64)")(lambda x: x + 1)(1) == 2
+
+
+@pytest.mark.parametrize("status", [None, 0])
+def test_a_render_waits_for_no_compiler(
+    every_stage: EveryStage, monkeypatch: pytest.MonkeyPatch, status: int | None
+) -> None:
+    """Where loops are not on disk, a process compiles them; the tracer is exchanged when it has ended."""
+    scene = every_stage(film={"width": 8, "height": 6})
+    started: list[Any] = []
+
+    class Process:
+        def __init__(self, *arguments: Any, **_: Any) -> None:
+            started.append(arguments)
+            self.stdin = BytesIO()
+
+        def poll(self) -> int | None:
+            return status
+
+    compiled = bind(scene, scene.settings, compiled=True)
+    answers = iter([later.NotCompiledError(), compiled])
+
+    def make() -> Tracer:
+        if isinstance(answer := next(answers), Exception):
+            raise answer
+        return answer
+
+    monkeypatch.setattr(later.subprocess, "Popen", Process)
+    numpy = bind(scene, scene.settings)
+    pool = Pool(numpy, 1)
+    ready = later.Later(pool, make, scene, scene.settings)
+    if status is None:
+        ready.close()
+    else:
+        assert ready._thread is not None
+        ready._thread.join()
+    assert len(started) == 1
+    assert pool.tracer is (numpy if status is None else compiled)
+    assert "numba" in sys.modules
