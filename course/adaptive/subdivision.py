@@ -1,9 +1,9 @@
 """Supersampling by contrast: pixels whose corners differ are divided into four, and so are their parts.
 
-Whitted, "An improved illumination model for shaded display", 1980. A level of cells is decided on at once: rays
-through the corners that are new, `needs_subdivision` for all cells, `subdivide` for those that do. A pixel's colour is
-the mean of its cells' corners, each cell counting by its area. What has been seen decides alone, between the levels,
-so the picture doesn't depend on the threads.
+Whitted, "An improved illumination model for shaded display", 1980. All cells of a level are decided together: rays
+through the new corners, `needs_subdivision` for all cells, `subdivide` for those that need it. A pixel's colour is the
+mean of its cells' corners, weighted by the cells' areas. Decisions are made between levels, from colours alone, so the
+picture doesn't depend on the threads.
 """
 
 from __future__ import annotations
@@ -113,7 +113,7 @@ class SubdivisionSchedule(Schedule):
         return complete
 
     def receipt(self) -> dict[str, Any]:
-        """Where rays went; ``saved`` is the part of the lattice that got none."""
+        """The rays that were cast; ``saved`` is the share of the lattice without a ray."""
         film = self._film
         return {
             "subdivision": {

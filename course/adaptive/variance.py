@@ -25,12 +25,13 @@ BLUR = 1.2
 """Standard deviation of an order that is measured on one pixel."""
 
 BELIEVED = 0.9
-"""Of what an order exceeds INDEPENDENT by. The order falls as samples grow in number: small nets even out the smooth
-part of a pixel, and its edges in many dimensions are left. What few samples show is too good for many."""
+"""Share of a measured order's excess over INDEPENDENT that is used. The order falls with the number of samples: small
+nets reduce the error of the smooth part of a pixel, and that of its edges in many dimensions remains. So the order that
+few samples show is too good for many."""
 
 
 def variance_share(n: int, m: int, total: int, order: float) -> float:
-    """What a squared difference of the means of n and m samples says of the variance of a mean of ``total``.
+    """Ratio of the variance of a mean of ``total`` samples and the squared difference of means of n and m samples.
 
     Returns
     -------
@@ -49,8 +50,8 @@ def variance_share(n: int, m: int, total: int, order: float) -> float:
 def measured_order(of_halves: float, of_quarters: float, pixels: float) -> float:
     """Order of convergence from squared differences, summed over the same pixels.
 
-    Their ratio is 2^-2a. Where few pixels have most of the sums, it is nearly chance, and the order that is expected
-    counts more.
+    Their ratio is 2^-2a. If few pixels have most of the sums, the ratio is nearly chance, and the expected order has
+    more weight.
 
     Parameters
     ----------

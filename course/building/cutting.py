@@ -6,7 +6,7 @@ if R is many times max(s, d). It is halved until it isn't, or until its largest 
 lies, which no cut makes smaller: small things should lie near the origin (``course.building.small_objects``).
 
 No ray slips through: triangles that share an edge share the corners that it is cut at, to the last bit, whichever
-object they belong to. What corners carry is interpolated as it is at hits, so no hit carries anything else than before.
+object they belong to. Data of corners are interpolated for new corners as they are at hits, so no hit changes.
 
 Newest vertex bisection: each triangle has one edge that is its next to be halved, from corner 0 to corner 1; the
 middle of that edge is joined to corner 2. The children's next edges are the parent's two others. When an edge is
@@ -76,7 +76,7 @@ def bisected(triangles: Triangles, chosen: Mask) -> Triangles:
     halved = np.zeros(len(ends), bool)
     halved[edge[chosen, 0]] = True
     while True:
-        # Who has an edge halved has its next one halved, too.
+        # If any edge of a triangle is halved, its next one has to be halved, too.
         behind = halved[edge].any(axis=1) & ~halved[edge[:, 0]]
         if not behind.any():
             break
@@ -192,7 +192,7 @@ def _cut(vertices: Floats64, corners: Indices, things: SmallThings, ratio: float
 
     Others share no edge with them that is halved; some that are whole are among them.
     """
-    # What has two corners in one place has no area in float32, and is as good as not there.
+    # Triangles with two equal corners have no area in float32, and are ignored.
     there = (corners != np.roll(corners, 1, axis=1)).all(axis=1)
     inside = there & _too_large(vertices[corners], things, ratio)
     while True:
@@ -253,7 +253,7 @@ def _with_pieces(part: FullPart, at: Floats64, parent: Indices) -> FullPart:
 
     normals = joined(mesh.normals)
     if normals is not None:
-        # Where opposite ones cancel any direction is as good as another, but there must be one.
+        # If opposite normals cancel, any direction is right, but there must be one.
         normals[~normals.any(axis=1)] = (CANCELLED, 0, 0)
     own = len(mesh.vertices) + np.arange(3 * len(at)).reshape(-1, 3)
     pieces = Mesh(

@@ -1,8 +1,8 @@
 """Motion while the shutter is open: velocities, positions when it opens, and the functions of motion_blur.
 
-Times are counted from the opening, in float32, in exposures: the shutter closes at 1. A velocity is then how far
-something goes while the shutter is open, which float32 can carry however short an exposure is. What moved before is
-part of the positions, in float64. A closed shutter freezes everything at one time, and then nothing moves at all.
+Times are counted from the opening, in float32, in exposures: the shutter closes at 1. A velocity is then the
+displacement while the shutter is open, which float32 can represent for any exposure. Motion before the opening is part
+of the positions, in float64. If the exposure has no length, nothing moves.
 """
 
 from dataclasses import dataclass

@@ -18,20 +18,20 @@ from course.formats.yaml import description as d
 from course.formats.yaml.loading import Loaded
 
 TOO_LARGE = 1024.0
-"""From so many times the size of an object on, a triangle beside it shows that rays leave it at a distance.
+"""Largest size of a triangle beside an object, in sizes of the object, at which the offset of its rays is invisible.
 
-That distance is then a 512th of the object's size, and shifts a picture full of its shadows by less than 1e-3.
+The offset is then a 512th of the object's size, and changes a picture full of its shadows by less than 1e-3.
 """
 
 CUT = 64.0
 """Where triangles are cut, they become at most this many times as large as the objects beside them."""
 
 LARGEST_RATIO = 1e12
-"""Of half the scene's extent over the smallest object, as far as float32 can render both."""
+"""Largest ratio of half the scene's extent and the smallest object for which float32 can render both."""
 
 
 FEW = 64
-"""Triangles up to which each of an object's is looked at by itself, and not the box around them all."""
+"""Largest number of an object's triangles that are tested one by one; more are tested by their common box."""
 
 
 @dataclass(frozen=True)
@@ -122,7 +122,7 @@ def frame_for(extents: Extents, objects: int) -> tuple[Frame, SmallThings | None
     there = extents.sizes > 0
     if not there[:objects].any() or extents.sizes[there].min() / frame.scale * TOO_LARGE >= 1:
         return frame, None
-    # What is smaller still has no surface in float32.
+    # Smaller objects have no surface in float32.
     sizes = np.maximum(extents.sizes[there], frame.scale / LARGEST_RATIO)
     boxes = extents.boxes[there]
     center = np.array([_between(middle, sizes) for middle in (boxes[:, 0] / 2 + boxes[:, 1] / 2).T])

@@ -3,8 +3,6 @@
 Picture coordinates are in pixels, x to the right and y down from the upper left corner.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Direct light by next-event estimation: for each light one point on it, one shadow ray, and Blinn-Phong reflection."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -166,8 +164,8 @@ class DirectLight:
         to_light = self._to_light(light, hits, candidates)
         if triangles.bulge is None:
             return unoccluded(origin, to_light, light.limit, stats, time, active=mask)
-        # If a is the angle between both normals, a facet that faces away from the light sees it less than a above the
-        # horizon of the shading normal. The cosine to the light is then at most sin a.
+        # If a facet faces away from the light, the light is less than a above the horizon of the shading normal, with a
+        # the angle between both normals. So the cosine to the light is at most sin a.
         most = np.float32(triangles.largest_sine + ROUNDING)
         column = self._turned_away(hits, candidates, to_light, most)
         height = bulge(triangles, hits, candidates.hit(column))

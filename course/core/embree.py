@@ -5,8 +5,6 @@ added after the first query. Rays aimed at the edges of a closed mesh never slip
 million); in its default mode 1 in 20 did. Rays aimed exactly at a vertex still slip through at 2 vertices in 1000.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from threading import Lock
 from time import perf_counter

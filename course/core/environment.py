@@ -1,7 +1,5 @@
 """Environments: the radiance of rays that hit nothing, constant or from a cube map."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from course.core.types import Floats32, Functions

@@ -4,8 +4,6 @@ Symbols: n the normal on the incoming side, cos_i = -d . n, cos_t the cosine of 
 eta = n_from / n_to. Snell's law: sin_t = eta sin_i. If sin_t > 1, there is total internal reflection.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from course.core.types import Floats32

@@ -1,7 +1,5 @@
 """Glossy reflection: mirrored directions are jittered within the lobe of their material."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

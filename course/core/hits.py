@@ -1,7 +1,5 @@
 """Hits of a batch of rays: points, normals, and origins of the rays that leave them."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -85,7 +83,7 @@ class Surface:
     def intersect(
         self, rays: Rays, stats: QueryStats, coherent: bool, of_camera: bool
     ) -> Intersections:
-        """Nearest hits of rays, which are camera rays or bounced ones; see ``Accelerator.intersect``."""
+        """Nearest hits of camera rays, or of bounced rays; see ``Accelerator.intersect``."""
         arrays = rays.origin, rays.direction, stats, rays.time
         return self.accelerator.intersect(*arrays, coherent=coherent, excluded=rays.excluded)
 

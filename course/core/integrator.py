@@ -4,8 +4,6 @@ This is Whitted's ray tree (1980) with Cook's random sampling of lens, time, glo
 most one shadow ray per light, one reflected ray and one refracted ray.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

@@ -9,8 +9,6 @@ A dielectric transmits what it doesn't reflect. A scene may give it ambient, dif
 hold for its outside. Its inside reflects by Fresnel's equations only.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 

@@ -5,8 +5,6 @@ point of the object. A translation keeps directions (the `motion_blur` module). 
 then those of each mover.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Render a picture: a schedule chooses the work, an executor does it, and a film accumulates it."""
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass

@@ -3,8 +3,6 @@
 Stages and random numbers are planned once, before the first ray.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -78,7 +76,8 @@ def plan_dimensions(
     """Dimensions of the sampler for all random numbers.
 
     Dimensions 2 and 3 are stratified jointly with the pixel's (``course.extras.samplers.sobol``). The first of
-    lens, time, gloss and lights that the scene has gets them: noise is seen more in mirror images than in shadows.
+    lens, time, gloss and lights that a scene has gets them. Gloss comes before lights: noise is more visible in mirror
+    images than in shadows.
     ``before_lights`` and ``after_lights`` are names and widths of further numbers that a bounce draws.
     """
     of_path = [("pixel", 2), ("lens", 2 if camera.lens else 0), ("time", 1 if world.motion else 0)]
@@ -88,7 +87,7 @@ def plan_dimensions(
 
 
 def plan_direct_light(world: World, sky: bool = False) -> DirectLight | None:
-    """Direct light of the lights; None without lights or diffuse or specular terms, unless a sky is to be added."""
+    """Direct light; None if there are no lights or no diffuse or specular terms, unless ``sky`` will be set."""
     materials = world.materials
     if not sky and not (world.lights and materials.shaded.any()):
         return None

@@ -4,8 +4,6 @@ Every pass but the last has PASS samples. So the film's sums grow in the same st
 for any number of samples per pixel. A sampler that isn't extensible has one pass.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Protocol

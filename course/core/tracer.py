@@ -1,7 +1,5 @@
 """The steps of one tile: random numbers, camera rays, radiance, pixels."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any

@@ -1,7 +1,5 @@
 """Array types that the whole course shares, and functions of the course by name."""
 
-from __future__ import annotations
-
 from types import SimpleNamespace
 from typing import Any
 

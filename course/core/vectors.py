@@ -1,7 +1,5 @@
 """Vector arithmetic on (3, N) arrays: rows are x, y, z; columns are vectors or points. It keeps the dtype."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -72,7 +72,7 @@ def approximate_reflectance(cos_i: Floats32, n: Floats32, k: Floats32) -> Floats
     cos_i = np.minimum(np.maximum(cos_i, 0), 1)
     squares, twice = n * n + k * k, 2 * n * cos_i
     across, within = squares + cos_i * cos_i, squares * cos_i * cos_i + 1
-    # Where there is neither index nor cosine, nothing is left to divide by, and all light is mirrored.
+    # If index and cosine are 0, the divisor is 0, too, and all light is mirrored.
     s = np.where(across > 0, (across - twice) / np.maximum(across + twice, np.float32(1e-30)), 1)
     result: Floats32 = np.clip((s + (within - twice) / (within + twice)) / 2, 0, 1)
     return result

@@ -5,8 +5,8 @@ the cells contribute to its irradiance: radiance times cosine times solid angle.
 nearest normal, a texel of the cell by its radiance alone, and a point of the texel uniformly on the face. The density
 of that is known exactly, however coarse the tables are, and it is 0 nowhere where light comes from.
 
-Radiance and cosine vary within texels and cells. Of all densities that are constant there, the one by the root of the
-mean square leaves the least variance, so that is what the tables hold.
+Radiance and cosine vary within texels and cells. Among densities that are constant there, the root mean square has the
+least variance, so the tables hold it.
 """
 
 import math

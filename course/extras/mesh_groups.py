@@ -1,16 +1,16 @@
-"""Triangles of a light in groups, and which group a sample is taken from: rather one that sends much to the point.
+"""Triangles of a light in groups; groups that send much light to a point are sampled often.
 
-Of a closed body half of the surface, or more, faces away from any point, and of the rest some is far or seen from the
-side. So the triangles are put into groups that lie together and face alike, and for each point a group is chosen with a
-probability proportional to its area times the root of the mean square, over the group, of
+At least half of a closed surface faces away from any point, and other parts are far away or seen at a grazing angle. So
+the triangles are divided into groups of neighbours that face in similar directions. For each point, a group is chosen
+with a probability in proportion to its area times the root mean square, over the group, of
 
     cos / d^2 = height / d^3
 
-where d is the distance and the height is that above the triangle's plane. Among all ways to choose a group and then a
-place in it uniformly, this one has the least variance. The mean square is estimated from the moments of the group,
-which is all that makes it an approximation: what is sampled is divided by the probability that was used. (Light trees
-do this level by level: Conty Estevez and Kulla, "Importance Sampling of Many Lights with Adaptive Tree Splitting",
-2018. Few groups can all be looked at.)
+where d is the distance and the height is that above the triangle's plane. If a group is chosen first, and then a
+uniform point in it, these probabilities have the least variance. The mean square is estimated from the moments of the
+group. The result is still unbiased, for each sample is divided by the probability that was used. (Light trees do this
+level by level: Conty Estevez and Kulla, "Importance Sampling of Many Lights with Adaptive Tree Splitting", 2018. Our
+groups are so few that all can be evaluated.)
 """
 
 from dataclasses import dataclass
@@ -22,7 +22,7 @@ from course.core.types import Floats32, Floats64, Indices
 from course.core.vectors import dot
 
 GROUPS = 32
-"""At most; each costs every sample some 10 ns in NumPy, 3 in a compiled loop."""
+"""Largest number of groups. Each group costs every sample about 10 ns in NumPy, and 3 ns in a compiled loop."""
 
 TRUST = 15 / 16
 """Trust that a closed body hides its own back: a back is chosen (1 - TRUST) / (1 + TRUST) times as often as a front in
@@ -32,8 +32,8 @@ LEAK = 1e-3
 """Circulation around the edges of a closed body, of fields of about 1 and in units of its radius, is below this."""
 
 BATCH = 512
-"""Points that NumPy looks at together: its arrays of GROUPS x BATCH fit the cache (measured: of 65,536 points at once
-each takes .43 us, of 512 .30)."""
+"""Points that NumPy computes together: arrays of GROUPS x BATCH fit the cache (measured: a point takes .43 us in
+batches of 65,536, and .30 us in batches of 512)."""
 
 _LEAST = CLOSEST * CLOSEST
 
@@ -205,7 +205,7 @@ def _moments(corners: Floats64, normal: Floats64, share: Floats64) -> Floats64:
     """A column of ``Groups.moments`` from corners (3, 3, t), each a (3, t), normals (3, t) and shares (t,)."""
     middle = corners.mean(axis=0)
     center, facing = _mean(middle, share), _mean(normal, share)
-    # Of the points of a triangle: a twelfth of the squares of its corners, and nine of that of its middle.
+    # Mean square of a triangle's points: a twelfth of the sum of its corners' squares and nine times its centre's.
     out, far = corners - center[:, None], middle - center[:, None]
     around = np.einsum("kij,kij->j", out, out) + 9 * dot(far, far)
     height = -dot(far, normal)
@@ -220,9 +220,8 @@ def _closed(corners: Floats64) -> bool:
     """True if triangles with corners (3, 3, T), of about unit size, enclose a volume.
 
     Around a closed surface every edge is passed once in either direction, so the integrals of any field along the edges
-    of all triangles cancel. What is left of them for an open one is the integral along its rim (Stokes), and of four
-    waves across each other none but a hole too small to matter leaves so little of all. Corners need not be the same
-    to the last bit for that.
+    of all triangles cancel. For an open surface, the integral along its rim remains (Stokes). Only a hole that is too
+    small to matter leaves so little of four waves in different directions. Corners need not be equal to the last bit.
     """
     waves = np.array([[1.9, 0.7, -1.1], [-0.6, 2.2, 0.9], [1.2, -0.8, 1.8], [0.4, 1.3, -2.1]])
     total = np.zeros((len(waves), 3))

@@ -1,8 +1,8 @@
 """The bounces of paths: one ray for each hit, which is diffuse, mirrored or refracted.
 
-A surface may scatter, mirror and refract at once. Of these ways one is chosen, as probable as the throughput that it
-would leave is large, and the throughput is divided by that probability. So the mean is right, and the number of rays
-doesn't grow.
+A surface may scatter, mirror and refract at once. One of these is chosen with a probability in proportion to its
+throughput, and the throughput is divided by that probability. So the mean is right, and the number of rays doesn't
+grow.
 """
 
 from dataclasses import dataclass
@@ -115,7 +115,7 @@ class PathBounce:
         if len(through):
             assert other is not None
             assert boundary is not None
-            # Where among those on mirrors and glass the refracted ones are: both in the order of the hits.
+            # Positions of the refracted paths among those on mirrors and glass; both are in the order of the hits.
             refracts = goes_on.take(other) & (kind.take(other) == REFRACTED)
             within = boundary.of(np.flatnonzero(refracts))
             refracted = self.scatter.refracted(hits, through, within, path[crossing:], depth, draws)
@@ -182,7 +182,7 @@ class PathBounce:
             ways += [mirror * arriving]
         odds = np.stack([np.broadcast_to(way, ways[0].shape).max(axis=0) for way in ways])
         reach = np.cumsum(odds, axis=0)
-        # Where nothing is left the last way is as good as any: its throughput is 0.
+        # If all throughputs are 0, the last one is chosen, which makes no difference.
         way_taken = (u.take(other) * reach[-1] >= reach[:-1]).sum(axis=0)
         weight = np.zeros(ways[0].shape, np.float32)
         for number, way in enumerate(ways):

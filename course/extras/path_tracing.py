@@ -1,10 +1,10 @@
-"""Path tracing: each camera ray is followed from surface to surface, and brings all light, however it came.
+"""Path tracing: each camera ray is followed from surface to surface, which gives global illumination.
 
-Kajiya, "The rendering equation", 1986. Light reaches a diffuse surface in two ways: from lamps and the environment,
-for which direct light casts its shadow rays at every hit, and from other surfaces, for which the path goes on. A ray
-that has left a diffuse surface and runs into a lamp, or out into the environment, has found what a shadow ray has
-already counted, so it adds nothing; after a mirror or glass, where no shadow rays are cast, it does. Lamps are lights
-with a surface, from its front, and objects that are lights, from both sides.
+Kajiya, "The rendering equation", 1986. Light reaches a diffuse surface from lamps and the environment, which shadow
+rays sample at every hit (next-event estimation), and from other surfaces, for which the path continues. If a ray from a
+diffuse surface hits a lamp or leaves the scene, a shadow ray has counted that light already, so it adds nothing. After
+a mirror or glass, where no shadow rays are cast, the light counts. Lamps are the fronts of lights with a surface, and
+both sides of objects that are lights.
 """
 
 from dataclasses import dataclass, replace
@@ -51,11 +51,11 @@ class PathIntegrator(Integrator):
 
     Attributes
     ----------
-    bounce : sends paths on
-    pieces : batches that a tile is cut into
-    unsought : light that no shadow ray looks for: it counts whenever a path meets it; None where there is none
-    reflected : ambient light, the same at every point of a surface: as if the surface gave it off
-    lamps, objects : light that shadow rays look for, of the fronts of lights and of both sides of objects
+    bounce : continues paths at surfaces
+    pieces : number of batches into which a tile is divided
+    unsought : emission that shadow rays don't sample: it counts whenever a path hits it; None if there is none
+    reflected : reflected ambient light, treated as emission
+    lamps, objects : emission that shadow rays sample, from the fronts of lights and from both sides of objects
     """
 
     bounce: PathBounce
@@ -66,7 +66,7 @@ class PathIntegrator(Integrator):
     objects: Glow | None
 
     def radiance(self, camera_rays: Rays, draws: Draws) -> Floats32:
-        """Radiance (3, paths) that the paths bring back; see ``Integrator``."""
+        """Radiance (3, paths) of the paths; see ``Integrator``."""
         path_radiance = np.zeros((3, draws.block.size), np.float32)
         pieces = Pieces(draws, path_radiance)
         for piece in pieces.cut(camera_rays, self.pieces):
@@ -96,11 +96,11 @@ class PathIntegrator(Integrator):
         path_radiance: Floats32,
         draws: Draws,
     ) -> tuple[Rays, Mask | None] | None:
-        """One depth: what the rays bring is added up, and the rays that go on are returned.
+        """Follow rays for one depth: add their radiance, and return the rays of the next depth.
 
         Parameters
         ----------
-        adds_lights : (n,) which rays bring light from lamps and the environment; None for none of them
+        adds_lights : (n,) bool, rays whose light from lamps and the environment counts; None for none of them
         """
         counters = draws.counters
         hits, throughput, path, medium = self._intersect(

@@ -1,11 +1,11 @@
 """Rough glass: refracted directions, and those mirrored on its inside, are jittered by the lobe of their material.
 
-The functions of the `blurred_transparency` module answer for hits on rough glass, and for no others.
+The functions of the `blurred_transparency` module are called for hits on rough glass only.
 
-Rough glass sends some rays beyond the critical angle of the next surface. Were they mirrored as they are, a ball would
-keep them for ever, for each mirror image meets the surface at the same angle. Jittered, by their gloss where they have
-some, they get out. What is still inside at the last bounce is let out, straight on where reflection is total, so that
-no light is lost.
+Some rays in rough glass hit the next surface beyond the critical angle. If they were mirrored exactly, they would stay
+in a ball for ever, for each reflection hits the surface at the same angle. So reflections are jittered, by the gloss of
+the material if it has one, and the rays leave. Rays that are still inside at the last bounce are let out, straight on
+if reflection is total, so that no light is lost.
 """
 
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """Lights without extent: at a point, or infinitely far away."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A parallelogram as a light: its points have an intensity, or it is a Lambertian emitter with a radiance."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from course.core.lights.sample import TO_A_POINT, TO_A_SURFACE, Light, Sample, Towards

@@ -1,7 +1,5 @@
 """The interface of lights: a light samples one point on itself for each shading point."""
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """A sphere as a light: its points have an intensity, or it is a Lambertian emitter with a radiance."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
@@ -67,7 +65,7 @@ class SphereLight(Light):
         return on_light
 
     def _sample_emitter(self, points: Floats32, u: Floats32) -> Sample:
-        # Points on a sphere about the origin give exact normals, even if rounding moves the centre by a few radii.
+        # Points on a sphere around the origin are exact normals, even if rounding moves the centre by a few radii.
         from_center = self._on_light(np.zeros(3, np.float32), points, u)
         to_light = from_center + self.center[:, None]
         to_light -= points
