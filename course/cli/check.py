@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import time
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -15,6 +14,7 @@ from course.atomic import write_text
 from course.cli.options import FAILED, modules_from
 from course.cli.outputs import check_outputs
 from course.cli.tables import count
+from course.cli.watching import await_change, times
 from course.effects import ASSIGNMENTS, CHECKOUT
 from course.errors import CourseError
 
@@ -22,9 +22,6 @@ if TYPE_CHECKING:
     from course.grading.checks.check import Check, References
     from course.grading.checks.result import Result
     from course.grading.report import Report
-
-POLL = 0.4
-"""Seconds between two looks at a watched file."""
 
 SHORT = 100
 """Characters of what several checks have found, where it has been told in full before."""
@@ -95,8 +92,12 @@ def check(
         raise CourseError(f"{folder}: no such folder; --folder says where your modules are{remedy}")
     check_outputs(files=[("--html", html), ("--json", json_file)])
     arrays = references(seed)
+
+    def files() -> list[Path]:
+        return [folder / f"{module}.py" for module in modules]
+
     while True:
-        seen = _times(folder, modules)
+        seen = times(files())
         report = _check(folder, modules, only, seed, arrays, rungs)
         if lines:
             _print_lines(report, folder)
@@ -114,9 +115,7 @@ def check(
             click.echo(f"{json_file} written")
         if not watch:
             ctx.exit(0 if report.points == report.of and not report.broken else FAILED)
-        click.echo("watching; Ctrl-C ends it", err=True)
-        while _times(folder, modules) == seen:
-            time.sleep(POLL)
+        await_change(files, seen)
 
 
 def _check(
@@ -209,16 +208,6 @@ def _without_references(
         err=True,
     )
     return lambda check: check.prepare is None and (chosen is None or chosen(check))
-
-
-def _times(folder: Path, modules: tuple[str, ...]) -> list[int]:
-    found = []
-    for module in modules:
-        try:
-            found.append((folder / f"{module}.py").stat().st_mtime_ns)
-        except OSError:
-            found.append(0)
-    return found
 
 
 class _Printer:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 from pathlib import Path
 from time import monotonic
 from typing import Any
@@ -15,6 +16,8 @@ from course.cli.metu import check_camera, converted, told_of
 from course.cli.outputs import check_outputs
 from course.cli.progress import progress_bar
 from course.cli.tables import print_sections, receipt_sections
+from course.cli.watching import again_and_again
+from course.effects import Effects
 from course.errors import CourseError
 from course.formats.metu.suffixes import is_metu
 
@@ -74,6 +77,11 @@ SAMPLERS = ("sobol", "random", "jittered", "regular", "halton", "hammersley", "c
     callback=options.json_path,
     help="Write what the render cost as JSON.",
 )
+@click.option(
+    "--watch",
+    is_flag=True,
+    help="Render again whenever the scene or a function is saved, until Ctrl-C.",
+)
 def render(
     scene: Path,
     out: Path | None,
@@ -82,6 +90,7 @@ def render(
     effects: str | None,
     heat_map: Path | None,
     receipt_path: Path | None,
+    watch: bool,
     **choices: Any,
 ) -> None:
     """Render a scene file to a picture.
@@ -92,6 +101,27 @@ def render(
     """
     _check_engine(engine, choices["address"], choices["threads"])
     check_camera(scene, camera)
+
+    def work() -> None:
+        _render_all(scene, out, camera, effects, choices, heat_map, receipt_path)
+
+    if watch:
+        # What is saved within the second in which it was compiled before would be taken for the same.
+        sys.dont_write_bytecode = True
+        again_and_again(work, lambda: [scene, *Effects(effects).folder.glob("*.py")])
+    work()
+
+
+def _render_all(
+    scene: Path,
+    out: Path | None,
+    camera: str | None,
+    effects: str | None,
+    choices: dict[str, Any],
+    heat_map: Path | None,
+    receipt_path: Path | None,
+) -> None:
+    """Render the pictures of all cameras."""
     if not is_metu(scene):
         out = Path(f"{scene.stem}.png") if out is None else out
         pictures, files = [("-o", out), ("--heat-map", heat_map)], [("--receipt", receipt_path)]

@@ -6,6 +6,7 @@ from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from html import escape
 from typing import Any
 
 import numpy as np
@@ -245,6 +246,13 @@ class Story:
         total = sum(sum(one.radiance) for one in self.segments)
         part = sum(sum(one.radiance) for one in segments)
         return f"{part / total:.0%} of the light" if total else "nothing"
+
+    def _repr_html_(self) -> str:
+        """Show the view of the rays in a notebook."""
+        from course.recording.view import page
+
+        frame = "width: 100%; height: 56rem; border: 0"
+        return f'<iframe title="Rays of a pixel" style="{frame}" srcdoc="{escape(page(self))}"></iframe>'
 
     def to_dict(self) -> dict[str, Any]:
         """All that is known, for programs: numbers, strings and lists."""

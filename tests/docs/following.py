@@ -406,7 +406,7 @@ def _saved_once(path: Path) -> Iterator[list[Path]]:
         saved.append(path)
         os.utime(path, ns=(1, 1))
 
-    with mock.patch("course.cli.check.time", SimpleNamespace(sleep=wait)):
+    with mock.patch("course.cli.watching.time", SimpleNamespace(sleep=wait)):
         yield saved
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import shutil
 from dataclasses import replace
 from pathlib import Path
@@ -133,6 +134,14 @@ def test_shares_of_all_sources_are_the_whole() -> None:
     story = pixel(PROJECT / "scenes" / "path_tracing.yaml", 50, 30, spp=16, size=(96, 64))
     assert sum(story.sources.values()) == pytest.approx(1, abs=1e-6)
     assert sum(story.shares) == pytest.approx(1)
+
+
+def test_the_guide_shows_what_is_printed() -> None:
+    guide = (PROJECT / "docs" / "guides" / "rays.md").read_text(encoding="utf-8")
+    shown = re.findall(r"^> (.*)$", guide, re.MULTILINE)
+    text = " ".join(line.strip().removeprefix("- ") for line in shown)
+    told = texts(pixel(PROJECT / "scenes" / "soft_shadows.yaml", 300, 300).tree)
+    assert text == " ".join(told)
 
 
 def command(*arguments: str | Path) -> Result:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from html import unescape
 from pathlib import Path
 from typing import Any
 
@@ -92,6 +93,11 @@ def test_the_command_writes_the_page(tmp_path: Path) -> None:
     assert "penumbra.rays(" in out.read_text(encoding="utf-8")
     refused = CliRunner().invoke(commands, [*arguments, str(tmp_path / "no" / "rays.html")])
     assert refused.exit_code == 1
+
+
+def test_a_notebook_shows_the_view(story: Story) -> None:
+    shown = story._repr_html_()
+    assert unescape(shown.partition('srcdoc="')[2].removesuffix('"></iframe>')) == page(story)
 
 
 @pytest.fixture
