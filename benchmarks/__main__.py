@@ -16,6 +16,7 @@ import click
 
 from benchmarks.adaptive import measure_adaptive
 from benchmarks.adaptive_sampling import measure_adaptive_sampling
+from benchmarks.allocation_oracle import measure_oracle
 from benchmarks.bounding_volumes import measure_bounding_volumes
 from benchmarks.convergence import measure_convergence
 from benchmarks.engine import measure_degenerate, measure_dragons, measure_effects, measure_engine
@@ -46,6 +47,7 @@ MEASURES = {
     "dragons": measure_dragons,
     "adaptive": measure_adaptive,
     "reached_error": measure_reached_error,
+    "allocation_oracle": measure_oracle,
     "radiosity": measure_radiosity,
     "bounding_volumes": measure_bounding_volumes,
     "grading": measure_grading,
