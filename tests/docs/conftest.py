@@ -74,3 +74,12 @@ def untroubled(browser: Any, **options: Any) -> Iterator[Any]:
     yield page
     context.close()
     assert trouble == []
+
+
+def tab_to(page: Any, selector: str, presses: int = 150) -> None:
+    """Press the Tab key until what has the focus is what was asked for."""
+    for _ in range(presses):
+        page.keyboard.press("Tab")
+        if page.evaluate(f"document.activeElement.matches({selector!r})"):
+            return
+    raise AssertionError(f"the Tab key does not reach {selector}")

@@ -8,6 +8,8 @@ from typing import Any
 
 import pytest
 
+from tests.docs.conftest import tab_to
+
 axe = pytest.importorskip(
     "axe_playwright_python.sync_playwright",
     reason='pages are looked at by: pip install -e ".[browser]"',
@@ -184,16 +186,8 @@ def narrow(browser: Any, site: Path) -> Iterator[Any]:
     page.close()
 
 
-def _tab_to(page: Any, selector: str, presses: int = 60) -> None:
-    for _ in range(presses):
-        page.keyboard.press("Tab")
-        if page.evaluate(f"document.activeElement.matches({selector!r})"):
-            return
-    raise AssertionError(f"the Tab key does not reach {selector}")
-
-
 def test_among_the_first_stops_is_one_that_skips_to_the_text(narrow: Any) -> None:
-    _tab_to(narrow, ".skip-to-content", 3)
+    tab_to(narrow, ".skip-to-content", 3)
     narrow.wait_for_function("document.activeElement.getBoundingClientRect().top >= -2")
     narrow.keyboard.press("Enter")
     assert narrow.evaluate("location.hash") == "#furo-main-content"
@@ -205,7 +199,7 @@ def test_among_the_first_stops_is_one_that_skips_to_the_text(narrow: Any) -> Non
 def test_the_menu_opens_by_keyboard(narrow: Any) -> None:
     menu = narrow.locator(".sidebar-drawer")
     assert menu.bounding_box()["x"] < -100
-    _tab_to(narrow, "#__navigation")
+    tab_to(narrow, "#__navigation")
     focused = narrow.evaluate(
         "getComputedStyle(document.querySelector('.nav-overlay-icon')).outlineStyle"
     )
@@ -214,7 +208,7 @@ def test_the_menu_opens_by_keyboard(narrow: Any) -> None:
     narrow.wait_for_function(
         "document.querySelector('.sidebar-drawer').getBoundingClientRect().x >= 0"
     )
-    _tab_to(narrow, ".sidebar-tree a")
+    tab_to(narrow, ".sidebar-tree a")
     narrow.keyboard.press("Enter")
     narrow.wait_for_url(lambda url: not url.endswith("soft_shadows.html"))
 
@@ -226,11 +220,11 @@ def test_a_closed_menu_is_passed_over(narrow: Any) -> None:
 
 
 def test_the_search_is_found_and_answers(narrow: Any) -> None:
-    _tab_to(narrow, "#__navigation")
+    tab_to(narrow, "#__navigation")
     narrow.keyboard.press("Space")
-    _tab_to(narrow, ".sidebar-search")
+    tab_to(narrow, ".sidebar-search")
     narrow.keyboard.type("penumbra")
     narrow.keyboard.press("Enter")
     narrow.wait_for_url("**/search.html?q=penumbra**")
     narrow.wait_for_selector("#search-results li a")
-    _tab_to(narrow, "#search-results li a")
+    tab_to(narrow, "#search-results li a")

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from tests.docs.conftest import untroubled
+from tests.docs.conftest import tab_to, untroubled
 
 
 @pytest.mark.parametrize(("width", "scheme"), [(390, "dark"), (1280, "light")])
@@ -91,10 +91,7 @@ def _border(page: Any) -> str:
 
 def test_the_slider_moves_the_border_by_keyboard(pair: Any) -> None:
     before, shown = _border(pair), pair.locator(".pair").screenshot()
-    for _ in range(80):
-        pair.keyboard.press("Tab")
-        if pair.evaluate("document.activeElement.matches('.before-after input')"):
-            break
+    tab_to(pair, ".before-after input", 80)
     assert pair.evaluate("document.activeElement.getAttribute('aria-label')")
     for _ in range(10):
         pair.keyboard.press("ArrowRight")

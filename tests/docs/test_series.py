@@ -18,7 +18,7 @@ from course.cli.main import commands
 from course.effects import PROJECT
 from course.errors import CourseError
 from course.formats.yaml.loading import load_description
-from tests.docs.conftest import untroubled
+from tests.docs.conftest import tab_to, untroubled
 
 pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')
 
@@ -205,18 +205,10 @@ def _shown(page: Any) -> list[str]:
     ]
 
 
-def _tab_to(page: Any, selector: str) -> None:
-    for _ in range(150):
-        page.keyboard.press("Tab")
-        if page.evaluate(f"document.activeElement.matches('{selector}')"):
-            return
-    raise AssertionError(f"Tab doesn't reach {selector}")
-
-
 def test_sliders_change_the_picture_by_keyboard(shadows: Any) -> None:
     figure = shadows.locator("figure.series")
     assert _shown(shadows) == ["soft_shadows-3-3.webp"]
-    _tab_to(shadows, "#series-soft_shadows-0")
+    tab_to(shadows, "#series-soft_shadows-0")
     before = figure.locator(".frames").screenshot()
     shadows.keyboard.press("ArrowRight")
     assert _shown(shadows) == ["soft_shadows-4-3.webp"]
@@ -243,7 +235,7 @@ def test_only_pictures_one_step_away_are_fetched(shadows: Any) -> None:
         .filter((image) => image.naturalWidth > 0).map((image) => image.src.split("/").pop())"""
     shadows.locator("figure.series").scroll_into_view_if_needed()
     shadows.wait_for_function(f"({fetched})().length >= 1")
-    _tab_to(shadows, "#series-soft_shadows-0")
+    tab_to(shadows, "#series-soft_shadows-0")
     wanted = {f"soft_shadows-{step}.webp" for step in ("3-3", "2-3", "4-3", "3-2")}
     shadows.wait_for_function(f"({fetched})().length >= {len(wanted)}")
     assert set(shadows.evaluate(fetched)) == wanted
