@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import shutil
+import subprocess
+import sys
 from collections import Counter
 from functools import cache
 from pathlib import Path
@@ -217,6 +219,15 @@ def test_a_scene_that_was_recorded_costs_nothing_afterwards(make_scene: MakeScen
     assert isinstance(noted.effects, RecordedEffects)
     record(noted, 16, 16)
     assert noted.effects.recorder is None
+
+
+def test_a_render_knows_nothing_of_recorders() -> None:
+    code = (
+        "import sys; from course import load_scene, render; "
+        f"render(load_scene({str(PROJECT / 'scenes' / 'soft_shadows.yaml')!r}), spp=1, size=(8, 8)); "
+        "assert not [name for name in sys.modules if name.startswith('course.recording')]"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)
 
 
 def test_what_cannot_be_recorded_is_told(make_scene: MakeScene) -> None:
