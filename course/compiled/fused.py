@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from course.compiled import (
+    bounce_kernels,
     fused_kernels,
     lamp_kernels,
     lanes,
@@ -17,84 +18,137 @@ from course.compiled import (
     numpy_kernels,
     packet_kernels,
 )
-from course.compiled.accelerator import PacketAccelerator, in_packets
+from course.compiled.accelerator import MovingPackets, PacketAccelerator, in_packets
 from course.compiled.own import courses_own
-from course.compiled.packets import COHERENT
-from course.core.camera import Camera
+from course.core.camera import Camera, Lens
 from course.core.counters import Counters
 from course.core.direct import ROUNDING, DirectLight
 from course.core.embree import EmbreeAccelerator
-from course.core.environment import ConstantEnvironment
-from course.core.integrator import CancelledError
+from course.core.environment import ConstantEnvironment, CubeEnvironment, Environment
+from course.core.gloss import Gloss, Lobe
+from course.core.integrator import CancelledError, Integrator
 from course.core.lights.point import DirectionalLight, PointLight
 from course.core.lights.rectangle import RectangleLight
 from course.core.lights.sample import Light
 from course.core.lights.sphere import SphereLight
 from course.core.materials import Lookup
+from course.core.motion import Motion, MovingAccelerator
 from course.core.rays import Dimensions
 from course.core.samplers import Block
+from course.core.scatter import Scatter
 from course.core.tiles import Area
 from course.core.tracer import Tracer
 from course.core.types import Floats32
+from course.extras.absorption import Absorption
 from course.extras.direct import FullDirectLight
 from course.extras.near_plane import NearPlaneCamera
 from course.extras.plan import same_fields
 from course.extras.samplers.sobol import SobolSampler
+from course.extras.scatter import FullScatter
 from course.extras.surface import FullSurface
 
 _NO_COLUMNS, _NO_ROWS = np.empty((3, 0), np.float32), np.empty((0, 9), np.float32)
 _NONE, _NO_MASK = np.empty(0, np.float32), np.empty((0, 0), np.bool_)
-_NOWHERE = np.zeros(3, np.float32)
+_NOWHERE, _NO_BOXES = np.zeros(3, np.float32), np.empty((0, 3), np.float32)
 
-_KINDS = {
-    "sphere": "point_on_sphere",
-    "ball": "point_in_ball",
-    "facing disk": "point_on_facing_disk",
+DEEPEST = 64
+"""Most bounces: the loop keeps room for the rays of each depth."""
+
+_SPHERES = {
+    "sphere": (lamp_kernels.SPHERE, "point_on_sphere"),
+    "ball": (lamp_kernels.BALL, "point_in_ball"),
+    "facing disk": (lamp_kernels.FACING_DISK, "point_on_facing_disk"),
+}
+_LOBES = {
+    "plane": (bounce_kernels.PLANE, "jitter_on_plane"),
+    "ball": (bounce_kernels.IN_BALL, "jitter_in_ball"),
+    "phong": (bounce_kernels.PHONG, "sample_phong_lobe"),
 }
 
 
 def fits(tracer: Tracer) -> bool:
-    """True if the fused loop has all that a compiled tracer's scene uses, and only the course's own functions."""
-    integrator, surface, camera = (
-        tracer.integrator,
-        tracer.integrator.surface,
-        tracer.integrator.camera,
-    )
-    direct = integrator.direct
+    """True if the fused loop knows all that a scene uses, and the functions are the course's own."""
+    integrator = tracer.integrator
     return (
         numpy_kernels.AVAILABLE
+        and type(integrator) is Integrator
         # Not one that draws other numbers, as division by contrast has it.
         and type(tracer.sampler) is SobolSampler
-        and integrator.scatter is None
-        and integrator.motion is None
-        and camera.lens is None
-        and type(camera) in (Camera, NearPlaneCamera)
-        and (
-            integrator.environment is None
-            or isinstance(integrator.environment, ConstantEnvironment)
-        )
-        and type(surface.accelerator) is EmbreeAccelerator
-        and _plain(surface)
-        and (direct is None or _known(direct))
+        and integrator.max_depth <= DEEPEST
+        and _fits_camera(integrator.camera)
+        and _fits_motion(integrator.motion)
+        and _fits_surface(integrator.surface)
+        and _fits_environment(integrator.environment)
+        and _fits_direct_light(integrator.direct)
+        and _fits_scatter(integrator.scatter)
+        and isinstance(integrator.absorption, Absorption | None)
     )
+
+
+def _fits_camera(camera: Camera) -> bool:
+    if type(camera) not in (Camera, NearPlaneCamera):
+        return False
+    lens = camera.lens
+    if lens is None:
+        return True
+    functions = lens.thin_lens
+    return type(lens) is Lens and all(
+        map(courses_own, (functions.point_on_disk, functions.lens_rays))
+    )
+
+
+def _fits_motion(motion: Motion | None) -> bool:
+    names = ("shutter_times", "displacement", "to_object_space")
+    return motion is None or all(
+        courses_own(getattr(motion.motion_blur, name))
+        for name in names
+        if name in vars(motion.motion_blur)
+    )
+
+
+def _fits_surface(surface: Any) -> bool:
+    extras = surface.painting, surface.turned, surface.kept, surface.through
+    known = type(surface.accelerator) in (EmbreeAccelerator, MovingAccelerator)
+    return isinstance(surface, FullSurface) and known and all(extra is None for extra in extras)
+
+
+def _fits_environment(environment: Environment | None) -> bool:
+    if isinstance(environment, CubeEnvironment):
+        name = "lookup_seamless" if environment.seamless else "lookup"
+        return courses_own(getattr(environment.cube_map, name))
+    return environment is None or type(environment) is ConstantEnvironment
+
+
+def _fits_direct_light(direct: DirectLight | None) -> bool:
+    if direct is None:
+        return True
+    plain = not isinstance(direct, FullDirectLight) or (direct.plain is None and not direct.lifted)
+    lamps = all(_lamp(light) is not None for light in direct.lights)
+    return direct.sky is None and plain and lamps
+
+
+def _fits_scatter(scatter: Scatter | None) -> bool:
+    if scatter is None:
+        return True
+    if isinstance(scatter, FullScatter) and (
+        scatter.conductors is not None or scatter.rough or scatter.keeps
+    ):
+        return False
+    gloss = scatter.gloss
+    return gloss is None or (type(gloss) is Gloss and all(map(_fits_lobe, gloss.lobes)))
+
+
+def _fits_lobe(lobe: Lobe) -> bool:
+    functions = getattr(lobe.glossy, _LOBES[lobe.kind][1]), lobe.glossy.keep_above
+    return all(map(courses_own, functions))
 
 
 def fused(tracer: Tracer) -> FusedTracer:
     """The tracer with the fused loop, of a scene that ``fits``."""
     integrator, surface = tracer.integrator, tracer.integrator.surface
-    surface = replace(surface, accelerator=in_packets(surface.accelerator))
-    integrator = replace(integrator, surface=surface)
+    packets = in_packets(surface.accelerator, surface.triangles.parts)
+    integrator = replace(integrator, surface=replace(surface, accelerator=packets))
     return FusedTracer(**same_fields(tracer) | {"integrator": integrator})
-
-
-def _plain(surface: Any) -> bool:
-    extras = surface.painting, surface.turned, surface.kept, surface.through
-    return isinstance(surface, FullSurface) and all(extra is None for extra in extras)
-
-
-def _known(direct: DirectLight) -> bool:
-    plain = not isinstance(direct, FullDirectLight) or (direct.plain is None and not direct.lifted)
-    return direct.sky is None and plain and all(_lamp(light) is not None for light in direct.lights)
 
 
 @dataclass(frozen=True)
@@ -122,11 +176,11 @@ def _lamp(light: Light) -> _Lamp | None:
         return _Lamp(lamp_kernels.RECTANGLE, *_emitting(light, place))
     if type(light) is not SphereLight or (light.emitter and light.samples != "sphere"):
         return None
-    if not courses_own(getattr(light.soft_shadows, _KINDS[light.samples])):
+    kind, name = _SPHERES[light.samples]
+    if not courses_own(getattr(light.soft_shadows, name)):
         return None
-    kind = (lamp_kernels.SPHERE, lamp_kernels.BALL, lamp_kernels.FACING_DISK)
     place = light.center, nowhere, nowhere, nowhere
-    return _Lamp(kind[list(_KINDS).index(light.samples)], place, int(light.emitter), light.radius)
+    return _Lamp(kind, place, int(light.emitter), light.radius)
 
 
 def _emitting(light: PointLight | RectangleLight, place: Any) -> tuple[Any, int]:
@@ -165,15 +219,111 @@ def _rows(lookup: Lookup | None) -> Floats32:
     return _NO_COLUMNS if lookup is None else lookup.rows
 
 
-def _scratch() -> tuple[Any, ...]:
-    """Memory for the loop: rows of lanes, at an address that 64 divides, as Embree wants it, and its arguments."""
-    rows, line = lanes.ALL_ROWS, 4 * packet_kernels.WIDTH
-    memory = np.zeros((rows + lanes.ALL_INTEGERS + 1) * line, np.uint8)
-    memory = memory[-memory.ctypes.data % line :][: (rows + lanes.ALL_INTEGERS) * line]
-    arguments = np.zeros(16, np.uint32)
-    arguments[1] = 0xFFFFFFFF
-    lane, integer = memory[: rows * line].view(np.float32), memory[rows * line :].view(np.int32)
-    return lane, integer, arguments, numpy_kernels.call_of()
+def _parameter(lobe: Lobe) -> float:
+    """The number that a function of ``glossy`` multiplies by."""
+    if lobe.kind == "phong":
+        return 1 / (float(lobe.parameter) + 1)
+    if lobe.kind == "ball":
+        # Rounding doesn't make the radius 1.
+        return min(float(lobe.parameter), 1 - 4 * float(np.finfo(np.float32).eps))
+    return float(lobe.parameter)
+
+
+def _scattering(integrator: Integrator, dimensions: Dimensions) -> bounce_kernels.Scattering:
+    scatter, accelerator = integrator.scatter, integrator.surface.accelerator
+    lobes = scatter.gloss.lobes if scatter is not None and scatter.gloss is not None else ()
+    first, worth = np.empty(0, np.int32), np.empty(0, np.bool_)
+    if isinstance(accelerator, PacketAccelerator) and accelerator.convex is not None:
+        first, worth = accelerator.convex.first, accelerator.convex.worth
+    outside = np.empty(0, np.int16)
+    if scatter is not None and scatter.outside is not None:
+        outside = scatter.outside.astype(np.int16)
+    return bounce_kernels.Scattering(
+        mirror=_NO_COLUMNS if scatter is None else scatter.mirror.rows,
+        index=_NONE if scatter is None or scatter.index is None else scatter.index.rows,
+        outside=outside,
+        lobe_material=np.array([lobe.material for lobe in lobes], np.int64),
+        lobe_kind=np.array([_LOBES[lobe.kind][0] for lobe in lobes], np.int64),
+        lobe_parameter=np.array([_parameter(lobe) for lobe in lobes], np.float32),
+        lobe_width=np.array([lobe.width for lobe in lobes], np.int64),
+        lobe_pair=dimensions.first("gloss", 0) // 2 if lobes else 0,
+        first=first,
+        worth=worth,
+        cutoff=np.float32(0 if scatter is None else scatter.cutoff),
+    )
+
+
+def _surroundings(integrator: Integrator) -> fused_kernels.Surroundings:
+    environment, faces, seamless = integrator.environment, np.empty((6, 0, 0, 3), np.float32), False
+    color = environment.color if isinstance(environment, ConstantEnvironment) else _NOWHERE
+    if isinstance(environment, CubeEnvironment):
+        faces, seamless = np.ascontiguousarray(environment.faces), environment.seamless
+    depth = -1 if environment is None else integrator.environment_depth
+    return fused_kernels.Surroundings(color, faces, seamless, depth)
+
+
+def _scene(integrator: Integrator) -> fused_kernels.Scene:
+    triangles, accelerator = integrator.surface.triangles, integrator.surface.accelerator
+    assert isinstance(accelerator, PacketAccelerator | MovingPackets)
+    tables, first, objects = accelerator.tables, np.zeros(1, np.int64), _NO_BOXES
+    if isinstance(accelerator, MovingPackets):
+        first = accelerator.numbers
+    elif accelerator.convex is not None:
+        objects = accelerator.convex.boxes
+    normals, bulge = triangles.corner_normals, triangles.bulge
+    return fused_kernels.Scene(
+        *(tables.scenes, tables.velocity, tables.boxes, first),
+        *(triangles.planes, triangles.edges, triangles.inset),
+        _NO_ROWS if normals is None else normals,
+        _NO_BOXES if bulge is None else bulge,
+        triangles.material,
+        np.float32(triangles.largest_sine + ROUNDING),
+        objects,
+    )
+
+
+def _reflectances(integrator: Integrator) -> fused_kernels.Reflectances:
+    direct, absorption = integrator.direct, integrator.absorption
+    materials = 1 + int(integrator.surface.triangles.material.max(initial=0))
+    specular = None if direct is None else direct.specular
+    shaded = None if direct is None else direct.shaded
+    dark = integrator.dark_inside
+    return fused_kernels.Reflectances(
+        np.zeros((3, materials), np.float32) if direct is None else direct.diffuse.rows,
+        _rows(specular),
+        _NONE if direct is None or specular is None else direct.exponent.rows,
+        _NO_MASK if shaded is None else shaded,
+        _rows(integrator.ambient),
+        np.empty(0, np.bool_) if dark is None else dark,
+        _rows(integrator.glow),
+        _rows(integrator.emission),
+        absorption.coefficient.rows if isinstance(absorption, Absorption) else _NO_COLUMNS,
+        absorption.dielectric if isinstance(absorption, Absorption) else np.empty(0, np.bool_),
+    )
+
+
+def _eye(integrator: Integrator, dimensions: Dimensions) -> number_kernels.Eye:
+    camera, motion = integrator.camera, integrator.motion
+    velocity = None if motion is None else motion.camera_velocity
+    near = camera.near if isinstance(camera, NearPlaneCamera) else 0.0
+    axes = camera.origin, camera.right, camera.up, camera.forward
+    steps = camera.corner, camera.step_x, camera.step_y
+    lens = camera.lens
+    sizes = (0.0, 0.0) if lens is None else (lens.aperture_radius, lens.focus_distance)
+    return number_kernels.Eye(
+        np.stack((*axes, *steps, _NOWHERE if velocity is None else velocity)).astype(np.float32),
+        np.array((*sizes, near), np.float32),
+        -1 if lens is None else dimensions.first("lens", 0) // 2,
+        -1 if motion is None else dimensions.first("time", 0) // 2,
+        int(velocity is not None),
+    )
+
+
+def _aligned(rows: int) -> Any:
+    """Rows of sixteen float32, at an address that 64 divides, as Embree wants it."""
+    line = 4 * packet_kernels.WIDTH
+    memory = np.zeros((rows + 1) * line, np.uint8)
+    return memory[-memory.ctypes.data % line :][: rows * line].view(np.float32)
 
 
 @dataclass(frozen=True)
@@ -184,51 +334,41 @@ class FusedTracer(Tracer):
     def _tables(self) -> tuple[Any, ...]:
         """What the loop is handed of the scene."""
         integrator, dimensions = self.integrator, self.dimensions
-        triangles, direct = integrator.surface.triangles, integrator.direct
-        accelerator = integrator.surface.accelerator
-        assert isinstance(accelerator, PacketAccelerator)
-        tables = accelerator.tables
-        normals = triangles.corner_normals
-        scene = fused_kernels.Scene(
-            *(tables.scenes, tables.velocity, tables.boxes, np.zeros(1, np.int64)),
-            *(triangles.planes, triangles.edges, triangles.inset),
-            _NO_ROWS if normals is None else normals,
-            np.empty((0, 3), np.float32) if triangles.bulge is None else triangles.bulge,
-            triangles.material,
-            np.float32(triangles.largest_sine + ROUNDING),
+        lights = () if integrator.direct is None else integrator.direct.lights
+        stride = dimensions.first("pixel", 1) // 2
+        return (
+            _eye(integrator, dimensions),
+            _scene(integrator),
+            _reflectances(integrator),
+            _lights(lights, dimensions),
+            _scattering(integrator, dimensions),
+            _surroundings(integrator),
+            fused_kernels.Depths(integrator.max_depth, integrator.coherent_depth, stride),
         )
-        specular = None if direct is None else direct.specular
-        shaded = None if direct is None else direct.shaded
-        diffuse = np.zeros((3, 1 + int(triangles.material.max(initial=0))), np.float32)
-        dark = integrator.dark_inside
-        materials = fused_kernels.Reflectances(
-            diffuse if direct is None else direct.diffuse.rows,
-            _rows(specular),
-            _NONE if direct is None or specular is None else direct.exponent.rows,
-            _NO_MASK if shaded is None else shaded,
-            _rows(integrator.ambient),
-            np.empty(0, np.bool_) if dark is None else dark,
-            _rows(integrator.glow),
-            _rows(integrator.emission),
-        )
-        lights = _lights(() if direct is None else direct.lights, dimensions)
-        sky = _NONE
-        environment = integrator.environment
-        if integrator.environment_depth >= 0 and isinstance(environment, ConstantEnvironment):
-            sky = environment.color
-        return scene, materials, lights, sky, COHERENT if integrator.coherent_depth >= 0 else 0
 
-    @cached_property
-    def _eye(self) -> number_kernels.Eye:
-        camera = self.integrator.camera
-        near = camera.near if isinstance(camera, NearPlaneCamera) else 0.0
-        frame = np.stack(
-            (
-                *(camera.origin, camera.right, camera.up, camera.forward),
-                *(camera.corner, camera.step_x, camera.step_y, _NOWHERE),
-            )
+    def _scratch(self) -> fused_kernels.Scratch:
+        """Memory for the loop."""
+        integrator, rows, width = self.integrator, lanes.ALL_ROWS, packet_kernels.WIDTH
+        memory = _aligned(rows + lanes.ALL_INTEGERS)
+        arguments = np.zeros(16, np.uint32)
+        # Of Embree's features all.
+        arguments[1] = 0xFFFFFFFF
+        depth, scatter = integrator.max_depth, integrator.scatter
+        stack, more = (fused_kernels.CHUNK, 0)
+        if scatter is not None and scatter.index is not None:
+            more = fused_kernels.LARGEST
+            stack = (depth + 3) * more
+        return fused_kernels.Scratch(
+            *(memory[: rows * width], memory[rows * width :].view(np.int32)),
+            *(arguments, numpy_kernels.call_of()),
+            np.empty((stack if scatter is not None else 0, bounce_kernels.RAY), np.float32),
+            np.empty((more, bounce_kernels.RAY), np.float32),
+            np.empty((more, 5), np.float32),
+            np.empty((2 * depth + 4, 3), np.int64),
+            np.empty(3, np.float32),
+            np.empty(4, np.float32),
+            np.empty((4, 3), np.int64),
         )
-        return number_kernels.Eye(frame, np.array((0, 0, near), np.float32), -1, -1, 0)
 
     def render_tile(
         self,
@@ -250,23 +390,22 @@ class FusedTracer(Tracer):
         points, salts = sampler.tables(block, self._pairs)
         x, y = tile.corners()
         pixels = np.ascontiguousarray(block.pixels)
-        radiance = np.empty((3, block.size), np.float32)
         weighted = self.reconstruction.sigma is not None
-        offsets = np.empty((2, block.size if weighted else 0), np.float32)
-        counts = np.zeros(lanes.COUNTS, np.int64)
-        fused_kernels.follow(
-            number_kernels.Numbers(pixels, x, y, samples, points, salts),
-            *(self._eye, *self._tables, radiance, offsets),
+        film = fused_kernels.Film(
+            np.empty((3, block.size), np.float32),
+            np.empty((2, block.size if weighted else 0), np.float32),
             _NONE if costs is None else costs.row,
             np.array((0, 0, 0) if costs is None else costs.prices, np.float32),
-            *(counts, *_scratch()),
+            np.zeros(lanes.COUNTS, np.int64),
         )
-        self._count(block, counts, counters)
+        numbers = number_kernels.Numbers(pixels, x, y, samples, points, salts)
+        fused_kernels.follow(numbers, *self._tables, film, self._scratch())
+        self._count(block, film.counts, counters)
         counters.lap("trace")
         pieces = (-1, tile.size * parts, samples // parts)
         # A box filter doesn't look where samples lie.
-        places = offsets.reshape(pieces) if weighted else offsets
-        mean, weight = self.reconstruction.pixels(radiance.reshape(pieces), places)
+        places = film.offsets.reshape(pieces) if weighted else film.offsets
+        mean, weight = self.reconstruction.pixels(film.radiance.reshape(pieces), places)
         counters.lap("film")
         return mean if costs is None else costs.with_row(mean, parts), weight
 
@@ -278,11 +417,19 @@ class FusedTracer(Tracer):
         return (max(ends) + 1) // 2
 
     def _count(self, block: Block, counts: Any, counters: Counters) -> None:
+        integrator = self.integrator
         counters.embree.seconds += 1e-9 * lamp_kernels.TIMED * int(counts[lanes.NANOSECONDS])
-        shadows = int(counts[lanes.SHADOW_RAYS] + counts[lanes.SECOND_RAYS])
-        counters.rays.update({"camera": block.size, "shadow": shadows})
-        counters.numbers["pixel"] += 2 * block.size
-        direct = self.integrator.direct
-        for light in () if direct is None else direct.lights:
-            if light.width:
-                counters.numbers[light.name] += light.width * int(counts[lanes.HITS])
+        counters.rays.update(
+            {
+                "camera": block.size,
+                "shadow": int(counts[lanes.SHADOW_RAYS] + counts[lanes.SECOND_RAYS]),
+                "reflection": int(counts[lanes.REFLECTIONS]),
+                "refraction": int(counts[lanes.REFRACTIONS]),
+            }
+        )
+        drawn = {"pixel": 2 * block.size, "gloss": int(counts[lanes.GLOSSY])}
+        drawn["lens"] = 2 * block.size if integrator.camera.lens is not None else 0
+        drawn["time"] = block.size if integrator.motion is not None else 0
+        for light in () if integrator.direct is None else integrator.direct.lights:
+            drawn[light.name] = light.width * int(counts[lanes.HITS])
+        counters.numbers.update({name: number for name, number in drawn.items() if number})

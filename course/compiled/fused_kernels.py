@@ -1,4 +1,4 @@
-"""The fused loop: sixteen paths from their random numbers to their radiance, compiled by Numba.
+"""The fused loop: from the random numbers of paths to their radiance, sixteen at a time, compiled by Numba.
 
 It does what ``course.core.integrator`` and its stages do, in the same order of arithmetic and so to the same bits; but
 what the stages hand on in arrays stays in the processor's nearest cache, and no step waits for the interpreter's lock.
@@ -13,7 +13,10 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from course.compiled import numpy_kernels
+from course.compiled.bounce_kernels import RAY, scatter
 from course.compiled.clock_kernels import nanoseconds
+from course.compiled.cube_kernels import look_up
 from course.compiled.lamp_kernels import TIMED, illuminate
 from course.compiled.lanes import (
     ABOVE,
@@ -22,22 +25,33 @@ from course.compiled.lanes import (
     HIT,
     HITS,
     JITTER,
+    LEFT,
     MATERIAL,
+    MEDIUM,
     NANOSECONDS,
     NEAR,
     NG,
     NS,
     OFFSET,
+    OTHERS,
     PACKET,
     PATH,
     SHADOW,
     SHADOW_RAYS,
     SIDE,
     SPECULAR,
+    START,
+    THROUGHPUT,
+    TIME,
     TRIANGLE,
+    A,
+    B,
+    C,
+    D,
     P,
 )
 from course.compiled.number_kernels import find_pixels, look
+from course.compiled.occlusion_kernels import keep, shift, unshift
 from course.compiled.options import LEAN
 from course.compiled.packet_kernels import (
     GEOMETRY,
@@ -52,15 +66,33 @@ from course.compiled.packet_kernels import (
 )
 from course.compiled.point_kernels import interpolated, place
 from course.core.embree import NO_HIT
+from course.core.ray_offset import OFFSET as LEAST_OFFSET
 from course.core.types import Floats32, Indices, Mask, Materials
 
+CHUNK = 1024
+"""Paths that are followed together: so many that packets stay full after a bounce, so few that their rays stay in the
+second-level cache."""
+
+LARGEST = 16 * CHUNK
+"""Rays of one depth that are followed together. Glass may double them, so longer lists are halved, as batches are."""
+
+NOTHING, MISSED, MET = range(3)
+"""What has become of a ray."""
+
 _NOTHING, _ONE = np.float32(0), np.float32(1)
-_FAR = np.float32(NO_HIT)
-_X, _Y, _Z = 0, WIDTH, 2 * WIDTH
+_FAR, _LEAST, _STEP = np.float32(NO_HIT), np.float32(1e-20), np.float32(LEAST_OFFSET)
+_LESS, _MORE = np.float32(1 - 1e-6), np.float32(1 + 1e-6)
+_Y, _Z = WIDTH, 2 * WIDTH
 
 
 class Scene(NamedTuple):
-    """All triangles; see ``course.core.triangles`` and ``accelerator.SceneTables``."""
+    """All triangles; see ``course.core.triangles``, ``accelerator.SceneTables`` and ``convex.ConvexObjects``.
+
+    Attributes
+    ----------
+    first : (1 + K,) the first triangle of what stands still and of each mover
+    objects : (2 K, 3) boxes of objects of which some are convex; (0, 3) where none is left out
+    """
 
     scenes: NDArray[np.uintp]
     velocity: Floats32
@@ -73,16 +105,11 @@ class Scene(NamedTuple):
     bulge: Floats32
     material: Materials
     most: np.float32
+    objects: Floats32
 
 
 class Reflectances(NamedTuple):
-    """M materials; see ``course.core.materials`` and ``course.core.integrator``. Without columns where none has one.
-
-    Attributes
-    ----------
-    given : (3, M) radiance that both sides give off
-    emission : (3, M) that of the fronts of lights
-    """
+    """M materials; see ``course.core.materials`` and ``course.core.integrator``. Without columns where none has one."""
 
     diffuse: Floats32
     specular: Floats32
@@ -92,42 +119,195 @@ class Reflectances(NamedTuple):
     dark_inside: Mask
     glow: Floats32
     emission: Floats32
+    absorption: Floats32
+    dielectric: Mask
+
+
+class Surroundings(NamedTuple):
+    """What rays see that hit nothing.
+
+    Attributes
+    ----------
+    color : (3,) of a constant environment, else of no meaning
+    faces : (6, S, S, 3) of a cube map, else (6, 0, 0, 3)
+    seamless : see ``CubeEnvironment``
+    depth : see ``Integrator.environment_depth``
+    """
+
+    color: Floats32
+    faces: Floats32
+    seamless: bool
+    depth: int
+
+
+class Depths(NamedTuple):
+    """Most bounces, depth up to which neighbours go together, and pairs of dimensions that a bounce draws."""
+
+    bounces: int
+    coherent: int
+    pairs: int
+
+
+class Film(NamedTuple):
+    """What is filled.
+
+    Attributes
+    ----------
+    radiance : (3, n) of each path
+    offsets : (2, n) positions of the samples in their pixels; (2, 0) if nobody asks
+    cost : (n,) what each path has cost, to be added to; (0,) if nobody asks
+    prices : (3,) of a hit, a shadow ray and a further ray
+    counts : (COUNTS,) int64, added to
+    """
+
+    radiance: Floats32
+    offsets: Floats32
+    cost: Floats32
+    prices: Floats32
+    counts: Indices
+
+
+class Scratch(NamedTuple):
+    """Memory of the loop.
+
+    Attributes
+    ----------
+    s, whole : rows of lanes (``lanes``)
+    arguments, call : of Embree and of NumPy's loops
+    stack : (k, 16) float32, rays that wait
+    refracted : (k, 16), those of the list that is followed
+    brought : (k, 5), what each ray of that list has brought, its path, and NOTHING, MISSED or MET; (0, 5) if no path
+        has two rays
+    pile : (k, 3) int64, depth, beginning and length of each list in the stack
+    color, weights, texels : (3,), (4,) float32 and (4, 3) int64, of a cube map's lookup
+    """
+
+    s: Floats32
+    whole: NDArray[np.int32]
+    arguments: NDArray[np.uint32]
+    call: Indices
+    stack: Floats32
+    refracted: Floats32
+    brought: Floats32
+    pile: Indices
+    color: Floats32
+    weights: Floats32
+    texels: Indices
 
 
 @njit(**LEAN)
-def _intersect(scene, hint, count, timed, call, arguments, s, whole, counts):
-    """Nearest hits of the rays; ``HIT`` masks the rays that have one."""
+def _query(scene, mask, arguments, s, whole):
+    """Nearest hits of the rays in a mask, into TFAR, U, V and TRIANGLE; ``HIT`` masks the rays that have one."""
+    lanes = s[:PACKET].view(np.int32)
     for i in range(WIDTH):
-        whole[HIT + i] = -1 if i < count else 0
-        s[TFAR + i] = _FAR
-    lanes = s.view(np.int32)
-    for i in range(WIDTH):
+        s[TFAR + i] = _FAR if whole[mask + i] else s[TFAR + i]
         lanes[GEOMETRY + i] = -1
-    arguments[0] = hint
-    start = nanoseconds(call) if timed else 0
     if scene.scenes[0]:
-        intersect16(whole.ctypes.data, scene.scenes[0], s.ctypes.data, arguments.ctypes.data)
+        intersect16(
+            *(whole[mask:].ctypes.data, scene.scenes[0], s.ctypes.data, arguments.ctypes.data)
+        )
+    for i in range(WIDTH):
+        if whole[mask + i]:
+            hit = lanes[GEOMETRY + i] >= 0
+            whole[HIT + i] = -1 if hit else 0
+            whole[TRIANGLE + i] = lanes[PRIMITIVE + i] if hit else 0
+    if len(scene.velocity) == 0:
+        return
+    ray, asked, others = s[:PACKET], whole[mask : mask + WIDTH], whole[OTHERS : OTHERS + WIDTH]
+    keep(ray, s[TIME : TIME + WIDTH], 0, WIDTH)
+    for k in range(len(scene.velocity)):
+        if not shift(ray, scene.velocity[k], scene.boxes[k], asked, others):
+            continue
+        for i in range(WIDTH):
+            lanes[GEOMETRY + i] = -1
+        intersect16(
+            *(others.ctypes.data, scene.scenes[1 + k], s.ctypes.data, arguments.ctypes.data)
+        )
+        for i in range(WIDTH):
+            if lanes[GEOMETRY + i] >= 0 and whole[OTHERS + i]:
+                whole[HIT + i] = -1
+                whole[TRIANGLE + i] = lanes[PRIMITIVE + i] + np.int32(scene.first[1 + k])
+    unshift(ray)
+
+
+@njit(**LEAN)
+def _unspared(objects, s, whole):
+    """Of the rays in ASKED leave those that may meet anything: none meets the convex object that it leaves."""
+    some = False
+    for i in range(WIDTH):
+        some |= (whole[ASKED + i] != 0) & (whole[LEFT + i] >= 0)
+    if not some:
+        return
+    for c in range(3):
+        for i in range(WIDTH):
+            s[A + c * WIDTH + i] = _ONE / s[TO + c * WIDTH + i]
+    for i in range(WIDTH):
+        whole[OTHERS + i] = -1 if whole[LEFT + i] < 0 else 0
+    for k in range(len(objects) // 2):
+        x0, y0, z0 = objects[2 * k, 0], objects[2 * k, 1], objects[2 * k, 2]
+        x1, y1, z1 = objects[2 * k + 1, 0], objects[2 * k + 1, 1], objects[2 * k + 1, 2]
+        for i in range(WIDTH):
+            near, far = _NOTHING, _FAR
+            a, b = (x0 - s[i]) * s[A + i], (x1 - s[i]) * s[A + i]
+            low, high = a if a < b else b, b if a < b else a
+            near, far = low if low > near else near, high if high < far else far
+            a, b = (y0 - s[_Y + i]) * s[B + i], (y1 - s[_Y + i]) * s[B + i]
+            low, high = a if a < b else b, b if a < b else a
+            near, far = low if low > near else near, high if high < far else far
+            a, b = (z0 - s[_Z + i]) * s[C + i], (z1 - s[_Z + i]) * s[C + i]
+            low, high = a if a < b else b, b if a < b else a
+            near, far = low if low > near else near, high if high < far else far
+            meets = (not near * _LESS > far * _MORE) & (whole[LEFT + i] != k)
+            whole[OTHERS + i] = -1 if meets else whole[OTHERS + i]
+    for i in range(WIDTH):
+        whole[ASKED + i] &= whole[OTHERS + i]
+
+
+@njit(**LEAN)
+def _intersect(scene, of_camera, coherent, count, timed, scratch, counts):
+    """Nearest hits of a packet's rays; how many there are."""
+    s, whole, arguments, call = scratch.s, scratch.whole, scratch.arguments, scratch.call
+    for i in range(WIDTH):
+        whole[ASKED + i] = -1 if i < count else 0
+        whole[HIT + i] = 0
+        s[TFAR + i] = _FAR
+    if len(scene.objects) and not of_camera:
+        _unspared(scene.objects, s, whole)
+    arguments[0] = 1 << 16 if coherent else 0
+    start = nanoseconds(call) if timed else 0
+    _query(scene, ASKED, arguments, s, whole)
+    arguments[0] = 0
+    if of_camera:
+        stuck = False
+        for i in range(WIDTH):
+            again = (whole[HIT + i] != 0) & (s[TFAR + i] <= 0)
+            whole[ASKED + i] = -1 if again else 0
+            stuck |= again
+        if stuck:
+            # A camera ray that starts on a surface hits it at distance 0. It starts again, one offset farther on.
+            for i in range(WIDTH):
+                if whole[ASKED + i]:
+                    step = max(scene.planes[whole[TRIANGLE + i], 6], _STEP)
+                    for c in range(0, 3 * WIDTH, WIDTH):
+                        s[c + i] += s[TO + c + i] * step
+            _query(scene, ASKED, arguments, s, whole)
     if timed:
         counts[NANOSECONDS] += nanoseconds(call) - start
-    arguments[0] = 0
     hits = 0
     for i in range(WIDTH):
-        hit = (whole[HIT + i] != 0) & (lanes[GEOMETRY + i] >= 0)
-        whole[HIT + i] = -1 if hit else 0
-        whole[TRIANGLE + i] = lanes[PRIMITIVE + i] if hit else 0
-        hits += hit
+        hits += whole[HIT + i] != 0
     return hits
 
 
 @njit(**LEAN)
 def _find(scene, s, whole):
     """Points, normals and origins of the hits; see ``Surface.hits``."""
-    smooth = len(scene.corner_normals) > 0
+    smooth, moving = len(scene.corner_normals) > 0, len(scene.velocity) > 0
     planes = scene.planes
     for i in range(WIDTH):
         if whole[HIT + i] == 0:
             continue
-        k = np.int64(whole[TRIANGLE + i])
+        k = np.uint64(whole[TRIANGLE + i])
         whole[MATERIAL + i] = scene.material[k]
         a, b = s[U + i], s[V + i]
         dx, dy, dz = s[TO + i], s[TO + _Y + i], s[TO + _Z + i]
@@ -136,6 +316,14 @@ def _find(scene, s, whole):
         # A sum that begins with 0, as NumPy's does, is never -0.
         side = np.float32(math.copysign(_ONE, -(_NOTHING + nx * dx + ny * dy + nz * dz)))
         nx, ny, nz = nx * side, ny * side, nz * side
+        if moving:
+            mover, triangle = -1, whole[TRIANGLE + i]
+            for j in range(1, len(scene.first)):
+                mover += triangle >= scene.first[j]
+            if mover >= 0:
+                x += scene.velocity[mover, 0] * s[TIME + i]
+                y += scene.velocity[mover, 1] * s[TIME + i]
+                z += scene.velocity[mover, 2] * s[TIME + i]
         s[P + i], s[P + _Y + i], s[P + _Z + i] = x, y, z
         s[NG + i], s[NG + _Y + i], s[NG + _Z + i] = nx, ny, nz
         s[NEAR + i], s[NEAR + _Y + i], s[NEAR + _Z + i] = x + nx * far, y + ny * far, z + nz * far
@@ -146,12 +334,59 @@ def _find(scene, s, whole):
 
 
 @njit(**LEAN)
+def _absorb(materials, outside, eye, of_camera, call, s, whole):
+    """Attenuate the throughput along rays in dielectrics; see ``course.extras.absorption``."""
+    some = False
+    for i in range(WIDTH):
+        whole[OTHERS + i], s[D + i] = -1, _NOTHING
+        if whole[HIT + i] == 0:
+            continue
+        m, through = whole[MATERIAL + i], np.int32(-1)
+        enters = s[SIDE + i] > 0
+        if not enters and materials.dielectric[m]:
+            through = m
+        if len(outside) and enters:
+            through = np.int32(outside[m])
+        through = whole[MEDIUM + i] if through < 0 else through
+        if through < 0:
+            continue
+        some, whole[OTHERS + i] = True, through
+        length, dx, dy, dz = s[TFAR + i], s[TO + i], s[TO + _Y + i], s[TO + _Z + i]
+        if not of_camera:
+            nx, ny, nz = s[NG + i], s[NG + _Y + i], s[NG + _Z + i]
+            x, y, z = (
+                s[i] - s[START + i],
+                s[_Y + i] - s[START + _Y + i],
+                s[_Z + i] - s[START + _Z + i],
+            )
+            # Negative: ng is on the incoming side.
+            facing = min(_NOTHING + nx * dx + ny * dy + nz * dz, -_LEAST)
+            beside = (_NOTHING + nx * x + ny * y + nz * z) / facing
+            length += min(max(beside, -length), length)
+        elif eye.lens[2] != 0:
+            frame = eye.frame
+            forwards = _NOTHING + frame[3, 0] * dx + frame[3, 1] * dy + frame[3, 2] * dz
+            length += eye.lens[2] / max(forwards, np.float32(1e-12))
+        s[D + i] = length
+    if not some:
+        return
+    for c in range(3):
+        for i in range(WIDTH):
+            m = max(whole[OTHERS + i], 0)
+            s[A + i] = -materials.absorption[c, m] * s[D + i]
+        numpy_kernels.exp(call, s[A : A + WIDTH], s[B : B + WIDTH])
+        for i in range(WIDTH):
+            share = s[B + i] if whole[OTHERS + i] >= 0 else _ONE
+            s[THROUGHPUT + c * WIDTH + i] *= share
+
+
+@njit(**LEAN)
 def _reflect(materials, s, whole):
     """What the hits send to the viewer into ``DIFFUSE``; see ``DirectLight._reflected`` and ``Integrator._shade``."""
     for c in range(3):
         row = c * WIDTH
         for i in range(WIDTH):
-            m = whole[MATERIAL + i]
+            m = np.uint64(whole[MATERIAL + i])
             light = s[DIFFUSE + row + i] * materials.diffuse[c, m]
             if len(materials.exponent):
                 light += s[SPECULAR + row + i] * materials.specular[c, m]
@@ -166,81 +401,196 @@ def _reflect(materials, s, whole):
 
 
 @njit(**LEAN)
-def follow(
-    numbers,
-    eye,
-    scene,
-    materials,
-    lights,
-    sky,
-    hint,
-    radiance,
-    offsets,
-    cost,
-    costs,
-    counts,
-    s,
-    whole,
-    arguments,
-    call,
-):
-    """Radiance (3, n) of a block's paths.
+def _load(rays, first, count, s, whole):
+    """Rays that waited, into a packet; places without a ray repeat the last one."""
+    integers = rays.view(np.int32)
+    for i in range(WIDTH):
+        j = first + min(i, count - 1)
+        for c in range(3):
+            row = c * WIDTH + i
+            s[row], s[TO + row] = rays[j, c], rays[j, 3 + c]
+            s[THROUGHPUT + row], s[START + row] = rays[j, 6 + c], rays[j, 13 + c]
+        s[TIME + i] = rays[j, 10]
+        whole[PATH + i], whole[LEFT + i] = integers[j, 9], integers[j, 11]
+        whole[MEDIUM + i] = integers[j, 12]
 
-    Parameters
-    ----------
-    sky : (3,) or (0,) of the rays that hit nothing
-    hint : of camera rays, for Embree
-    radiance : (3, n) filled
-    offsets : (2, n) filled with the samples' positions in their pixels; (2, 0) if nobody asks
-    cost : (n,) what each path has cost, to be added to; (0,) if nobody asks
-    costs : (3,) float32 of a hit, a shadow ray and a further ray
-    counts : (COUNTS,) int64, added to
+
+@njit(**LEAN)
+def _miss(surroundings, count, s, whole, scratch):
+    """Radiance of the rays that hit nothing, into DIFFUSE."""
+    faces, color = surroundings.faces, scratch.color
+    for i in range(count):
+        if whole[HIT + i]:
+            continue
+        if faces.shape[1]:
+            x, y, z = s[TO + i], s[TO + _Y + i], s[TO + _Z + i]
+            look_up(faces, surroundings.seamless, x, y, z, scratch.weights, scratch.texels, color)
+        for c in range(3):
+            light = color[c] if faces.shape[1] else surroundings.color[c]
+            s[DIFFUSE + c * WIDTH + i] = light * s[THROUGHPUT + c * WIDTH + i]
+
+
+@njit(**LEAN)
+def _shade(scene, materials, lights, numbers, depth, stride, same, timed, film, scratch, count):
+    """Direct, ambient and own light of the hits, into DIFFUSE."""
+    s, whole, counts = scratch.s, scratch.whole, film.counts
+    for i in range(3 * WIDTH):
+        s[DIFFUSE + i] = s[SPECULAR + i] = _NOTHING
+    for k in range(len(lights.kind)):
+        pair = lights.pair[k] + depth * stride
+        shadows = illuminate(
+            *(lights, k, scene, materials, numbers, pair, same, timed),
+            *(scratch.call, scratch.arguments, s, whole, counts),
+        )
+        counts[SHADOW_RAYS] += shadows
+        if len(film.cost) and shadows:
+            _charge(film, film.prices[1], ASKED, count, whole)
+    _reflect(materials, s, whole)
+
+
+@njit(**LEAN)
+def _charge(film, price, mask, count, whole):
+    for i in range(count):
+        if whole[mask + i]:
+            film.cost[whole[PATH + i]] += price
+
+
+@njit(**LEAN)
+def _add(film, brought, first, missed, count, s, whole):
+    """Add what a packet's rays have brought to their paths: those that hit something, or those that missed.
+
+    Paths may have several rays, if ``brought`` has room: then what these bring waits until ``_add_list``.
     """
-    n = radiance.shape[1]
+    integers = brought.view(np.int32)
+    for i in range(count):
+        if (whole[HIT + i] == 0) != missed:
+            continue
+        for c in range(3):
+            light = s[DIFFUSE + c * WIDTH + i]
+            if len(brought):
+                brought[first + i, c] = light
+                integers[first + i, 4] = MISSED if missed else MET
+            else:
+                film.radiance[c, whole[PATH + i]] += light
+
+
+@njit(**LEAN)
+def _expect(brought, first, count, whole):
+    """Note the paths of a packet's rays, which have brought nothing yet."""
+    integers = brought.view(np.int32)
+    for i in range(count):
+        integers[first + i, 3], integers[first + i, 4] = whole[PATH + i], NOTHING
+
+
+@njit(**LEAN)
+def _add_list(film, brought, length):
+    """Add what the rays of a list have brought: first those that missed, as batches do."""
+    integers = brought.view(np.int32)
+    for state in (MISSED, MET):
+        for j in range(length):
+            if integers[j, 4] == state:
+                for c in range(3):
+                    film.radiance[c, integers[j, 3]] += brought[j, c]
+
+
+@njit(**LEAN)
+def _charge_rays(film, rays, first, count):
+    integers = rays.view(np.int32)
+    for j in range(first, first + count):
+        film.cost[integers[j, 9]] += film.prices[2]
+
+
+@njit(nogil=True, cache=True, error_model="numpy", _nrt=False)
+def follow(numbers, eye, scene, materials, lights, scattering, surroundings, depths, film, scratch):
+    """Fill the radiance of a block's paths: depth by depth for some paths, then for the next."""
+    s, whole, counts, radiance = scratch.s, scratch.whole, film.counts, film.radiance
+    stack, refracted, pile = scratch.stack, scratch.refracted, scratch.pile
+    n, scatters = radiance.shape[1], scattering.mirror.shape[1] > 0
+    absorbs = materials.absorption.shape[1] > 0
     for packet in (0, SHADOW, ABOVE):
         part = s[packet : packet + PACKET]
         begin(part, part.view(np.int32))
-    for number in range((n + WIDTH - 1) // WIDTH):
-        first, timed = number * WIDTH, number % TIMED == 0
-        count = min(WIDTH, n - first)
-        for i in range(WIDTH):
-            whole[PATH + i] = first + min(i, count - 1)
-        same = find_pixels(whole, numbers.samples)
-        look(numbers, eye, same, call, s, whole)
-        if offsets.shape[1]:
-            for c in range(2):
-                for i in range(count):
-                    offsets[c, first + i] = s[JITTER + c * WIDTH + i]
-        hits = _intersect(scene, hint, count, timed, call, arguments, s, whole, counts)
-        if len(sky) and hits < count:
-            for c in range(3):
-                for i in range(count):
-                    radiance[c, first + i] = _NOTHING if whole[HIT + i] else sky[c]
-        else:
-            radiance[:, first : first + count] = 0
-        if hits == 0:
-            continue
-        counts[HITS] += hits
-        _find(scene, s, whole)
-        for i in range(3 * WIDTH):
-            s[DIFFUSE + i] = s[SPECULAR + i] = _NOTHING
-        if len(cost):
-            for i in range(count):
-                if whole[HIT + i]:
-                    cost[first + i] += costs[0]
-        for k in range(len(lights.kind)):
-            pair = lights.pair[k]
-            shadows = illuminate(
-                *(lights, k, scene, materials, numbers, pair, same, timed),
-                *(call, arguments, s, whole, counts),
-            )
-            counts[SHADOW_RAYS] += shadows
-            if len(cost) and shadows:
-                for i in range(count):
-                    if whole[ASKED + i]:
-                        cost[first + i] += costs[1]
-        _reflect(materials, s, whole)
-        for c in range(3):
-            for i in range(count):
-                if whole[HIT + i]:
-                    radiance[c, first + i] += s[DIFFUSE + c * WIDTH + i]
+    for c in range(3):
+        for i in range(n):
+            radiance[c, i] = _NOTHING
+    packets = 0
+    for first_path in range(0, n, CHUNK):
+        pile[0, 0], pile[0, 1], pile[0, 2] = 0, 0, min(CHUNK, n - first_path)
+        lists = 1
+        while lists:
+            lists -= 1
+            depth, start, length = pile[lists, 0], pile[lists, 1], pile[lists, 2]
+            if length > LARGEST:
+                half = length // 2
+                pile[lists, 1], pile[lists, 2] = start + half, length - half
+                pile[lists + 1, 0], pile[lists + 1, 1], pile[lists + 1, 2] = depth, start, half
+                lists += 2
+                continue
+            back = through = 0
+            # No path has two rays before the first bounce.
+            brought = scratch.brought[: len(scratch.brought) if depth else 0]
+            for first in range(0, length, WIDTH):
+                timed, count = packets % TIMED == 0, min(WIDTH, length - first)
+                packets += 1
+                # ---- rays
+                if depth:
+                    _load(stack, start + first, count, s, whole)
+                    same = find_pixels(whole, numbers.samples)
+                    if len(brought):
+                        _expect(brought, first, count, whole)
+                else:
+                    for i in range(WIDTH):
+                        whole[PATH + i] = first_path + first + min(i, count - 1)
+                        whole[MEDIUM + i] = -1
+                    same = find_pixels(whole, numbers.samples)
+                    look(numbers, eye, same, scratch.call, s, whole)
+                    for i in range(3 * WIDTH):
+                        s[THROUGHPUT + i] = _ONE
+                    if film.offsets.shape[1]:
+                        for c in range(2):
+                            for i in range(count):
+                                film.offsets[c, whole[PATH + i]] = s[JITTER + c * WIDTH + i]
+                # ---- intersection, environment, absorption
+                coherent = depth <= depths.coherent
+                hits = _intersect(scene, depth == 0, coherent, count, timed, scratch, counts)
+                if hits < count and depth <= surroundings.depth:
+                    _miss(surroundings, count, s, whole, scratch)
+                    _add(film, brought, first, True, count, s, whole)
+                if hits == 0:
+                    continue
+                counts[HITS] += hits
+                if len(film.cost):
+                    _charge(film, film.prices[0], HIT, count, whole)
+                _find(scene, s, whole)
+                if absorbs:
+                    outside = scattering.outside
+                    _absorb(materials, outside, eye, depth == 0, scratch.call, s, whole)
+                # ---- direct light, ambient light, emission
+                pairs = depths.pairs
+                _shade(
+                    *(scene, materials, lights, numbers, depth, pairs, same, timed),
+                    *(film, scratch, count),
+                )
+                for i in range(3 * WIDTH):
+                    s[DIFFUSE + i] *= s[THROUGHPUT + i]
+                _add(film, brought, first, False, count, s, whole)
+                # ---- reflection, gloss, refraction
+                if scatters and depth < depths.bounces:
+                    pair = scattering.lobe_pair + depth * pairs
+                    more, further = scatter(
+                        *(scattering, numbers, pair, same, scratch.call, s, whole),
+                        *(stack[start + back :], refracted[through:], counts),
+                    )
+                    if len(film.cost):
+                        _charge_rays(film, stack, start + back, more)
+                        _charge_rays(film, refracted, through, further)
+                    back += more
+                    through += further
+            if len(brought):
+                _add_list(film, brought, length)
+            if back + through:
+                for j in range(through):
+                    for c in range(RAY):
+                        stack[start + back + j, c] = refracted[j, c]
+                pile[lists, 0], pile[lists, 1], pile[lists, 2] = depth + 1, start, back + through
+                lists += 1

@@ -11,6 +11,7 @@ import math
 import numpy as np
 from numba import njit, types
 
+from course.compiled.bounce_kernels import above
 from course.compiled.options import COLUMNS, OBJECTS, OPTIONS, ROW
 from course.compiled.point_kernels import interpolated, place
 
@@ -129,11 +130,7 @@ def mirror(which, direction, ns, ng, way):
         twice = dx * nx + dy * ny + dz * nz
         twice += twice
         x, y, z = dx - twice * nx, dy - twice * ny, dz - twice * nz
-        nx, ny, nz = ng[0, i], ng[1, i], ng[2, i]
-        below = x * nx + y * ny + z * nz
-        if below < 0:
-            below += below
-            x, y, z = x - below * nx, y - below * ny, z - below * nz
+        x, y, z = above(x, y, z, ng[0, i], ng[1, i], ng[2, i])
         way[0, i], way[1, i], way[2, i] = x, y, z
 
 

@@ -13,26 +13,29 @@ from course.compiled.packet_kernels import TFAR, TO, WIDTH
 PACKET = ROWS * WIDTH
 RAY, SHADOW, ABOVE = 0, PACKET, 2 * PACKET
 
-_vectors = (3 * PACKET + 3 * WIDTH * number for number in range(9))
-P, NG, NS, NEAR, POINT, THROUGHPUT, DIFFUSE, SPECULAR, START = _vectors
-"""Point, normals, origin of leaving rays, and as a light sees it; throughput; sums of irradiance and highlights."""
+_FIRST = 3 * PACKET
+_vectors = (_FIRST + 3 * WIDTH * number for number in range(12))
+P, NG, NS, NEAR, POINT, THROUGHPUT, DIFFUSE, SPECULAR, START, AFTER, DIRECTION, U = _vectors
+"""Point, normals, origin of leaving rays, and as a light sees it; throughput; sums of irradiance and highlights; where
+the ray has left the last surface; throughput and direction of the next ray; random numbers."""
 
-_scalars = (3 * PACKET + (27 + number) * WIDTH for number in range(12))
-OFFSET, SIDE, TIME, JITTER, _, U, _, _, INVERSE, FACTOR, COSINE, IRRADIANCE = _scalars
-"""``JITTER`` has two rows, the samples' positions in their pixels, and ``U`` three of random numbers."""
-
-ALL_ROWS = 3 * ROWS + 27 + 12 + 6
-A, B, C, D, E, F = (3 * PACKET + (39 + number) * WIDTH for number in range(6))
-"""Of no lasting meaning."""
-
-HIT, ASKED, RAISED, OTHERS, MATERIAL, TRIANGLE, PATH, PIXEL, SAMPLE, MEDIUM, LEFT = (
-    number * WIDTH for number in range(11)
+_scalars = (_FIRST + (36 + number) * WIDTH for number in range(16))
+OFFSET, SIDE, TIME, INVERSE, FACTOR, COSINE, IRRADIANCE, JITTER, _, A, B, C, D, E, F, SHARE = (
+    _scalars
 )
+"""Of hits and lights; the samples' positions in their pixels, two rows; rows of no lasting meaning; and of ``fresnel``
+the reflectance, behind which BENT and ETA have the cosine and the ratio of indices."""
+BENT, ETA = SHARE + WIDTH, SHARE + 2 * WIDTH
+ALL_ROWS = 3 * ROWS + 36 + 18
+
+_integers = (number * WIDTH for number in range(12))
+HIT, ASKED, RAISED, OTHERS, MATERIAL, TRIANGLE, PATH, PIXEL, SAMPLE, MEDIUM, LEFT, KEPT = _integers
 """Rows of integers: masks (-1 or 0), what is hit, and of each path its number, pixel, sample, medium, object left."""
-ALL_INTEGERS = 11
+ALL_INTEGERS = 12
 
 SHADOW_TO, SHADOW_TFAR = SHADOW + TO, SHADOW + TFAR
 
-NANOSECONDS, SHADOW_RAYS, SECOND_RAYS, REFLECTIONS, REFRACTIONS, HITS, GLOSSY = range(7)
-"""What is counted: time inside Embree of the packets that are timed, rays, and hits that drew numbers."""
-COUNTS = 7
+_counts = range(10)
+NANOSECONDS, SHADOW_RAYS, SECOND_RAYS, REFLECTIONS, REFRACTIONS, HITS, GLOSSY, SKY, _, _ = _counts
+"""What is counted: time inside Embree of packets that are timed, rays, hits, numbers of gloss, hits under the sky."""
+COUNTS = len(_counts)

@@ -72,6 +72,13 @@ def shift(s, velocity, box, asked, valid):
 
 
 @njit(**LEAN)
+def unshift(s):
+    """Put a packet's origins back to where ``keep`` has seen them."""
+    for i in range(3 * WIDTH):
+        s[i] = s[_ORIGIN + i]
+
+
+@njit(**LEAN)
 def occlude(scenes, velocity, boxes, time, first, count, s, asked, valid, arguments):
     """Set ``tfar`` of the rays that are asked to minus infinity where something is in the way.
 

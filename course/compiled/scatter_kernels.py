@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 from numba import njit, types
 
+from course.compiled.bounce_kernels import above, fresnel
 from course.compiled.options import COLUMNS, OPTIONS, ROW
 from course.extras.path_bounce import DIFFUSE, LEAST, MIRRORED, REFRACTED
 
-_NOTHING, _HALF, _ONE = np.float32(0), np.float32(0.5), np.float32(1)
-_LEAST = np.float32(1e-20)
+_NOTHING, _ONE = np.float32(0), np.float32(1)
 
 
 @njit(
@@ -84,7 +84,6 @@ def divide(which, material, side, direction, ns, index, reflected, refracted, co
         if not inside > 0:
             reflected[i] = refracted[i] = _NOTHING
             continue
-        eta = _ONE / inside if side[j] > 0 else inside
         cosine = -(
             _NOTHING
             + direction[0, j] * ns[0, j]
@@ -92,14 +91,7 @@ def divide(which, material, side, direction, ns, index, reflected, refracted, co
             + direction[2, j] * ns[2, j]
         )
         cosine = min(_NOTHING if cosine < 0 else cosine, _ONE)
-        sine = np.sqrt((_ONE - cosine) * (_ONE + cosine)) * eta
-        squared = (_ONE - sine) * (_ONE + sine)
-        bent, share = _NOTHING, _ONE
-        if squared > 0:
-            bent = np.sqrt(squared)
-            s = (eta * cosine - bent) / max(eta * cosine + bent, _LEAST)
-            p = (cosine - eta * bent) / max(cosine + eta * bent, _LEAST)
-            share = min((s * s + p * p) * _HALF, _ONE)
+        share, bent, eta = fresnel(inside, side[j], cosine)
         reflected[i], refracted[i] = share, _ONE - share
         cos_i[i], cos_t[i], ratio[i] = cosine, bent, eta
 
@@ -121,11 +113,7 @@ def refract(which, direction, ns, ng, cos_i, cos_t, ratio, way):
         x = direction[0, j] * eta + ns[0, j] * along
         y = direction[1, j] * eta + ns[1, j] * along
         z = direction[2, j] * eta + ns[2, j] * along
-        nx, ny, nz = -ng[0, j], -ng[1, j], -ng[2, j]
-        back = x * nx + y * ny + z * nz
-        if back < 0:
-            back += back
-            x, y, z = x - back * nx, y - back * ny, z - back * nz
+        x, y, z = above(x, y, z, -ng[0, j], -ng[1, j], -ng[2, j])
         way[0, i], way[1, i], way[2, i] = x, y, z
 
 

@@ -1,0 +1,322 @@
+"""Reflected and refracted rays of sixteen hits, compiled by Numba; a part of the fused loop.
+
+See ``course.core.scatter`` and ``course.core.gloss``; the functions of ``glossy`` keep their order of arithmetic here.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from course.compiled import numpy_kernels
+from course.compiled.lanes import (
+    AFTER,
+    BENT,
+    COSINE,
+    DIRECTION,
+    ETA,
+    GLOSSY,
+    HIT,
+    KEPT,
+    MATERIAL,
+    MEDIUM,
+    NEAR,
+    NG,
+    NS,
+    OFFSET,
+    PATH,
+    REFLECTIONS,
+    REFRACTIONS,
+    SHARE,
+    SIDE,
+    THROUGHPUT,
+    TIME,
+    TRIANGLE,
+    A,
+    B,
+    D,
+    E,
+    F,
+    P,
+    U,
+)
+from course.compiled.number_kernels import circle, draw
+from course.compiled.options import LEAN
+from course.compiled.packet_kernels import TO, WIDTH
+from course.core.types import Floats32, Indices, Mask, Media, Numbers
+
+PLANE, IN_BALL, PHONG = range(3)
+"""Kinds of lobes."""
+
+RAY = 16
+"""Numbers of a ray that waits: origin, direction, throughput, path, time, object left, medium, starting point."""
+
+_NOTHING, _HALF, _ONE, _TWO = np.float32(0), np.float32(0.5), np.float32(1), np.float32(2)
+_LEAST = np.float32(1e-20)
+_Y, _Z = WIDTH, 2 * WIDTH
+
+
+class Scattering(NamedTuple):
+    """What mirrors and refracts; see ``course.core.scatter.Scatter``.
+
+    Attributes
+    ----------
+    mirror : (3, M); without columns if nothing is scattered
+    index : (M,), (0,) if nothing refracts
+    outside : (M,) int16, (0,) if vacuum is around all dielectrics
+    lobe_material, lobe_kind, lobe_parameter : (K,) of the lobes; the parameter is what the functions multiply by
+    lobe_width : (K,) random numbers
+    lobe_pair : pair of dimensions at depth 0
+    first, worth : of ``ConvexObjects``; (0,) where no ray is spared
+    """
+
+    mirror: Floats32
+    index: Floats32
+    outside: Media
+    lobe_material: Indices
+    lobe_kind: Indices
+    lobe_parameter: Floats32
+    lobe_width: Indices
+    lobe_pair: int
+    first: Numbers
+    worth: Mask
+    cutoff: np.float32
+
+
+@njit(**LEAN)
+def fresnel(index, side, cosine):
+    """Reflectance, cosine of the refracted ray and ratio of indices; see ``course.core.fresnel``."""
+    eta = _ONE / index if side > 0 else index
+    sine = np.sqrt((_ONE - cosine) * (_ONE + cosine)) * eta
+    squared = (_ONE - sine) * (_ONE + sine)
+    if not squared > 0:
+        return _ONE, _NOTHING, eta
+    bent = np.sqrt(squared)
+    s = (eta * cosine - bent) / max(eta * cosine + bent, _LEAST)
+    p = (cosine - eta * bent) / max(cosine + eta * bent, _LEAST)
+    return min((s * s + p * p) * _HALF, _ONE), bent, eta
+
+
+@njit(**LEAN)
+def above(x, y, z, nx, ny, nz):
+    """A direction, mirrored to the side of the normal; see ``kept_above``."""
+    below = x * nx + y * ny + z * nz
+    if below < 0:
+        below += below
+        return x - below * nx, y - below * ny, z - below * nz
+    return x, y, z
+
+
+@njit(**LEAN)
+def _leave(scattering, i, s, whole):
+    """The convex object that a ray leaves outwards, or -1; see ``excluded_objects``."""
+    first = scattering.first
+    if len(first) == 0:
+        return -1
+    up = (
+        s[DIRECTION + i] * s[NG + i]
+        + s[DIRECTION + _Y + i] * s[NG + _Y + i]
+        + s[DIRECTION + _Z + i] * s[NG + _Z + i]
+    )
+    if not up * s[SIDE + i] > 0:
+        return -1
+    number = 0
+    for k in range(1, len(scattering.worth)):
+        number += whole[TRIANGLE + i] >= first[k]
+    return number if scattering.worth[number] else -1
+
+
+@njit(**LEAN)
+def _append(scattering, through, ray, integers, i, s, whole):
+    """Write a ray that leaves hit i, whose throughput is in AFTER, into (16,) numbers."""
+    for c in range(3):
+        row = c * WIDTH + i
+        origin = s[NEAR + row]
+        if through:
+            origin = s[P + row] - s[NG + row] * s[OFFSET + i]
+        ray[c], ray[3 + c], ray[6 + c] = origin, s[DIRECTION + row], s[AFTER + row]
+        ray[13 + c] = s[P + row]
+    ray[10] = s[TIME + i]
+    medium, m = whole[MEDIUM + i], whole[MATERIAL + i]
+    if through:
+        outside = np.int32(scattering.outside[m]) if len(scattering.outside) else np.int32(-1)
+        medium = m if s[SIDE + i] > 0 else outside
+    integers[9], integers[11], integers[12] = (
+        whole[PATH + i],
+        _leave(scattering, i, s, whole),
+        medium,
+    )
+
+
+@njit(**LEAN)
+def _jitter(scattering, k, call, s, whole):
+    """Jitter the mirrored directions of lobe k's material by the functions of ``glossy``."""
+    kind, parameter = scattering.lobe_kind[k], scattering.lobe_parameter[k]
+    if kind == PLANE:
+        for i in range(WIDTH):
+            a, b = parameter * (s[U + i] - _HALF), parameter * (s[U + WIDTH + i] - _HALF)
+            scale = _ONE / np.sqrt(_ONE + a * a + b * b)
+            s[D + i], s[E + i], s[F + i] = a * scale, b * scale, scale
+    elif kind == PHONG:
+        for i in range(WIDTH):
+            s[E + i] = -s[U + i]
+        numpy_kernels.log1p(call, s[E : E + WIDTH], s[D : D + WIDTH])
+        for i in range(WIDTH):
+            s[D + i] *= parameter
+            s[E + i] = _TWO * s[D + i]
+        numpy_kernels.expm1(call, s[E : E + WIDTH], s[F : F + WIDTH])
+        for i in range(WIDTH):
+            s[U + i] = np.sqrt(-s[F + i])
+        numpy_kernels.exp(call, s[D : D + WIDTH], s[F : F + WIDTH])
+        _angle(call, s)
+        for i in range(WIDTH):
+            s[D + i] *= s[U + i]
+            s[E + i] *= s[U + i]
+    else:
+        third = U + 2 * WIDTH
+        numpy_kernels.cbrt(call, s[third : third + WIDTH], s[F : F + WIDTH])
+        _angle(call, s)
+        for i in range(WIDTH):
+            u, radius = s[U + i], parameter * s[F + i]
+            ring = radius * (_TWO * np.sqrt(u * (_ONE - u)))
+            s[D + i] *= ring
+            s[E + i] *= ring
+            s[F + i] = radius * (_ONE - _TWO * u)
+    for i in range(WIDTH):
+        if whole[KEPT + i] == 0 or whole[MATERIAL + i] != scattering.lobe_material[k]:
+            continue
+        x, y, z = s[DIRECTION + i], s[DIRECTION + _Y + i], s[DIRECTION + _Z + i]
+        a, b, c = s[D + i], s[E + i], s[F + i]
+        if kind == IN_BALL:
+            x, y, z = x + a, y + b, z + c
+            length = np.sqrt(_NOTHING + x * x + y * y + z * z)
+            x, y, z = x / length, y / length, z / length
+        else:
+            sign = np.float32(math.copysign(_ONE, z))
+            sunk = sign * x * a + y * b
+            rest = c - sunk / (sign + z)
+            x, y, z = x * rest + a, y * rest + sign * b, c * z - sunk
+        nx, ny, nz = s[NG + i], s[NG + _Y + i], s[NG + _Z + i]
+        below = min(_NOTHING + x * nx + y * ny + z * nz, _NOTHING)
+        below = -_TWO * below
+        s[DIRECTION + i] = nx * below + x
+        s[DIRECTION + _Y + i] = ny * below + y
+        s[DIRECTION + _Z + i] = nz * below + z
+
+
+@njit(**LEAN)
+def _angle(call, s):
+    """Cosine and sine of the second row of numbers, as shares of a turn, into D and E."""
+    circle(call, s, U + WIDTH)
+    for i in range(WIDTH):
+        s[D + i], s[E + i] = s[A + i], s[B + i]
+
+
+@njit(**LEAN)
+def _mirror(scattering, s, whole):
+    """Throughput and direction of the reflected rays, into AFTER and DIRECTION, and which there are, into KEPT.
+
+    Of dielectrics also what refraction needs: COSINE of the incoming ray, and SHARE, BENT and ETA of ``fresnel``.
+    """
+    kept = 0
+    for i in range(WIDTH):
+        whole[KEPT + i] = 0
+        if whole[HIT + i] == 0:
+            continue
+        m, share = whole[MATERIAL + i], _NOTHING
+        dx, dy, dz = s[TO + i], s[TO + _Y + i], s[TO + _Z + i]
+        nx, ny, nz = s[NS + i], s[NS + _Y + i], s[NS + _Z + i]
+        s[SHARE + i] = _ONE
+        if len(scattering.index) and scattering.index[m] > 0:
+            cosine = -(_NOTHING + dx * nx + dy * ny + dz * nz)
+            cosine = min(_NOTHING if cosine < 0 else cosine, _ONE)
+            share, bent, eta = fresnel(scattering.index[m], s[SIDE + i], cosine)
+            s[SHARE + i], s[BENT + i], s[ETA + i], s[COSINE + i] = share, bent, eta, cosine
+        most = _NOTHING
+        for c in range(3):
+            weight = (scattering.mirror[c, m] + share) * s[THROUGHPUT + c * WIDTH + i]
+            s[AFTER + c * WIDTH + i] = weight
+            most = max(most, weight)
+        if not most > scattering.cutoff:
+            continue
+        kept += 1
+        whole[KEPT + i] = -1
+        twice = dx * nx + dy * ny + dz * nz
+        twice += twice
+        x, y, z = above(
+            *(dx - twice * nx, dy - twice * ny, dz - twice * nz),
+            *(s[NG + i], s[NG + _Y + i], s[NG + _Z + i]),
+        )
+        s[DIRECTION + i], s[DIRECTION + _Y + i], s[DIRECTION + _Z + i] = x, y, z
+    return kept
+
+
+@njit(**LEAN)
+def _refract(scattering, s, whole):
+    """The same of the refracted rays."""
+    kept = 0
+    for i in range(WIDTH):
+        whole[KEPT + i] = 0
+        if whole[HIT + i] == 0 or not s[SHARE + i] < 1:
+            continue
+        passed, most = _ONE - s[SHARE + i], _NOTHING
+        for c in range(3):
+            weight = passed * s[THROUGHPUT + c * WIDTH + i]
+            s[AFTER + c * WIDTH + i] = weight
+            most = max(most, weight)
+        if not most > scattering.cutoff:
+            continue
+        kept += 1
+        whole[KEPT + i] = -1
+        eta = s[ETA + i]
+        along = eta * s[COSINE + i] - s[BENT + i]
+        x, y, z = above(
+            s[TO + i] * eta + s[NS + i] * along,
+            s[TO + _Y + i] * eta + s[NS + _Y + i] * along,
+            s[TO + _Z + i] * eta + s[NS + _Z + i] * along,
+            *(-s[NG + i], -s[NG + _Y + i], -s[NG + _Z + i]),
+        )
+        s[DIRECTION + i], s[DIRECTION + _Y + i], s[DIRECTION + _Z + i] = x, y, z
+    return kept
+
+
+@njit(**LEAN)
+def scatter(scattering, numbers, pair, same, call, s, whole, reflected, refracted, counts):
+    """Append the rays that leave a packet's hits to two lists; how many each has got.
+
+    Parameters
+    ----------
+    pair : of the gloss's numbers at this depth
+    reflected, refracted : (k, 16) float32, from the place on where the next rays go
+    """
+    back = through = 0
+    if _mirror(scattering, s, whole):
+        for k in range(len(scattering.lobe_material)):
+            found = 0
+            for i in range(WIDTH):
+                kept, m = whole[KEPT + i] != 0, whole[MATERIAL + i]
+                found += kept & (m == scattering.lobe_material[k])
+            if found == 0:
+                continue
+            draw(numbers, pair, 2, same, s, whole, U)
+            if scattering.lobe_width[k] > 2:
+                draw(numbers, pair + 1, 1, same, s, whole, U + 2 * WIDTH)
+            counts[GLOSSY] += scattering.lobe_width[k] * found
+            _jitter(scattering, k, call, s, whole)
+        for i in range(WIDTH):
+            if whole[KEPT + i]:
+                ray = reflected[back]
+                _append(scattering, False, ray, ray.view(np.int32), i, s, whole)
+                back += 1
+        counts[REFLECTIONS] += back
+    if len(scattering.index) and _refract(scattering, s, whole):
+        for i in range(WIDTH):
+            if whole[KEPT + i]:
+                ray = refracted[through]
+                _append(scattering, True, ray, ray.view(np.int32), i, s, whole)
+                through += 1
+        counts[REFRACTIONS] += through
+    return back, through
