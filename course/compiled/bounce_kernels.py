@@ -65,7 +65,7 @@ class Scattering(NamedTuple):
     Attributes
     ----------
     mirror : (3, M); without columns if nothing is scattered
-    index : (M,), (0,) if nothing refracts
+    refraction_index : (M,), (0,) if nothing refracts
     outside : (M,) int16, (0,) if vacuum is around all dielectrics
     lobe_material, lobe_kind, lobe_parameter : (K,) of the lobes; the parameter is what the functions multiply by
     lobe_width : (K,) random numbers
@@ -74,7 +74,7 @@ class Scattering(NamedTuple):
     """
 
     mirror: Floats32
-    index: Floats32
+    refraction_index: Floats32
     outside: Media
     lobe_material: Indices
     lobe_kind: Indices
@@ -230,10 +230,10 @@ def _mirror(scattering, s, whole):
         dx, dy, dz = s[TO + i], s[TO + _Y + i], s[TO + _Z + i]
         nx, ny, nz = s[NS + i], s[NS + _Y + i], s[NS + _Z + i]
         s[SHARE + i] = _ONE
-        if len(scattering.index) and scattering.index[m] > 0:
+        if len(scattering.refraction_index) and scattering.refraction_index[m] > 0:
             cosine = -(_NOTHING + dx * nx + dy * ny + dz * nz)
             cosine = min(_NOTHING if cosine < 0 else cosine, _ONE)
-            share, bent, eta = fresnel(scattering.index[m], s[SIDE + i], cosine)
+            share, bent, eta = fresnel(scattering.refraction_index[m], s[SIDE + i], cosine)
             s[SHARE + i], s[BENT + i], s[ETA + i], s[COSINE + i] = share, bent, eta, cosine
         most = _NOTHING
         for c in range(3):
@@ -312,7 +312,7 @@ def scatter(scattering, numbers, pair, same, call, s, whole, reflected, refracte
                 _append(scattering, False, ray, ray.view(np.int32), i, s, whole)
                 back += 1
         counts[REFLECTIONS] += back
-    if len(scattering.index) and _refract(scattering, s, whole):
+    if len(scattering.refraction_index) and _refract(scattering, s, whole):
         for i in range(WIDTH):
             if whole[KEPT + i]:
                 ray = refracted[through]

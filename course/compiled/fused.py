@@ -11,6 +11,7 @@ import numpy as np
 
 from course.compiled import (
     bounce_kernels,
+    daylight_kernels,
     fused_kernels,
     lamp_kernels,
     lanes,
@@ -41,14 +42,17 @@ from course.core.tracer import Tracer
 from course.core.types import Floats32
 from course.extras.absorption import Absorption
 from course.extras.direct import FullDirectLight
+from course.extras.environment_sampling import ProductSampling
 from course.extras.near_plane import NearPlaneCamera
 from course.extras.plan import same_fields
 from course.extras.samplers.sobol import SobolSampler
 from course.extras.scatter import FullScatter
+from course.extras.sky import COST, NUMBERS, Sky
 from course.extras.surface import FullSurface
 
 _NO_COLUMNS, _NO_ROWS = np.empty((3, 0), np.float32), np.empty((0, 9), np.float32)
 _NONE, _NO_MASK = np.empty(0, np.float32), np.empty((0, 0), np.bool_)
+_NO_FACES = np.empty((6, 0, 0, 3), np.float32)
 _NOWHERE, _NO_BOXES = np.zeros(3, np.float32), np.empty((0, 3), np.float32)
 
 DEEPEST = 64
@@ -124,7 +128,16 @@ def _fits_direct_light(direct: DirectLight | None) -> bool:
         return True
     plain = not isinstance(direct, FullDirectLight) or (direct.plain is None and not direct.lifted)
     lamps = all(_lamp(light) is not None for light in direct.lights)
-    return direct.sky is None and plain and lamps
+    return plain and lamps and (direct.sky is None or _fits_sky(direct.sky))
+
+
+def _fits_sky(sky: Any) -> bool:
+    environment = sky.environment if type(sky) is Sky else None
+    return (
+        isinstance(environment, CubeEnvironment)
+        and _fits_environment(environment)
+        and isinstance(sky.sampling, ProductSampling)
+    )
 
 
 def _fits_scatter(scatter: Scatter | None) -> bool:
@@ -240,7 +253,7 @@ def _scattering(integrator: Integrator, dimensions: Dimensions) -> bounce_kernel
         outside = scatter.outside.astype(np.int16)
     return bounce_kernels.Scattering(
         mirror=_NO_COLUMNS if scatter is None else scatter.mirror.rows,
-        index=_NONE if scatter is None or scatter.index is None else scatter.index.rows,
+        refraction_index=_NONE if scatter is None or scatter.index is None else scatter.index.rows,
         outside=outside,
         lobe_material=np.array([lobe.material for lobe in lobes], np.int64),
         lobe_kind=np.array([_LOBES[lobe.kind][0] for lobe in lobes], np.int64),
@@ -253,8 +266,26 @@ def _scattering(integrator: Integrator, dimensions: Dimensions) -> bounce_kernel
     )
 
 
+def _sky(direct: DirectLight | None, dimensions: Dimensions) -> daylight_kernels.Sky:
+    sky: Any = None if direct is None else direct.sky
+    if sky is None:
+        edges: Any = [np.zeros((1, 2), np.float32), np.zeros((1, 1), np.int32)] * 4
+        product = daylight_kernels.Product(1, 1, np.zeros((6, 9), np.float32), *edges)
+        nothing = _NO_MASK.ravel()
+        return daylight_kernels.Sky(nothing, nothing, _NO_FACES, False, 0, product)
+    environment = sky.environment
+    return daylight_kernels.Sky(
+        np.ascontiguousarray(sky.diffuses),
+        np.ascontiguousarray(sky.refracts),
+        np.ascontiguousarray(environment.faces),
+        environment.seamless,
+        dimensions.first(NUMBERS[0], 0) // 2,
+        daylight_kernels.Product(*sky.sampling.arrays),
+    )
+
+
 def _surroundings(integrator: Integrator) -> fused_kernels.Surroundings:
-    environment, faces, seamless = integrator.environment, np.empty((6, 0, 0, 3), np.float32), False
+    environment, faces, seamless = integrator.environment, _NO_FACES, False
     color = environment.color if isinstance(environment, ConstantEnvironment) else _NOWHERE
     if isinstance(environment, CubeEnvironment):
         faces, seamless = np.ascontiguousarray(environment.faces), environment.seamless
@@ -341,6 +372,7 @@ class FusedTracer(Tracer):
             _scene(integrator),
             _reflectances(integrator),
             _lights(lights, dimensions),
+            _sky(integrator.direct, dimensions),
             _scattering(integrator, dimensions),
             _surroundings(integrator),
             fused_kernels.Depths(integrator.max_depth, integrator.coherent_depth, stride),
@@ -395,7 +427,7 @@ class FusedTracer(Tracer):
             np.empty((3, block.size), np.float32),
             np.empty((2, block.size if weighted else 0), np.float32),
             _NONE if costs is None else costs.row,
-            np.array((0, 0, 0) if costs is None else costs.prices, np.float32),
+            np.array((0, 0, 0, 0) if costs is None else (*costs.prices, COST), np.float32),
             np.zeros(lanes.COUNTS, np.int64),
         )
         numbers = number_kernels.Numbers(pixels, x, y, samples, points, salts)
@@ -428,6 +460,7 @@ class FusedTracer(Tracer):
             }
         )
         drawn = {"pixel": 2 * block.size, "gloss": int(counts[lanes.GLOSSY])}
+        drawn[NUMBERS[0]] = NUMBERS[1] * int(counts[lanes.SKY])
         drawn["lens"] = 2 * block.size if integrator.camera.lens is not None else 0
         drawn["time"] = block.size if integrator.motion is not None else 0
         for light in () if integrator.direct is None else integrator.direct.lights:

@@ -6,7 +6,6 @@ what the stages hand on in arrays stays in the processor's nearest cache, and no
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 import numpy as np
@@ -17,11 +16,14 @@ from course.compiled import numpy_kernels
 from course.compiled.bounce_kernels import RAY, scatter
 from course.compiled.clock_kernels import nanoseconds
 from course.compiled.cube_kernels import look_up
+from course.compiled.daylight_kernels import shine
 from course.compiled.lamp_kernels import TIMED, illuminate
 from course.compiled.lanes import (
     ABOVE,
     ASKED,
+    CORNERS,
     DIFFUSE,
+    EDGES,
     HIT,
     HITS,
     JITTER,
@@ -36,6 +38,7 @@ from course.compiled.lanes import (
     OTHERS,
     PACKET,
     PATH,
+    PLANE,
     SHADOW,
     SHADOW_RAYS,
     SIDE,
@@ -64,7 +67,7 @@ from course.compiled.packet_kernels import (
     begin,
     intersect16,
 )
-from course.compiled.point_kernels import interpolated, place
+from course.compiled.point_kernels import place, to_viewer
 from course.core.embree import NO_HIT
 from course.core.ray_offset import OFFSET as LEAST_OFFSET
 from course.core.types import Floats32, Indices, Mask, Materials
@@ -83,6 +86,7 @@ _NOTHING, _ONE = np.float32(0), np.float32(1)
 _FAR, _LEAST, _STEP = np.float32(NO_HIT), np.float32(1e-20), np.float32(LEAST_OFFSET)
 _LESS, _MORE = np.float32(1 - 1e-6), np.float32(1 + 1e-6)
 _Y, _Z = WIDTH, 2 * WIDTH
+_EDGE_2 = 3 * WIDTH
 
 
 class Scene(NamedTuple):
@@ -156,7 +160,7 @@ class Film(NamedTuple):
     radiance : (3, n) of each path
     offsets : (2, n) positions of the samples in their pixels; (2, 0) if nobody asks
     cost : (n,) what each path has cost, to be added to; (0,) if nobody asks
-    prices : (3,) of a hit, a shadow ray and a further ray
+    prices : (4,) of a hit, a shadow ray, a further ray, and a ray to the environment for its light
     counts : (COUNTS,) int64, added to
     """
 
@@ -300,37 +304,73 @@ def _intersect(scene, of_camera, coherent, count, timed, scratch, counts):
 
 
 @njit(**LEAN)
-def _find(scene, s, whole):
-    """Points, normals and origins of the hits; see ``Surface.hits``."""
-    smooth, moving = len(scene.corner_normals) > 0, len(scene.velocity) > 0
-    planes = scene.planes
+def _gather(scene, s, whole):
+    """Materials of the hits, and the rows of their triangles, into the columns of PLANE, EDGES and CORNERS."""
+    smooth = False
     for i in range(WIDTH):
-        if whole[HIT + i] == 0:
-            continue
         k = np.uint64(whole[TRIANGLE + i])
         whole[MATERIAL + i] = scene.material[k]
+        for c in range(8):
+            s[PLANE + c * WIDTH + i] = scene.planes[k, c]
+        for c in range(7):
+            s[EDGES + c * WIDTH + i] = scene.edges[k, c]
+        smooth |= not scene.planes[k, 7] > 0
+    if not smooth or len(scene.corner_normals) == 0:
+        return False
+    for i in range(WIDTH):
+        k = np.uint64(whole[TRIANGLE + i])
+        for c in range(9):
+            s[CORNERS + c * WIDTH + i] = scene.corner_normals[k, c]
+    return True
+
+
+@njit(**LEAN)
+def _find(scene, s, whole):
+    """Points, normals and origins of the hits; see ``Surface.hits``. Loops without branches do many lanes at once."""
+    smooth = _gather(scene, s, whole)
+    for i in range(WIDTH):
         a, b = s[U + i], s[V + i]
-        dx, dy, dz = s[TO + i], s[TO + _Y + i], s[TO + _Z + i]
-        x, y, z = place(k, a, b, planes, scene.edges, scene.inset)
-        nx, ny, nz, far = planes[k, 3], planes[k, 4], planes[k, 5], planes[k, 6]
-        # A sum that begins with 0, as NumPy's does, is never -0.
-        side = np.float32(math.copysign(_ONE, -(_NOTHING + nx * dx + ny * dy + nz * dz)))
-        nx, ny, nz = nx * side, ny * side, nz * side
-        if moving:
-            mover, triangle = -1, whole[TRIANGLE + i]
-            for j in range(1, len(scene.first)):
-                mover += triangle >= scene.first[j]
+        for c in range(0, 3 * WIDTH, WIDTH):
+            s[P + c + i] = s[EDGES + c + i] * a + s[EDGES + _EDGE_2 + c + i] * b + s[PLANE + c + i]
+        s[A + i] = min(a, b, _ONE - a - b) - s[EDGES + 6 * WIDTH + i]
+    for i in range(WIDTH):
+        if s[A + i] < 0 and whole[HIT + i]:
+            k = np.uint64(whole[TRIANGLE + i])
+            arrays = scene.planes, scene.edges, scene.inset
+            s[P + i], s[P + _Y + i], s[P + _Z + i] = place(k, s[U + i], s[V + i], *arrays)
+    if len(scene.velocity):
+        for i in range(WIDTH):
+            mover = -1
+            for k in range(1, len(scene.first)):
+                mover += whole[TRIANGLE + i] >= scene.first[k]
             if mover >= 0:
-                x += scene.velocity[mover, 0] * s[TIME + i]
-                y += scene.velocity[mover, 1] * s[TIME + i]
-                z += scene.velocity[mover, 2] * s[TIME + i]
-        s[P + i], s[P + _Y + i], s[P + _Z + i] = x, y, z
+                for c in range(3):
+                    s[P + c * WIDTH + i] += scene.velocity[mover, c] * s[TIME + i]
+    for i in range(WIDTH):
+        dx, dy, dz = s[TO + i], s[TO + _Y + i], s[TO + _Z + i]
+        nx, ny, nz = s[PLANE + 3 * WIDTH + i], s[PLANE + 4 * WIDTH + i], s[PLANE + 5 * WIDTH + i]
+        # The sum begins with 0, as NumPy's does: it is never -0.
+        side = _ONE if _NOTHING + nx * dx + ny * dy + nz * dz < 0 else -_ONE
+        nx, ny, nz, far = nx * side, ny * side, nz * side, s[PLANE + 6 * WIDTH + i]
         s[NG + i], s[NG + _Y + i], s[NG + _Z + i] = nx, ny, nz
-        s[NEAR + i], s[NEAR + _Y + i], s[NEAR + _Z + i] = x + nx * far, y + ny * far, z + nz * far
-        s[OFFSET + i], s[SIDE + i] = far, side
-        if smooth and not planes[k, 7] > 0:
-            nx, ny, nz = interpolated(k, a, b, side, dx, dy, dz, scene.corner_normals, True)
         s[NS + i], s[NS + _Y + i], s[NS + _Z + i] = nx, ny, nz
+        s[NEAR + i] = s[P + i] + nx * far
+        s[NEAR + _Y + i] = s[P + _Y + i] + ny * far
+        s[NEAR + _Z + i] = s[P + _Z + i] + nz * far
+        s[OFFSET + i], s[SIDE + i] = far, side
+    if not smooth:
+        return
+    for i in range(WIDTH):
+        a, b, side = s[U + i], s[V + i], s[SIDE + i]
+        dx, dy, dz = s[TO + i], s[TO + _Y + i], s[TO + _Z + i]
+        nx = s[CORNERS + 3 * WIDTH + i] * a + s[CORNERS + 6 * WIDTH + i] * b + s[CORNERS + i]
+        ny = s[CORNERS + 4 * WIDTH + i] * a + s[CORNERS + 7 * WIDTH + i] * b + s[CORNERS + _Y + i]
+        nz = s[CORNERS + 5 * WIDTH + i] * a + s[CORNERS + 8 * WIDTH + i] * b + s[CORNERS + _Z + i]
+        nx, ny, nz = to_viewer(nx, ny, nz, side, dx, dy, dz)
+        flat = s[PLANE + 7 * WIDTH + i] > 0
+        s[NS + i] = s[NS + i] if flat else nx
+        s[NS + _Y + i] = s[NS + _Y + i] if flat else ny
+        s[NS + _Z + i] = s[NS + _Z + i] if flat else nz
 
 
 @njit(**LEAN)
@@ -383,21 +423,34 @@ def _absorb(materials, outside, eye, of_camera, call, s, whole):
 @njit(**LEAN)
 def _reflect(materials, s, whole):
     """What the hits send to the viewer into ``DIFFUSE``; see ``DirectLight._reflected`` and ``Integrator._shade``."""
+    dark_sides, ambient = len(materials.dark_inside) > 0, materials.ambient.shape[1] > 0
+    for i in range(WIDTH):
+        dark = dark_sides and materials.dark_inside[np.uint64(whole[MATERIAL + i])]
+        s[A + i] = _NOTHING if dark and s[SIDE + i] < 0 else _ONE
+        s[B + i] = _ONE if s[SIDE + i] > 0 else _NOTHING
     for c in range(3):
-        row = c * WIDTH
-        for i in range(WIDTH):
-            m = np.uint64(whole[MATERIAL + i])
-            light = s[DIFFUSE + row + i] * materials.diffuse[c, m]
-            if len(materials.exponent):
-                light += s[SPECULAR + row + i] * materials.specular[c, m]
-            if materials.ambient.shape[1]:
-                dark = len(materials.dark_inside) and materials.dark_inside[m] and s[SIDE + i] < 0
-                light += _NOTHING if dark else materials.ambient[c, m]
-            if materials.glow.shape[1]:
-                light += materials.glow[c, m]
-            if materials.emission.shape[1]:
-                light += materials.emission[c, m] * (_ONE if s[SIDE + i] > 0 else _NOTHING)
-            s[DIFFUSE + row + i] = light
+        row = DIFFUSE + c * WIDTH
+        _weigh(materials.diffuse[c], s, whole, row)
+        if len(materials.exponent):
+            _weigh(materials.specular[c], s, whole, SPECULAR + c * WIDTH)
+            for i in range(WIDTH):
+                s[row + i] += s[SPECULAR + c * WIDTH + i]
+        if ambient:
+            for i in range(WIDTH):
+                light = materials.ambient[c, np.uint64(whole[MATERIAL + i])]
+                s[row + i] += light if s[A + i] > 0 else _NOTHING
+        if materials.glow.shape[1]:
+            for i in range(WIDTH):
+                s[row + i] += materials.glow[c, np.uint64(whole[MATERIAL + i])]
+        if materials.emission.shape[1]:
+            for i in range(WIDTH):
+                s[row + i] += materials.emission[c, np.uint64(whole[MATERIAL + i])] * s[B + i]
+
+
+@njit(**LEAN)
+def _weigh(reflectance, s, whole, row):
+    for i in range(WIDTH):
+        s[row + i] *= reflectance[np.uint64(whole[MATERIAL + i])]
 
 
 @njit(**LEAN)
@@ -431,7 +484,9 @@ def _miss(surroundings, count, s, whole, scratch):
 
 
 @njit(**LEAN)
-def _shade(scene, materials, lights, numbers, depth, stride, same, timed, film, scratch, count):
+def _shade(
+    scene, materials, lights, sky, numbers, depth, stride, same, timed, film, scratch, count
+):
     """Direct, ambient and own light of the hits, into DIFFUSE."""
     s, whole, counts = scratch.s, scratch.whole, film.counts
     for i in range(3 * WIDTH):
@@ -445,6 +500,12 @@ def _shade(scene, materials, lights, numbers, depth, stride, same, timed, film, 
         counts[SHADOW_RAYS] += shadows
         if len(film.cost) and shadows:
             _charge(film, film.prices[1], ASKED, count, whole)
+    if len(sky.diffuses):
+        pair = sky.pair + depth * stride
+        shadows = shine(sky, scene, numbers, pair, same, timed, scratch, counts)
+        counts[SHADOW_RAYS] += shadows
+        if len(film.cost) and shadows:
+            _charge(film, film.prices[3], ASKED, count, whole)
     _reflect(materials, s, whole)
 
 
@@ -501,7 +562,9 @@ def _charge_rays(film, rays, first, count):
 
 
 @njit(nogil=True, cache=True, error_model="numpy", _nrt=False)
-def follow(numbers, eye, scene, materials, lights, scattering, surroundings, depths, film, scratch):
+def follow(
+    numbers, eye, scene, materials, lights, sky, scattering, surroundings, depths, film, scratch
+):
     """Fill the radiance of a block's paths: depth by depth for some paths, then for the next."""
     s, whole, counts, radiance = scratch.s, scratch.whole, film.counts, film.radiance
     stack, refracted, pile = scratch.stack, scratch.refracted, scratch.pile
@@ -568,7 +631,7 @@ def follow(numbers, eye, scene, materials, lights, scattering, surroundings, dep
                 # ---- direct light, ambient light, emission
                 pairs = depths.pairs
                 _shade(
-                    *(scene, materials, lights, numbers, depth, pairs, same, timed),
+                    *(scene, materials, lights, sky, numbers, depth, pairs, same, timed),
                     *(film, scratch, count),
                 )
                 for i in range(3 * WIDTH):

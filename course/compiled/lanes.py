@@ -26,7 +26,9 @@ OFFSET, SIDE, TIME, INVERSE, FACTOR, COSINE, IRRADIANCE, JITTER, _, A, B, C, D, 
 """Of hits and lights; the samples' positions in their pixels, two rows; rows of no lasting meaning; and of ``fresnel``
 the reflectance, behind which BENT and ETA have the cosine and the ratio of indices."""
 BENT, ETA = SHARE + WIDTH, SHARE + 2 * WIDTH
-ALL_ROWS = 3 * ROWS + 36 + 18
+PLANE, EDGES, CORNERS = (_FIRST + (54 + number) * WIDTH for number in (0, 8, 15))
+"""Columns of the hit triangles in ``Triangles``."""
+ALL_ROWS = 3 * ROWS + 54 + 24
 
 _integers = (number * WIDTH for number in range(12))
 HIT, ASKED, RAISED, OTHERS, MATERIAL, TRIANGLE, PATH, PIXEL, SAMPLE, MEDIUM, LEFT, KEPT = _integers

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from numba import types
 
 COLUMNS = types.float32[:, ::1]
@@ -19,3 +21,15 @@ OPTIONS = {"nogil": True, "cache": True, "error_model": "numpy"}
 LEAN = OPTIONS | {"_nrt": False, "forceinline": True}
 """For parts of the fused loop: arrays aren't counted whenever one is handed on, which would take more time than the
 arithmetic. So none can be made there."""
+
+
+def _forget_older_loops() -> None:
+    """Compile anew what is older than any source: Numba looks at a loop's own file, not at those that it calls."""
+    here = Path(__file__).parent
+    newest = max(file.stat().st_mtime for file in here.glob("*.py"))
+    for index in (here / "__pycache__").glob("*.nbi"):
+        if index.stat().st_mtime < newest:
+            index.unlink(missing_ok=True)
+
+
+_forget_older_loops()

@@ -95,16 +95,15 @@ class CompiledSky(Sky):
 
     def directions(self, normal: Floats32, u: Floats32) -> tuple[Floats32, Floats32 | None]:
         """See ``Sky``."""
-        from course.compiled import sky_kernels
+        from course.compiled import daylight_kernels, sky_kernels
 
         product = self.sampling
         if not isinstance(product, ProductSampling):
             return super().directions(normal, u)
         direction = np.empty(normal.shape, np.float32)
         weight = np.empty(normal.shape[1], np.float32)
-        sky_kernels.sample(
-            *map(np.ascontiguousarray, (normal, u)), *product.arrays, *(direction, weight)
-        )
+        arrays = map(np.ascontiguousarray, (normal, u))
+        sky_kernels.sample(*arrays, daylight_kernels.Product(*product.arrays), direction, weight)
         return direction, weight
 
 

@@ -19,7 +19,7 @@ if not library.available():
 
 from course.compiled import engine
 
-SCENES = ("soft_shadows",)
+SCENES = ("supersampling", "soft_shadows", "glossy", "thin_lens", "motion_blur", "cube_map")
 SIZES: dict[str, dict[str, Any]] = {
     "whole packets": {"spp": 16, "size": (24, 16)},
     "several pixels in a packet": {"spp": 4, "size": (60, 40)},
