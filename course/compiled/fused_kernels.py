@@ -341,8 +341,8 @@ def _find(scene, s, whole):
     if len(scene.velocity):
         for i in range(WIDTH):
             mover = -1
-            for k in range(1, len(scene.first)):
-                mover += whole[TRIANGLE + i] >= scene.first[k]
+            for j in range(1, len(scene.first)):
+                mover += whole[TRIANGLE + i] >= scene.first[j]
             if mover >= 0:
                 for c in range(3):
                     s[P + c * WIDTH + i] += scene.velocity[mover, c] * s[TIME + i]

@@ -53,6 +53,8 @@ def balls(make_scene: MakeScene, **parts: Any) -> Scene:
 def test_pictures_keep_their_bits(
     make_scene: MakeScene, monkeypatch: pytest.MonkeyPatch, parts: dict[str, Any], largest: int
 ) -> None:
+    # The fused loop leaves them out, too (tests/rendering/test_fused.py).
+    monkeypatch.setattr("course.compiled.engine.fits", lambda _tracer: False)
     monkeypatch.setattr(integrator, "LARGEST_BATCH", largest)
     scene = balls(make_scene, **parts)
     surface = scene.compiled.world.surface
