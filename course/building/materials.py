@@ -158,14 +158,11 @@ def check_growth(loaded: Loaded, used: Iterable[str], world: FullWorld) -> None:
 
 def _brightest(world: FullWorld) -> float:
     """The largest radiance, or irradiance at the size of the scene, of whatever shines."""
-    sky = world.environment
-    assert isinstance(sky, ConstantEnvironment | CubeEnvironment)
-    colors = (
-        world.ambient,
-        world.materials.emission,
-        sky.faces if isinstance(sky, CubeEnvironment) else sky.color,
-        *(light.color for light in world.lights),
-    )
+    colors = [world.ambient, world.materials.emission, *(light.color for light in world.lights)]
+    if isinstance(world.environment, CubeEnvironment):
+        colors.append(world.environment.faces)
+    elif isinstance(world.environment, ConstantEnvironment):
+        colors.append(world.environment.color)
     return max(float(color.max()) for color in colors)
 
 
