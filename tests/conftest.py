@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 import json
+import os
 import signal
 from collections.abc import Callable, Generator
 from functools import partial
@@ -21,6 +22,9 @@ from tests.once import Once, made_once, shared_folder
 
 MakeScene = Callable[..., Scene]
 PixelRays = Callable[[Scene], tuple[NDArray[np.float64], NDArray[np.float64]]]
+
+# Hundreds of renders that begin at once would start as many compilers. Tests of compiled loops compile them themselves.
+os.environ.setdefault("COURSE_NO_COMPILER", "1")
 
 # A shell's background jobs begin with Ctrl-C ignored, and so would every process that a test interrupts.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:

@@ -27,6 +27,12 @@ LAST = 10
 POLL = 0.05
 """Seconds between two looks at the process that compiles."""
 
+MODULE = "course.rendering.later"
+"""The program of the process that compiles. A user has one of them at a time."""
+
+OFF = "COURSE_NO_COMPILER"
+"""Environment variable: if it is set, no process is started, and loops that are not on disk are NumPy's."""
+
 _COMPILING: list[subprocess.Popen[bytes]] = []
 
 
@@ -92,8 +98,7 @@ class Later:
 
             if self._closed.is_set() or self._read():
                 return
-        self._compile()
-        if not self._closed.is_set():
+        if self._compile() and not self._closed.is_set():
             # What that process has not compiled, for the scene may differ from its file, is compiled here.
             self._pool.tracer = tried(self._compiled())
 
@@ -106,11 +111,13 @@ class Later:
             return False
         return True
 
-    def _compile(self) -> None:
-        """Wait for a process that compiles, at most until the picture is there."""
+    def _compile(self) -> bool:
+        """Wait for a process that compiles, at most until the picture is there; true if it has compiled all."""
+        if os.environ.get(OFF):
+            return False
         path = os.pathsep.join([str(PROJECT), *filter(None, sys.path)])
         process = subprocess.Popen(
-            [sys.executable, "-m", "course.rendering.later"],
+            [sys.executable, "-m", MODULE],
             stdin=subprocess.PIPE,
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
@@ -124,8 +131,9 @@ class Later:
             pipe.write(pickle.dumps(self._task))
         while process.poll() is None:
             if self._closed.wait(POLL):
-                return
+                return False
         _COMPILING.remove(process)
+        return process.returncode == 0
 
     def close(self) -> None:
         """Exchange nothing any more. A process that compiles goes on to its end, so that the next render is fast."""
@@ -135,9 +143,27 @@ class Later:
             self._thread.join()
 
 
+def _another_compiles() -> bool:
+    """True if this user has an older process that compiles: many renders at once would compile the same loops."""
+    import psutil
+
+    me = psutil.Process()
+    for other in psutil.process_iter(["cmdline", "create_time", "pid", "username"]):
+        known = other.info
+        ours = MODULE in (known["cmdline"] or ()) and known["username"] == me.username()
+        if ours and (known["create_time"], known["pid"]) < (me.create_time(), me.pid):
+            return True
+    return False
+
+
 def main() -> None:
-    """Compile the loops of the scene and the settings that come in, and keep them on disk."""
+    """Compile the loops of the scene and the settings that come in, and keep them on disk.
+
+    It ends with 1 if another process compiles already.
+    """
     path, folder, settings = pickle.load(sys.stdin.buffer)
+    if _another_compiles():
+        sys.exit(1)
     if hasattr(os, "nice"):
         os.nice(LAST)
     from course.rendering.binding import bind

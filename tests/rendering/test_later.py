@@ -1,8 +1,11 @@
 """Loops that get ready while NumPy renders: this process compiles nothing meanwhile, and the bits stay the same."""
 
+import pickle
+import subprocess
 import sys
 from collections.abc import Callable
 from io import BytesIO
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -54,7 +57,7 @@ def test_loops_are_read_but_not_compiled() -> None:
     assert numba.njit("int64(int64)")(lambda x: x + 1)(1) == 2
 
 
-@pytest.mark.parametrize("status", [None, 0])
+@pytest.mark.parametrize("status", [None, 0, 1])
 def test_a_render_waits_for_no_compiler(
     every_stage: EveryStage, monkeypatch: pytest.MonkeyPatch, status: int | None
 ) -> None:
@@ -66,6 +69,8 @@ def test_a_render_waits_for_no_compiler(
         def __init__(self, *arguments: Any, **_: Any) -> None:
             started.append(arguments)
             self.stdin = BytesIO()
+
+        returncode = status
 
         def poll(self) -> int | None:
             return status
@@ -79,6 +84,7 @@ def test_a_render_waits_for_no_compiler(
         return answer
 
     monkeypatch.setattr(later.subprocess, "Popen", Process)
+    monkeypatch.delenv(later.OFF)
     numpy = bind(scene, scene.settings)
     pool = Pool(numpy, 1)
     ready = later.Later(pool, make, scene, scene.settings)
@@ -88,5 +94,21 @@ def test_a_render_waits_for_no_compiler(
         assert ready._thread is not None
         ready._thread.join()
     assert len(started) == 1
-    assert pool.tracer is (numpy if status is None else compiled)
+    # A process that ended with 1 left it to another one, and NumPy renders to the end.
+    assert pool.tracer is (compiled if status == 0 else numpy)
     assert "numba" in sys.modules
+
+
+def test_one_process_compiles_at_a_time(tmp_path: Path) -> None:
+    """A second one that begins while the first runs ends with 1 before it reads the scene."""
+    line = [sys.executable, "-c", "import time; time.sleep(60)", later.MODULE]
+    with subprocess.Popen(line) as first:
+        try:
+            task = pickle.dumps((tmp_path / "no.yaml", tmp_path, None))
+            second = [sys.executable, "-m", later.MODULE]
+            done = subprocess.run(second, input=task, capture_output=True, check=False, timeout=60)
+        finally:
+            first.kill()
+    assert (done.returncode, done.stderr) == (1, b"")
+    done = subprocess.run(second, input=task, capture_output=True, check=False, timeout=60)
+    assert b"no.yaml: no such file" in done.stderr
