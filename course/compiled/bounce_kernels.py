@@ -196,9 +196,9 @@ def _jitter(scattering, k, call, s, whole):
             x, y, z = x / length, y / length, z / length
         else:
             sign = np.float32(math.copysign(_ONE, z))
-            sunk = sign * x * a + y * b
-            rest = c - sunk / (sign + z)
-            x, y, z = x * rest + a, y * rest + sign * b, c * z - sunk
+            projected = y * b + a * x * sign
+            along = c - projected / (sign + z)
+            x, y, z = x * along + a, y * along + sign * b, c * z - projected
         nx, ny, nz = s[NG + i], s[NG + _Y + i], s[NG + _Z + i]
         below = min(_NOTHING + x * nx + y * ny + z * nz, _NOTHING)
         below = -_TWO * below

@@ -47,10 +47,10 @@ def bilinear(faces, face, column, row, c):
 @njit(**LEAN)
 def _neighbour(face, i, j, size):
     """Face, column and row of the texel that a place beyond an edge of a face is folded to."""
-    s, t = 2 * i + 1 - size, 2 * j + 1 - size
+    s, t = 2 * i - (size - 1), 2 * j - (size - 1)
     m = size - (1 if abs(s) > size or abs(t) > size else 0)
     s, t = min(max(s, -size), size), min(max(t, -size), size)
-    sign = 1 - 2 * (face % 2)
+    sign = -1 if face % 2 else 1
     if face < 2:
         x, y, z = sign * m, -t, -sign * s
     elif face < 4:

@@ -120,11 +120,11 @@ def _on_facing_disk(call, s, radius, x0, y0, z0):
         r = radius * np.sqrt(s[U + i])
         a, b = r * s[A + i], r * s[B + i]
         sign = np.float32(math.copysign(_ONE, z))
-        down = sign * x * a + y * b
-        share = down / (sign + z)
-        s[SHADOW_TO + i] = a - x * share + x0
-        s[SHADOW_TO + _Y + i] = sign * b - y * share + y0
-        s[SHADOW_TO + _Z + i] = -down + z0
+        projected = y * b + a * x * sign
+        along = projected / (sign + z)
+        s[SHADOW_TO + i] = a - x * along + x0
+        s[SHADOW_TO + _Y + i] = sign * b - y * along + y0
+        s[SHADOW_TO + _Z + i] = -projected + z0
 
 
 @njit(**LEAN)
