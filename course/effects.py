@@ -55,13 +55,16 @@ class Effects:
     Parameters
     ----------
     folder : where the modules are; ``solutions`` and ``assignments`` mean the project's own folders, and ``mine`` means
-        the assignments, with the solution's function in the place of each that is not written. None means the
-        solutions where they are, and else the assignments.
+        the assignments, with the solution's function in the place of each that is not written. None means ``mine`` in
+        a folder made by `course start`, else the solutions where they are, and else the assignments.
     trusted : whether what the functions return is taken as it is; None means the project's own solutions, and no others
     """
 
     def __init__(self, folder: str | Path | None = None, trusted: bool | None = None) -> None:
-        if folder is None:
+        if folder is None and not CHECKOUT and Path("assignments").is_dir():
+            # In a folder made by `course start`.
+            folder = "mine"
+        elif folder is None:
             # A student's copy has no solutions.
             folder = "solutions" if (PROJECT / "solutions").is_dir() else "assignments"
         path = Path(folder)
