@@ -30,6 +30,7 @@ SAMPLES_A_STILL = 4
 ALIKE = {
     "glossy": "no plane, ball or Phong lobes: roughconductor with lobes as wide, which lose some light",
     "cube_map": "clay can't be kept from lighting itself and the others",
+    "mirror_and_matt": "Mitsuba has no cube maps: its environment is resampled to latitude and longitude",
 }
 """Effects whose pictures are alike in both programs, not the same, and what Mitsuba can't do."""
 

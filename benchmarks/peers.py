@@ -252,7 +252,7 @@ def measure(case: Case, say: Callable[[str], None]) -> Result:
         case.effect,
         case.form,
         case.without,
-        case.form == "scalar" and case.effect in ALIKE,
+        case.effect in ALIKE and (case.form == "scalar" or case.effect in FURTHER),
         targets,
         process,
         our_process,
