@@ -13,10 +13,9 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
-from types import ModuleType
+from types import ModuleType, SimpleNamespace
 from typing import Any
 
-from course.core.types import Functions
 from course.errors import EffectError, Ended
 from course.modules import COURSE
 
@@ -192,9 +191,11 @@ class Bound:
         self._needs.setdefault(f"{module}.{name}", Need(f"{module}.{name}", asked_by))
         return function
 
-    def functions(self, module: str, *names: str, asked_by: tuple[str | int, ...]) -> Functions:
+    def functions(
+        self, module: str, *names: str, asked_by: tuple[str | int, ...]
+    ) -> SimpleNamespace:
         """Some functions of a module, to be called by their own names; see ``function``."""
-        return Functions(**{name: self.function(module, name, asked_by) for name in names})
+        return SimpleNamespace(**{name: self.function(module, name, asked_by) for name in names})
 
 
 def _import_file(path: Path) -> ModuleType:

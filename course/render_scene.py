@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from contextlib import ExitStack, closing
 from functools import partial
@@ -26,6 +27,9 @@ from course.scene.scene import Scene, Settings
 
 WORTH_COMPILED = 8_000_000
 """Camera rays from which on compiled loops save more than the second that Numba takes to get ready."""
+
+NO_COMPILER = "COURSE_NO_COMPILER"
+"""Environment variable: if it is set, nothing is compiled but by ``compiled=True``."""
 
 
 def render(
@@ -98,8 +102,10 @@ def render(
         _check_start(settings, start.settings)
     check_memory(settings, mode.bytes_a_pixel)
     packets = _use_compiled(settings, compiled)
-    # Corners of cells are no work that may change over: their tracer is compiled before they begin.
+    # Corners of cells are no work that may change over: their tracer is compiled before they begin. Nor are students'
+    # functions called once more to see whether loops are ready.
     later = packets and not compiled and address is None and settings.subdivision is None
+    later = later and scene.effects.trusted
     if address is not None and threads is not None:
         raise CourseError(
             "threads are for renders on this machine; the workers of a cluster have their own"
@@ -159,6 +165,8 @@ def _use_compiled(settings: Settings, wanted: bool | None) -> bool:
         raise CourseError("compiled loops need Numba: pip install .[fast]")
     if wanted is not None:
         return wanted
+    if os.environ.get(NO_COMPILER):
+        return False
     rays = settings.width * settings.height * settings.samples
     return packets_available() and ("numba" in sys.modules or rays >= WORTH_COMPILED)
 

@@ -23,7 +23,7 @@ from tests.once import Once, made_once, shared_folder
 MakeScene = Callable[..., Scene]
 PixelRays = Callable[[Scene], tuple[NDArray[np.float64], NDArray[np.float64]]]
 
-# Hundreds of renders that begin at once would start as many compilers. Tests of compiled loops compile them themselves.
+# What a test renders must not depend on those before it: loops are compiled where a test asks for them.
 os.environ.setdefault("COURSE_NO_COMPILER", "1")
 
 # A shell's background jobs begin with Ctrl-C ignored, and so would every process that a test interrupts.

@@ -8,6 +8,9 @@ dimensions it has points of the same kind, in a random order of their own. Witho
 pixel would always use the point in the corner of the light (Cook 1984, section 4.2).
 """
 
+# `np.random` in an annotation would be imported.
+from __future__ import annotations
+
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from functools import cached_property

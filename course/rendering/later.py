@@ -30,9 +30,6 @@ POLL = 0.05
 MODULE = "course.rendering.later"
 """The program of the process that compiles. A user has one of them at a time."""
 
-OFF = "COURSE_NO_COMPILER"
-"""Environment variable: if it is set, no process is started, and loops that are not on disk are NumPy's."""
-
 _COMPILING: list[subprocess.Popen[bytes]] = []
 
 
@@ -113,8 +110,6 @@ class Later:
 
     def _compile(self) -> bool:
         """Wait for a process that compiles, at most until the picture is there; true if it has compiled all."""
-        if os.environ.get(OFF):
-            return False
         path = os.pathsep.join([str(PROJECT), *filter(None, sys.path)])
         process = subprocess.Popen(
             [sys.executable, "-m", MODULE],

@@ -84,7 +84,6 @@ def test_a_render_waits_for_no_compiler(
         return answer
 
     monkeypatch.setattr(later.subprocess, "Popen", Process)
-    monkeypatch.delenv(later.OFF)
     numpy = bind(scene, scene.settings)
     pool = Pool(numpy, 1)
     ready = later.Later(pool, make, scene, scene.settings)

@@ -48,7 +48,7 @@ def _built(target: str, source: Path, folder: Path) -> None:
 @pytest.fixture(scope="module")
 def site(once: Once) -> Path:
     """The folder into which the wheel is installed."""
-    return once("site", _installed)
+    return once("installed wheel", _installed)
 
 
 @pytest.fixture
