@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from pathlib import Path
 
 from numba import types
@@ -28,8 +29,10 @@ def _forget_older_loops() -> None:
     here = Path(__file__).parent
     newest = max(file.stat().st_mtime for file in here.glob("*.py"))
     for index in (here / "__pycache__").glob("*.nbi"):
-        if index.stat().st_mtime < newest:
-            index.unlink(missing_ok=True)
+        # Another process may have deleted it, too.
+        with suppress(FileNotFoundError):
+            if index.stat().st_mtime < newest:
+                index.unlink()
 
 
 _forget_older_loops()

@@ -17,8 +17,9 @@ from course.core.types import Floats32, Indices, Mask
 from course.core.vectors import dot, repeated
 
 DENSE = 0.5
-"""Least share of candidates for which all hits are computed; below it, the candidates are copied first. Computing all
-saved 2 to 5% of the time (medians, one thread, without Embree); any share from .2 to .8 will do."""
+"""If at least this fraction of the hits are candidates, all hits are computed. Otherwise the candidates are copied
+first. Computing all
+saved 2 to 5% of the time (medians, one thread, without Embree); any value from .2 to .8 works as well."""
 
 ROUNDING = 1e-4
 """Added to a float32 sine before it is compared with a float32 cosine."""
@@ -26,7 +27,7 @@ ROUNDING = 1e-4
 
 @dataclass(frozen=True)
 class Candidates:
-    """Hits that face a light which faces them. A shadow ray decides whether the light illuminates them.
+    """Hits that a light illuminates if nothing occludes it. A shadow ray decides whether the light illuminates them.
 
     Their arrays have k columns: either one for each of the m candidates, or one for each of the n hits.
 
@@ -52,7 +53,7 @@ class Candidates:
     inverse_length: Floats32
 
     def of(self, values: NDArray[Any]) -> NDArray[Any]:
-        """Select the columns (k,) or (3, k) of an array (n,) or (3, n) that has one for each hit."""
+        """Take the candidates' columns, (k,) or (3, k), of an array with a column for each hit, (n,) or (3, n)."""
         return values if self.columns is None else values.take(self.columns, axis=-1)
 
     def hit(self, column: Indices) -> Indices:
@@ -62,11 +63,11 @@ class Candidates:
 
 @dataclass(frozen=True)
 class DirectLight:
-    """Direct light that hits reflect.
+    """Direct light reflected at hits.
 
     Attributes
     ----------
-    shaded : ``MaterialTable.shaded_sides``; None if all materials reflect direct light from both sides
+    shaded : ``MaterialTable.shaded_sides``; None if all materials reflect direct light on both sides
     diffuse : (3, M) reflectance
     specular, exponent : (3, M) and (M,) of the highlights; specular is None if no material has one
     sky : returns irradiance / pi (3, n) of the environment, None for 0; None if the environment is not a light
@@ -164,8 +165,8 @@ class DirectLight:
         to_light = self._to_light(light, hits, candidates)
         if triangles.bulge is None:
             return unoccluded(origin, to_light, light.limit, stats, time, active=mask)
-        # If a facet faces away from the light, the light is less than a above the horizon of the shading normal, with a
-        # the angle between both normals. So the cosine to the light is at most sin a.
+        # If a facet faces away from the light, the light's elevation above the horizon of the shading normal is less
+        # than the angle a between both normals. So the cosine to the light is at most sin a.
         most = np.float32(triangles.largest_sine + ROUNDING)
         column = self._turned_away(hits, candidates, to_light, most)
         height = bulge(triangles, hits, candidates.hit(column))
@@ -196,7 +197,7 @@ class DirectLight:
     def _turned_away(
         self, hits: Hits, candidates: Candidates, to_light: Floats32, most: np.float32
     ) -> Indices:
-        """Columns (t,) of the candidates whose facets face away from the light; none has a cosine above ``most``."""
+        """Columns (t,) of the candidates whose facets face away from the light. ``most`` bounds their cosines."""
         near = candidates.cosine <= most
         if candidates.mask is not None:
             near &= candidates.mask
@@ -235,7 +236,7 @@ class DirectLight:
         return total
 
     def _reflected(self, hits: Hits, diffuse: Floats32, specular: Floats32 | None) -> Floats32:
-        """Sums of irradiance and highlights (3, n) times the reflectances, in place."""
+        """Multiply both sums by their reflectances, in place, and add them."""
         diffuse *= self.diffuse(hits.material)
         if hits.tint is not None:
             diffuse *= hits.tint

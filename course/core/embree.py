@@ -22,7 +22,7 @@ NO_HIT = 1e37
 
 @dataclass
 class QueryStats:
-    """Seconds inside Embree, or tests made by another BVH; one object per thread."""
+    """Seconds inside Embree, or box and triangle tests of another BVH. Each thread has its own object."""
 
     seconds: float = 0.0
     box_tests: int = 0

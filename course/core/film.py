@@ -1,7 +1,9 @@
 """From samples to pixels: the filter of the module ``supersampling``, and the film with its weighted sums of radiance.
 
-Samples arrive in passes. The sums are float64, and grow in a fixed order. Only the last pass can be partial: the
-picture contains it, the sums don't. A continued render repeats that pass in full, so its picture has the same bits as
+Samples arrive in passes. The sums are float64, and are accumulated in a fixed order. Only the last pass can be
+partial. It is
+added to the picture, but not to the sums. A continued render repeats that pass in full, so its picture has the same
+bits as
 one that was rendered at once.
 """
 
@@ -17,7 +19,7 @@ from course.core.tiles import Tile
 from course.core.types import Floats32, Functions, Numbers
 
 _NEARLY_NOTHING = 1e-300
-"""Least sum of weights, so that no mean divides by 0."""
+"""Minimum sum of weights, so that no mean divides by 0."""
 
 
 @dataclass(frozen=True)
@@ -35,7 +37,8 @@ class Reconstruction:
     sigma: float | None
 
     def pixels(self, radiance: Floats32, offsets: Floats32) -> tuple[Floats32, Floats32 | float]:
-        """Means (3, n) float32 over the samples of n pixels, and the sums of their weights, (n,) float32 or one number.
+        """Weighted means over the samples of n pixels, (3, n) float32, and the sums of their weights, (n,) float32 or
+        one number.
 
         Parameters
         ----------
@@ -87,7 +90,7 @@ class Film:
         ----------
         mean : (3, n) float32, radiance of the tile's n pixels, row by row
         weight : (n,) float32 or one number
-        samples : samples per pixel so far, with those of this pass
+        samples : samples per pixel so far, including this pass
         summed : true if the pass is added to the sums
         """
         rows, columns = tile.rows, tile.columns

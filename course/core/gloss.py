@@ -41,7 +41,7 @@ class Lobe:
         return scattered
 
     def keep_above(self, direction: Floats32, ng: Floats32) -> Floats32:
-        """Move directions (3, N) that point below the surface, whose geometric normals are ng (3, N), above it."""
+        """Move directions (3, N) that point below the surface above it. Its geometric normals are ng (3, N)."""
         kept: Floats32 = self.glossy.keep_above(direction, ng)
         return kept
 

@@ -58,7 +58,7 @@ class Hits:
 
     @property
     def entering(self) -> Mask:
-        """(n,) bool, true where the ray comes from outside and hits the triangle's front."""
+        """(n,) bool, true where the ray hits the front of the triangle, from outside."""
         return np.asarray(self.side > 0)
 
     def far_origin(self, which: Indices) -> Floats32:
@@ -94,7 +94,7 @@ class Surface:
         time: Floats32 | None = None,
         of_camera: bool = False,
     ) -> Hits:
-        """Geometry and material of the rays that hit.
+        """Geometry and materials of the hits.
 
         Parameters
         ----------
@@ -140,7 +140,7 @@ class Surface:
         ng *= side
         ns = ng
         if triangles.corner_normals is not None:
-            # Most triangles of a room are flat-shaded.
+            # In many scenes most triangles are flat-shaded.
             some = np.flatnonzero(flat == 0)
             if len(some) == len(side):
                 ns = self._interpolated(triangle, u, v, side, direction)

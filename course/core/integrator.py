@@ -39,12 +39,12 @@ class Integrator:
     Attributes
     ----------
     environment : radiance of the rays that hit nothing; None if it is black
-    environment_depth : largest depth at which such rays add radiance, -1 for none
+    environment_depth : largest depth at which rays see the environment, -1 for none
     ambient : (3, M) reflected ambient radiance
     dark_inside : (M,) bool, the dielectrics, whose insides reflect neither ambient nor diffuse light
     glow : (3, M) radiance emitted from both sides by surfaces that are not sampled as lights
     emission : (3, M) radiance emitted from the fronts of the surfaces of lights
-    absorption : along rays in dielectrics (``course.extras.absorption``)
+    absorption : reduces the throughput along rays in dielectrics (``course.extras.absorption``)
     max_depth : largest number of bounces in this scene
     coherent_depth : largest depth at which neighbouring rays have similar directions, -1 for none
     """
@@ -76,13 +76,13 @@ class Integrator:
         return Rays(origin, direction, None, None, time=time)
 
     def radiance(self, camera_rays: Rays, draws: Draws) -> Floats32:
-        """Radiance (3, paths) along the camera rays, the sum over all rays of their trees.
+        """Radiance along the camera rays, (3, paths), summed over the ray tree of each.
 
         Raises CancelledError soon after ``draws.cancelled()`` becomes true.
         """
         path_radiance = np.zeros((3, draws.block.size), np.float32)
-        # Glass may double the rays at each depth, so batches that outgrow the cache are split. They wait on a stack:
-        # last in, first out, memory grows linearly with the depth, not as 2^depth.
+        # Glass may double the rays at each depth, so batches that outgrow the cache are split. They wait on a stack,
+        # so memory grows linearly with the depth, not as 2^depth.
         pile = [(0, camera_rays)]
         while pile:
             if draws.cancelled():
@@ -125,7 +125,7 @@ class Integrator:
     ) -> tuple[Hits, Floats32 | None, Indices | None, Media | None]:
         """Hits of the rays, with throughput, path and medium of the rays that hit.
 
-        Rays that hit nothing add the environment's radiance where ``adds_lights``, (N,) or one bool, is true.
+        ``adds_lights``, (N,) or one bool, selects the rays that add the environment's radiance if they hit nothing.
         """
         counters, surface, of_camera = draws.counters, self.surface, depth == 0
         coherent = depth <= self.coherent_depth
@@ -212,7 +212,9 @@ def _carried(
 
 
 def _sum(radiance: Floats32 | None, term: Floats32) -> Floats32:
-    """Radiance plus a term, (3, n) or (3, 1) each; an array (3, 1) is kept, for it may be a view of a Lookup."""
+    """Radiance plus a term, (3, n) or (3, 1) each; an array (3, 1) is not overwritten, because it may be a view of a
+    Lookup.
+    """
     if radiance is None:
         return term
     return np.add(radiance, term, out=radiance if radiance.shape[1] > 1 else None)

@@ -1,6 +1,6 @@
 """Materials as a table: one row per property, one column per material of the scene.
 
-The BRDF is Blinn-Phong over pi, so that the diffuse reflectance is color * diffuse. With the irradiance
+The BRDF is Blinn-Phong divided by pi, so that the diffuse reflectance is color * diffuse. With the irradiance
 E = I cos / d^2:
 
     L = color (ambient La + diffuse E / pi) + specular (n . h)^exponent E / pi
@@ -75,7 +75,7 @@ class Lookup:
         self._same = bool((rows == rows[..., :1]).all())
 
     def __call__(self, material: Materials) -> Floats32:
-        """(3, n) from rows (3, M), (n,) from rows (M,); one column if all materials are the same."""
+        """(3, n) from rows (3, M), (n,) from rows (M,); one column if all materials have the same value."""
         if self._same:
             return self.rows[..., :1]
         return self.rows.take(material, axis=-1)
@@ -93,8 +93,8 @@ def blinn_phong_highlight(
     squared = dot(half, half)
     cosine = dot(half, normal)
     cosine /= np.sqrt(np.maximum(squared, np.float32(1e-12)))
-    # NumPy's exp and log are ten times faster than `power`. The clamp makes no visible difference: for exponents
-    # from 1 up the power is negligible there, and for exponent 0 it is 1 everywhere.
+    # NumPy's exp and log are ten times faster than `power`. The clamp makes no visible difference: for exponents of
+    # at least 1 the power is negligible there, and for exponent 0 it is 1 everywhere.
     np.clip(cosine, np.float32(1e-6), 1, out=cosine)
     np.log(cosine, out=cosine)
     cosine *= exponent

@@ -1,7 +1,8 @@
 """Moving triangles: each velocity has its own Embree scene, and ray origins are shifted into its frame.
 
 embreex has no motion blur. Instead of moving an object by d, the ray's origin is moved by -d: the ray hits the same
-point of the object. A translation keeps directions (the `motion_blur` module). Static triangles are numbered first,
+point of the object. A translation preserves directions; see the module `motion_blur`. Static triangles are numbered
+first,
 then those of each mover.
 """
 

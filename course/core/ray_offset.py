@@ -1,4 +1,4 @@
-"""How far from a triangle its rays begin, so that rounding never lets a triangle block its own rays.
+"""Offsets of ray origins, so that rounding never lets a triangle occlude its own rays.
 
 Symbols as in ``course.core.triangles``.
 
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from course.core.hits import Hits
 
 OFFSET = 2.0**-19
-"""Height above a surface at which rays begin, as a share of the largest coordinate of its triangle.
+"""Height above a surface at which rays begin, as a fraction of the largest coordinate of its triangle.
 
 Hit points and Embree's test have an error of a few units in the last place (2^-24) of the triangle's coordinates.
 tests/geometry/test_surface.py measures it.
@@ -36,8 +36,8 @@ tests/geometry/test_surface.py measures it.
 TILT, SLIVER, MOST = 0.5, 8.0, 1024.0
 """The offset of a triangle with longest edge L and height H is at least OFFSET L clip(TILT (L / H - SLIVER), 0, MOST).
 
-Embree computes the normal as a cross product of edges relative to the ray's origin. If they are nearly parallel,
-rounding tilts it. The hit's error in height is about 2^-24 L^2 / H.
+Embree computes the normal as a cross product of edges relative to the ray's origin. If these edges are nearly
+parallel, rounding tilts the normal. The hit's error in height is about 2^-24 L^2 / H.
 """
 
 INSET = 2.0
@@ -51,7 +51,7 @@ it lies in front for dihedral angles down to atan(1 / INSET) = 27 degrees.
 def offset_and_inset(
     p: Floats64, lengths: Floats64, twice_area: Floats64
 ) -> tuple[Floats64, Floats64]:
-    """Offsets (T,) at which rays begin, and least barycentrics (3, T) of their origins.
+    """Offsets (T,) at which rays begin, and minimum barycentrics (3, T) of their origins.
 
     Parameters
     ----------

@@ -13,7 +13,7 @@ from course.core.samplers import Block, Sampler
 from course.core.types import Floats32, Indices, Media
 
 RAYS = 65536
-"""Most camera rays in a batch.
+"""Maximum number of camera rays in a batch.
 
 A batch shares the cost of Python among its rays: the longer each call of NumPy or Embree runs, the less time threads
 spend waiting for the interpreter's lock. On two cores with 1 MB of second-level cache each, a render took
@@ -138,7 +138,7 @@ class Draws:
         ----------
         path : (n,); None for all paths of the block, in order
         depth : number of bounces so far
-        width : number of dimensions; None for all of the name
+        width : number of dimensions; None for all that ``name`` has
         skip : number of the name's dimensions to skip
         """
         width = self.dimensions.width[name] if width is None else width

@@ -12,15 +12,16 @@ from course.core.tiles import Work, passes
 from course.core.tracer import Tracer
 
 Progress = Callable[[float, bool], None]
-"""Called with the share of the render that is done, in [0, 1], and whether every pixel has a sample."""
+"""Called with the fraction of the render that is done, in [0, 1], and with true once every pixel has a sample."""
 
 Tick = Callable[[int, int], None]
-"""Called with the number of pieces of work done, and the number of those in the first pass."""
+"""Called with the number of work items done, and with how many of them belong to the first pass."""
 
 
 Run = Callable[..., bool]
-"""Does the work of one round; returns true if all of it was done. Takes the work, and the shares of the whole render
-that are done before and after the round, 0 and 1 by default."""
+"""Does the work of one round; returns true if all of it was done. Takes the work, and the fractions of the whole
+render that are done before and after it, 0 and 1 by default.
+"""
 
 
 class Executor(ABC):
@@ -40,12 +41,12 @@ class Executor(ABC):
     @property
     @abstractmethod
     def seconds_left(self) -> float:
-        """Seconds until the deadline, after which no work begins; infinite if there is none."""
+        """Seconds until the deadline, after which no work begins; infinite without a deadline."""
 
     @property
     @abstractmethod
     def elapsed(self) -> float:
-        """Share of the time limit that has passed; 0 if there is none."""
+        """Fraction of the time limit that has passed; 0 without a limit."""
 
     @abstractmethod
     def batches(self, most: int) -> int:
@@ -64,7 +65,7 @@ class Schedule(ABC):
         """Run all rounds; returns true if the picture is complete."""
 
     def receipt(self) -> dict[str, Any]:
-        """Entries of the receipt that the schedule adds."""
+        """Entries that the schedule adds to the receipt."""
         return {}
 
 
@@ -76,7 +77,8 @@ def render(
 
     def run(work: Iterable[Work], done: float = 0.0, after: float = 1.0) -> bool:
         nonlocal covered
-        # The length of an iterator is unknown. It ends at the deadline, so progress is the share of the time limit.
+        # The length of an iterator is unknown. Such a render ends at the deadline, so its progress is the fraction of
+        # the time limit.
         pieces = first_pass = inf
         if isinstance(work, Sequence):
             pieces, first_pass = max(len(work), 1), sum(item.order == 0 for item in work)

@@ -1,10 +1,10 @@
 """Samplers: the numbers in [0, 1) that paths use, and the classic samplers: random, jittered and regular points.
 
-A block holds the same range of samples of several pixels. Path p of a block belongs to pixel p // samples, and is the
-pixel's sample first + p % samples. So an array (paths,), reshaped to (pixels, samples), has one row per pixel.
+A block holds the same range of samples of several pixels. Path p of a block is sample ``first + p % samples`` of its
+pixel ``p // samples``. So an array (paths,), reshaped to (pixels, samples), has one row per pixel.
 
-A classic sampler places its points in the pixel (dimensions 0 and 1) by the functions of `supersampling`. In the other
-dimensions it has points of the same kind, in a random order of their own. Without that, the sample in the corner of the
+A classic sampler places its points in the pixel (dimensions 0 and 1) by the functions of `supersampling`. In the
+other dimensions it has points of the same kind, shuffled independently. Without that, the sample in the corner of the
 pixel would always use the point in the corner of the light (Cook 1984, section 4.2).
 """
 

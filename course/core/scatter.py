@@ -163,7 +163,9 @@ class Scatter:
         depth: int,
         draws: Draws,
     ) -> Rays | None:
-        """Reflected rays, or refracted rays if there is a boundary, from the throughput (3, n) after the bounce."""
+        """Refracted rays if ``boundary`` is given, and else reflected rays; ``throughput`` (3, n) is that after the
+        bounce.
+        """
         which = np.flatnonzero(throughput.max(axis=0) > self.cutoff)
         if len(which) == 0:
             return None
@@ -185,7 +187,7 @@ class Scatter:
 
 
 def kept_above(direction: Floats32, ng: Floats32) -> Floats32:
-    """Mirror directions (3, n) that point below the surface, whose geometric normals are ng (3, n), to above it."""
+    """Reflect directions (3, n) that point below the surface to above it. Its geometric normals are ng (3, n)."""
     below = np.minimum(dot(direction, ng), 0)
     if not below.any():
         return direction

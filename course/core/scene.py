@@ -75,8 +75,9 @@ def plan_dimensions(
 ) -> Dimensions:
     """Dimensions of the sampler for all random numbers.
 
-    Dimensions 2 and 3 are stratified jointly with the pixel's (``course.extras.samplers.sobol``). The first of
-    lens, time, gloss and lights that a scene has gets them. Gloss comes before lights: noise is more visible in mirror
+    Dimensions 2 and 3 are stratified jointly with the pixel's (``course.extras.samplers.sobol``). They go to the
+    first of these that the scene uses: lens, time, gloss, lights. Gloss comes before lights: noise is more visible in
+    mirror
     images than in shadows.
     ``before_lights`` and ``after_lights`` are names and widths of further numbers that a bounce draws.
     """

@@ -1,4 +1,5 @@
-"""The work of a render: tiles are rectangles of pixels that are rendered at once, passes are ranges of their samples.
+"""The work of a render: a tile is a rectangle of pixels that are rendered together; a pass is a range of their
+samples.
 
 Every pass but the last has PASS samples. So the film's sums grow in the same steps, and a pass takes the same memory,
 for any number of samples per pixel. A sampler that isn't extensible has one pass.
@@ -19,7 +20,8 @@ PASS = 16
 """Samples per pixel in a whole pass of an extensible sampler."""
 
 PAGE, APART = 1024, 64
-"""In float32 values. Addresses a multiple of PAGE apart share a set of the first-level cache. Rows have sets of
+"""In float32 values. Two addresses whose distance is a multiple of PAGE map to the same set of the first-level cache.
+Rows have sets of
 their own if their length differs from every multiple of PAGE by at least APART."""
 
 
@@ -82,7 +84,8 @@ class Tile:
 def spread_over_cache(rays: int) -> bool:
     """True if the rows of a (3, rays) array start in different sets of the first-level cache.
 
-    A loop over hits reads thirty rows in parallel. With 65536 rays, all rows start in the same set, which holds eight
+    A loop over hits reads thirty rows side by side. With 65536 rays, all rows start in the same set, which holds
+    eight
     lines. The geometry of hits then took twice the time, and a whole render up to 10% more.
     """
     return bool(APART <= rays % PAGE <= PAGE - APART)
@@ -120,8 +123,8 @@ class Work:
     order : number of the pass; the film adds the passes of a tile in order
     first, samples : first sample and number of samples of each pixel
     summed : true if the pass enters the film's sums
-    parts : number of equal parts of each pixel's samples, each with its own mean
-    pixels : number of pixels in the whole tile; None if this work has them all
+    parts : number of equal groups into which the samples of each pixel are divided; each group has a mean
+    pixels : number of pixels in the whole tile; None if this work covers the whole tile
     """
 
     tile: Area

@@ -18,7 +18,7 @@ from course.core.types import Floats32
 class Tracer:
     """Renders tiles of at most ``batches`` batches of camera rays. All threads share it.
 
-    ``costs(n)`` makes the costs of n new paths (``course.adaptive.costs``); None without adaptive sampling.
+    ``costs(n)`` creates the costs of n new paths (``course.adaptive.costs``); None without adaptive sampling.
     """
 
     settings: Settings
@@ -38,10 +38,11 @@ class Tracer:
         cancelled: Callable[[], bool] = lambda: False,
         parts: int = 1,
     ) -> tuple[Floats32, Floats32 | float]:
-        """Colours (3, n * parts) and weights of a tile's n pixels; with adaptive sampling, costs are the fourth row.
+        """Colours (3, n * parts) and weights of a tile's n pixels. With adaptive sampling the colours have a fourth
+        row, costs.
 
-        Each pixel gets ``samples`` samples from number ``first`` on. They are divided into equal parts, each with its
-        own mean, in adjacent columns. Raises CancelledError soon after ``cancelled()`` becomes true.
+        Each pixel gets ``samples`` samples from number ``first`` on. They are divided into ``parts`` equal groups,
+        whose means are adjacent columns of the result. Raises CancelledError soon after ``cancelled()`` becomes true.
         """
         counters.start()
         block = Block(tile.pixel_numbers(self.settings.width), first, samples, tile.number)

@@ -5,7 +5,8 @@ The scene has already been moved and scaled to [-1, 1], in float64.
 Symbols: p0, p1, p2 corners; e1 = p1 - p0, e2 = p2 - p0; ng geometric normal; n0, n1, n2 corner normals;
 u, v barycentrics of p1 and p2, w = 1 - u - v.
 
-If a mesh has been stretched unevenly, its corner normals differ in length. They are interpolated first and normalised
+If a mesh has been scaled non-uniformly, its corner normals differ in length. They are interpolated first and
+normalised
 last, which gives the normals of the stretched surface: those of an ellipsoid if it was a sphere.
 """
 
@@ -26,7 +27,7 @@ class Mesh:
     vertices : (V, 3) float64 [m]
     triangles : (T, 3) integer, counter-clockwise seen from outside: cross(p1 - p0, p2 - p0) points outwards
     normals : (V, 3) float64 shading normals, not 0; None for flat shading. Unit vectors, unless the mesh has been
-        stretched unevenly (`course.formats.meshes.transforms.apply`)
+        scaled non-uniformly (`course.formats.meshes.transforms.apply`)
     uv : (V, 2) float64 texture coordinates or None
     """
 
@@ -52,7 +53,7 @@ class Triangles:
         shadow rays ignore the bulge
     largest_sine : sine of the largest angle between ng and a corner normal, 0 if every triangle is flat-shaded
     material : (T,) uint16 material numbers
-    parts : of each object, in the order of its triangles: number of vertices, number of triangles, true if convex
+    parts : (number of vertices, number of triangles, true if convex) of each object, in the order of the triangles
     """
 
     planes: Floats32

@@ -1,4 +1,4 @@
-"""Array types that the whole course shares, and functions of the course by name."""
+"""Array types that the whole course shares, and the type of a module's functions."""
 
 from types import SimpleNamespace
 from typing import Any

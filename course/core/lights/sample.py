@@ -10,7 +10,8 @@ from course.core.types import Floats32
 from course.core.vectors import dot
 
 TO_A_POINT, TO_A_SURFACE, TO_THE_LIGHT = 1 - 2.0**-20, 1 - 1e-4, 1 + 2.0**-15
-"""Lengths of shadow rays, as shares of the distance to the light. The first is for points that belong to no surface.
+"""Lengths of shadow rays, as fractions of the distance to the light. The first is for points that belong to no
+surface.
 The second is for visible lights: it ends short of their own triangles. The third ends behind a point light on a
 surface, so that the surface blocks it. Rounding moves a surface by 2^-16 at 1/50 of the scene's size and 60 degrees."""
 
@@ -57,7 +58,7 @@ class Light(ABC):
     @property
     @abstractmethod
     def limit(self) -> float:
-        """Length of the shadow rays as a share of the distance to the light."""
+        """Length of the shadow rays, as a fraction of the distance to the light."""
 
     @abstractmethod
     def sample(self, points: Floats32, u: Floats32 | None, towards: Towards) -> Sample:

@@ -1,4 +1,4 @@
-"""A sphere as a light: its points have an intensity, or it is a Lambertian emitter with a radiance."""
+"""A spherical light: point lights spread over the sphere, or a Lambertian emitter."""
 
 from dataclasses import dataclass
 
@@ -65,7 +65,8 @@ class SphereLight(Light):
         return on_light
 
     def _sample_emitter(self, points: Floats32, u: Floats32) -> Sample:
-        # Points on a sphere around the origin are exact normals, even if rounding moves the centre by a few radii.
+        # Points on a sphere around the origin are exact normals. Around a distant centre, rounding may move them by
+        # radii.
         from_center = self._on_light(np.zeros(3, np.float32), points, u)
         to_light = from_center + self.center[:, None]
         to_light -= points
