@@ -18,8 +18,8 @@ from course.core.vectors import dot, repeated
 
 DENSE = 0.5
 """If at least this fraction of the hits are candidates, all hits are computed. Otherwise the candidates are copied
-first. Computing all
-saved 2 to 5% of the time (medians, one thread, without Embree); any value from .2 to .8 works as well."""
+first. Computing all saved 2 to 5% of the time (medians, one thread, without Embree); any value from .2 to .8 works as
+well."""
 
 ROUNDING = 1e-4
 """Added to a float32 sine before it is compared with a float32 cosine."""

@@ -1,10 +1,8 @@
 """From samples to pixels: the filter of the module ``supersampling``, and the film with its weighted sums of radiance.
 
 Samples arrive in passes. The sums are float64, and are accumulated in a fixed order. Only the last pass can be
-partial. It is
-added to the picture, but not to the sums. A continued render repeats that pass in full, so its picture has the same
-bits as
-one that was rendered at once.
+partial. It is added to the picture, but not to the sums. A continued render repeats that pass in full, so its picture
+has the same bits as one that was rendered at once.
 """
 
 from __future__ import annotations

@@ -2,8 +2,7 @@
 
 embreex has no motion blur. Instead of moving an object by d, the ray's origin is moved by -d: the ray hits the same
 point of the object. A translation preserves directions; see the module `motion_blur`. Static triangles are numbered
-first,
-then those of each mover.
+first, then those of each mover.
 """
 
 from dataclasses import dataclass

@@ -6,8 +6,7 @@ Symbols: p0, p1, p2 corners; e1 = p1 - p0, e2 = p2 - p0; ng geometric normal; n0
 u, v barycentrics of p1 and p2, w = 1 - u - v.
 
 If a mesh has been scaled non-uniformly, its corner normals differ in length. They are interpolated first and
-normalised
-last, which gives the normals of the stretched surface: those of an ellipsoid if it was a sphere.
+normalised last, which gives the normals of the stretched surface: those of an ellipsoid if it was a sphere.
 """
 
 from dataclasses import dataclass

@@ -11,9 +11,9 @@ from course.core.vectors import dot
 
 TO_A_POINT, TO_A_SURFACE, TO_THE_LIGHT = 1 - 2.0**-20, 1 - 1e-4, 1 + 2.0**-15
 """Lengths of shadow rays, as fractions of the distance to the light. The first is for points that belong to no
-surface.
-The second is for visible lights: it ends short of their own triangles. The third ends behind a point light on a
-surface, so that the surface blocks it. Rounding moves a surface by 2^-16 at 1/50 of the scene's size and 60 degrees."""
+surface. The second is for visible lights: it ends short of their own triangles. The third ends behind a point light
+on a surface, so that the surface blocks it. Rounding moves a surface by 2^-16 at 1/50 of the scene's size and 60
+degrees."""
 
 
 @dataclass(frozen=True)
@@ -24,8 +24,8 @@ class Sample:
     ----------
     to_light : (3, n) or (3, 1) float32, from the shading point to the point on the light, not normalised
     inverse_length : (n,) or (1,) float32, 1 / its length
-    factor : (n,) or (1,) float32, irradiance on a surface at right angles to ``to_light``, without occlusion, divided
-        by the light's ``color``; 0 if the light faces away
+    factor : (n,) or (1,) float32; times ``Light.color`` it is the unoccluded irradiance / pi on a surface at right
+        angles to ``to_light``; 0 if the light faces away
     """
 
     to_light: Floats32
@@ -45,7 +45,7 @@ class Light(ABC):
     Attributes
     ----------
     name : for receipts and error messages
-    color : (3,) float32, (irradiance / pi) / ``Sample.factor``; the division by pi is that of the BRDF
+    color : (3,) float32, see ``Sample.factor``; the BRDF's division by pi is included here
     width : number of random numbers per sample, 0 for lights without extent
     velocity : (3,) float32, displacement while the shutter is open; None at rest
     """
