@@ -102,10 +102,7 @@ def render(
         _check_start(settings, start.settings)
     check_memory(settings, mode.bytes_a_pixel)
     packets = _use_compiled(settings, compiled)
-    # Corners of cells are no work that may change over: their tracer is compiled before they begin. Nor are students'
-    # functions called once more to see whether loops are ready.
-    later = packets and not compiled and address is None and settings.subdivision is None
-    later = later and scene.effects.trusted
+    later = packets and not compiled and address is None and _may_change_over(scene, settings)
     if address is not None and threads is not None:
         raise CourseError(
             "threads are for renders on this machine; the workers of a cluster have their own"
@@ -169,6 +166,15 @@ def _use_compiled(settings: Settings, wanted: bool | None) -> bool:
         return False
     rays = settings.width * settings.height * settings.samples
     return packets_available() and ("numba" in sys.modules or rays >= WORTH_COMPILED)
+
+
+def _may_change_over(scene: Scene, settings: Settings) -> bool:
+    """True if NumPy may begin and compiled loops go on.
+
+    Corners of cells are no pieces of work: their tracer is compiled before they begin. Nor are students' functions
+    called once more to see whether loops are ready.
+    """
+    return settings.subdivision is None and scene.effects.trusted
 
 
 def _receipt(

@@ -81,6 +81,7 @@ def each_form(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -
         return form if wanted is None else wanted
 
     monkeypatch.setattr(rendering, "_use_compiled", chosen)
+    monkeypatch.setattr(rendering, "_may_change_over", lambda *_: False)
     return form
 
 

@@ -38,8 +38,11 @@ def test_small_renders_do_not_wait_for_numba(
 ) -> None:
     scene = every_stage(film={"width": 8, "height": 6})
     monkeypatch.delitem(sys.modules, "numba", raising=False)
+    monkeypatch.delenv(rendering.NO_COMPILER)
     settings = scene.settings
     assert not rendering._use_compiled(settings, None)
     assert rendering._use_compiled(settings, True)
     monkeypatch.setattr(rendering, "WORTH_COMPILED", 1)
     assert rendering._use_compiled(settings, None)
+    monkeypatch.setenv(rendering.NO_COMPILER, "1")
+    assert not rendering._use_compiled(settings, None)

@@ -79,6 +79,8 @@ def test_a_wrong_reflectance_of_glass_is_told_of_the_compiled_loops(
 
     cells = refracting(substance)
     monkeypatch.setattr(scatter_kernels, "divide", wrong)
+    # The fused loop has the bits of the batches, which another test holds.
+    monkeypatch.setattr("course.compiled.engine.fits", lambda _tracer: False)
     assert failed(cells, compiled=True) == len(cells)
     assert failed(cells, compiled=False) == 0
 
