@@ -16,7 +16,7 @@ from typing import Any
 from course.core.counters import Counters
 from course.core.tiles import Tile, pass_size
 from course.core.tracer import Tracer
-from course.effects import PROJECT
+from course.effects import PACKAGE
 from course.errors import CourseError
 from course.rendering.threads import Pool
 from course.scene.scene import Scene, Settings, load_scene
@@ -31,6 +31,7 @@ MODULE = "course.rendering.later"
 """The program of the process that compiles. A user has one of them at a time."""
 
 _COMPILING: list[subprocess.Popen[bytes]] = []
+"""Kept, for Python warns of a process that runs on when its object goes."""
 
 
 class NotCompiledError(Exception):
@@ -110,15 +111,16 @@ class Later:
 
     def _compile(self) -> bool:
         """Wait for a process that compiles, at most until the picture is there; true if it has compiled all."""
-        path = os.pathsep.join([str(PROJECT), *filter(None, sys.path)])
+        path = os.pathsep.join([str(PACKAGE.parent), *filter(None, sys.path)])
         process = subprocess.Popen(
             [sys.executable, "-m", MODULE],
             stdin=subprocess.PIPE,
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
             env={**os.environ, "PYTHONPATH": path},
-            # Ctrl-C ends the picture; what is compiled is for the next one, too.
-            start_new_session=True,
+            # Ctrl-C ends the picture; what is compiled is for the next one, too. In a session of its own the process
+            # would be no guest: Linux shares processors between sessions first, and only then by niceness.
+            process_group=0,
         )
         _COMPILING.append(process)
         assert process.stdin is not None
