@@ -166,10 +166,10 @@ class _Rounds:
         film, error = self._film, self._error
         while (passed := _passed(film.error / error)) > self._audits:
             self._audits = passed
-            self._audit(*AUDITED[passed - 1])
+            self._audit(AUDITED[passed - 1][1])
         return film.error <= error
 
-    def _audit(self, _level: float, share: float) -> None:
+    def _audit(self, share: float) -> None:
         """Correct the film's error by an audit, where it is worth one and paid for."""
         film, groups, number = self._film, self._groups, self._audits - 1
         sample = draw(film, number, share)

@@ -90,7 +90,7 @@ effects_option = click.option(
     "--effects",
     help="Whose functions to call: solutions, assignments, a folder of modules, or mine: the assignments, with the"
     " solutions where a function is not written."
-    "  [default: solutions, or assignments where there are none]",
+    "  [default: mine in a folder of `course start`, else solutions, or assignments where there are none]",
 )
 
 

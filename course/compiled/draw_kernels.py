@@ -1,4 +1,4 @@
-"""Sobol numbers of some paths, compiled by Numba; imported by ``course.compiled.draws``, when it is used."""
+"""Sobol numbers of some paths, compiled by Numba; imported by ``course.compiled.stages``."""
 
 from __future__ import annotations
 

@@ -13,10 +13,9 @@ from math import fsum
 from pathlib import Path
 from typing import Any
 
-from jinja2 import Environment, PackageLoader, StrictUndefined
-
 from course.grading.catalog import module_checks, with_whole
 from course.grading.release.archive import project_files, reference_file
+from course.grading.release.folder import from_template
 from course.modules import COURSE
 
 FOLDERS = {"course": {".py", ".typed", ".json", ".jinja"}, "solutions": {".py"}}
@@ -144,13 +143,6 @@ def _grader(project: Path, seed: int, modules: Sequence[str]) -> dict[str, bytes
 
 def _renderer(seed: int, modules: Sequence[str], *, trusted: bool = False, **values: Any) -> Any:
     """A function that makes a file of its template's name."""
-    environment = Environment(
-        loader=PackageLoader("course.grading.classes"),
-        undefined=StrictUndefined,
-        keep_trailing_newline=True,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
     values |= {"seed": seed, "modules": ",".join(modules), "home": HOME, "references": REFERENCES}
     values["trusted"] = " --trust-submissions" if trusted else ""
-    return lambda name: environment.get_template(f"{name}.jinja").render(values).encode()
+    return lambda name: from_template("course.grading.classes", name, values)

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
@@ -25,6 +27,18 @@ OF_A_COPY = {"Makefile": "Makefile", "tests/test_copy.py": "test_copy.py"}
 """In a student's copy, which holds the course itself."""
 
 
+def from_template(package: str, name: str, values: Mapping[str, Any]) -> bytes:
+    """A file of that name from its template in a package; its lines are the template's, without those of blocks."""
+    environment = Environment(
+        loader=PackageLoader(package),
+        undefined=StrictUndefined,
+        keep_trailing_newline=True,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    return environment.get_template(f"{name}.jinja").render(values).encode()
+
+
 def made_contents(solutions: Path, *, copy: bool, instructor: bool = False) -> dict[str, bytes]:
     """Path -> content of the files that are made anew for each folder.
 
@@ -33,16 +47,9 @@ def made_contents(solutions: Path, *, copy: bool, instructor: bool = False) -> d
     copy : true for a student's copy, which holds the course; false for a folder beside an installed course
     instructor : true where the README tells how to grade
     """
-    environment = Environment(
-        loader=PackageLoader("course.grading.release"),
-        undefined=StrictUndefined,
-        keep_trailing_newline=True,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
     values = {"copy": copy, "instructor": instructor, "version": __version__, "modules": COURSE}
     contents = {
-        name: environment.get_template(f"{template}.jinja").render(values).encode()
+        name: from_template("course.grading.release", template, values)
         for name, template in (TEMPLATES | (OF_A_COPY if copy else {})).items()
     }
     stubs = {f"assignments/{stub.module}.py": stub.text.encode() for stub in make_stubs(solutions)}
