@@ -19,9 +19,12 @@ if TYPE_CHECKING:
     from course.recording.story import Line
 
 
+_PLACE = r"([0-9]{1,5}),([0-9]{1,5})(?:,([1-9][0-9]{0,4})[xX]([1-9][0-9]{0,4}))?"
+
+
 def _place(_ctx: click.Context, _option: click.Parameter, text: str) -> tuple[int, int, int, int]:
     """Return column, row, width and height in pixels from X,Y or X,Y,WIDTHxHEIGHT."""
-    match = re.fullmatch(r"([0-9]{1,5}),([0-9]{1,5})(?:,([0-9]{1,5})[xX]([0-9]{1,5}))?", text)
+    match = re.fullmatch(_PLACE, text)
     if match is None:
         raise click.BadParameter(
             f"{text!r} is not a pixel: expected X,Y, counted from the upper left corner, such as 120,80,"

@@ -176,6 +176,7 @@ def test_json_has_every_segment(scene_file: Path) -> None:
 @pytest.mark.parametrize(
     ("arguments", "code", "told"),
     [
+        (["16,2,0x5"], 2, "'16,2,0x5' is not a pixel: expected X,Y"),
         (["16"], 2, "'16' is not a pixel: expected X,Y, counted from the upper left corner"),
         (["40,3"], 1, "pixel 40,3 is outside the picture: expected x from 0 to 31 and y from 0"),
         (["1,1", "--effects", "nowhere"], 1, "no folder nowhere with effect functions"),
