@@ -5,8 +5,6 @@ the cell is divided into four, and each child is looked at in the same way. Corn
 most of a child's rays have been cast already; smooth pixels stay at four rays, and edges get many.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 

@@ -5,8 +5,6 @@ too flat an angle. Smooth glass bends each ray in one direction. Frosted glass s
 direction, so what is behind it is blurred, the more so the farther behind it is.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 

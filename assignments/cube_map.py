@@ -5,8 +5,6 @@ matters. Six square pictures around the origin, each of a quarter turn, hold eve
 through the face of its largest component, and the other two components say where on the face.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 

@@ -5,8 +5,6 @@ whole lobe around that direction, so what they reflect is blurred, the more so t
 one random direction of the lobe; the average over a pixel's rays is the blur.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 

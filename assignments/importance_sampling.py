@@ -5,8 +5,6 @@ isn't zero. The closer pdf follows f, the less f / pdf varies, and the less nois
 two are proportional. Directions are about the axis +z; cos is the cosine of the angle to it.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 

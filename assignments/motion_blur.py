@@ -5,8 +5,6 @@ moment of that while and sees the scene as it stands then; the average over a pi
 that moves need not be moved for that: seen from the object itself, it is the ray that starts somewhere else.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 

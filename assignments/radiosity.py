@@ -6,8 +6,6 @@ the share of the light that leaves patch i and reaches patch j. A hemicube over 
 is seen through one of its cells has the form factor of that cell.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 

@@ -6,8 +6,6 @@ square. Where the points lie decides whether the error shows as staircases, as n
 Points are (2, n, s): axis 0 is x and y within the pixel in [0, 1), then the n pixels, then the s samples of each.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 

@@ -5,8 +5,6 @@ places, and brings it together again only where the point lies on the plane in f
 disk, its circle of confusion. So each ray starts at a random place on the lens, and goes through the point in focus.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 

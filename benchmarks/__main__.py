@@ -4,8 +4,6 @@ Nearly every figure is a ratio within this run: absolute times mean little from 
 next. Nothing here decides a test.
 """
 
-from __future__ import annotations
-
 import compileall
 import json
 import os

@@ -4,8 +4,6 @@ Rays are counted, not timed. Uniform pictures give the error over rays; the adap
 same reference, says how many rays uniform sampling would have needed for it.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -5,8 +5,6 @@ Sobol points; their errors against a converged picture say how many rays they wo
 leaves. Once for the scene as it is, whose wires pass between corners unseen, and once without its wires.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass

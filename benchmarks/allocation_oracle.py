@@ -10,8 +10,6 @@ what it needs for the error that was asked for. Samples are counted, and what th
 places them by cost.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

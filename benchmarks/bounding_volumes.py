@@ -4,8 +4,6 @@ Counts are those of the student module's own walk, for rays from all around a kn
 here, as it is with OpenMP: an executor, and a ``map`` over parts of the batch.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """How fast the error of a penumbra falls with the number of samples, for Sobol points and for random ones."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from benchmarks.engine import SCENES

@@ -3,8 +3,6 @@
 Also what their keys cost where they do nothing, and a picture of the kind that lectures quote a time for.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from benchmarks.figures import Figure, summary

@@ -1,7 +1,5 @@
 """Errors of estimates of a known mean: over the number of points, with the fitted order and the time of an estimate."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from time import perf_counter

@@ -3,8 +3,6 @@
 docs/data/ratios.json holds every part's figures and the machine that they were measured on.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass

@@ -1,7 +1,5 @@
 """What grading costs: one submission, a class, and the pipe between the grader and its workers."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 import tempfile

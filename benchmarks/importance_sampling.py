@@ -6,8 +6,6 @@ weighted by the power heuristic, it beats both. Variances are predicted from the
 `out/bench/importance_sampling_cube.svg` and `importance_sampling_highlight.svg` show densities beside errors.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass

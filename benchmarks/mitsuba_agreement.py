@@ -5,8 +5,6 @@ without assuming anything. Two pictures are compared by the means of blocks of p
 channel. In a right pair about 1 block in 10^4 lies beyond 4.5, with 32 batches in all.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path

@@ -5,8 +5,6 @@ of it; only the triangles of named shapes come from our code. So a mistake in ho
 material shows as a difference between the two pictures.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Set
 from dataclasses import asdict, dataclass, field

@@ -9,8 +9,6 @@ A scene that moves is one Mitsuba scene for each velocity, and rays are shifted 
 Symbols as in ``course.core``: ng, ns geometric and shading normals on the incoming side.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

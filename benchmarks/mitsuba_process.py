@@ -3,8 +3,6 @@
 ``python -m benchmarks.mitsuba_process FOLDER llvm|scalar own|native SAMPLER SAMPLES THREADS OUT.exr``
 """
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 

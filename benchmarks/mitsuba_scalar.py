@@ -8,8 +8,6 @@ Ambient light is emission of the surfaces, with sampling weight 0 so that nobody
 a light is an emitter like others, on a mesh of its own.
 """
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 from typing import Any

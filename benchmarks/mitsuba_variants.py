@@ -1,7 +1,5 @@
 """Mitsuba's variants, LLVM and scalar, of which a process has one switched on; sensors by Mitsuba's samplers."""
 
-from __future__ import annotations
-
 import os
 import re
 from pathlib import Path

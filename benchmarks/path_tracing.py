@@ -6,8 +6,6 @@ LLVM variant where there is an LLVM, else its scalar one. Errors over samples an
 and of Russian roulette from different depths on.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path

@@ -5,8 +5,6 @@ each case with the machine and the effort that it belongs to, and measuring one 
 Tables and plots are made of that file alone.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass
 from pathlib import Path

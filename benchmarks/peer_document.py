@@ -1,7 +1,5 @@
 """The tables of docs/peers.md, made of all cases that docs/data/peers.json keeps."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 

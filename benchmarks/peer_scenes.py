@@ -1,7 +1,5 @@
 """Where the scenes of ``python -m benchmarks.peers`` are, and the meshes of one that has no named shape."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -9,8 +9,6 @@ of whole processes.
 docs/peers.md says what the forms "llvm" and "scalar" are. Needs `pip install .[peers]`, and LLVM 17 for the former.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import subprocess

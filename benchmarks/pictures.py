@@ -9,8 +9,6 @@ Two kinds of processors may round differently in NumPy's or Embree's vector code
 compared on none else: record the state before a change first, then compare the state after it.
 """
 
-from __future__ import annotations
-
 import json
 import sys
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """Whole processes: start-up time of a tiny scene, and peak memory of a large picture."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 import tempfile

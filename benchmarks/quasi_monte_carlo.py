@@ -7,8 +7,6 @@ modulo 1 in each dimension; Sobol's are the renderer's own, scrambled. In six di
 pair by pair, the pairs in random order. Times are of one estimate: points and mean.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -6,8 +6,6 @@ after 0, 1, 32 and 320 iterations of gathering, and under them after 1, 32 and 3
 compared with a picture of traced paths, channel by channel: by its mean, and by the means of squares of pixels.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from time import perf_counter

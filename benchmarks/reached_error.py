@@ -5,8 +5,6 @@ reached is measured against a converged picture, whose own error is taken off in
 and bright: caustics of a small lamp, a lamp that paths find by chance, lights that few directions of a sky hold.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """What a module's benchmark shows: tables, figures and sheets for lectures, and data for the site's plots."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from importlib.util import find_spec
 from pathlib import Path

@@ -6,8 +6,6 @@ angle uniform. `out/bench/data/sampling.json` has the error of a mean over the d
 polar warp of random, jittered and Sobol numbers: a warp carries evenness over, and rejection destroys it.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -9,8 +9,6 @@ What most programs need is here; each name is imported when it is first asked fo
     picture.save("NAME.png")
 """
 
-from __future__ import annotations
-
 from importlib import import_module
 from typing import TYPE_CHECKING
 

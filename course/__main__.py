@@ -1,7 +1,5 @@
 """`python -m course` is the command `course`."""
 
-from __future__ import annotations
-
 from course.cli.main import main
 
 if __name__ == "__main__":

@@ -4,8 +4,6 @@ What is written goes to a hidden file in the same folder, which then takes the n
 the file system; after a failure, or Ctrl-C, neither remains.
 """
 
-from __future__ import annotations
-
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager

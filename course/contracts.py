@@ -10,8 +10,6 @@ finite where nothing is said; ``unit`` for directions of length 1, ``infinite`` 
 or ``bool``, or the very dtype that the checks ask for. To the renderer a dtype is floating, or whole.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cache, cached_property

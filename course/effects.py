@@ -4,8 +4,6 @@ An ``Effects`` object is made once, passed down to whoever calls a function, and
 function of it is asked for. A scene that doesn't use an effect never imports its module.
 """
 
-from __future__ import annotations
-
 import ast
 import os
 import sys

@@ -1,7 +1,5 @@
 """Errors that are the input's fault: shown as one message that names the place and the remedy."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 
@@ -39,7 +37,7 @@ class FunctionError(EffectError):
     def __str__(self) -> str:
         return str(self.args[0])
 
-    def asked_by(self, where: str, keys: Iterable[str | int]) -> FunctionError:
+    def asked_by(self, where: str, keys: Iterable[str | int]) -> "FunctionError":
         """The same with the place of the scene that makes the function necessary: file and line, and the key path."""
         place = f"{where}: {'.'.join(map(str, keys))} asks for it"
         return FunctionError(f"{self}; {place}", self.function)

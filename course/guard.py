@@ -3,8 +3,6 @@
 Functions of the course's own solutions are held against the same contracts by tests, and are called as they are.
 """
 
-from __future__ import annotations
-
 import linecache
 import os
 import traceback

@@ -4,8 +4,6 @@ A pipe might never begin and a device never end. So nothing is read before the f
 its name, has been looked at, and never more than the bound of its kind.
 """
 
-from __future__ import annotations
-
 import errno
 import os
 import stat

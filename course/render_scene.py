@@ -1,7 +1,5 @@
 """Render a scene to a picture: choose a film, a schedule and an executor for what was asked for."""
 
-from __future__ import annotations
-
 import os
 import sys
 from contextlib import ExitStack, closing

@@ -5,8 +5,6 @@ to the root, whose box holds all; a ray goes down only into boxes that it meets.
 tested with a handful. Embree, which the renderer stands on, does the same, with more cunning and for one machine.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 

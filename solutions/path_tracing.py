@@ -5,8 +5,6 @@ rays, and the path goes on in a random direction with the share of the light tha
 beta. Many paths a pixel estimate the whole of the light, however often it was reflected.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 

@@ -5,8 +5,6 @@ errors fall with nearly 1 / N instead of 1 / sqrt(N). A ray needs such points se
 light, the time and the gloss; chaining gives each effect a pattern made beforehand, without tying one to another.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 

@@ -5,8 +5,6 @@ it needs no formula, but no one knows how many numbers it will take. A polar war
 to know how area or volume grows with the radius.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 

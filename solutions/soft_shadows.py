@@ -5,8 +5,6 @@ share that is seen makes the penumbra. Either the light becomes many point light
 asks for one random place on it and the average does the rest (method 2).
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 

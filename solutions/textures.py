@@ -4,8 +4,6 @@ A picture has two coordinates, u to the right and v upwards, each from 0 to 1. T
 point of the surface its u and v: to parametrise it. The colour there lies between texels, and is mixed from four.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 

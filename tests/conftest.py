@@ -1,7 +1,5 @@
 """Scenes said in a line, and the rays that a camera should cast, worked out apart from the engine in float64."""
 
-from __future__ import annotations
-
 import gc
 import json
 import os

@@ -1,7 +1,5 @@
 """A real Dask scheduler and its workers, each a process of its own on this machine."""
 
-from __future__ import annotations
-
 import json
 import os
 import subprocess

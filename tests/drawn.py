@@ -1,7 +1,5 @@
 """Which numbers the paths of a scene draw."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from typing import Any
 

@@ -1,7 +1,5 @@
 """What takes long to make and is the same for every test: one process of a run makes it, the others wait for it."""
 
-from __future__ import annotations
-
 import os
 import time
 from collections.abc import Callable

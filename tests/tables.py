@@ -1,7 +1,5 @@
 """Tables of mistakes, one a line: `OLD -> NEW | MESSAGE`; a row goes on in lines that are indented by four blanks."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import yaml

@@ -1,7 +1,5 @@
 """The core can be read: its size, whom it imports, and where it calls the functions of the course."""
 
-from __future__ import annotations
-
 import ast
 import json
 import re

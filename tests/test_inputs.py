@@ -1,7 +1,5 @@
 """Whatever a name leads to that is no regular file of a fair size is refused at once, in one line, by every reader."""
 
-from __future__ import annotations
-
 import errno
 import os
 import re

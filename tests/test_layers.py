@@ -1,7 +1,5 @@
 """Imports in course/ run downwards only; read from the source, so that no import can hide."""
 
-from __future__ import annotations
-
 import ast
 import sys
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """What is made once is made by one of several that ask, and all of them have it whole."""
 
-from __future__ import annotations
-
 import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path

@@ -1,7 +1,5 @@
 """What `from course import ...` gives, and what it costs."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from importlib.metadata import version

@@ -1,7 +1,5 @@
 """`make quick` runs something of every folder of tests, and all that it names is there."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 ROOT = Path(__file__).parents[1]

@@ -4,8 +4,6 @@ Each module but radiosity has a pair of scenes, scenes/NAME.yaml and scenes/befo
 nothing but the effect, so that whoever compares the two pictures sees the effect and nothing else.
 """
 
-from __future__ import annotations
-
 import json
 import re
 import subprocess

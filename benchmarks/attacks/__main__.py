@@ -1,7 +1,5 @@
 """`python -m benchmarks.attacks`: all attacks behind all walls, as root and as another user; what held is written."""
 
-from __future__ import annotations
-
 import json
 import sys
 from pathlib import Path

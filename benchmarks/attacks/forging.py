@@ -4,8 +4,6 @@ Each is the body of a function that is wrong, and lines before it; it gains if i
 itself, or if a check ends in an error of the grader.
 """
 
-from __future__ import annotations
-
 from textwrap import dedent, indent
 
 from course.effects import PROJECT

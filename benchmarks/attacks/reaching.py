@@ -5,8 +5,6 @@ Each is the body of a function of the submission. It gains if what it returns ho
 read, or begins with DONE: that it has done what it must not. Apart from that, the stage is looked at afterwards.
 """
 
-from __future__ import annotations
-
 MANY_THREADS = "more threads than a worker may have"
 
 PRELUDE = '''

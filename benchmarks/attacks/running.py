@@ -1,7 +1,5 @@
 """All attacks behind one wall, in a process of its own that may be another user's."""
 
-from __future__ import annotations
-
 import json
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """What attacks may reach for, set up on this machine, and what has become of it after each."""
 
-from __future__ import annotations
-
 import contextlib
 import hashlib
 import json
@@ -39,7 +37,7 @@ class Stage:
         self._files = contextlib.ExitStack()
         self._victim: subprocess.Popen[bytes] | None = None
 
-    def __enter__(self) -> Stage:
+    def __enter__(self) -> "Stage":
         # In a folder that only its owner may enter: what a worker with a user of its own relies on.
         self._root = self._folder()
         self._open = self._folder()

@@ -1,7 +1,5 @@
 """The walls that this machine has, and how to start a grader as root or as another user."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import subprocess

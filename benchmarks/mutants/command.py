@@ -9,8 +9,6 @@ estimates how often a right submission fails by chance: the statistical checks a
 with a table of the modules.
 """
 
-from __future__ import annotations
-
 import json
 import sys
 import tempfile

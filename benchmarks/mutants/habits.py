@@ -3,8 +3,6 @@
 Each habit takes a right function and gives another that is as right. None may lose a point, whatever the seed.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import partial
 from typing import Any

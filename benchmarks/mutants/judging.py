@@ -1,7 +1,5 @@
 """The kill matrix: every known wrong submission fails at the check meant for it, every right one earns full marks."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 

@@ -5,8 +5,6 @@ the numbers u may be used in any way, by the distribution of features. Where man
 that builds a tree, nothing is said.
 """
 
-from __future__ import annotations
-
 from copy import deepcopy
 from typing import Any
 

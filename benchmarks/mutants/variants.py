@@ -4,8 +4,6 @@ Where rows and senses of u are free, and where the axes of a result are, a right
 exchanged; so a wrong one stays as wrong, and has to be caught and named as before.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import replace
 

@@ -4,8 +4,6 @@ What no check varies, no check can find wrong. The arguments of all calls that t
 the checks meant by them.
 """
 
-from __future__ import annotations
-
 from collections import defaultdict
 from collections.abc import Iterator
 from dataclasses import dataclass, field

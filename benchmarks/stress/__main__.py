@@ -1,7 +1,5 @@
 """`make stress`: judge all cells, print what was found, and fail if one is broken."""
 
-from __future__ import annotations
-
 import json
 import sys
 from pathlib import Path

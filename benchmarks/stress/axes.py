@@ -8,8 +8,6 @@ triangles add a ``thin_shift``, but only where they are, on a share of the surfa
 Symbols: U = 2^-24, the rounding of float32; OFFSET, SLIVER, TILT, MOST as in ``course.core.ray_offset``.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

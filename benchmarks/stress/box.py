@@ -5,8 +5,6 @@ c (d + 1). A ray that gets out brings a thousand instead, and so does a shadow r
 walls meet at an acute angle.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

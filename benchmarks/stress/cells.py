@@ -4,8 +4,6 @@ Every pair of levels of any two axes of a stage meets in at least one cell, unle
 The rows are chosen greedily: of some random ones, the one that covers the most new pairs.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -75,11 +73,11 @@ class Cell:
         """Names of the levels that the twin shares; cells of one family have one twin."""
         return tuple(each.name for axis, each in self.levels.items() if axis not in OUTER)
 
-    def with_level(self, axis: str, name: str) -> Cell:
+    def with_level(self, axis: str, name: str) -> "Cell":
         """The same but for one level."""
         return replace(self, levels=self.levels | {axis: level(axis, name)})
 
-    def twin(self) -> Cell:
+    def twin(self) -> "Cell":
         """Its well-conditioned twin."""
         twins = {axis: Level(each.name, each.twin, each.twin) for axis, each in self.levels.items()}
         return Cell(f"{self.name}-twin", self.stage, twins)
@@ -256,7 +254,7 @@ def _rooms(families: int, members: int) -> list[Row]:
 def _covering(
     stage: str,
     axes: Sequence[str],
-    decks: list[_Deck],
+    decks: "list[_Deck]",
     propose: Callable[[int], Row],
     least: int,
     most: int = 10**6,

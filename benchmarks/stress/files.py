@@ -1,7 +1,5 @@
 """Scenes of the suite as files, rendered; and where the unit scene is put: turned, scaled by k, moved."""
 
-from __future__ import annotations
-
 import json
 import warnings
 from dataclasses import dataclass, field
@@ -104,7 +102,7 @@ class SceneFiles:
     texts: dict[str, str] = field(default_factory=dict)
     pictures: dict[str, NDArray[np.float32]] = field(default_factory=dict)
 
-    def with_(self, **parts: Any) -> SceneFiles:
+    def with_(self, **parts: Any) -> "SceneFiles":
         """The same files with some of the description replaced."""
         return SceneFiles(self.description | parts, self.texts, self.pictures)
 

@@ -13,8 +13,6 @@ reflectance. r of glass is Fresnel's in the form by the two angles (Born and Wol
 index (14.2); the renderer has neither form.
 """
 
-from __future__ import annotations
-
 import cmath
 import math
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """What all stages have in common: film and sampler, lens, gloss, and the light."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

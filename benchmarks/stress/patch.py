@@ -5,8 +5,6 @@ and the ambient light La and the material's colour c and mirror m it is c (La + 
 itself, and a ray that meets the patch again or misses it, shows something else.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -10,8 +10,6 @@ f(+h), f(0), f(-h):
 The camera is moved, too, in as many directions; next to a surface by less than h. That counts for the steepness alone.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from functools import partial

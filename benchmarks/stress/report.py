@@ -1,7 +1,5 @@
 """What the verdicts on all cells show: rows on the screen, and the page in the documentation."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path

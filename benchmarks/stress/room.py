@@ -3,8 +3,6 @@
 In the unit scene the room fills [-1, 1] x [0, 1.2] x [-1, 1], y up; the camera looks in from +z.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

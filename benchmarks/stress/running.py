@@ -1,7 +1,5 @@
 """Cells judged in processes, and failed cells made as tame as they may be while they fail."""
 
-from __future__ import annotations
-
 import multiprocessing
 import tempfile
 from collections.abc import Callable, Iterable, Iterator, Sequence

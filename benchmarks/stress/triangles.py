@@ -1,7 +1,5 @@
 """One square [-1, 1]^2 cut into triangles in many ways, good ones and bad ones."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -19,8 +19,6 @@ For patch, box and optics the radiance is a closed form, and the bound is roundi
 own, and shares nothing with the renderer.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import asdict, dataclass, field
 from pathlib import Path

@@ -8,8 +8,6 @@ Costs differ: a sample of the sky is one ray, one of a mirror or of glass may be
 as the others, looking at it gains nothing.
 """
 
-from __future__ import annotations
-
 import math
 import sys
 

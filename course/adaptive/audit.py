@@ -16,8 +16,6 @@ of B, on which nothing was decided, tell of B. By what both are wrong, as the po
 that B alone has found, which is in the sum and in the estimate of B.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -4,8 +4,6 @@ The lattice is that of the smallest cells. A corner's number counts its points r
 through it draws at random depends on that number alone.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

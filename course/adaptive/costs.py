@@ -4,8 +4,6 @@ Adaptive sampling takes fewer samples where a sample costs more (``course.adapti
 they differ from run to run, and pictures mustn't.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from course.core.types import Floats32, Indices
@@ -32,7 +30,7 @@ class RowOfCosts:
         self.row = row
 
     @classmethod
-    def of(cls, paths: int) -> RowOfCosts:
+    def of(cls, paths: int) -> "RowOfCosts":
         """The costs of camera rays, one per path."""
         return cls(np.ones(paths, np.float32))
 
@@ -45,7 +43,7 @@ class RowOfCosts:
         else:
             np.add.at(self.row, path, np.float32(cost))
 
-    def part(self, paths: slice) -> RowOfCosts:
+    def part(self, paths: slice) -> "RowOfCosts":
         """The costs of some of the paths."""
         return RowOfCosts(self.row[paths])
 

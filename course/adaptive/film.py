@@ -1,7 +1,5 @@
 """A film whose pixels have different numbers of samples, and which knows about how wrong each of them still is."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Pixels from anywhere in the picture that are rendered at once, for renders that don't treat all pixels alike."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -4,8 +4,6 @@ All pixels get the same few samples first. After each round the film's estimates
 many (``allocation``). The film alone decides, between the rounds, so the picture doesn't depend on the threads.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Protocol
 
@@ -70,7 +68,7 @@ class Run(Protocol):
 
 
 def render_adaptively(
-    film: AdaptiveFilm, error: float, budget: int, groups: Groups, run: Run, first: int = FIRST
+    film: AdaptiveFilm, error: float, budget: int, groups: "Groups", run: Run, first: int = FIRST
 ) -> bool:
     """Add samples until the film's estimated error is at most ``error``; whether that was reached, or the budget spent.
 
@@ -95,7 +93,7 @@ class _Rounds:
     """The rounds of one render; parameters as in ``render_adaptively``."""
 
     def __init__(
-        self, film: AdaptiveFilm, error: float, budget: int, groups: Groups, run: Run
+        self, film: AdaptiveFilm, error: float, budget: int, groups: "Groups", run: Run
     ) -> None:
         self._film, self._error, self._budget = film, error, budget
         self._groups, self._run = groups, run

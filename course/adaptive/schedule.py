@@ -1,7 +1,5 @@
 """The mode that samples until the picture's error is small enough (``course.adaptive.rounds``)."""
 
-from __future__ import annotations
-
 from math import inf, isfinite
 from typing import Any
 

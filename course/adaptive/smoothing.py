@@ -4,8 +4,6 @@ An estimate from a handful of samples is wrong by its own size: a pixel that hap
 finished. Its neighbours know better, unless an edge lies between.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from course.core.types import Floats32, Numbers

@@ -6,8 +6,6 @@ mean of its cells' corners, weighted by the cells' areas. Decisions are made bet
 picture doesn't depend on the threads.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -43,7 +41,7 @@ class Cells:
     sides: Floats32
     pixel: Indices
 
-    def chosen(self, which: Mask) -> Cells:
+    def chosen(self, which: Mask) -> "Cells":
         """Those of a mask (n,)."""
         return Cells(self.sides[:, which], self.pixel[which])
 

@@ -11,8 +11,6 @@ from the picture itself, and what follows from it for two parts of n and m sampl
     E (A - B)^2 = V(n) + V(m) - 2 C                     what is seen
 """
 
-from __future__ import annotations
-
 import math
 
 INDEPENDENT = 0.5

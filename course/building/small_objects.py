@@ -1,7 +1,5 @@
 """Small objects and lamps beside huge objects: where the scene's origin has to be, and what float32 can't hold."""
 
-from __future__ import annotations
-
 import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -48,7 +46,7 @@ class Extents:
     boxes: Floats64
     sizes: Floats64
 
-    def __add__(self, others: Extents) -> Extents:
+    def __add__(self, others: "Extents") -> "Extents":
         boxes, sizes = (self.boxes, others.boxes), (self.sizes, others.sizes)
         return Extents(np.concatenate(boxes), np.concatenate(sizes))
 

@@ -1,7 +1,5 @@
 """`course bundle`: the autograder as other systems take it."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path

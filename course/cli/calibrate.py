@@ -1,7 +1,5 @@
 """`course calibrate`: SSIM tolerances from the known submissions."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import click

@@ -1,7 +1,5 @@
 """`course convert SCENE.xml -o SCENE.yaml`: scenes of METU's ray tracing courses as scenes of this one."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import click

@@ -1,7 +1,5 @@
 """`course demo`: render scenes one after the other, and make one HTML page that holds and shows all of them."""
 
-from __future__ import annotations
-
 from base64 import b64encode
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

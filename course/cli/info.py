@@ -1,7 +1,5 @@
 """`course info SCENE`: what a scene holds, and what rendering it will ask for."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import click

@@ -4,8 +4,6 @@ Exit codes: 0 done, 1 refused (a mistake in the input, told in one message), 2 w
 3 a check that found something wrong, 130 interrupted by Ctrl-C. `compare` has those of `diff`: 0, 1 different, 2.
 """
 
-from __future__ import annotations
-
 import errno
 import sys
 import warnings

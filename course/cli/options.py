@@ -4,8 +4,6 @@ Each function is the `callback` of an option: it gets the text and returns the v
 what was expected. An option that was not given stays None; where no modules are given, all are meant.
 """
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Callable

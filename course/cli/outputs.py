@@ -5,8 +5,6 @@ pen. A folder is made only where a command is asked to fill one, as by `demo --o
 are one file, and none is the file that is read.
 """
 
-from __future__ import annotations
-
 import os
 from collections.abc import Sequence
 from itertools import combinations

@@ -1,7 +1,5 @@
 """`course references`: the arrays that a copy without solutions needs."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import click

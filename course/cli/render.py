@@ -1,7 +1,5 @@
 """`course render SCENE`: a scene file in, a picture out."""
 
-from __future__ import annotations
-
 import json
 import sys
 from pathlib import Path

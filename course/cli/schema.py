@@ -1,7 +1,5 @@
 """`course schema`: the JSON schema of scene files, for editors that complete and check them."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """`course start`: a folder to work in, beside an installed course."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import click

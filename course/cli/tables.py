@@ -1,7 +1,5 @@
 """Tables of named values in sections: rich's on a terminal, aligned plain text elsewhere."""
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any

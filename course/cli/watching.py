@@ -1,7 +1,5 @@
 """Do something again whenever one of some files is saved."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Iterable
 from pathlib import Path

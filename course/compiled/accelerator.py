@@ -1,7 +1,5 @@
 """Embree asked for sixteen rays at a time, and the boxes of convex objects before it."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from time import perf_counter
@@ -53,7 +51,7 @@ class SceneTables:
     @classmethod
     def of(
         cls, static: PacketScene | None, movers: Sequence[tuple[PacketScene, Floats32]]
-    ) -> SceneTables:
+    ) -> "SceneTables":
         """Tables of scenes, of the movers with their velocities."""
         scenes = [0 if static is None else static.scene, *(scene.scene for scene, _ in movers)]
         velocity = np.zeros((len(movers), 3), np.float32)

@@ -3,8 +3,6 @@
 See ``course.core.scatter`` and ``course.core.gloss``; the functions of ``glossy`` keep their order of arithmetic here.
 """
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

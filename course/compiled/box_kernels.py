@@ -1,7 +1,5 @@
 """Loops over rays and boxes, compiled by Numba; imported where they are used, and only then."""
 
-from __future__ import annotations
-
 import numpy as np
 from numba import njit, types
 

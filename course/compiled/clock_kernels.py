@@ -1,7 +1,5 @@
 """The clock, for compiled loops."""
 
-from __future__ import annotations
-
 import sys
 
 from numba import njit, types

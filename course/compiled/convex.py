@@ -8,8 +8,6 @@ This pays where objects are few and stand apart, so it is estimated first how ma
 looked at one by one, so compiled loops alone do it; the answers are the same without.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Radiance of one direction in a cube map, compiled by Numba; the functions of ``cube_map``, in their order."""
 
-from __future__ import annotations
-
 import numpy as np
 from numba import njit
 

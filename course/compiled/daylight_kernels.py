@@ -3,8 +3,6 @@
 It does what ``course.extras.sky`` and ``ProductSampling.sample`` do, in the same order and so to the same bits.
 """
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """Direct light by loops over hits."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any

@@ -1,7 +1,5 @@
 """Which hits a light may reach, compiled by Numba; imported by ``course.compiled.direct``, when it is used."""
 
-from __future__ import annotations
-
 import numpy as np
 from numba import njit, types
 

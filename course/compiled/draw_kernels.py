@@ -1,7 +1,5 @@
 """Sobol numbers of some paths, compiled by Numba; imported by ``course.compiled.stages``."""
 
-from __future__ import annotations
-
 import numpy as np
 from numba import njit, types
 

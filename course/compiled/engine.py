@@ -1,7 +1,5 @@
 """Compiled loops in the place of a tracer's stages: the fused loop where it knows all that a scene uses."""
 
-from __future__ import annotations
-
 from course.compiled.fused import fits, fused
 from course.core.tracer import Tracer
 

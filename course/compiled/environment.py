@@ -1,7 +1,5 @@
 """Cube maps looked up by a loop, in the place of the course's own functions and of no others."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

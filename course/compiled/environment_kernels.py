@@ -1,7 +1,5 @@
 """Looking up a cube map, compiled by Numba; imported by ``course.compiled.environment``, when it is used."""
 
-from __future__ import annotations
-
 import numpy as np
 from numba import njit, types
 

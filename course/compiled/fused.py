@@ -1,7 +1,5 @@
 """Which scenes the fused loop can follow, and what it is handed for them."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -156,7 +154,7 @@ def _fits_lobe(lobe: Lobe) -> bool:
     return all(map(courses_own, functions))
 
 
-def fused(tracer: Tracer) -> FusedTracer:
+def fused(tracer: Tracer) -> "FusedTracer":
     """The tracer with the fused loop, of a scene that ``fits``."""
     integrator, surface = tracer.integrator, tracer.integrator.surface
     packets = in_packets(surface.accelerator, surface.triangles.parts)

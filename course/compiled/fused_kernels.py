@@ -4,8 +4,6 @@ It does what ``course.core.integrator`` and its stages do, in the same order of 
 what the stages hand on in arrays stays in the processor's nearest cache, and no step waits for the interpreter's lock.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

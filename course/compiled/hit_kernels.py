@@ -4,8 +4,6 @@ They do what passes over arrays do elsewhere, in the same order and so to the sa
 registers on the way, where forty passes carry them to the cache and back.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -4,8 +4,6 @@ The functions of ``soft_shadows`` place points on lights here, in the same order
 ``course.core.direct`` and ``course.core.lights``.
 """
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

@@ -5,8 +5,6 @@ those from a facet up to the round surface above it. All offsets are constants, 
 apart.
 """
 
-from __future__ import annotations
-
 from course.compiled.occlusion_kernels import ROWS
 from course.compiled.packet_kernels import TFAR, TO, WIDTH
 

@@ -3,8 +3,6 @@
 This is the one file that calls Embree without embreex. Where library or Numba is missing, ``available`` says so.
 """
 
-from __future__ import annotations
-
 import ctypes
 from functools import cache
 from importlib.util import find_spec

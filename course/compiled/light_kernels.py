@@ -1,7 +1,5 @@
 """What arrives from points on lights, compiled by Numba; imported by ``sample``, when it is used."""
 
-from __future__ import annotations
-
 import numpy as np
 from numba import njit, types
 

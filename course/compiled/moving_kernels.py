@@ -1,7 +1,5 @@
 """Queries among triangles of which some move, compiled by Numba; imported where something does."""
 
-from __future__ import annotations
-
 import numpy as np
 from numba import njit, types
 

@@ -1,7 +1,5 @@
 """Random numbers and camera rays of sixteen paths, compiled by Numba; parts of the fused loop."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

@@ -5,8 +5,6 @@ the very function that ``np.sin`` calls for float32 arrays: it is public in the 
 ``ufuncobject.h``, ``PyUFuncObject``), and needs no interpreter lock.
 """
 
-from __future__ import annotations
-
 import ctypes
 from typing import Any
 

@@ -4,8 +4,6 @@ Each mover has a scene of its own. A packet asks first what stands still, and th
 may meet, from origins that are shifted into the mover's frame.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numba import njit, types
 

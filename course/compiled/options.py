@@ -1,7 +1,5 @@
 """What the loops that Numba compiles have in common; imported by files named ``..._kernels`` alone."""
 
-from __future__ import annotations
-
 from contextlib import suppress
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Which functions of the course have compiled twins: its own, and no student's."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any

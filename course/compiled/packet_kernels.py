@@ -4,8 +4,6 @@ Layout of a packet (Embree 4's rtcore_ray.h): rows of 16 floats or integers, ori
 id, flags; then of the hit Ng, u, v, primID, geomID, instID.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numba import njit, types
 

@@ -9,8 +9,6 @@ ending it imports Numba (``pip install .[fast]``). Where either is missing, ``av
 without.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from course.compiled.convex import roomy_box

@@ -1,7 +1,5 @@
 """The point and the shading normal of one hit, compiled by Numba; see ``course.core.hits``."""
 
-from __future__ import annotations
-
 import numpy as np
 from numba import njit
 

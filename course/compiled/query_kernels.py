@@ -3,8 +3,6 @@
 They are compiled when this module is first imported on a machine, and kept on disk from then on.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numba import njit, types
 

@@ -1,7 +1,5 @@
 """Scattering by loops over hits."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

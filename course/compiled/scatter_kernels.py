@@ -1,7 +1,5 @@
 """How light is divided among a surface's ways, compiled by Numba; imported where it is used, and only then."""
 
-from __future__ import annotations
-
 import numpy as np
 from numba import njit, types
 

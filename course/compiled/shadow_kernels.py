@@ -6,8 +6,6 @@ rays are made where Embree reads them. The batches of ``course.core.direct`` do 
 Layout of ``s``: a packet of Embree's (``packet_kernels``), then rows of sixteen numbers of our own.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numba import njit, types
 

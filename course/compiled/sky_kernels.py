@@ -1,7 +1,5 @@
 """Drawing directions towards a cube map's light, compiled by Numba; imported where it is used, and only then."""
 
-from __future__ import annotations
-
 from numba import njit
 
 from course.compiled.daylight_kernels import directed

@@ -1,7 +1,5 @@
 """Compiled stages in the place of a tracer's, for scenes that the fused loop can't follow."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Hits found by one loop instead of forty passes."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

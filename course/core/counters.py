@@ -1,7 +1,5 @@
 """Counters of the receipt: one set per thread, added up at the end."""
 
-from __future__ import annotations
-
 from collections import Counter
 from dataclasses import dataclass, field
 from time import perf_counter
@@ -39,7 +37,7 @@ class Counters:
         self.seconds[stage] = self.seconds.get(stage, 0.0) + now - self._since
         self._since = now
 
-    def add(self, other: Counters) -> None:
+    def add(self, other: "Counters") -> None:
         """Add another thread's counters."""
         self.rays.update(other.rays)
         self.numbers.update(other.numbers)

@@ -5,8 +5,6 @@ partial. It is added to the picture, but not to the sums. A continued render rep
 has the same bits as one that was rendered at once.
 """
 
-from __future__ import annotations
-
 from copy import deepcopy
 from dataclasses import dataclass
 from typing import Any, Protocol
@@ -103,7 +101,7 @@ class Film:
         self.linear[:, rows, columns] = total / total_weight
         self.samples[rows, columns] = samples
 
-    def continued(self, samples: int) -> Film:
+    def continued(self, samples: int) -> "Film":
         """A copy that a longer render continues. Its sums hold the first ``samples`` samples of each pixel."""
         film = deepcopy(self)
         film.samples[:] = samples

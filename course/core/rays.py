@@ -1,7 +1,5 @@
 """Batches of rays, and the random numbers that their paths draw."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, fields, replace
 from typing import Any
@@ -55,13 +53,13 @@ class Rays:
         """Number of rays."""
         return int(self.direction.shape[1])
 
-    def halves(self) -> tuple[Rays, Rays]:
+    def halves(self) -> "tuple[Rays, Rays]":
         """Two batches: the second half of the rays, then the first."""
         middle = self.size // 2
         rays = self if self.path is not None else replace(self, path=np.arange(self.size))
         return rays.part(slice(middle, None)), rays.part(slice(middle))
 
-    def part(self, columns: slice) -> Rays:
+    def part(self, columns: slice) -> "Rays":
         """The rays in some columns. If ``path`` is None, the paths of the part are counted from 0 again."""
         arrays = [getattr(self, field.name) for field in fields(self)]
         # A shared origin has one column.

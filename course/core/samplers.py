@@ -9,8 +9,6 @@ pixel would always use the point in the corner of the light (Cook 1984, section 
 """
 
 # `np.random` in an annotation would be imported.
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from functools import cached_property

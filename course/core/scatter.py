@@ -1,7 +1,5 @@
 """Reflected and refracted rays: mirrors, gloss and dielectrics, as long as the throughput is above a cutoff."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, fields
 
 import numpy as np
@@ -31,7 +29,7 @@ class Boundary:
     cos_t: Floats32
     eta: Floats32
 
-    def of(self, which: Indices) -> Boundary:
+    def of(self, which: Indices) -> "Boundary":
         """The boundary at some of the hits."""
         return type(self)(
             *(getattr(self, field.name).take(which, axis=-1) for field in fields(self))

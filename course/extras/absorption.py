@@ -1,7 +1,5 @@
 """Absorption in dielectrics by Beer's law."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
@@ -35,7 +33,7 @@ class Absorption:
     camera: Camera
 
     @classmethod
-    def of(cls, materials: MaterialTable, camera: Camera) -> Absorption:
+    def of(cls, materials: MaterialTable, camera: Camera) -> "Absorption":
         """The absorption of all dielectrics."""
         return cls(Lookup(materials.absorption), materials.refracts, materials.outside, camera)
 

@@ -5,8 +5,6 @@ wrong ones that the picture can tell from them. The tolerance lies between: 1 - 
 A wrong submission that the picture can't tell is listed; other checks are there for it.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable, Iterable, Mapping
 from math import sqrt

@@ -5,8 +5,6 @@ most a fifth, whatever conventions it keeps, and one that is wrong in a corner k
 submissions show both.
 """
 
-from __future__ import annotations
-
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Errors of student code: each is a result of grading, not a fault of the grader."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable
 from difflib import get_close_matches

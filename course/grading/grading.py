@@ -1,7 +1,5 @@
 """Grade one submission: a worker for each module, every check once."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager, nullcontext
 from functools import partial

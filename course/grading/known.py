@@ -8,8 +8,6 @@ told; one of the submissions that make a mistake says it. ``solutions/right/MODU
 submission written differently.
 """
 
-from __future__ import annotations
-
 import ast
 from dataclasses import dataclass
 from pathlib import Path

@@ -3,8 +3,6 @@
 A student's copy has no solutions; ``course references`` writes there what the checks of the usual seed need.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Mapping
 from functools import cache, lru_cache
 from importlib.resources import as_file, files

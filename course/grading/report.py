@@ -3,8 +3,6 @@
 The checks of one function need not run one after the other: those that judge pictures come last in a module.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from math import fsum
@@ -31,7 +29,7 @@ State = Literal["right", "wrong", "to do", "undecided"]
 class Total:
     """A sum: its points are those of its parts."""
 
-    def parts(self) -> Sequence[Result | Total]:
+    def parts(self) -> "Sequence[Result | Total]":
         """The parts whose points are summed."""
         raise NotImplementedError
 

@@ -4,8 +4,6 @@ Only files with the names of modules are taken; everything else is left alone, a
 What others hand in is read by `course.grading.classes`.
 """
 
-from __future__ import annotations
-
 import os
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager

@@ -4,8 +4,6 @@ Of T triangles, patch t is the front of triangle t, and patch T + t its back: P 
 scene (``course.building.frame``).
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
@@ -95,7 +93,7 @@ class Patches:
         """(..., P) numbers of all patches from the triangles' (..., T), the same for both sides by default."""
         return np.concatenate((front, front if back is None else back), axis=-1)
 
-    def split(self, chosen: Mask) -> Patches:
+    def split(self, chosen: Mask) -> "Patches":
         """Halve the chosen triangles, and what has to be halved with them."""
         whole = replace(self.triangles, origin=np.arange(self.size))
         parts = bisected(whole, chosen)

@@ -1,7 +1,5 @@
 """The story of a pixel of a scene, from a file or from what was loaded."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from course.effects import Effects

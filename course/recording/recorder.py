@@ -4,8 +4,6 @@ In the place of its path each ray of a batch has its own number, which the stage
 whatever is drawn, cast or added says which ray it belongs to.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Any
 

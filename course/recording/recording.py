@@ -1,7 +1,5 @@
 """Record a pixel: its samples once more, with every segment of their paths."""
 
-from __future__ import annotations
-
 import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """Segments of recorded paths: from a recorder's tables to what each ray was, met and brought, in the scene's units."""
 
-from __future__ import annotations
-
 from collections import defaultdict
 from collections.abc import Iterator
 from dataclasses import dataclass, field

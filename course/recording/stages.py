@@ -1,7 +1,5 @@
 """Stages that tell a recorder what they do, in the place of a tracer's; the core knows nothing of them."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import Any

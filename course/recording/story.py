@@ -1,7 +1,5 @@
 """The story of a pixel: why it has its colour in one sentence, and what its rays met, as a tree of lines."""
 
-from __future__ import annotations
-
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
@@ -36,7 +34,7 @@ class Line:
     """A line of the tree, and the lines below it."""
 
     text: str
-    below: list[Line] = field(default_factory=list)
+    below: "list[Line]" = field(default_factory=list)
 
 
 @dataclass(frozen=True)

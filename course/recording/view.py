@@ -1,7 +1,5 @@
 """A page that shows recorded rays in their scene: one HTML file, which asks for no other."""
 
-from __future__ import annotations
-
 import json
 import re
 from html import escape

@@ -1,7 +1,5 @@
 """A tracer for a scene and the settings of one render; functions that aren't written, and modules that it skips."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """A picture of the work that a hierarchy was for the rays through the middles of pixels."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

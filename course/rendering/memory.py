@@ -7,8 +7,6 @@ lottery: the same render took 0.44 or 0.63 s, with 4 or 85,000 page faults. Free
 size that counts settles it; the block is never touched, so it costs nothing. Other systems don't mind.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 LARGEST = 31 << 20

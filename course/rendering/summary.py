@@ -1,7 +1,5 @@
 """A summary of a scene for people: its contents, and the functions that rendering calls."""
 
-from __future__ import annotations
-
 from collections import Counter
 
 import numpy as np

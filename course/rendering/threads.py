@@ -3,8 +3,6 @@
 Embree and NumPy's loops release the interpreter lock, so threads are enough.
 """
 
-from __future__ import annotations
-
 import os
 import threading
 from abc import abstractmethod

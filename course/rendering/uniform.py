@@ -1,7 +1,5 @@
 """Uniform sampling: it can continue a picture with fewer samples, and stop at a time limit."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from functools import partial
 

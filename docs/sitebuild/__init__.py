@@ -4,8 +4,6 @@ A page asks for a generated part by a comment on a line of its own, ``<!-- site:
 is right as a file of the repository too; see ``sitebuild.parts``.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 from sphinx.application import Sphinx

@@ -1,7 +1,5 @@
 """Captions of the site's menu, which the theme calls headings without saying of which level."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from sphinx.application import Sphinx

@@ -1,7 +1,5 @@
 """The reference of the command line, from the program itself."""
 
-from __future__ import annotations
-
 import re
 from inspect import cleandoc
 

@@ -4,8 +4,6 @@
 ``convergence MODULE GROUP`` one of them; a last word ``samples`` or ``seconds`` one of the two plots of each.
 """
 
-from __future__ import annotations
-
 from html import escape
 
 import msgspec

@@ -4,8 +4,6 @@ Colours come from docs/_static/plots.css, for the light and the dark scheme. Eac
 docs/_static/plot_values.js shows under the pointer.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Docstrings as the course writes them, with sections underlined and an argument to a line, as reStructuredText."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from typing import Any

@@ -1,7 +1,5 @@
 """The functions that students write, from the docstrings of their stubs."""
 
-from __future__ import annotations
-
 from course.modules import COURSE
 from sitebuild.place import Place
 

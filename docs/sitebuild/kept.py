@@ -1,7 +1,5 @@
 """Files that builds keep between them: those that no page uses any more are removed."""
 
-from __future__ import annotations
-
 from collections.abc import Collection, Iterable
 from pathlib import Path
 

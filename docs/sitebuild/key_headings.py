@@ -1,7 +1,5 @@
 """The headings under which the reference of scene files has the definitions of the schema."""
 
-from __future__ import annotations
-
 import re
 
 

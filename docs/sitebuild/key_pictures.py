@@ -1,7 +1,5 @@
 """Small pictures of the values of one key, beside the key in the reference of scene files."""
 
-from __future__ import annotations
-
 import json
 from copy import deepcopy
 from functools import lru_cache

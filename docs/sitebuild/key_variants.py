@@ -1,7 +1,5 @@
 """Which keys of a scene file are shown by pictures, with which values, in which small scene."""
 
-from __future__ import annotations
-
 from typing import Any
 
 Changes = dict[str, Any]

@@ -1,7 +1,5 @@
 """What is said of a key of scene files that has no pictures: that it shows nothing, or where its pictures are."""
 
-from __future__ import annotations
-
 NOTHING = "It shows nowhere in the picture."
 
 SHAPES = (

@@ -1,7 +1,5 @@
 """Formulas as MathML, made from LaTeX when the site is built."""
 
-from __future__ import annotations
-
 import re
 
 from docutils import nodes

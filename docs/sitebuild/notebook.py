@@ -1,7 +1,5 @@
 """A notebook as a page: its cells, what they print and the pictures they show, run by the build and kept."""
 
-from __future__ import annotations
-
 import base64
 import json
 from collections.abc import Iterator

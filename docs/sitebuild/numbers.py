@@ -1,7 +1,5 @@
 """Numbers in tables that no line ends within: not after the hyphen of 2.1e-03, nor inside a range or behind a ≤."""
 
-from __future__ import annotations
-
 import re
 
 from docutils import nodes

@@ -1,7 +1,5 @@
 """Scenes that the gallery shows beside its own: METU's, by one of their cameras, and rooms lit by radiosity."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable
 from hashlib import sha256

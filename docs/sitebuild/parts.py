@@ -4,8 +4,6 @@ A part is asked for by ``<!-- site: KIND NAME WORDS -->`` on a line of its own; 
 phenomenon" of a module that has two scenes begins with the pair of their pictures, unasked.
 """
 
-from __future__ import annotations
-
 import re
 import shutil
 from collections.abc import Callable, Iterable

@@ -3,8 +3,6 @@
 The drawing is made by the course's own functions, for readers without scripts.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from html import escape

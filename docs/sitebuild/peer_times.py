@@ -3,8 +3,6 @@
 ``<!-- site: peer_times llvm -->`` shows one of the two forms: a row for each scene and error, a mark for each program.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterable
 from html import escape

@@ -1,7 +1,5 @@
 """Pictures in rows and columns, each with a line of words below it; all of them are seen at once."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from html import escape

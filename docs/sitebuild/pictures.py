@@ -1,7 +1,5 @@
 """Pictures of scenes, rendered once and kept under a hash of all that decides them."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Where on the site a generated part stands, and the files that it brings."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from pathlib import Path
 

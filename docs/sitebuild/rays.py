@@ -1,7 +1,5 @@
 """The rays of a pixel in their scene, as `course pixel --html` writes them."""
 
-from __future__ import annotations
-
 from functools import cache
 from html import escape
 

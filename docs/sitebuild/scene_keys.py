@@ -1,7 +1,5 @@
 """The reference of scene files, from their JSON schema: each key with its unit, range, default and pictures."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterator
 from typing import Any

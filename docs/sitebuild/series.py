@@ -1,7 +1,5 @@
 """A series of pictures on a page: side by side, or one at a time under sliders (_static/series.js)."""
 
-from __future__ import annotations
-
 import json
 from html import escape
 

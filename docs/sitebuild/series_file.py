@@ -1,7 +1,5 @@
 """The series of pictures that the site has, as docs/series.yaml says them."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from functools import lru_cache
 from itertools import product

@@ -1,7 +1,5 @@
 """All pictures of a series of two sliders at once: the first slider's values in rows, the second's in columns."""
 
-from __future__ import annotations
-
 from html import escape
 
 from sitebuild import series_pictures

@@ -1,7 +1,5 @@
 """The pictures of a series, rendered once and kept under a hash of all that decides them."""
 
-from __future__ import annotations
-
 from functools import lru_cache
 from pathlib import Path
 

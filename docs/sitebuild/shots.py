@@ -1,7 +1,5 @@
 """Scenes on a page: a picture, a pair of pictures, a picture with all that belongs to it."""
 
-from __future__ import annotations
-
 from html import escape
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """The signature under a function's heading, linked to its reference."""
 
-from __future__ import annotations
-
 import re
 from html import escape
 

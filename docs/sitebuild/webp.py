@@ -1,7 +1,5 @@
 """Pictures as the site has them: WebP files, whole or not there."""
 
-from __future__ import annotations
-
 from io import BytesIO
 from pathlib import Path
 

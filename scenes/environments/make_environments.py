@@ -9,8 +9,6 @@ make pictures of them:
 - ``valley.png``: the six faces of a cube as a cross, sRGB of 8 bits, so nothing in it is brighter than 1.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

@@ -9,8 +9,6 @@ u and v, so each is a function of both here, and one loop over pixels makes pict
 - ``vase.obj``: a solid of revolution with texture coordinates, u around it and v up along its outline.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

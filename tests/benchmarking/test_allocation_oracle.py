@@ -1,7 +1,5 @@
 """The oracle of adaptive sampling, against closed forms."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

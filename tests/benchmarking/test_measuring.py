@@ -1,7 +1,5 @@
 """Measurements: rendered in turn, of the right size, with errors and biases that are what they are called."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import dataclass
 from pathlib import Path

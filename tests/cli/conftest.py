@@ -1,7 +1,5 @@
 """Commands run in this process, in an empty folder, with a stand-in for the renderer."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The command as a process that is sent signals."""
 
-from __future__ import annotations
-
 import signal
 import subprocess
 import sys

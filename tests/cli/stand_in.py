@@ -1,7 +1,5 @@
 """A stand-in for the renderer: what the command line does must not depend on how rays fly."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any

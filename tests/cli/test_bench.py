@@ -1,7 +1,5 @@
 """`course bench`: what is measured, where it is written, and what is refused before the work."""
 
-from __future__ import annotations
-
 import json
 import re
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """A check that breaks ends neither command, and both say so with their exit code."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Generator, Sequence
 from pathlib import Path
 from typing import Any

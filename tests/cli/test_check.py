@@ -1,7 +1,5 @@
 """`course check`: which modules are checked, and what is said of those that can't be."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

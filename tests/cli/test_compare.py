@@ -1,7 +1,5 @@
 """`course compare`: exit codes, files and what is told."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """`course convert`, and `course render` of METU scenes: files, names and pictures."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,7 +1,5 @@
 """`course demo`: every scene's picture, and one page that needs nothing else."""
 
-from __future__ import annotations
-
 import re
 from base64 import b64decode
 from html.parser import HTMLParser

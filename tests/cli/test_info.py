@@ -1,7 +1,5 @@
 """`course info` and `course schema`."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

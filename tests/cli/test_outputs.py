@@ -1,7 +1,5 @@
 """Outputs of all commands: into folders that are there, each a file of its own, and none the file that is read."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """The command as a process: what it imports, how it ends, what it leaves behind."""
 
-from __future__ import annotations
-
 import contextlib
 import json
 import subprocess

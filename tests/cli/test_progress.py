@@ -1,7 +1,5 @@
 """A bar where somebody looks, nothing elsewhere."""
 
-from __future__ import annotations
-
 import sys
 
 import pytest

@@ -1,7 +1,5 @@
 """`course radiosity`: a solution worked out, kept and looked at."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

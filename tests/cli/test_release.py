@@ -1,7 +1,5 @@
 """`course release`: stubs written from solutions, and the check that the two haven't drifted."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

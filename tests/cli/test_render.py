@@ -1,7 +1,5 @@
 """`course render`: options in, one whole file out, and what is said when that can't be."""
 
-from __future__ import annotations
-
 import errno
 import json
 from pathlib import Path

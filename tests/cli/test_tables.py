@@ -1,7 +1,5 @@
 """Tables say the same on a terminal and elsewhere."""
 
-from __future__ import annotations
-
 import sys
 
 import pytest

@@ -1,7 +1,5 @@
 """A METU scene is converted into a temporary folder, which goes however the process ends, short of being killed."""
 
-from __future__ import annotations
-
 import signal
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """Commands that do their work again whenever a file is saved."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable
 from pathlib import Path

@@ -1,7 +1,5 @@
 """What a page shows as code: commands, scenes and parts of scenes, Python; in the order in which it shows them."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass

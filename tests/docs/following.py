@@ -5,8 +5,6 @@ What would take long is shortened by options or by smaller scenes (`SHORTER`, `s
 named with the reason (`NOT_RUN`), and a line that nothing here knows is a failure.
 """
 
-from __future__ import annotations
-
 import os
 import re
 import shlex

@@ -1,7 +1,5 @@
 """Pages can be used without a mouse and by those who hear them: axe's rules of WCAG 2, and the keyboard alone."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """The site in a browser without a network: no error, nothing missing, nothing wider than the window, and the slider."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """Every command and every piece of code on the pages is run, in a copy of the course, in the order of the page."""
 
-from __future__ import annotations
-
 import os
 import re
 import shutil

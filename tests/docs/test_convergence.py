@@ -1,7 +1,5 @@
 """Plots of what the benchmarks measured: numbers in their places, readable in both schemes, by pointer and by keys."""
 
-from __future__ import annotations
-
 import re
 from html import unescape
 from math import log

@@ -1,7 +1,5 @@
 """What pages count or list of the course is what the code has: modules, functions, floors, known submissions."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

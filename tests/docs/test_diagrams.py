@@ -1,7 +1,5 @@
 """The figures of the modules' pages: each page has some, they say what they show, and their geometry is right."""
 
-from __future__ import annotations
-
 import re
 from collections import Counter
 from importlib import import_module

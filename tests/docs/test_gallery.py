@@ -1,7 +1,5 @@
 """What the gallery shows beside scene files, what is kept for it, and a copy that has no site to build."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import subprocess

@@ -1,7 +1,5 @@
 """What builds keep between them is removed when no page uses it any more, and only then."""
 
-from __future__ import annotations
-
 import importlib
 import pkgutil
 import runpy

@@ -1,7 +1,5 @@
 """Pictures of the values of keys: of keys that there are, of scenes that render, and no two of a key alike."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 from pathlib import Path
 from typing import Any

@@ -4,8 +4,6 @@ Two pictures of different seeds differ by sqrt(2) times the error of each, so no
 the estimate is good to a few in a hundred, and the seeds are fixed.
 """
 
-from __future__ import annotations
-
 import math
 import re
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Common mistakes and their pictures: every list has its row of figures, and what is wrong looks wrong."""
 
-from __future__ import annotations
-
 import re
 from html.parser import HTMLParser
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Reports of grading send students to a heading of a page: both are there, and so are the files that are named."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The tutorial notebook: without outputs in the repository, and run from its first cell to its last."""
 
-from __future__ import annotations
-
 import base64
 import re
 from io import BytesIO

@@ -3,8 +3,6 @@
 A number that a page writes with so many digits has to be the found one, rounded to them.
 """
 
-from __future__ import annotations
-
 import json
 import math
 import re

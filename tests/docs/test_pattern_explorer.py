@@ -1,7 +1,5 @@
 """The explorer of sample patterns: its points are the course's, its numbers are right, its controls change it."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from pathlib import Path

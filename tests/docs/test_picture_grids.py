@@ -1,7 +1,5 @@
 """Pictures in rows and columns: each is the one that its command makes, and stands where its caption says."""
 
-from __future__ import annotations
-
 import re
 import shlex
 from html import unescape

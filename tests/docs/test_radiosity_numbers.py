@@ -1,7 +1,5 @@
 """What pages say of radiosity's iterations and of radiosity beside path tracing: found again, or as it was measured."""
 
-from __future__ import annotations
-
 import pytest
 
 from benchmarks import path_tracing, radiosity

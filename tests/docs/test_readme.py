@@ -1,7 +1,5 @@
 """The README's picture is the one that the site's build makes of its scene."""
 
-from __future__ import annotations
-
 import re
 
 import numpy as np

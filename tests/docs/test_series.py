@@ -1,7 +1,5 @@
 """Series of pictures: every step is a scene, its picture is the one that its command renders, and sliders show it."""
 
-from __future__ import annotations
-
 import shlex
 from collections.abc import Iterator
 from io import BytesIO

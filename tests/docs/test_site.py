@@ -1,7 +1,5 @@
 """The site, built with grey pictures: without a warning, every link leads somewhere, no page asks another host."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field

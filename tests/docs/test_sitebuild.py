@@ -1,7 +1,5 @@
 """The parts that the site is made of: pictures that are kept, docstrings, references."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from types import SimpleNamespace
 

@@ -1,7 +1,5 @@
 """Surroundings painted by a formula, as the pictures of each kind of environment, and closed forms of their light."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from pathlib import Path

@@ -6,8 +6,6 @@ half a cell for each cell that is cut, and any other point of the cell by less t
 binomial distribution.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -3,8 +3,6 @@
 Means are compared as in tests/estimates.py, 18 of them.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

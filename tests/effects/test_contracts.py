@@ -1,7 +1,5 @@
 """The contracts that the renderer holds functions to: those that are declared, and kept by the course's own."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

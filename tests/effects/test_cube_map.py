@@ -3,8 +3,6 @@
 The functions themselves are judged in tests/solutions/test_cube_map.py; here it is pictures and light.
 """
 
-from __future__ import annotations
-
 import math
 from itertools import product
 from pathlib import Path

@@ -11,8 +11,6 @@ bound at 2 that is 16 of them. A measure of a correct shuffle is a mean over pix
 no pair takes over 1.6. The false-fail rate of the whole file is below 1e-9.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from numpy.typing import NDArray

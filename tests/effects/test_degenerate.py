@@ -4,8 +4,6 @@ Where two effects draw numbers they also move each other's dimensions, so what i
 and the simpler scene needs none of its numbers.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

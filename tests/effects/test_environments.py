@@ -6,8 +6,6 @@ every mistake of orientation, and its light has closed forms.
 Means are compared as in tests/estimates.py, about 120 of them.
 """
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 from typing import Any

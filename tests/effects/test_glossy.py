@@ -3,8 +3,6 @@
 Means are compared as in tests/estimates.py, about 60 of them.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -6,8 +6,6 @@ variance of 1024 nearly normal means is within 0.25 of the true one, 5.6 of its 
 Some thirty such numbers are tested here, with fixed seeds.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

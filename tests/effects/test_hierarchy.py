@@ -1,7 +1,5 @@
 """Pictures whose rays go through the hierarchy of the bounding_volumes module: they are Embree's."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Any

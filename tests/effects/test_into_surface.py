@@ -4,8 +4,6 @@ In a white environment a black surface sends back 1 for each ray that leaves it,
 again where that was the last bounce. Means are compared as in tests/estimates.py, ten of them.
 """
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 from typing import Any

@@ -5,8 +5,6 @@ Pictures are compared by the means of blocks over 16 seeds each, as a difference
 degrees of freedom 8 of them come by chance once in 1e8 (Student's t), for each of 12 blocks in 5 cases.
 """
 
-from __future__ import annotations
-
 import math
 import re
 from typing import Any

@@ -1,7 +1,5 @@
 """`--effects mine`: the student's functions where they are written, and the solutions' where they aren't."""
 
-from __future__ import annotations
-
 import json
 import shutil
 from pathlib import Path

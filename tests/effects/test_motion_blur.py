@@ -8,8 +8,6 @@ for Sobol points, which are spread more evenly; the quadrature, 64 x 1024 midpoi
 columns are tested.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from typing import Any

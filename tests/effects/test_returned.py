@@ -1,7 +1,5 @@
 """What a function must not return: found at once, told with its place, and never rendered with."""
 
-from __future__ import annotations
-
 import pickle
 import re
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """Normals that look away from the viewer are bent, or left as they are."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """A scene pays for the effects it has: no number, no ray and no import for any other, and the receipt says why."""
 
-from __future__ import annotations
-
 import json
 import subprocess
 import sys

@@ -4,8 +4,6 @@ Means are compared as in tests/estimates.py, about 150 of them. Beside their err
 for shadow rays leave 2^-19 of the half extent above the floor.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -3,8 +3,6 @@
 An ambient light of 1 shows the colour of a surface and nothing else, so the expected values are the pictures' own.
 """
 
-from __future__ import annotations
-
 import math
 import subprocess
 import sys

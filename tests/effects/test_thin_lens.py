@@ -8,8 +8,6 @@ and 10 / n (Bernstein's term for rare events) are exceeded with less than 1e-6 b
 far less by Sobol points, which are what most pixels use; seeds are fixed.
 """
 
-from __future__ import annotations
-
 import dataclasses
 import math
 from typing import Any

@@ -1,7 +1,5 @@
 """All that may answer rays has one interface: mypy compares the types, and here are names, places and answers."""
 
-from __future__ import annotations
-
 import inspect
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Normals weighted by area: sums of cross products, by vertex number, worked out by hand."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

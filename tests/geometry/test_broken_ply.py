@@ -1,7 +1,5 @@
 """PLY files with something wrong in them are refused, with what is wrong and where; odd but right ones are read."""
 
-from __future__ import annotations
-
 import struct
 from collections.abc import Sequence
 from pathlib import Path

@@ -1,7 +1,5 @@
 """What leaves a convex object is looked for among the others alone, and found as if all had been asked."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Large triangles are cut beside small things, without a crack and without a change in what they carry."""
 
-from __future__ import annotations
-
 from collections import Counter
 from dataclasses import replace
 from typing import Any

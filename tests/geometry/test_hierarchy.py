@@ -3,8 +3,6 @@
 Rays through an edge may go either way, and so may those towards the border of the whole; seeds are fixed.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

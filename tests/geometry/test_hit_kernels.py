@@ -1,7 +1,5 @@
 """Compiled loops over hits give what the passes over arrays give, bit for bit."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Where rays meet the surface: on the triangle, with normals that face the ray, and smooth where the mesh should be."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What goes through a mesh file comes back, and what can't be used is refused by name."""
 
-from __future__ import annotations
-
 import json
 import math
 import struct

@@ -1,7 +1,5 @@
 """Faces of OBJ files: what each corner refers to is what is read, and what is wrong is told with its line."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

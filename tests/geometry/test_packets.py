@@ -1,7 +1,5 @@
 """Packets of 16 rays answer as single rays do."""
 
-from __future__ import annotations
-
 import gc
 from dataclasses import replace
 from typing import Any

@@ -1,7 +1,5 @@
 """PLY files of few elements, several lists, and elements that no mesh needs: the same in text and both binaries."""
 
-from __future__ import annotations
-
 import struct
 from collections.abc import Sequence
 from dataclasses import dataclass

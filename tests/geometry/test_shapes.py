@@ -1,7 +1,5 @@
 """Laws of the named shapes, against closed forms."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 

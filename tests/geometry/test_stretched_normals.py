@@ -1,7 +1,5 @@
 """Normals of stretched meshes are interpolated first and transformed then, to the same bits by both kinds of loops."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from numpy.typing import NDArray

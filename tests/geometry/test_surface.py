@@ -11,8 +11,6 @@ What is measured here, in the units of the compiled scene, whose half extent is 
   it by 2 degrees. Rays that graze it then meet them, and rightly so; such slivers are tested in a plane y = 0.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any

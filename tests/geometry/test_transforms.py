@@ -1,7 +1,5 @@
 """Laws of affine transforms and of what they do to a mesh."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A file's normals say which side of its triangles is out, however these are wound."""
 
-from __future__ import annotations
-
 import warnings
 from collections.abc import Callable
 from pathlib import Path

@@ -1,7 +1,5 @@
 """References of all modules, which take longer to make than most tests: made once for all processes of a run."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 from functools import cache, partial
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Right functions keep all points by whatever habit they are written; the kill matrix's `--habits` asks more seeds."""
 
-from __future__ import annotations
-
 from itertools import islice
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The table of `docs/grading.md` says which kinds of checks the further modules have, and for how many functions."""
 
-from __future__ import annotations
-
 import re
 
 from course.effects import PROJECT

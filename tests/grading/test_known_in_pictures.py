@@ -4,8 +4,6 @@ Right ones pass those of bias, as `test_mutants` has all others. Of the wrong on
 has to show; `CAUGHT_BY` names another check for most of them, which `test_mutants` holds.
 """
 
-from __future__ import annotations
-
 import pytest
 
 from course.grading.calibration import trusted

@@ -4,8 +4,6 @@ In this process and without the checks that take many pictures, a wrong one by f
 checks on all submissions, in workers.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The page "Add a module" is complete: the module that it shows is built from it, and graded."""
 
-from __future__ import annotations
-
 import os
 import re
 import shutil

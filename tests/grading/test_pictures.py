@@ -1,7 +1,5 @@
 """Pictures as checks: whatever a student returns is never the renderer's trouble; tapes play what they recorded."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

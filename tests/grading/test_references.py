@@ -1,7 +1,5 @@
 """References for whatever is asked, and no solution loaded that nobody needs."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

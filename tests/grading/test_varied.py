@@ -1,7 +1,5 @@
 """The checks of every function vary what a student may get wrong: nothing is always the same that need not be."""
 
-from __future__ import annotations
-
 import pytest
 
 from benchmarks.mutants.varied import gaps, varied

@@ -1,7 +1,5 @@
 """Picture files hold what was given, and appear whole or not at all."""
 
-from __future__ import annotations
-
 import errno
 import io
 import os

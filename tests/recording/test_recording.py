@@ -1,7 +1,5 @@
 """What is recorded is what was rendered: the same bits, all of the light, every ray and every call."""
 
-from __future__ import annotations
-
 import shutil
 import subprocess
 import sys

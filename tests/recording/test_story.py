@@ -1,7 +1,5 @@
 """The story of a pixel: its colour's reason in a sentence, for pixels of which the reason is known."""
 
-from __future__ import annotations
-
 import json
 import re
 import shutil

@@ -1,7 +1,5 @@
 """The page of a pixel's rays: small, whole, and for everybody."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from html import unescape
 from pathlib import Path

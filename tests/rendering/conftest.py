@@ -1,7 +1,5 @@
 """A small scene that goes through every stage of the renderer."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from typing import Any
 

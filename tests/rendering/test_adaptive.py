@@ -8,8 +8,6 @@ Where numbers are compared statistically, the room they have is stated with its 
 with Student's t for the 99 degrees of freedom of 100 seeds, are exceeded by chance once in 3e7.
 """
 
-from __future__ import annotations
-
 import math
 import random
 import signal

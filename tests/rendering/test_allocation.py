@@ -1,7 +1,5 @@
 """Which pixels get more samples: the best allocation under the model of the variance, and the rungs near it."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

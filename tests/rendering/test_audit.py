@@ -4,8 +4,6 @@ An audit's own standard error is 6 to 10% of the variance for the noise here; wh
 errors are the room they have, which chance exceeds less than once in 1e7.
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

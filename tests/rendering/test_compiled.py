@@ -1,7 +1,5 @@
 """Compiled loops give the same picture."""
 
-from __future__ import annotations
-
 import sys
 
 import pytest

@@ -1,7 +1,5 @@
 """Rendering on a Dask cluster: a real scheduler and its workers, each a process of its own on this machine."""
 
-from __future__ import annotations
-
 import shutil
 import signal
 import socket

@@ -1,7 +1,5 @@
 """A picture is a function of scene, settings and seed: the same bits however it comes about."""
 
-from __future__ import annotations
-
 import random
 import threading
 from collections.abc import Callable, Iterator

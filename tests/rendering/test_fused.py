@@ -1,7 +1,5 @@
 """The fused loop makes the pictures that the batches make, bit for bit, and counts what they count."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any

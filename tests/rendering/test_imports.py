@@ -1,7 +1,5 @@
 """A small scene pays for nothing that it doesn't use: what its process imports."""
 
-from __future__ import annotations
-
 import json
 import os
 import subprocess

@@ -1,7 +1,5 @@
 """Ctrl-C: the picture so far comes back."""
 
-from __future__ import annotations
-
 import signal
 from pathlib import Path
 

@@ -11,8 +11,6 @@ what is seen in it, each tenfold, make 1e-7 into 1e-5. We allow 2e-4 of a pixel'
 sample that falls on the other side of an edge changes its pixel by more, and would happen in about one picture of 100.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

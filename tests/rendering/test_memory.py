@@ -1,7 +1,5 @@
 """Freed memory is kept for the next batch: counted in page faults, where the C library would give it back."""
 
-from __future__ import annotations
-
 import os
 import platform
 import subprocess

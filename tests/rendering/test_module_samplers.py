@@ -5,8 +5,6 @@ difference over its own standard error, which the spread over the seeds tells. W
 difference of 7 standard errors comes by chance once in 1e7 (Student's t); 24 are looked at, with fixed seeds.
 """
 
-from __future__ import annotations
-
 import re
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Passes: each has every pixel once; what is rendered at once is large while much is left, and small at the end."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Pictures on their way to files and notebooks: shown as the scene's film asks."""
 
-from __future__ import annotations
-
 import io
 from pathlib import Path
 from typing import Any

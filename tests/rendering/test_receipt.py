@@ -1,7 +1,5 @@
 """The receipt: every key, true counts, and nothing paid for what a scene doesn't need."""
 
-from __future__ import annotations
-
 import json
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The heart of rendering: film, schedule and executor are handed to it, and it knows none of their kinds."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from typing import Any
 

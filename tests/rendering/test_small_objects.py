@@ -1,7 +1,5 @@
 """A small ball on a huge floor looks as closed forms in float64 say, whatever the floor's width."""
 
-from __future__ import annotations
-
 import warnings
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Variances that learn from neighbours: closed forms of the weights, and what an edge lets through."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Division by contrast: rays and areas by closed forms, each corner once, and what doesn't go with it."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from pathlib import Path

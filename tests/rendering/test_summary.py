@@ -1,7 +1,5 @@
 """What a scene says of itself before it is rendered."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import pytest

@@ -1,7 +1,5 @@
 """Rendering against the clock, with a clock that the test turns: no test depends on how fast a machine is."""
 
-from __future__ import annotations
-
 import threading
 from typing import Any
 

@@ -8,8 +8,6 @@ Every statistical test draws from a fixed seed, so it never fails by chance twic
 that a right function fails it with a seed that nobody has tried.
 """
 
-from __future__ import annotations
-
 from itertools import product
 from math import prod
 

@@ -1,7 +1,5 @@
 """Adaptive sampling: cells and their neighbours fit together to the last bit."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

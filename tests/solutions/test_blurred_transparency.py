@@ -1,7 +1,5 @@
 """Blurred transparency: the way back of light, and the reflectance by another formula."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

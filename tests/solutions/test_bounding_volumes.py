@@ -1,7 +1,5 @@
 """Bounding volumes: lines along faces, halves that lie apart, and the way to an octahedron from within."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Every function of the solutions, broken in one convention at a time: the declared check of it sees it."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Every reference solution keeps its declaration: conventions and laws for seeds of their own, and messages in full."""
 
-from __future__ import annotations
-
 import inspect
 import math
 import re

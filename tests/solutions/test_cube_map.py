@@ -1,7 +1,5 @@
 """Cube maps: OpenGL's table of directions, and faces of any dtype."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from itertools import product
 

@@ -1,7 +1,5 @@
 """More than students are asked for: the reference keeps its laws in double precision, and for the worst numbers."""
 
-from __future__ import annotations
-
 from copy import deepcopy
 from itertools import product
 

@@ -1,7 +1,5 @@
 """Glossy reflection: bases about all directions, the largest ball, and directions in the surface."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Importance sampling: densities integrate to 1, and one proportional to the integrand leaves no variance."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Motion blur: times while the shutter is open, however short that is."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

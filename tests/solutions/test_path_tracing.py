@@ -1,7 +1,5 @@
 """Path tracing: Russian roulette of hardly any light."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

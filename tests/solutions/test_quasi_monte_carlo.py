@@ -1,7 +1,5 @@
 """Low discrepancy: Halton's points as SciPy has them, and chained patterns that know nothing of each other."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.stats import qmc

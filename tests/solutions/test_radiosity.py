@@ -1,7 +1,5 @@
 """Radiosity: gathering and shooting, again and again, solve the linear system."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

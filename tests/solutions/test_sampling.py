@@ -1,7 +1,5 @@
 """The warm-up: Marsaglia's generator is a permutation of the states."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from tests.solutions.contract import SOLUTIONS

@@ -1,7 +1,5 @@
 """Area lights: where they have no extent, next to a sphere's poles, and disks that face points anywhere."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Antialiasing: point patterns of a pixel, Gaussian weights, and the weighted mean."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Textures: places all over a sphere, and the colours of a repeated picture."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Depth of field: rays at any angle through lenses of any size, and the lens formula in exact fractions."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from itertools import product
 from typing import Any

@@ -1,7 +1,5 @@
 """`pytest tests/stress --hypothesis-profile=stress` tries many more examples."""
 
-from __future__ import annotations
-
 from hypothesis import settings
 
 settings.register_profile("stress", max_examples=2000)

@@ -4,8 +4,6 @@ Numbers are drawn from the whole range of each key, its ends among them; most ar
 all are extreme shows nothing. What takes more than one key to be right is repaired, or most scenes would be refused.
 """
 
-from __future__ import annotations
-
 import math
 from functools import cache
 from typing import Any

@@ -1,7 +1,5 @@
 """How many examples the Hypothesis tests of this folder try, and with which seeds: always the same."""
 
-from __future__ import annotations
-
 from hypothesis import HealthCheck, Phase, settings
 
 LONG = settings.get_current_profile_name() == "stress"

@@ -1,7 +1,5 @@
 """A right file of every kind that the course reads, and what reads it."""
 
-from __future__ import annotations
-
 import gzip
 import io
 import json

@@ -1,7 +1,5 @@
 """Files with something wrong in them: a few changes, of bytes, numbers, lines or parts, drawn by a number."""
 
-from __future__ import annotations
-
 import re
 import struct
 from collections.abc import Sequence

@@ -1,7 +1,5 @@
 """The worst legal inputs of effect functions, as Hypothesis strategies for arrays of a few columns."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -3,8 +3,6 @@
 Besides what the reader does, it tells what the libraries print by themselves, and how much memory a file took.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import sys

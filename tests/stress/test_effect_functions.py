@@ -5,8 +5,6 @@ every size that a scene hands over, and where a function takes more, each number
 the largest finite one. Bounds are closed forms with the roundings counted; EPS is the distance of 1 to the next number.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from typing import Any

@@ -1,7 +1,5 @@
 """The matrix of the stress suite: its design, its short form, and that each of its statements can fail."""
 
-from __future__ import annotations
-
 import dataclasses
 import json
 import math

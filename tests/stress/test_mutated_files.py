@@ -4,8 +4,6 @@ The readers run in a process of their own, which may end by a fault of a library
 `pytest tests/stress --hypothesis-profile=stress`, and a few hundred otherwise.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import re
@@ -40,7 +38,7 @@ class Reading:
         self._folder = folder
         self._process: subprocess.Popen[str] | None = None
 
-    def __enter__(self) -> Reading:
+    def __enter__(self) -> "Reading":
         return self
 
     def __exit__(

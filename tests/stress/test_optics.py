@@ -1,7 +1,5 @@
 """The cells that physics judges: what is wrong in the renderer's own formulae is told by them, in either form of it."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from typing import Any

@@ -4,8 +4,6 @@ Where tests/scene stops at the description, these go on to the picture. A warnin
 tests: an overflow on the way is a picture that is wrong somewhere.
 """
 
-from __future__ import annotations
-
 import copy
 import json
 import re

@@ -1,7 +1,5 @@
 """Hits on a coarse sphere, whose normals are far from those of its facets, for tests of compiled loops."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A floor under a square lamp, which may be an object or a light of type rectangle; and means of independent pixels."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Beer's law: light fades by exp(-absorption * length) inside a dielectric, and nowhere else."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Rays that go on: mirrors and glass against closed forms, energy, depth and cutoff."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Embree is told that neighbouring rays are coherent where they are, and nowhere else."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import pytest

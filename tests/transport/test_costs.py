@@ -1,7 +1,5 @@
 """What samples cost, as adaptive sampling is told: in closed form, and beside the rays that the receipt counts."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import pytest

@@ -5,8 +5,6 @@ leave from 2^-19 of the half extent above the surface, at a distance of about th
 tolerance of these is 1e-4. Lights that have a size are in tests/effects/test_soft_shadows.py.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

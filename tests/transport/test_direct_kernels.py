@@ -1,7 +1,5 @@
 """Compiled loops over lights and hits give what the passes over arrays give, bit for bit."""
 
-from __future__ import annotations
-
 from dataclasses import fields, replace
 from typing import Any
 

@@ -3,8 +3,6 @@
 What it brings to others beside lights is in test_object_lights.py, the furnace in test_path_tracing.py.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The inside of glass shows nothing that lamps, the sky, ambient light or other surfaces send; its outside does."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

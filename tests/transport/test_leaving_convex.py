@@ -1,7 +1,5 @@
 """Pictures keep their bits where rays that leave a ball are looked for among other objects alone."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -5,8 +5,6 @@ estimates of one number, whose mean is within 5.33 of its standard errors (false
 such numbers, 6e-6 for the file).
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

@@ -4,8 +4,6 @@ The measure is that of tests/effects/test_decorrelation.py: within each pixel, o
 points; the bound at 2 is 16 standard deviations away, false-fail rate below 1e-9.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

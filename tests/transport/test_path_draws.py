@@ -1,7 +1,5 @@
 """Numbers for some paths of a block are those that a draw for the whole block has for them."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

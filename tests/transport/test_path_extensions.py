@@ -5,8 +5,6 @@ sampler are independent estimates of one number, whose mean is within 5.33 of it
 for each of the 9 such numbers).
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The scene of path tracing and its twin: light that only one of them shows."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from course import load_scene, render

@@ -5,8 +5,6 @@ random sampler are independent estimates of one number, whose mean is within 5.3
 rate 1e-7 for each of the about 40 numbers, 4e-6 for the file).
 """
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 from typing import Any

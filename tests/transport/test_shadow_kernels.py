@@ -1,7 +1,5 @@
 """The loop over packets of hits finds the light that the passes over arrays find, bit for bit."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from functools import partial
 from typing import Any

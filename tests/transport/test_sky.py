@@ -4,8 +4,6 @@ Means are compared as in tests/estimates.py, about 60 of them. Beside their erro
 leave 2^-19 of the half extent above the surface.
 """
 
-from __future__ import annotations
-
 import dataclasses
 import math
 from pathlib import Path

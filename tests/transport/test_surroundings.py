@@ -1,7 +1,5 @@
 """Glass in water: bent by the ratio of the indices, and the water goes on behind it."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Compiled loops over the ways of light give what the passes over arrays give, bit for bit."""
 
-from __future__ import annotations
-
 from dataclasses import fields
 from typing import Any
 

@@ -1,7 +1,5 @@
 """One element of a METU scene file, which knows which of its parts have been asked for; and warnings about elements."""
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Container, Iterator
@@ -31,7 +29,7 @@ class Element:
     path: str
     where: str
     attributes: dict[str, str] = field(default_factory=dict)
-    children: list[Element] = field(default_factory=list)
+    children: "list[Element]" = field(default_factory=list)
     text: str = ""
     plain: bool = False
     _asked: set[str] = field(default_factory=set)
@@ -69,21 +67,21 @@ class Element:
             raise self.error(f"{name} is {show(value)}: expected true or false")
         return value in {"true", "1"}
 
-    def all(self, tag: str) -> list[Element]:
+    def all(self, tag: str) -> "list[Element]":
         """The children of that name; SceneError for a number or a text in JSON where children could be."""
         self._asked.add(tag)
         if self.text.strip():
             self._check_map()
         return [child for child in self.children if child.tag == tag]
 
-    def maybe(self, tag: str) -> Element | None:
+    def maybe(self, tag: str) -> "Element | None":
         """The child of that name, if there is one; SceneError for several."""
         found = self.all(tag)
         if len(found) > 1:
             raise found[1].error(f"there are {len(found)} of it: expected one")
         return found[0] if found else None
 
-    def child(self, tag: str, example: str) -> Element:
+    def child(self, tag: str, example: str) -> "Element":
         """The child of that name; SceneError where it is missing."""
         found = self.maybe(tag)
         if found is None:

@@ -1,7 +1,5 @@
 """A scene file as plain data that still knows the line of each value; and what a misspelt word was meant to be."""
 
-from __future__ import annotations
-
 import difflib
 import re
 from collections.abc import Iterable, Mapping
@@ -81,7 +79,7 @@ class Place:
     document: Document
     path: KeyPath = ()
 
-    def at(self, *keys: Key) -> Place:
+    def at(self, *keys: Key) -> "Place":
         """The value at these keys."""
         return Place(self.document, (*self.path, *keys))
 

@@ -4,8 +4,6 @@ A check is a plain function that takes a ``Trial`` and returns; it raises ``Fail
 wrong. Whatever else it raises is the grader's own fault and never counts against a student.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal, Protocol

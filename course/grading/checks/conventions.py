@@ -1,7 +1,5 @@
 """The checks that follow from a declaration: what the course's conventions ask of every function."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from copy import deepcopy
 from itertools import product

@@ -8,8 +8,6 @@ What arguments and results there are, and of which shape, says the function's co
 declaration adds how arguments are made, and the laws.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Mapping
 from copy import deepcopy
 from dataclasses import dataclass
@@ -152,13 +150,13 @@ class Law:
 
     name: str
     title: str
-    run: Callable[[Function, Trial], None]
+    run: "Callable[[Function, Trial], None]"
     role: Role = "corner"
     kind: Kind = "property"
     points: float = 1.0
     false_fail: float = 0.0
     case: Case | None = None
-    beside: Law | None = None
+    beside: "Law | None" = None
 
 
 @dataclass(frozen=True)

@@ -5,8 +5,6 @@ numbers, so the checks draw theirs from ``Trial.rng``. A failure shows the small
 points, and where too many or too few lie.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Iterable, Iterator
 from itertools import combinations, product

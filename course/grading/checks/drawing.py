@@ -1,7 +1,5 @@
 """Arguments to call a function with: as a scene has them, round ones for examples, and the ends of what is legal."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from itertools import product
 from typing import Any
@@ -81,7 +79,7 @@ class Draw:
         u /= np.linalg.norm(u)
         return np.stack((u, np.cross(w, u), w))
 
-    def but(self, **changed: Any) -> Draw:
+    def but(self, **changed: Any) -> "Draw":
         """The same with other attributes."""
         return replace(self, **changed)
 

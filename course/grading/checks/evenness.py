@@ -1,7 +1,5 @@
 """Laws about samples that numbers u decide: small steps of u are small steps, and even numbers give even samples."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

@@ -1,7 +1,5 @@
 """What a report says of the arguments: those of the worst column, and the smallest input that shows a mistake."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

@@ -5,8 +5,6 @@ arguments ``a``, by name, and results ``r``, a tuple if there are several. Both 
 the contract alone. A law fails with the worst column, and with the smallest input that breaks it.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 from typing import Any
 

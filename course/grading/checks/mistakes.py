@@ -7,8 +7,6 @@ may be used in any way, the distributions of the declared features are compared.
 has them without the submissions.
 """
 
-from __future__ import annotations
-
 import json
 import zipfile
 from collections.abc import Iterable, Iterator, Mapping, Sequence

@@ -1,7 +1,5 @@
 """How a check ended: what is shown, kept and counted of it."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import Any

@@ -7,8 +7,6 @@ written yet, is not called again. What has been said of a function before is not
 first.
 """
 
-from __future__ import annotations
-
 import traceback
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace

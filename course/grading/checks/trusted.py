@@ -1,7 +1,5 @@
 """Calls of functions that need no worker: the reference solution's, and variants of the course's own."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from typing import Any
 

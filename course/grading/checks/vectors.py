@@ -1,7 +1,5 @@
 """Vector arrays (3, N) as checks need them: unit ones to call with, and products of those that come back."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

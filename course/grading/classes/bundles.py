@@ -4,8 +4,6 @@ Gradescope runs ``setup.sh`` once to build an image, and ``run_autograder`` for 
 the project as far as grading needs it. What goes in is listed, as it is for students.
 """
 
-from __future__ import annotations
-
 import json
 import uuid
 from collections.abc import Sequence

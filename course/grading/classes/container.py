@@ -7,8 +7,6 @@ Gradescope ends what takes longer than its limit, so its results are written ane
 earned until then counts. Whatever has not been reached stands in them with its points to earn.
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 import sys

@@ -6,8 +6,6 @@ scheduler hands its work to another one, until as many have been lost with the s
 ``distributed.scheduler.allowed-failures`` says, 3 if nothing else is set.
 """
 
-from __future__ import annotations
-
 import multiprocessing
 import os
 import signal

@@ -4,8 +4,6 @@ Nobody trusts an archive: how many files it may list, how much it may unpack to 
 other is bounded, no path leads out, and no link is followed.
 """
 
-from __future__ import annotations
-
 import bz2
 import gzip
 import lzma

@@ -5,8 +5,6 @@ anew. A fault of the grader is nobody's grade: it is told, kept out of what a la
 others go on.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime

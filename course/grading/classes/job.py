@@ -4,8 +4,6 @@ A job and what comes of it are plain data, and a job needs no folder that others
 name or, for another machine, the file's bytes.
 """
 
-from __future__ import annotations
-
 import tempfile
 from collections.abc import Mapping
 from dataclasses import dataclass, replace

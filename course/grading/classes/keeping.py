@@ -5,8 +5,6 @@ from which the seed could be found by trying. It comes last; where it stands, al
 with the same submission, seed, version and modules need not grade it again.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 from dataclasses import fields

@@ -1,7 +1,5 @@
 """Names: what that of a file says, as students and learning systems name files, and folders' names for students."""
 
-from __future__ import annotations
-
 import hashlib
 import re
 import unicodedata

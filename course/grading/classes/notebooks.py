@@ -3,8 +3,6 @@
 Drawing, timing and `%magic` are right in a notebook, and would fail where a module is imported.
 """
 
-from __future__ import annotations
-
 import ast
 import json
 import re

@@ -4,8 +4,6 @@ A mistake in it is told by file, line and key. A student's score by it is raw, a
 and rounded.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field

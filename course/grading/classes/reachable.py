@@ -1,7 +1,5 @@
 """The statements of a file that the functions of its module come to use."""
 
-from __future__ import annotations
-
 import ast
 import warnings
 from collections.abc import Iterable, Iterator

@@ -4,8 +4,6 @@ New results lie in a folder of their own until they are applied. They are kept t
 stays the same, so that applying what was looked at takes no second grading, and an interrupted run goes on.
 """
 
-from __future__ import annotations
-
 import hashlib
 import shutil
 from collections.abc import Sequence

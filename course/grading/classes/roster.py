@@ -1,7 +1,5 @@
 """The list of a class, as Canvas, Moodle or the instructor writes it, and whose submission is whose."""
 
-from __future__ import annotations
-
 import csv
 import io
 import re

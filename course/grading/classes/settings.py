@@ -1,7 +1,5 @@
 """With what a class is graded, kept for whoever grades it again."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import msgspec
@@ -41,7 +39,7 @@ class Settings(msgspec.Struct, frozen=True):
             read_roster(Path(self.roster)) if self.roster else None,
         )
 
-    def instead(self, policy: Path | None, roster: Path | None, title: str | None) -> Settings:
+    def instead(self, policy: Path | None, roster: Path | None, title: str | None) -> "Settings":
         """The same with another policy, roster or title, where one is given."""
         return msgspec.structs.replace(
             self,

@@ -9,8 +9,6 @@ Each file is parsed once, apart from the grader, and what came of it is kept. Th
 tree, and done without recursion: students choose what the tree looks like.
 """
 
-from __future__ import annotations
-
 import ast
 import builtins
 import hashlib

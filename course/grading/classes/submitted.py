@@ -7,8 +7,6 @@ nothing; and nothing is left out but what a file manager has made.
 Which files of a submission are its modules their names say, and where no name tells, what they define.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field

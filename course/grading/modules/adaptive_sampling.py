@@ -4,8 +4,6 @@ Colours and thresholds are multiples of a power of two, so that differences are 
 above the threshold can be told from the threshold itself.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from itertools import combinations
 from math import inf, nan

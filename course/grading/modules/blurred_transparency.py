@@ -3,8 +3,6 @@
 Close to the critical angle rounding decides, so no check comes nearer to it than ``MARGIN``.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from functools import partial
 from math import inf, nan

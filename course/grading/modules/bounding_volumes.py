@@ -1,7 +1,5 @@
 """bounding_volumes declared: rays and boxes, hierarchies of boxes, and, in a file of its own, the way through one."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from math import nan
 from typing import Any

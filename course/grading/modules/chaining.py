@@ -3,8 +3,6 @@
 Which permutations are drawn is the function's own business; what is asked is asked of the samples that rays take.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from copy import deepcopy
 from itertools import permutations

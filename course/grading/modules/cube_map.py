@@ -1,7 +1,5 @@
 """cube_map declared: OpenGL's faces and coordinates, bilinear lookup, and what lies beyond the edges."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from typing import Any
 

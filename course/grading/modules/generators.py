@@ -1,7 +1,5 @@
 """How many numbers a function has drawn from the generator that it was handed."""
 
-from __future__ import annotations
-
 from typing import Any
 
 MULTIPLIER = 0x2360ED051FC65DA44385DF649FCCF645

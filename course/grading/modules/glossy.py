@@ -4,8 +4,6 @@ A right function may turn or mirror its square, use the rows of u in any order a
 all that is looked at is what stays the same whatever it chose.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from functools import partial
 from math import nan

@@ -3,8 +3,6 @@
 Everything is in double precision, and slow where nobody waits for it.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

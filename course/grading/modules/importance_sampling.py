@@ -4,8 +4,6 @@ The integrand is cos^n over the hemisphere wherever one is needed. Its integral 
 each way of sampling leaves has a closed form.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import partial

@@ -1,7 +1,5 @@
 """motion_blur declared: times while the shutter is open, and rays as a moving object sees them."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from functools import partial
 from math import inf, nan

@@ -5,8 +5,6 @@ cosine, and that all turns come alike. Where a path survives by a hair, rounding
 ``HAIR``.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from math import pi
 from typing import Any

@@ -3,8 +3,6 @@
 Radical inverses are rational numbers, so what is asked of them is asked against exact fractions.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from fractions import Fraction
 from math import nan

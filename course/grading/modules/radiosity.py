@@ -4,8 +4,6 @@ Scenes are tables of form factors made here, for areas of any size: what A_i F[i
 the light that two patches exchange. So rows and columns differ, and whoever mixes them up is found out.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from typing import Any

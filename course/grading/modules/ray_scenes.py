@@ -1,7 +1,5 @@
 """Scenes that rays are sent through: triangles, a hierarchy of boxes around them, and rays to and past them."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

@@ -3,8 +3,6 @@
 Points are looked at as offsets from the centre, in radii: (2, N) on the disk, (3, N) else.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from typing import Any

@@ -1,7 +1,5 @@
 """sampling declared: points on a disk, in a ball and on a sphere, and the generator xorshift32."""
 
-from __future__ import annotations
-
 from math import pi, sqrt
 from typing import Any
 

@@ -1,7 +1,5 @@
 """soft_shadows declared: the grid of point lights, and uniform points on and in lights."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from math import inf, isqrt, nan
 from typing import Any

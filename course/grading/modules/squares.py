@@ -1,7 +1,5 @@
 """Directions that are jittered in a square: what stays the same however the square is turned or mirrored."""
 
-from __future__ import annotations
-
 from math import nan
 from typing import Any
 

@@ -1,7 +1,5 @@
 """supersampling declared: the three patterns of points in pixels, the Gaussian's weights, and the weighted mean."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from functools import partial
 from math import nan

@@ -1,7 +1,5 @@
 """textures declared: the places of points on rectangles, spheres and triangles, and the bilinear lookup."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from functools import partial
 from typing import Any

@@ -1,7 +1,5 @@
 """thin_lens declared: points on the disk, rays through a lens, and the two formulas about it."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from functools import partial
 from math import inf, nan

@@ -5,8 +5,6 @@ triangle that is named has to be hit where it is said, and no other may clearly 
 through edges, may go either way.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

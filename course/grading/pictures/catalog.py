@@ -1,7 +1,5 @@
 """Which functions are judged by a picture, and in which scene."""
 
-from __future__ import annotations
-
 from functools import partial
 
 import numpy as np

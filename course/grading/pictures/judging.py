@@ -5,8 +5,6 @@ makes noise is judged by both: by SSIM on a picture of many Sobol samples, with 
 put between right and wrong, and by the means of blocks over pictures of several seeds.
 """
 
-from __future__ import annotations
-
 import json
 from functools import lru_cache
 from importlib.resources import files

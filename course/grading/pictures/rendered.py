@@ -1,7 +1,5 @@
 """Checks that render: one function of the student's inside the pipeline, against the same with the reference's."""
 
-from __future__ import annotations
-
 import tempfile
 from collections.abc import Callable
 from functools import partial

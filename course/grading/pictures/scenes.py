@@ -1,7 +1,5 @@
 """Small scenes in which one function's effect fills the picture; seeds move their parts."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

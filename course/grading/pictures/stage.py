@@ -5,8 +5,6 @@ the reference solution has recorded: it doesn't depend on the student's result. 
 needs no solution: the same for the reference picture, so that only the function in question can make a difference.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from typing import Any
 

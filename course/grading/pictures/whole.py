@@ -1,7 +1,5 @@
 """The last check: one picture for which all of a student's own functions work together."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Set
 from typing import Any
 

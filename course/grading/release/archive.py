@@ -5,8 +5,6 @@ afresh, so that no half-written assignment of the author is handed out, and so a
 where no solutions are. The finished archive is searched for every line of every solution before it gets its name.
 """
 
-from __future__ import annotations
-
 import tempfile
 import zipfile
 from collections.abc import Container, Iterable, Mapping

@@ -1,7 +1,5 @@
 """What is made for a folder to work in: README, stubs, the schema of scenes, settings of an editor."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping
 from pathlib import Path

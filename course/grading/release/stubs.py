@@ -12,8 +12,6 @@ indented alike. Lines are read as text, not as Python, so that nothing can hide 
 refused rather than overlooked, for the price of overlooking one is a published solution.
 """
 
-from __future__ import annotations
-
 import ast
 import re
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """The whole class: tables of grades for a spreadsheet, Canvas and Moodle, and one page for the instructor."""
 
-from __future__ import annotations
-
 import csv
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence

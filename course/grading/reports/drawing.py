@@ -5,8 +5,6 @@ An SVG element takes the page's own colour of text. Each plot is a matplotlib fi
 between threads, and no global setting is changed.
 """
 
-from __future__ import annotations
-
 import re
 from base64 import b64encode
 from dataclasses import dataclass

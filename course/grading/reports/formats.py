@@ -3,8 +3,6 @@
 Texts are fit for any file, and numbers that are none are 0: student code has written some of both.
 """
 
-from __future__ import annotations
-
 import json
 import math
 import re

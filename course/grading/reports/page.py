@@ -3,8 +3,6 @@
 Everything that the templates print is cleaned and escaped.
 """
 
-from __future__ import annotations
-
 import re
 from functools import lru_cache
 from itertools import count

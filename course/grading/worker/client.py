@@ -1,7 +1,5 @@
 """The grader's end of a worker: calls in, values out, and every way in which that can go wrong told apart."""
 
-from __future__ import annotations
-
 import threading
 from collections import Counter
 from collections.abc import Sequence
@@ -59,7 +57,7 @@ class Worker:
         source: bytes,
         limits: Limits | None = None,
         shut_in: Sandbox | None = None,
-        lender: Worker | None = None,
+        lender: "Worker | None" = None,
         lent: Sequence[str] = (),
         patience: Patience | None = None,
         budget: Budget | None = None,
@@ -86,7 +84,7 @@ class Worker:
                 module_wide=True,
             )
 
-    def __enter__(self) -> Worker:
+    def __enter__(self) -> "Worker":
         return self
 
     def __exit__(self, *_: object) -> None:

@@ -7,8 +7,6 @@ process ends.
 Landlock has three system calls, and its binding on PyPI is a development release; so they are called here.
 """
 
-from __future__ import annotations
-
 import base64
 import ctypes
 import os

@@ -9,8 +9,6 @@ each {"array": number}, {"rng": state}, {"tuple": [...]} or {"value": number, te
 evaluated, and what a message may hold is known from its head, before any of the rest is read.
 """
 
-from __future__ import annotations
-
 import json
 import math
 from collections.abc import Callable, Iterator

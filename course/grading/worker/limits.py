@@ -4,8 +4,6 @@ Only the time of calls that never end is counted against a module. A submission 
 however long its checks take, so a machine that is busy costs nobody anything.
 """
 
-from __future__ import annotations
-
 import threading
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -3,8 +3,6 @@
 The grader hands this file's text to a worker's Python with ``-c``, so no sandbox needs to show it.
 """
 
-from __future__ import annotations
-
 import contextlib
 import json
 import os

@@ -1,7 +1,5 @@
 """A worker's process and the pipes to it: messages that cross before a deadline, or the reason why they don't."""
 
-from __future__ import annotations
-
 import contextlib
 import itertools
 import json
@@ -196,7 +194,7 @@ class Process:
             meaning = f"; {self._ended}"
         return StudentError("crashed", f"{why}{meaning}")
 
-    def _wait(self, clock: _Clock, read: Sequence[int] = (), write: Sequence[int] = ()) -> None:
+    def _wait(self, clock: "_Clock", read: Sequence[int] = (), write: Sequence[int] = ()) -> None:
         """Until there is something to read, or room to write; the process is ended where that takes too long."""
         if not any(select.select(read, write, [], clock.left())) or clock.over():
             self.close()

@@ -6,8 +6,6 @@ whether these are right is decided elsewhere. The walls around the student's cod
 kernel keeps. The audit hook is none: it tells honest students by name what a function on arrays has no business with.
 """
 
-from __future__ import annotations
-
 import json
 import linecache
 import os

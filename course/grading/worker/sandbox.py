@@ -4,8 +4,6 @@ Nothing is taken for granted: each way is tried with ``probe.py`` on the machine
 is what is said of it. A hook inside the interpreter is no wall, for the code runs in the interpreter too.
 """
 
-from __future__ import annotations
-
 import base64
 import itertools
 import json

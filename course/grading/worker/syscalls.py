@@ -8,8 +8,6 @@ libseccomp knows the numbers of the calls on each processor, and comes with apt,
 isn't on PyPI, and pyseccomp, a beta that stands in for it, has had no release since 2021; six functions need neither.
 """
 
-from __future__ import annotations
-
 import ctypes
 import errno
 import os

@@ -1,7 +1,5 @@
 """Messages about calls that gave no value: they hold only as much of the student's own texts as somebody reads."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping, Sequence
 from typing import Any

@@ -1,7 +1,5 @@
 """Figures of adaptive sampling: alike or not, one pixel level by level, shared corners."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from sitebuild.diagrams.canvas import Canvas, clipped

@@ -1,7 +1,5 @@
 """Figures of blurred transparency: rays at a boundary, the steps, how much is reflected."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Figures of bounding volumes: boxes in boxes and a ray, the hierarchy level by level, slabs."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from sitebuild.diagrams.canvas import Canvas, unit

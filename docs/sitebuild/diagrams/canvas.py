@@ -5,8 +5,6 @@ scheme: "ink" and "faint" lines, "accent" for what the figure is about, "wash" a
 and "dashed" change a line.
 """
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Iterable, Sequence

@@ -1,7 +1,5 @@
 """Figures of the cube map: a direction and its face, the six faces unfolded, the steps, edges and corners."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from sitebuild.diagrams.canvas import Canvas, moved

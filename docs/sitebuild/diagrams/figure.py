@@ -1,7 +1,5 @@
 """A figure: panels side by side, and what it says to those who see it and to those who don't."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass
 from html import escape

@@ -1,7 +1,5 @@
 """Figures of glossy reflection: a lobe and why images dissolve, the steps, three ways to jitter."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

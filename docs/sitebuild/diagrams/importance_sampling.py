@@ -1,7 +1,5 @@
 """Figures of importance sampling: three densities for one integrand, the steps, Malley's method, seen from above."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from sitebuild.diagrams.canvas import Canvas

@@ -1,7 +1,5 @@
 """Figures of motion blur: what the film keeps, the ray that moves instead of the object, the steps."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from sitebuild.diagrams.canvas import Canvas, moved, unit

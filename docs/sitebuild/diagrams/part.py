@@ -1,7 +1,5 @@
 """`<!-- site: diagram MODULE/NAME -->`: a figure in the page."""
 
-from __future__ import annotations
-
 from functools import cache
 from importlib import import_module
 

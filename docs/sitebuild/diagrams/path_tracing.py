@@ -1,7 +1,5 @@
 """Figures of path tracing: a path through a room, the steps, directions of a bounce, Russian roulette."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Figures of quasi-Monte Carlo: mirrored digits, three sets of points, the steps, shuffled patterns."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from sitebuild.diagrams.canvas import Canvas

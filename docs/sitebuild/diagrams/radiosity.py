@@ -1,7 +1,5 @@
 """Figures of radiosity: two patches, the hemicube, light spreading through a room."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Figures of sampling: two ways to a disk, the steps of a warp, a radius that crowds, slices of a sphere."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from sitebuild.diagrams.canvas import Canvas, turned

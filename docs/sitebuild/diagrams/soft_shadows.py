@@ -1,7 +1,5 @@
 """Figures of soft shadows: the penumbra, what the integral's symbols are, the steps, places on lights."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from sitebuild.diagrams.canvas import Canvas, between, meeting, moved, unit

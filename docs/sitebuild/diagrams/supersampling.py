@@ -1,7 +1,5 @@
 """Figures of supersampling: a pixel with an edge through it, patterns of samples, the mean, the Gaussian."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from sitebuild.diagrams.canvas import Canvas, columns

@@ -1,7 +1,5 @@
 """A picture of few texels, and the four whose colours are mixed at a place: cube maps and textures look up alike."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from sitebuild.diagrams.canvas import Canvas, moved

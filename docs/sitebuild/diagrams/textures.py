@@ -1,7 +1,5 @@
 """Figures of textures: three parametrisations, the steps of a lookup, the tents of the texels."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from sitebuild.diagrams.canvas import Canvas

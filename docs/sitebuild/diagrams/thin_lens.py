@@ -1,7 +1,5 @@
 """Figures of the thin lens: what a lens does, our rays through the plane in focus, circles of confusion."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from sitebuild.diagrams.canvas import Canvas, between, meeting, unit

@@ -1,7 +1,5 @@
 """Solids on paper: parallel lines stay parallel, and what is behind is dashed."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The list of common mistakes in a function's section of its module's page."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Which functions are looked at, and how."""
 
-from __future__ import annotations
-
 from functools import lru_cache
 from importlib import import_module
 

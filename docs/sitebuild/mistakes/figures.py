@@ -1,7 +1,5 @@
 """Figures drawn once, in processes of their own, and kept under a hash of all that decides them."""
 
-from __future__ import annotations
-
 import json
 import warnings
 from collections.abc import Iterable, Mapping

@@ -1,7 +1,5 @@
 """One way to look at a function."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path

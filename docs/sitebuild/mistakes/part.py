@@ -1,7 +1,5 @@
 """The row of figures after a list of common mistakes: what is right, then each mistake."""
 
-from __future__ import annotations
-
 from html import escape
 
 from course.errors import CourseError

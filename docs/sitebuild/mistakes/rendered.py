@@ -1,7 +1,5 @@
 """Small renders with one function wrong: of scenes that the grader's picture checks render, and of scenes made here."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from functools import partial
 from types import ModuleType

@@ -1,7 +1,5 @@
 """Functions to be looked at: the right ones of all modules, and the known wrong ones."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import lru_cache
 from types import ModuleType

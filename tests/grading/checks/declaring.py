@@ -1,7 +1,5 @@
 """A function that is declared and written in a test: points at a distance from their centre."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from math import nan
 from typing import Any

@@ -1,7 +1,5 @@
 """Where a function calls another public one that is wrong, that one is named first."""
 
-from __future__ import annotations
-
 from course.grading.catalog import module_checks
 from course.grading.checks.result import Result, Status
 from course.grading.checks.running import BEGIN, run_checks

@@ -1,7 +1,5 @@
 """The checks that follow from a declaration: whatever breaks one fails that one."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

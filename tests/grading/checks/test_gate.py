@@ -1,7 +1,5 @@
 """Values of the wrong kind reach no check, and earn nothing in any; right ones of every function go through."""
 
-from __future__ import annotations
-
 from itertools import cycle
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The forms that laws come in: each passes what is right, fails what is a little wrong, and shows a small input."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

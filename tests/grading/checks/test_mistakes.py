@@ -1,7 +1,5 @@
 """A mistake is told by the known submission that behaves alike, and by nothing else."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

@@ -1,7 +1,5 @@
 """How one check gets its score is to be read in few files."""
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 from types import FrameType

@@ -1,7 +1,5 @@
 """References are made once, and no fault of a check or of a mistake's description ends the grading."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any

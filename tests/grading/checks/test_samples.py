@@ -1,7 +1,5 @@
 """The smallest sample that shows a wrong distribution: counted by hand, and none where the distribution is right."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

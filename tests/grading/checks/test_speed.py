@@ -1,7 +1,5 @@
 """Advice on speed: every function is asked with arguments that are legal, and both callers with the same."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Grading on a dask cluster: the same as on this machine, though a worker is lost."""
 
-from __future__ import annotations
-
 import json
 import socket
 import subprocess

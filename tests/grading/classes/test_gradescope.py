@@ -1,7 +1,5 @@
 """The archive for Gradescope, laid out and run as Gradescope does."""
 
-from __future__ import annotations
-
 import json
 import os
 import shutil

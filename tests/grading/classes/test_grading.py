@@ -1,7 +1,5 @@
 """A whole class: graded once whatever happens, and nobody's trouble is another's."""
 
-from __future__ import annotations
-
 import csv
 import json
 import os

@@ -1,7 +1,5 @@
 """Nothing that is handed in is left out in silence: it is graded, or a row says why not."""
 
-from __future__ import annotations
-
 import gzip
 import io
 import json

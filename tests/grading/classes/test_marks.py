@@ -1,7 +1,5 @@
 """Scores by a policy: what counts, what lateness and attempts cost, and mistakes told by file, line and key."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from datetime import datetime
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The question for PrairieLearn and the image that grades it, laid out and run as PrairieLearn does."""
 
-from __future__ import annotations
-
 import json
 import re
 import shlex

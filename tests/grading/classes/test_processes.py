@@ -1,7 +1,5 @@
 """A pool of processes that outlives the death of one of them."""
 
-from __future__ import annotations
-
 import multiprocessing
 from collections import Counter
 from pathlib import Path

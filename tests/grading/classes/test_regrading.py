@@ -1,7 +1,5 @@
 """A class graded again: who changes by which check is told first, and written only then."""
 
-from __future__ import annotations
-
 import csv
 import json
 from collections.abc import Sequence

@@ -1,7 +1,5 @@
 """Whose submission is whose, and the tables that Canvas and Moodle import."""
 
-from __future__ import annotations
-
 import csv
 from pathlib import Path
 

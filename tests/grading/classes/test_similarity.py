@@ -1,7 +1,5 @@
 """Copies are found however they were renamed; what was written independently is not."""
 
-from __future__ import annotations
-
 import ast
 from collections.abc import Mapping, Sequence
 from pathlib import Path

@@ -1,7 +1,5 @@
 """What students hand in: names, and files that are not what they say."""
 
-from __future__ import annotations
-
 import errno
 import os
 import struct

@@ -1,7 +1,5 @@
 """Work for a pool of processes: it does what its item says."""
 
-from __future__ import annotations
-
 import os
 import signal
 import sys

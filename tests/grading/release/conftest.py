@@ -1,7 +1,5 @@
 """The student archive, which takes long to make: made once for all processes of a run."""
 
-from __future__ import annotations
-
 from functools import partial
 from pathlib import Path
 

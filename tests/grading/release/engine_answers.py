@@ -1,7 +1,5 @@
 """What a student gets for copying the engine's own functions: adapters around text that the student's archive holds."""
 
-from __future__ import annotations
-
 import ast
 from dataclasses import dataclass
 from pathlib import Path

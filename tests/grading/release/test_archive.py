@@ -1,7 +1,5 @@
 """The student archive: everything but the solutions."""
 
-from __future__ import annotations
-
 import re
 import shutil
 import subprocess

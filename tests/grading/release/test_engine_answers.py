@@ -1,7 +1,5 @@
 """What the engine in a student's archive answers is what the page says, and a submission can't call it."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

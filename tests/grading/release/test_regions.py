@@ -1,7 +1,5 @@
 """Regions: where the solution begins and ends, and which texts are refused."""
 
-from __future__ import annotations
-
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st

@@ -1,7 +1,5 @@
 """Stubs: what of a solution is handed out, and what is refused because too much would be."""
 
-from __future__ import annotations
-
 import ast
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """A student's copy, made from the archive: no solutions, and `course check` all the same."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

@@ -3,8 +3,6 @@
 It is built by way of the source distribution and unpacked beside the libraries; the checkout isn't on the path.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import re

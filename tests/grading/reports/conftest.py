@@ -1,7 +1,5 @@
 """Reports made by hand, one of them of texts that want to break out of a file."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any

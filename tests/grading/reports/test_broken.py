@@ -1,7 +1,5 @@
 """A check that broke is marked wherever its result is shown, and how it broke is shown to no student."""
 
-from __future__ import annotations
-
 import csv
 import json
 from dataclasses import replace

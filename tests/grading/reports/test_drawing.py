@@ -1,7 +1,5 @@
 """Figures of any numbers that a student's function may give."""
 
-from __future__ import annotations
-
 import re
 from base64 import b64decode
 from io import BytesIO

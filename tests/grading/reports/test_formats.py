@@ -1,7 +1,5 @@
 """Reports for other programs: each has the keys, and the sums, that its reader expects."""
 
-from __future__ import annotations
-
 import csv
 import json
 import math

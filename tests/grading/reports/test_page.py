@@ -1,7 +1,5 @@
 """The student's page: whole, readable, and closed to what is not its own."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Fixtures of the tests of a worker."""
 
-from __future__ import annotations
-
 import pytest
 
 from course.grading.worker.client import Worker

@@ -1,7 +1,5 @@
 """What tests of workers grade: solutions, by the checks that render nothing and measure no time."""
 
-from __future__ import annotations
-
 from functools import cache
 
 from course.effects import PROJECT

@@ -1,7 +1,5 @@
 """Nothing that a submission tries gets it anything, or does anything outside its worker, behind any wall."""
 
-from __future__ import annotations
-
 import os
 import sys
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """Messages: every value of numbers comes back as it went, and whatever a forger writes is a broken message."""
 
-from __future__ import annotations
-
 import io
 import json
 from collections.abc import Callable

@@ -3,8 +3,6 @@
 How long something takes decides no test: what is counted is how often something was waited for or started.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 from textwrap import indent
 

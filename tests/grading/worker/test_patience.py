@@ -1,7 +1,5 @@
 """The time that calls which never end may take: bounded together, and kept for functions that do end."""
 
-from __future__ import annotations
-
 import contextlib
 from itertools import product
 

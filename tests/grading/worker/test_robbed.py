@@ -1,7 +1,5 @@
 """What holds up the grader or fills it up has an end, and what somebody else does to a worker costs nothing."""
 
-from __future__ import annotations
-
 import contextlib
 import os
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """Grading without walls happens only when somebody asks for it, and then every format says so."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Generator, Sequence
 from dataclasses import replace
 from pathlib import Path

@@ -4,8 +4,6 @@ Each attack sits in one function of a module whose other functions are right: it
 the named checks, and nothing else.
 """
 
-from __future__ import annotations
-
 import threading
 from dataclasses import dataclass
 from math import fsum

@@ -1,7 +1,5 @@
 """What is said of an exception: which arguments came, and what to do where many meet it."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 

@@ -1,7 +1,5 @@
 """What the lookup makes of an environment: by a wide camera, or close to the cube's edges with few texels."""
 
-from __future__ import annotations
-
 from types import ModuleType
 from typing import Any
 
