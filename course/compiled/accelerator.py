@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from course.compiled.convex import ConvexObjects, convex_objects
-from course.compiled.own import courses_own
+from course.extras.own import courses_own
 from course.compiled.packets import COHERENT, PacketScene
 from course.core.embree import (
     NO_HIT,

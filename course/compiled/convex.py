@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from course.core.types import Floats32, Floats64, Indices, Mask, Numbers
 from course.core.vectors import cross, dot
+from course.extras.boxes import roomy_box
 
 MOST_OBJECTS = 16
 """Objects up to which a ray is held against the box of each."""
@@ -95,13 +96,6 @@ def convex_objects(
     if not worth.any():
         return None
     return ConvexObjects(first.astype(np.int32), worth, np.concatenate(boxes))
-
-
-def roomy_box(vertices: Floats32) -> Floats32:
-    """Lowest and highest corner (2, 3) of a box around all vertices, with room for the rounding of Embree's hits."""
-    low, high = vertices.min(axis=0), vertices.max(axis=0)
-    room = np.float32(1e-5) * (high - low).max() + np.float32(1e-6) * np.abs(vertices).max()
-    return np.array((low - room, high + room), np.float32)
 
 
 def _spared(vertices: Floats32, triangles: Numbers, boxes: Sequence[Floats32]) -> float:

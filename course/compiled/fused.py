@@ -18,7 +18,7 @@ from course.compiled import (
     packet_kernels,
 )
 from course.compiled.accelerator import MovingPackets, PacketAccelerator, in_packets
-from course.compiled.own import courses_own
+from course.extras.own import courses_own
 from course.core.camera import Camera, Lens
 from course.core.counters import Counters
 from course.core.direct import ROUNDING, DirectLight
@@ -47,6 +47,7 @@ from course.extras.samplers.sobol import SobolSampler
 from course.extras.scatter import FullScatter
 from course.extras.sky import COST, NUMBERS, Sky
 from course.extras.surface import FullSurface
+from course.extras.swept_movers import SweptMovers
 
 _NO_COLUMNS, _NO_ROWS = np.empty((3, 0), np.float32), np.empty((0, 9), np.float32)
 _NONE, _NO_MASK = np.empty(0, np.float32), np.empty((0, 0), np.bool_)
@@ -110,7 +111,7 @@ def _fits_motion(motion: Motion | None) -> bool:
 
 def _fits_surface(surface: Any) -> bool:
     extras = surface.painting, surface.turned, surface.kept, surface.through
-    known = type(surface.accelerator) in (EmbreeAccelerator, MovingAccelerator)
+    known = type(surface.accelerator) in (EmbreeAccelerator, MovingAccelerator, SweptMovers)
     return isinstance(surface, FullSurface) and known and all(extra is None for extra in extras)
 
 

@@ -25,7 +25,7 @@ _LESS, _MORE = np.float32(1 - 1e-6), np.float32(1 + 1e-6)
 SCENES = types.uintp[::1]
 """What stands still, then each mover; 0 for no triangles."""
 BOXES = types.float32[:, :, ::1]
-"""(K, 2, 3) of the movers, as ``convex.roomy_box`` makes them."""
+"""(K, 2, 3) of the movers, as ``roomy_box`` makes them."""
 
 
 @njit(**LEAN)

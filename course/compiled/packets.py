@@ -11,9 +11,9 @@ without.
 
 import numpy as np
 
-from course.compiled.convex import roomy_box
 from course.compiled.library import device, library
 from course.core.types import Floats32, Indices, Mask, Numbers
+from course.extras.boxes import roomy_box
 
 _TRIANGLES, _INDICES, _VERTICES = 0, 0, 1
 _THREE_UINTS, _THREE_FLOATS = 0x5003, 0x9003

@@ -16,6 +16,8 @@ from course.core.ray_offset import offset_and_inset
 from course.core.triangles import Mesh, Triangles
 from course.core.types import Floats, Floats32, Floats64, Functions, Numbers
 from course.core.vectors import cross, dot
+from course.extras.own import courses_own
+from course.extras.swept_movers import SweptMovers
 
 UNIT = 1e-9
 """Normals whose lengths are within this of 1 count as unit vectors."""
@@ -105,7 +107,9 @@ def accelerate(tables: Sequence[Tables], motion_blur: Functions | None = None) -
     if not groups:
         return static
     assert motion_blur is not None
-    return MovingAccelerator(static, tuple(_movers(groups, tables)), Motion(motion_blur))
+    # A student's function may move a mover out of any box that is known beforehand.
+    kind = SweptMovers if courses_own(motion_blur.to_object_space) else MovingAccelerator
+    return kind(static, tuple(_movers(groups, tables)), Motion(motion_blur))
 
 
 def vertices_and_triangles(tables: Sequence[Tables]) -> tuple[Floats32, Numbers]:

@@ -11,12 +11,14 @@ from course.core.embree import Accelerator, EmbreeAccelerator, QueryStats
 from course.core.motion import Motion, MovingAccelerator
 from course.core.types import Functions
 from course.extras.hierarchy import HierarchyAccelerator
+from course.extras.swept_movers import SweptMovers
 from solutions import bounding_volumes, motion_blur
 from tests.forms import needs_numba
 
 KINDS = (
     EmbreeAccelerator,
     MovingAccelerator,
+    SweptMovers,
     HierarchyAccelerator,
     *(pytest.param(kind, marks=needs_numba) for kind in (PacketAccelerator, MovingPackets)),
 )
@@ -31,9 +33,10 @@ def made(kind: type) -> Accelerator:
     if kind is HierarchyAccelerator:
         return HierarchyAccelerator(VERTICES, TRIANGLES, Functions(**vars(bounding_volumes)), 4)
     still = EmbreeAccelerator(VERTICES, TRIANGLES)
-    if kind in (MovingAccelerator, MovingPackets):
-        moving = MovingAccelerator(still, (), Motion(Functions(**vars(motion_blur))))
-        return moving if kind is MovingAccelerator else in_packets(moving)
+    if kind in (MovingAccelerator, SweptMovers, MovingPackets):
+        of = SweptMovers if kind is SweptMovers else MovingAccelerator
+        moving = of(still, (), Motion(Functions(**vars(motion_blur))))
+        return in_packets(moving) if kind is MovingPackets else moving
     return in_packets(still) if kind is PacketAccelerator else still
 
 
@@ -68,6 +71,7 @@ def test_packets_take_the_place_of_embree_alone() -> None:
     for kind, other in (
         (EmbreeAccelerator, PacketAccelerator),
         (MovingAccelerator, MovingPackets),
+        (SweptMovers, MovingPackets),
         (HierarchyAccelerator, HierarchyAccelerator),
     ):
         accelerator: Any = made(kind)

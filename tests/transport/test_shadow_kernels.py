@@ -198,5 +198,5 @@ def test_movers_that_a_students_function_shifts_are_asked_one_after_the_other() 
     own = Functions(
         displacement=Course.displacement, to_object_space=partial(Course.to_object_space)
     )
-    accelerator = replace(surface.accelerator, motion=Motion(own))
-    assert type(in_packets(accelerator)) is MovingAccelerator
+    known = same_fields(surface.accelerator) | {"motion": Motion(own)}
+    assert type(in_packets(MovingAccelerator(**known))) is MovingAccelerator

@@ -1,4 +1,4 @@
-"""Which functions of the course have compiled twins: its own, and no student's."""
+"""Functions of which more is known than their contract says: the course's own, and no student's."""
 
 from collections.abc import Callable
 from pathlib import Path
