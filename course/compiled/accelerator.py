@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from course.compiled.convex import ConvexObjects, convex_objects
-from course.extras.own import courses_own
 from course.compiled.packets import COHERENT, PacketScene
 from course.core.embree import (
     NO_HIT,
@@ -22,6 +21,7 @@ from course.core.embree import (
 )
 from course.core.motion import Mover, MovingAccelerator
 from course.core.types import Floats32, Indices, Mask
+from course.extras.own import courses_own
 from course.extras.plan import same_fields
 
 WORTH_CHOOSING = 0.75

@@ -4,9 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from course.extras.own import courses_own
 from course.core.environment import CubeEnvironment, Environment
 from course.core.types import Floats32
+from course.extras.own import courses_own
 from course.extras.plan import same_fields
 
 

@@ -18,7 +18,6 @@ from course.compiled import (
     packet_kernels,
 )
 from course.compiled.accelerator import MovingPackets, PacketAccelerator, in_packets
-from course.extras.own import courses_own
 from course.core.camera import Camera, Lens
 from course.core.counters import Counters
 from course.core.direct import ROUNDING, DirectLight
@@ -42,6 +41,7 @@ from course.extras.absorption import Absorption
 from course.extras.direct import FullDirectLight
 from course.extras.environment_sampling import ProductSampling
 from course.extras.near_plane import NearPlaneCamera
+from course.extras.own import courses_own
 from course.extras.plan import same_fields
 from course.extras.samplers.sobol import SobolSampler
 from course.extras.scatter import FullScatter

@@ -38,7 +38,7 @@ class BoxTree:
     def met(
         self, origin: Floats32, direction: Floats32, limit: Floats32, which: Indices
     ) -> dict[int, Indices]:
-        """Which rays may meet each box: box -> indices (m,) of rays, in ascending order. Boxes without rays are missing.
+        """Which rays may meet each box: box -> indices (m,) of rays, in ascending order; no box without rays is in it.
 
         Parameters
         ----------
@@ -47,12 +47,12 @@ class BoxTree:
         which : (n,) the rays to be tested
         """
         found: dict[int, Indices] = {}
-        some = (a if len(which) == a.shape[-1] else a.take(which, -1) for a in (origin, direction))
+        if len(which) < len(limit):
+            limit = limit.take(which)
+            origin, direction = origin.take(which, axis=1), direction.take(which, axis=1)
         # A zero in a direction makes infinite distances, and a NaN only where the ray lies in the plane of a side.
         with np.errstate(divide="ignore", invalid="ignore"):
-            start, toward = some
-            limit = limit if len(which) == len(limit) else limit.take(which)
-            self._collect(start, 1 / toward, limit, which, found)
+            self._collect(origin, np.float32(1) / direction, limit, which, found)
         return found
 
     def _collect(

@@ -33,7 +33,7 @@ def balls(count: int, speed: float = 0.1) -> SweptMovers:
     for number in range(count):
         x, z = (2 * (i + 0.5) / side - 1 for i in divmod(number, side))
         velocity = rng.normal(size=3) * speed / side
-        mesh = Mesh(ball.vertices + (x, 0.3, z), ball.triangles)
+        mesh = Mesh(ball.vertices + np.array((x, 0.3, z)), ball.triangles)
         parts.append(FullPart(mesh, 0, tuple(velocity.tolist())))
     accelerator = build_surface(parts, FUNCTIONS).accelerator
     assert isinstance(accelerator, SweptMovers)
@@ -81,7 +81,7 @@ def test_it_finds_what_asking_all_finds(count: int, speed: float, distance: floa
 
 
 def asked(accelerator: MovingAccelerator, monkeypatch: pytest.MonkeyPatch) -> list[int]:
-    """How many rays movers are asked by a query of either kind of N rays."""
+    """Rays that movers are asked by a query of either kind of N rays."""
     counts = []
     movers = [mover.accelerator for mover in accelerator.movers]
     for query in ("intersect", "unoccluded"):
