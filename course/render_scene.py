@@ -119,10 +119,10 @@ def render(
             if address is None:
                 executor = pool = Pool(tracer, threads or default_threads())
                 if later:
-                    from course.rendering.later import Later
+                    from course.rendering.background_compile import BackgroundCompiler
 
                     make = partial(bind, scene, settings, None, True)
-                    closed.enter_context(closing(Later(pool, make, scene, settings)))
+                    closed.enter_context(closing(BackgroundCompiler(pool, make, scene, settings)))
             else:
                 from course.cluster.executor import Cluster
 

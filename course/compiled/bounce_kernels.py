@@ -86,7 +86,7 @@ class Scattering(NamedTuple):
 
 @njit(**LEAN)
 def fresnel(index, side, cosine):
-    """Reflectance, cosine of the refracted ray and ratio of indices; see ``course.core.fresnel``."""
+    """Reflectance, cosine of the refracted ray and ratio of indices; see ``course.core.fresnel_refraction``."""
     eta = _ONE / index if side > 0 else index
     sine = np.sqrt((_ONE - cosine) * (_ONE + cosine)) * eta
     squared = (_ONE - sine) * (_ONE + sine)

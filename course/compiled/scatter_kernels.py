@@ -66,7 +66,7 @@ def choose(other, beta, mirror, reflected, refracted, u, after, kind):
     **OPTIONS,
 )
 def divide(which, material, side, direction, ns, index, reflected, refracted, cos_i, cos_t, ratio):
-    """Divide light at boundaries as ``course.core.fresnel`` does.
+    """Divide light at boundaries as ``course.core.fresnel_refraction`` does.
 
     Parameters
     ----------

@@ -4,7 +4,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from course.core.fresnel import fresnel_and_cos_t, refract
+from course.core.fresnel_refraction import fresnel_and_cos_t, refract
 from course.core.gloss import Gloss
 from course.core.hits import Hits, Surface
 from course.core.materials import Lookup
@@ -20,7 +20,7 @@ class Boundary:
     Attributes
     ----------
     reflected, refracted : (n,) Fresnel reflectance and transmittance, 0 for opaque materials
-    cos_i, cos_t, eta : (n,), see ``course.core.fresnel``
+    cos_i, cos_t, eta : (n,), see ``course.core.fresnel_refraction``
     """
 
     reflected: Floats32

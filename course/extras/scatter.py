@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from course.core.fresnel import refract
+from course.core.fresnel_refraction import refract
 from course.core.hits import Hits
 from course.core.rays import Draws
 from course.core.scatter import Boundary, Scatter, kept_above

@@ -47,7 +47,7 @@ def keep_above(direction, normal):
 """,
     ),
     "blurred_transparency.refract": Answer(
-        "course/core/fresnel.py",
+        "course/core/fresnel_refraction.py",
         ("fresnel_and_cos_t", "refract"),
         """
 bent = refract
@@ -61,7 +61,7 @@ def refract(direction, normal, eta):
 """,
     ),
     "blurred_transparency.fresnel": Answer(
-        "course/core/fresnel.py",
+        "course/core/fresnel_refraction.py",
         ("fresnel_and_cos_t",),
         """
 def fresnel(cos_i, eta):

@@ -45,7 +45,7 @@ def test_it_is_worth_what_the_page_says(name: str, usual_references: References)
 
 
 def test_a_submission_that_imports_the_engine_is_not_imported() -> None:
-    source = "from course.core.fresnel import fresnel_and_cos_t\n"
+    source = "from course.core.fresnel_refraction import fresnel_and_cos_t\n"
     report = grade(
         {"blurred_transparency": source.encode()}, references(), modules=["blurred_transparency"]
     )

@@ -1,7 +1,7 @@
-"""Compiled loops that get ready while NumPy renders; then pieces of work change over, for both make the same bits.
+"""A background process compiles the loops that are not on disk yet, while NumPy renders.
 
-Loops that this machine has not compiled yet are compiled by a process of its own, ``python -m course.rendering.later``,
-which keeps them on disk. In this process, compiling would hold the interpreter's lock, which rendering threads need.
+Then pieces of work change over to the loops, for both make the same bits. In this process, compiling would hold the
+interpreter's lock, which rendering threads need. The other one is ``python -m course.rendering.background_compile``.
 """
 
 import os
@@ -27,7 +27,7 @@ LAST = 10
 POLL = 0.05
 """Seconds between two looks at the process that compiles."""
 
-MODULE = "course.rendering.later"
+MODULE = "course.rendering.background_compile"
 """The program of the process that compiles. A user has one of them at a time."""
 
 _COMPILING: list[subprocess.Popen[bytes]] = []
@@ -62,7 +62,7 @@ def tried(tracer: Tracer) -> Tracer:
     return tracer
 
 
-class Later:
+class BackgroundCompiler:
     """Gives the threads of a pool a compiled tracer as soon as its loops are ready.
 
     Parameters

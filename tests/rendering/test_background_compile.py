@@ -20,7 +20,7 @@ from course.rendering.threads import Pool
 if not library.available():
     pytest.skip("Numba is not installed", allow_module_level=True)
 
-from course.rendering import later
+from course.rendering import background_compile
 
 EveryStage = Callable[..., Scene]
 
@@ -52,7 +52,7 @@ def test_a_picture_by_both_tracers_in_turn_has_the_same_bits(
 def test_loops_are_read_but_not_compiled() -> None:
     import numba
 
-    with later.compiling_nothing(), pytest.raises(later.NotCompiledError):
+    with background_compile.compiling_nothing(), pytest.raises(background_compile.NotCompiledError):
         numba.njit("int64(int64)")(lambda x: x + 1)
     assert numba.njit("int64(int64)")(lambda x: x + 1)(1) == 2
 
@@ -76,17 +76,17 @@ def test_a_render_waits_for_no_compiler(
             return status
 
     compiled = bind(scene, scene.settings, compiled=True)
-    answers = iter([later.NotCompiledError(), compiled])
+    answers = iter([background_compile.NotCompiledError(), compiled])
 
     def make() -> Tracer:
         if isinstance(answer := next(answers), Exception):
             raise answer
         return answer
 
-    monkeypatch.setattr(later.subprocess, "Popen", Process)
+    monkeypatch.setattr(background_compile.subprocess, "Popen", Process)
     numpy = bind(scene, scene.settings)
     pool = Pool(numpy, 1)
-    ready = later.Later(pool, make, scene, scene.settings)
+    ready = background_compile.BackgroundCompiler(pool, make, scene, scene.settings)
     if status is None:
         ready.close()
     else:
@@ -100,11 +100,11 @@ def test_a_render_waits_for_no_compiler(
 
 def test_one_process_compiles_at_a_time(tmp_path: Path) -> None:
     """A second one that begins while the first runs ends with 1 before it reads the scene."""
-    line = [sys.executable, "-c", "import time; time.sleep(60)", later.MODULE]
+    line = [sys.executable, "-c", "import time; time.sleep(60)", background_compile.MODULE]
     with subprocess.Popen(line) as first:
         try:
             task = pickle.dumps((tmp_path / "no.yaml", tmp_path, None))
-            second = [sys.executable, "-m", later.MODULE]
+            second = [sys.executable, "-m", background_compile.MODULE]
             done = subprocess.run(second, input=task, capture_output=True, check=False, timeout=60)
         finally:
             first.kill()
