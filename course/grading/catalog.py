@@ -18,7 +18,7 @@ from course.grading.checks.check import Check, ModuleChecks, Role, Trial
 from course.grading.checks.conventions import conventions
 from course.grading.checks.declare import Function, Law, declarations
 from course.grading.checks.drawing import Draw
-from course.grading.checks.examples import run
+from course.grading.checks.examples import fewest_columns
 from course.grading.checks.mistakes import mistake_of, prints
 from course.grading.pictures.catalog import PICTURES
 from course.grading.pictures.whole import ALL, NAME, WHOLE
@@ -73,11 +73,12 @@ def _check(function: Function, law: Law) -> Check:
         function.name,
         law.name,
         law.title,
-        partial(run, function, law),
+        partial(law.run, function),
         law.kind,
         law.points,
         law.false_fail,
         role=law.role,
+        smallest=partial(fewest_columns, function, law),
     )
 
 

@@ -9,9 +9,9 @@ import pytest
 
 from course.grading.catalog import module_checks
 from course.grading.checks.check import Array, Check, Trial
-from course.grading.checks.conventions import misshapen
 from course.grading.checks.declare import Argument, Arguments, Function, declarations
 from course.grading.checks.drawing import Draw
+from course.grading.checks.refusals import misshapen
 from course.grading.references import reference
 from course.modules import COURSE
 from tests.solutions.contract import SOLUTIONS

@@ -35,20 +35,6 @@ class Figure:
     arrays: Mapping[str, Array]
 
 
-SLIPS = {
-    "writes-to-arguments": "An array that was handed in holds other numbers after the call: "
-    "the function works in the caller's memory.",
-    "global-random-state": "NumPy's global random state is another one after the call, "
-    "and so are the numbers of everybody who uses it.",
-    "other-dtype": "The values may be right; the result has another dtype than was agreed for these arguments.",
-    "not-refused": "Arguments that can't be right give a result, and so a wrong picture that nobody is told of.",
-    "not-by-its-column": "A column's result hangs on more than its own arguments: "
-    "on other columns, on its place in the batch, or on numbers drawn elsewhere.",
-    "remembers-calls": "The same call gives another result the second time: something of the first is kept.",
-}
-"""Mistakes that a failure shows by itself, in whatever function, and what the student is told."""
-
-
 class Failure(Exception):  # noqa: N818 - it is no error of the program
     """A student's function is wrong.
 
@@ -57,7 +43,7 @@ class Failure(Exception):  # noqa: N818 - it is no error of the program
     expected, found : what should have come, and what came; short, with numbers
     where : the worst ray or pixel, with the arguments that show it
     hint : what to look at; never the code
-    slip : the name in ``SLIPS`` of the mistake that the failure shows by itself, if it does
+    slip : the name in ``mistakes.SLIPS`` of the mistake that the failure shows by itself, if it does
     """
 
     def __init__(
@@ -139,6 +125,7 @@ class Check:
     false_fail : probability that a right function fails by chance; 0 for checks without chance
     prepare : makes the arrays that a student's copy can't; None if the check needs none
     role : what it is worth
+    smallest : the smallest call that gives no usable value, as text; empty if small ones do
     """
 
     function: str
@@ -150,6 +137,7 @@ class Check:
     false_fail: float = 0.0
     prepare: Prepare | None = None
     role: Role = "core"
+    smallest: Callable[[Trial], str] = lambda _: ""
 
 
 @dataclass(frozen=True)
@@ -171,8 +159,6 @@ class ModuleChecks:
         default_factory=dict
     )
 
-
-# ---------------------------------------------------------------- what checks compare with
 
 References = Callable[[str, Check], Mapping[str, Array]]
 """(module, check) -> the arrays that the check's ``prepare`` made."""

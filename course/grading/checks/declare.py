@@ -210,7 +210,8 @@ class Function:
             if name not in given:
                 assert argument.make, f"it isn't said how values of {name} are made"
                 given[name] = argument.make(draw)
-            found[name] = self._typed(argument, given[name], draw.dtype)
+            batch, value = _is_batch(argument, given[name]), given[name]
+            found[name] = np.ascontiguousarray(value, draw.dtype) if batch else value
         return found
 
     def ends(self, draw: Draw) -> list[Arguments]:
@@ -306,9 +307,6 @@ class Function:
         pairs = ((argument, a[argument.name]) for argument in self.arguments)
         kinds = [value.dtype for argument, value in pairs if _is_batch(argument, value)]
         return np.result_type(*kinds) if kinds else None
-
-    def _typed(self, argument: Argument, value: Any, dtype: Any) -> Any:
-        return np.ascontiguousarray(value, dtype) if _is_batch(argument, value) else value
 
 
 def _is_batch(argument: Argument, value: Any) -> bool:

@@ -64,20 +64,7 @@ def example(
     failure.example = failure.where
 
 
-def run(function: Function, law: Law, trial: Trial) -> None:
-    """Look whether a law holds; what shows that it doesn't comes with the smallest input that does."""
-    try:
-        law.run(function, trial)
-    except Failure as failure:
-        failure.example = failure.example or _fewest_columns(function, trial, law)
-        raise
-    except StudentError as error:
-        if error.kind in ("raised", "bad value") and not error.module_wide:
-            error.example = _fewest_columns(function, trial, law) or error.example
-        raise
-
-
-def _fewest_columns(function: Function, trial: Trial, law: Law) -> str:
+def fewest_columns(function: Function, law: Law, trial: Trial) -> str:
     """The smallest call, of the arguments that a law is about, that gives no usable value; empty if few columns do."""
     for n in SMALL:
         rng = np.random.default_rng(n)

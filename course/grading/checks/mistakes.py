@@ -20,7 +20,7 @@ from unittest.mock import patch
 
 import numpy as np
 
-from course.grading.checks.check import SLIPS, Array, Caller, Check, Trial
+from course.grading.checks.check import Array, Caller, Check, ModuleChecks, References, Trial
 from course.grading.checks.declare import Arguments, Function
 from course.grading.checks.drawing import Draw
 from course.grading.checks.laws import exact
@@ -40,6 +40,19 @@ FEATURED, QUANTILES = 4000, 129
 CLOSE = 0.05
 """Largest distance of two distributions of features that are alike (Kolmogorov and Smirnov); right ones of so many
 columns are farther from their own distribution once in a billion."""
+
+SLIPS = {
+    "writes-to-arguments": "An array that was handed in holds other numbers after the call: "
+    "the function works in the caller's memory.",
+    "global-random-state": "NumPy's global random state is another one after the call, "
+    "and so are the numbers of everybody who uses it.",
+    "other-dtype": "The values may be right; the result has another dtype than was agreed for these arguments.",
+    "not-refused": "Arguments that can't be right give a result, and so a wrong picture that nobody is told of.",
+    "not-by-its-column": "A column's result hangs on more than its own arguments: "
+    "on other columns, on its place in the batch, or on numbers drawn elsewhere.",
+    "remembers-calls": "The same call gives another result the second time: something of the first is kept.",
+}
+"""Mistakes that a failure shows by itself, in whatever function, and what the student is told."""
 
 Print = Mapping[str, Array]
 """What is kept of a submission: by probe, of its features, and what the student is told."""
@@ -417,6 +430,19 @@ def _unpacked(packed: bytes) -> Mapping[str, Mapping[str, Any]]:
 
 
 # ---------------------------------------------------------------- what a mistake explains
+
+
+def known_mistake(
+    checks: ModuleChecks, function: str, caller: Caller, references: References
+) -> tuple[str, str] | None:
+    """The known mistake that the function makes, and what the student is told; None for none."""
+    if function not in checks.named:
+        return None
+    prints = references(checks.module, checks.prints[function])
+    try:
+        return checks.named[function](caller, prints)
+    except StudentError:
+        return None  # It doesn't end, or ends its process; the next call would be waited for, too.
 
 
 def explains(module: str, check: Check, mistake: str) -> bool:

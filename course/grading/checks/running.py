@@ -17,7 +17,6 @@ from typing import Any
 import numpy as np
 
 from course.grading.checks.check import (
-    SLIPS,
     Array,
     Caller,
     Check,
@@ -29,7 +28,7 @@ from course.grading.checks.check import (
 )
 from course.grading.checks.declare import Arguments, Function, declaration, unstacked
 from course.grading.checks.examples import where
-from course.grading.checks.mistakes import explains
+from course.grading.checks.mistakes import SLIPS, explains, known_mistake
 from course.grading.checks.result import NOT_WRITTEN, Result, Status, broken, result_of, troubled
 from course.grading.errors import StudentError
 from course.grading.worker.limits import NOT_RUN
@@ -37,7 +36,6 @@ from course.grading.worker.wording import said, told
 
 Lenders = Callable[[str], Caller | None]
 """function -> the same student's module, with the reference's in place of the functions that come before it."""
-
 
 Standard = Callable[[], Caller]
 """Makes the reference's module."""
@@ -88,7 +86,7 @@ def run_checks(
             result = replace(result, hint=hint, mistake="", says="")
         elif result.status is Status.FAILED:
             if check.function not in matched:
-                matched[check.function] = _matching(checks, check.function, asked, references)
+                matched[check.function] = known_mistake(checks, check.function, asked, references)
             mistake = matched[check.function]
             if mistake is not None and explains(checks.module, check, mistake[0]):
                 result = replace(result, mistake=mistake[0], says=mistake[1])
@@ -214,11 +212,13 @@ def _ended(module: str, check: Check, trial: Trial, references: References) -> _
             found=failure.found,
             where=failure.where,
             hint=failure.hint,
-            example=failure.example or failure.where,
+            example=failure.example or check.smallest(trial) or failure.where,
             mistake=failure.slip,
             says=SLIPS.get(failure.slip, ""),
         )
     except StudentError as error:
+        if error.kind in ("raised", "bad value") and not error.module_wide:
+            error.example = check.smallest(trial) or error.example
         result, trouble = troubled(module, check, error), error
     return replace(result, figures=tuple(trial.figures)), trouble
 
@@ -247,19 +247,6 @@ def _breaks(
     except Exception:  # noqa: BLE001 - in whatever way
         return True
     return False
-
-
-def _matching(
-    checks: ModuleChecks, function: str, caller: Caller, references: References
-) -> tuple[str, str] | None:
-    """The known mistake that the function makes, and what the student is told; None for none."""
-    if function not in checks.named:
-        return None
-    prints = references(checks.module, checks.prints[function])
-    try:
-        return checks.named[function](caller, prints)
-    except StudentError:
-        return None  # It doesn't end, or ends its process; the next call would be waited for, too.
 
 
 # ---------------------------------------------------------------- the gate

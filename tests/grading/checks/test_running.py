@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from course.grading.catalog import module_checks
 from course.grading.checks.check import (
     Array,
     Caller,
@@ -124,6 +125,23 @@ def test_mistakes_are_not_waited_for_one_after_the_other() -> None:
 
 def calls(trial: Trial) -> None:
     trial.call()
+
+
+def test_what_gives_no_value_is_shown_by_the_smallest_call() -> None:
+    """Of all checks that follow from a declaration, whatever they call the function with."""
+    checks = [
+        check
+        for check in module_checks("motion_blur").checks
+        if check.function == "displacement" and check.kind not in ("picture", "speed")
+    ]
+    nothing = TrustedModule({"displacement": lambda *_: None})
+    kept = ModuleChecks("motion_blur", tuple(checks))
+    results = list(run_checks(kept, nothing, prepared(nothing, 0), 0))
+    shown = {result.check: result.example for result in results if result.check != "refuses"}
+    assert "contract" in shown
+    for example in shown.values():
+        assert example.startswith("displacement(velocity = [")
+        assert "]): expected a value, came displacement returned None" in example
 
 
 @pytest.mark.parametrize("lent", [True, False])
