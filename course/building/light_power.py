@@ -11,19 +11,10 @@ def given(*colors: float | tuple[float, ...] | None) -> float | tuple[float, ...
     return next(color for color in colors if color is not None)
 
 
-def power(
-    light: d.AmbientLight | d.PointLight | d.DirectionalLight | d.RectangleLight | d.SphereLight,
-) -> Floats64:
-    """(3,) float64 strength in the light's own unit."""
-    match light:
-        case d.PointLight():
-            return rgb(light.intensity)
-        case d.DirectionalLight():
-            return rgb(light.irradiance)
-        case d.RectangleLight() | d.SphereLight():
-            return rgb(given(light.intensity, light.radiance))
-        case d.AmbientLight():
-            return rgb(light.radiance)
+def power(light: d.Light) -> Floats64:
+    """(3,) float64 strength in the light's own unit, that of its intensity, radiance or irradiance."""
+    keys = ("intensity", "radiance", "irradiance")
+    return rgb(given(*(getattr(light, key, None) for key in keys)))
 
 
 def why_dark(light: d.Light, materials: MaterialTable) -> str:

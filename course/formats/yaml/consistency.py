@@ -90,8 +90,8 @@ def _check_camera(camera: d.CameraDescription, here: Place) -> None:
 
 
 def _check_light(light: d.Light, here: Place) -> None:
-    if isinstance(light, d.DirectionalLight):
-        _check_not_zero(light.direction, "direction", here)
+    if (direction := getattr(light, "direction", None)) is not None:
+        _check_not_zero(direction, "direction", here)
     if isinstance(light, d.RectangleLight | d.SphereLight):
         given = [light.intensity is not None, light.radiance is not None]
         if all(given):
