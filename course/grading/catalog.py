@@ -20,7 +20,7 @@ from course.grading.checks.declare import Function, Law, declarations
 from course.grading.checks.drawing import Draw
 from course.grading.checks.examples import fewest_columns
 from course.grading.checks.mistakes import mistake_of, prints
-from course.grading.pictures.catalog import PICTURES
+from course.grading.pictures.catalog import PICTURES, RAYS
 from course.grading.pictures.whole import ALL, NAME, WHOLE
 from course.modules import COURSE
 
@@ -39,6 +39,7 @@ def module_checks(module: str) -> ModuleChecks:
     return ModuleChecks(
         module,
         _weighted(checks),
+        rays=RAYS[module],
         prints={function.name: prints(module, function) for function in declared},
         named={function.name: partial(mistake_of, function) for function in declared},
     )

@@ -56,7 +56,7 @@ def make_references(modules: Iterable[str], seed: int, out: Path) -> int:
     for module in modules:
         make = prepared(reference(module), seed)
         checks = module_checks(module)
-        for check in (*checks.checks, *checks.prints.values()):
+        for check in (*checks.checks, *checks.prints.values(), *checks.rays.values()):
             for name, array in make(module, check).items():
                 arrays[f"{_key(module, check)}/{name}"] = array
     arrays["seed"] = np.array(seed)

@@ -1,7 +1,8 @@
 """Record a pixel: its samples once more, with every segment of their paths."""
 
 import warnings
-from collections.abc import Iterator
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -94,46 +95,81 @@ def record(
         A function is missing, not written yet, or returns what it must not.
     """
     settings = replace(_settings(scene, spp, size, seed), error=None)
-    area = Tile(0, x, y, width, height)
-    _check(area, settings)
+    return _recorded(scene, settings, [Tile(0, x, y, width, height)], whole=False)[0]
+
+
+def record_each(scene: Scene, pixels: Iterable[tuple[int, int]]) -> list[Recording]:
+    """Render the whole picture once more, tile by tile in their order, and record these pixels, each by itself.
+
+    So a function that counts its calls gets the same ones as in `course.render` with one thread.
+
+    Raises
+    ------
+    CourseError, EffectError
+        See ``record``.
+    """
+    settings = replace(_settings(scene, None, None, None), error=None)
+    areas = [Tile(number, x, y, 1, 1) for number, (x, y) in enumerate(pixels)]
+    return _recorded(scene, settings, areas, whole=True)
+
+
+def _recorded(
+    scene: Scene, settings: Settings, areas: Sequence[Tile], *, whole: bool
+) -> list[Recording]:
+    """A recording of each area; with ``whole`` all tiles of the picture are rendered, in their order."""
+    _check(areas, settings)
     recorder = Recorder()
     scene = recordable(scene)
     assert isinstance(scene.effects, RecordedEffects)
     scene.effects.recorder = recorder
     bound = Bound(scene.effects, scene.compiled.needs)
     film, counters = Film(settings.width, settings.height), Counters()
+    numbers = [area.pixel_numbers(settings.width) for area in areas]
+    wanted = np.concatenate(numbers)
     with lines_named(scene, bound):
         tracer = recorded(bind(scene, settings, bound), recorder)
         own = isinstance(tracer.sampler, SobolSampler) and scene.effects.trusted
-        alone = own and not any(_draws(need.function) for need in bound.needs)
+        alone = own and not whole and not any(_draws(need.function) for need in bound.needs)
+        work = passes(tracer.settings, tracer.sampler) if whole else _work(tracer, areas[0], alone)
         try:
-            samples = [
-                _render(tracer, recorder, work, area, film, counters)
-                for work in _work(tracer, area, alone)
-            ]
+            samples = [_render(tracer, recorder, each, wanted, film, counters) for each in work]
         finally:
             scene.effects.recorder = None
-    pixels = np.concatenate([numbers for numbers, _ in samples])
-    order = np.argsort(pixels, kind="stable")
-    n, s = area.size, settings.samples
-    radiance, offsets, weights = (
-        np.concatenate(batches, axis=1).take(order, axis=1).reshape(-1, n, s)
-        for batches in zip(*(columns for _, columns in samples), strict=True)
-    )
-    return Recording(
-        scene,
-        settings,
-        area,
-        film.linear[:, area.rows, area.columns],
-        radiance,
-        offsets,
-        weights[0],
-        segments_of(recorder, scene, settings.width),
-        recorder.asked,
-        tracer.integrator.camera,
-        counters,
-        alone,
-    )
+    pixels = np.concatenate([found for found, _ in samples])
+    columns = [
+        np.concatenate(batches, axis=1) for batches in zip(*(c for _, c in samples), strict=True)
+    ]
+    segments: dict[int, list[Segment]] = defaultdict(list)
+    for one in segments_of(recorder, scene, settings.width):
+        segments[one.pixel[1] * settings.width + one.pixel[0]].append(one)
+    recordings = []
+    for area, own_pixels in zip(areas, numbers, strict=True):
+        of = np.flatnonzero(np.isin(pixels, own_pixels))
+        order = of.take(np.argsort(pixels.take(of), kind="stable"))
+        radiance, offsets, weights = (
+            column.take(order, axis=1).reshape(-1, area.size, settings.samples)
+            for column in columns
+        )
+        recordings.append(
+            Recording(
+                scene,
+                settings,
+                area,
+                film.linear[:, area.rows, area.columns],
+                radiance,
+                offsets,
+                weights[0],
+                sorted(
+                    (one for pixel in own_pixels.tolist() for one in segments[pixel]),
+                    key=lambda one: one.number,
+                ),
+                recorder.asked,
+                tracer.integrator.camera,
+                counters,
+                alone,
+            )
+        )
+    return recordings
 
 
 def recordable(scene: Scene) -> Scene:
@@ -155,23 +191,25 @@ def _settings(
     return chosen_settings(scene.settings, False, **given)
 
 
-def _check(area: Tile, settings: Settings) -> None:
+def _check(areas: Sequence[Tile], settings: Settings) -> None:
     if settings.subdivision is not None:
         raise CourseError(
             "this scene casts rays through the corners of pixels (film.subdivision), which share them: no pixel has"
             " samples of its own to record"
         )
-    if not (
-        area.width > 0 <= area.x <= settings.width - area.width
-        and area.height > 0 <= area.y <= settings.height - area.height
-    ):
+    for area in areas:
+        if not (
+            area.width > 0 <= area.x <= settings.width - area.width
+            and area.height > 0 <= area.y <= settings.height - area.height
+        ):
+            raise CourseError(
+                f"pixel {area.x},{area.y} is outside the picture: expected x from 0 to {settings.width - 1} and y from"
+                f" 0 to {settings.height - 1}, counted from the upper left corner"
+            )
+    count = sum(area.size for area in areas) * settings.samples
+    if count > MOST_SAMPLES:
         raise CourseError(
-            f"pixel {area.x},{area.y} is outside the picture: expected x from 0 to {settings.width - 1} and y from 0 to"
-            f" {settings.height - 1}, counted from the upper left corner"
-        )
-    if area.size * settings.samples > MOST_SAMPLES:
-        raise CourseError(
-            f"{area.size * settings.samples:,} samples are too many to record: expected at most {MOST_SAMPLES:,};"
+            f"{count:,} samples are too many to record: expected at most {MOST_SAMPLES:,};"
             " ask for fewer samples (--spp) or pixels"
         )
 
@@ -194,14 +232,14 @@ def _work(tracer: Tracer, area: Tile, alone: bool) -> Iterator[Work]:
 
 
 def _render(
-    tracer: Tracer, recorder: Recorder, work: Work, area: Tile, film: Film, counters: Counters
+    tracer: Tracer, recorder: Recorder, work: Work, which: Words, film: Film, counters: Counters
 ) -> tuple[Words, list[Floats32]]:
-    """Render one pass as ``Tracer.render_tile`` does; pixel, radiance, offset and weight of samples."""
+    """Render one pass as ``Tracer.render_tile`` does; pixel, radiance, offset and weight of the recorded samples."""
     tile: Area = work.tile
     assert isinstance(tile, Tile)
     pixels = tile.pixel_numbers(tracer.settings.width)
     block = Block(pixels, work.first, work.samples, tile.number)
-    wanted = np.repeat(np.isin(pixels, area.pixel_numbers(tracer.settings.width)), work.samples)
+    wanted = np.repeat(np.isin(pixels, which), work.samples)
     recorder.begin_block(block, wanted)
     draws = RecordedDraws(tracer.sampler, tracer.dimensions, block, counters, recorder=recorder)
     offsets = draws("pixel").reshape(2, tile.size, work.samples)

@@ -32,11 +32,12 @@ class RecordedEffects(Effects):
 
     def __init__(self, effects: Effects) -> None:
         vars(self).update(vars(effects))
+        self._recorded = effects
         self.recorder: Recorder | None = None
 
     def function(self, module: str, name: str) -> Callable[..., Any]:
         """See ``Effects``."""
-        function = super().function(module, name)
+        function = self._recorded.function(module, name)
 
         def call(*arguments: Any) -> Any:
             result = function(*arguments)

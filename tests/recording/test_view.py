@@ -12,7 +12,7 @@ from course import Story, pixel
 from course.cli.main import commands
 from course.core.types import Floats64
 from course.effects import PROJECT
-from course.recording import view
+from course.recording import scenery, view
 from course.recording.view import page, view_data
 
 CliRunner = pytest.importorskip("click.testing").CliRunner
@@ -49,22 +49,22 @@ def test_coarser_triangles_fill_the_same_box() -> None:
     way: Floats64 = numbers.normal(size=(3000, 1, 3))
     way = way / np.linalg.norm(way, axis=2, keepdims=True)
     ball = way + numbers.normal(scale=0.01, size=(3000, 3, 3))
-    coarse = view._coarser(ball)
-    assert 12 <= len(coarse) <= view.MOST_TRIANGLES
+    coarse = scenery._coarser(ball)
+    assert 12 <= len(coarse) <= scenery.MOST_TRIANGLES
     for bound in (np.min, np.max):
         np.testing.assert_allclose(bound(coarse, (0, 1)), bound(ball, (0, 1)), atol=0.3)
     dust = numbers.random((3000, 1, 3)) + np.zeros((3000, 3, 3))
-    assert len(view._coarser(dust)) == 12
+    assert len(scenery._coarser(dust)) == 12
 
 
 def test_cut_triangles_have_the_same_area() -> None:
     corners = np.array([[[0, 0, 0], [2, 0, 0], [0, 1, 0]]], np.float64)
-    pieces = view._cut(corners)
+    pieces = scenery._cut(corners)
     edges = pieces[:, 1:] - pieces[:, :1]
     assert len(pieces) > 1
     areas = np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1) / 2
     assert areas.sum() == pytest.approx(1)
-    assert np.linalg.norm(edges, axis=2).max() <= 2 * view.LARGEST_PIECE
+    assert np.linalg.norm(edges, axis=2).max() <= 2 * scenery.LARGEST_PIECE
 
 
 def test_names_are_text(story: Story, tmp_path: Path) -> None:
@@ -175,9 +175,9 @@ def test_a_ray_is_black_behind_its_blocker(opened: Any, story: Story) -> None:
     # Without the other rays, which are faint, but many.
     pick = "n => { view.pick(n); view.shown.kinds[0] = false; }"
     opened.evaluate(
-        "() => { const root = document.getElementById('rays'); root.replaceChildren();"
-        " const data = JSON.parse(document.getElementById('rays-data').textContent);"
-        " window.view = penumbra.rays(root, data); }"
+        "() => { const root = document.querySelector('.rays');"
+        " const data = JSON.parse(root.querySelector('script').textContent);"
+        " root.replaceChildren(); window.view = penumbra.rays(root, data); }"
     )
     found = {}
     for name, sample in (("blocked", min(blocked)), ("free", min(free))):

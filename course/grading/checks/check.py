@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 Array = NDArray[Any]
 Kind = Literal["contract", "property", "distribution", "picture", "bias", "order", "speed", "whole"]
+FigureKind = Literal["points", "histogram", "pictures", "rays"]
 Role = Literal["core", "corner", "convention"]
 """Of a check: a function of no use fails what is "core"; one that is right elsewhere may fail a "corner"."""
 
@@ -25,12 +26,13 @@ class Figure:
     Attributes
     ----------
     kind : "points" draws (2, N) numbers in the unit square or disk, "histogram" values beside their density,
-        "pictures" two pictures and their difference
+        "pictures" two pictures and their difference, "rays" those of a pixel in their scene
     title : str
-    arrays : what is drawn, by name: ``yours`` and, if there is one, ``expected``; pictures are (3, H, W) linear RGB
+    arrays : what is drawn, by name: ``yours`` and, if there is one, ``expected``; pictures are (3, H, W) linear
+        RGB, and rays ``data``, a view as JSON, deflated
     """
 
-    kind: Literal["points", "histogram", "pictures"]
+    kind: FigureKind
     title: str
     arrays: Mapping[str, Array]
 
@@ -99,9 +101,7 @@ class Trial:
         """Numbers for one call: the student may get a copy of them, so no two calls share a generator."""
         return np.random.default_rng(int(self.rng.integers(2**62)))
 
-    def show(
-        self, kind: Literal["points", "histogram", "pictures"], title: str, **arrays: Array
-    ) -> None:
+    def show(self, kind: FigureKind, title: str, **arrays: Array) -> None:
         """Keep something for the report to draw; it is drawn if the check fails."""
         self.figures.append(Figure(kind, title, arrays))
 
@@ -126,6 +126,7 @@ class Check:
     prepare : makes the arrays that a student's copy can't; None if the check needs none
     role : what it is worth
     smallest : the smallest call that gives no usable value, as text; empty if small ones do
+    numbers : name of the check whose random numbers it gets; its own if empty
     """
 
     function: str
@@ -138,6 +139,7 @@ class Check:
     prepare: Prepare | None = None
     role: Role = "core"
     smallest: Callable[[Trial], str] = lambda _: ""
+    numbers: str = ""
 
 
 @dataclass(frozen=True)
@@ -149,12 +151,14 @@ class ModuleChecks:
     module : its name
     checks : in the order in which they run
     prints : by function, a check whose arrays tell which known mistake somebody makes
+    rays : by function, what shows the rays behind its wrong picture; it gets the picture check's arrays and its own
     named : by function, (caller, those arrays) -> the mistake's name and what the student is told; None for none
     """
 
     module: str
     checks: tuple[Check, ...]
     prints: Mapping[str, Check] = field(default_factory=dict)
+    rays: Mapping[str, Check] = field(default_factory=dict)
     named: Mapping[str, Callable[[Caller, Mapping[str, Array]], tuple[str, str] | None]] = field(
         default_factory=dict
     )
@@ -166,5 +170,5 @@ References = Callable[[str, Check], Mapping[str, Array]]
 
 def generator(seed: int, module: str, check: Check) -> np.random.Generator:
     """The numbers of one check: its own, whatever other checks there are, and the same in every process."""
-    name = f"{module}.{check.function}/{check.name}"
+    name = f"{module}.{check.function}/{check.numbers or check.name}"
     return np.random.default_rng((seed, crc32(name.encode())))

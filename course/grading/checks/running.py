@@ -21,6 +21,7 @@ from course.grading.checks.check import (
     Caller,
     Check,
     Failure,
+    Figure,
     ModuleChecks,
     References,
     Trial,
@@ -92,6 +93,9 @@ def run_checks(
                 result = replace(result, mistake=mistake[0], says=mistake[1])
         if result.status is Status.FAILED:
             wrong.setdefault(check.function)
+            if check.name == PICTURE:
+                shown = _rays(checks, check, asked, references, seed)
+                result = replace(result, figures=(*result.figures, *shown))
         if error is not None:
             first_id = by_cause.setdefault((check.function, error.cause), result.id)
             if first_id != result.id:
@@ -247,6 +251,31 @@ def _breaks(
     except Exception:  # noqa: BLE001 - in whatever way
         return True
     return False
+
+
+PICTURE = "picture"
+"""The check whose failure asks for the rays behind it."""
+
+
+def _rays(
+    checks: ModuleChecks, picture: Check, caller: Caller, references: References, seed: int
+) -> tuple[Figure, ...]:
+    """The rays behind a picture that is wrong."""
+    check = checks.rays.get(picture.function)
+    if check is None:
+        return ()
+    trial = Trial(
+        check.function, Gate(checks.module, caller), generator(seed, checks.module, check)
+    )
+    try:
+        trial.references = {
+            **_prepared(checks.module, picture, references),
+            **_prepared(checks.module, check, references),
+        }
+        check.run(trial)
+    except Exception:  # noqa: BLE001 - the check has said what is wrong, and goes on without them
+        return ()
+    return tuple(trial.figures)
 
 
 # ---------------------------------------------------------------- the gate

@@ -6,6 +6,7 @@ import numpy as np
 
 from course.grading.checks.check import Check
 from course.grading.pictures import scenes
+from course.grading.pictures.rays import rays_check
 from course.grading.pictures.rendered import MakeScene, picture_checks
 from course.modules import COURSE
 
@@ -80,3 +81,16 @@ PICTURES: dict[str, tuple[Check, ...]] = {
     for module in COURSE
 }
 """By module; each check's pictures run after the function's other checks."""
+
+UNTOLD = ("adaptive_sampling",)
+"""Modules whose pictures have pixels that share their samples, so that none has rays of its own."""
+
+RAYS: dict[str, dict[str, Check]] = {
+    module: {
+        path.partition(".")[2]: rays_check(path, make)
+        for path, make in SCENES.items()
+        if path.startswith(f"{module}.") and module not in UNTOLD
+    }
+    for module in COURSE
+}
+"""By module and function; what shows the rays behind a wrong picture."""

@@ -18,6 +18,7 @@ from course.grading.errors import StudentError
 from course.grading.pictures import scenes
 from course.grading.pictures.judging import BIAS_FALSE_FAIL, block_means, check_bias, check_ssim
 from course.grading.pictures.stage import Stage
+from course.recording.stages import RecordedEffects
 from course.render_scene import render
 from course.scene.scene import Scene, load_scene
 
@@ -53,7 +54,7 @@ def loaded(description: scenes.Scene, find: Find, rng: np.random.Generator) -> S
             Image.fromarray(scenes.paint(rng)).save(path.with_name(scenes.PAINT))
         if any("file" in thing for thing in description["objects"]):
             path.with_name(scenes.SHEET).write_text(scenes.sheet(rng), encoding="utf-8")
-        return load_scene(path, _Found(find, path.parent))
+        return load_scene(path, RecordedEffects(_Found(find, path.parent)))
 
 
 def rendered(scene: Scene, **options: Any) -> Array:
@@ -81,8 +82,8 @@ def picture_checks(path: str, make: MakeScene) -> tuple[Check, ...]:
     def prepare(caller: Caller, rng: np.random.Generator) -> dict[str, Array]:
         tape: dict[str, Array] = {}
         stage = Stage(module, caller, function, recording=tape)
-        picture = rendered(loaded(make(rng), stage.function, rng))
-        return {"picture": picture} | tape
+        scene = loaded(make(rng), stage.function, rng)
+        return {"picture": rendered(scene)} | tape
 
     def run(trial: Trial) -> None:
         stage = Stage(module, trial.caller, function, tape=trial.references)

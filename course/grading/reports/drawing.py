@@ -5,7 +5,9 @@ An SVG element takes the page's own colour of text. Each plot is a matplotlib fi
 between threads, and no global setting is changed.
 """
 
+import json
 import re
+import zlib
 from base64 import b64encode
 from dataclasses import dataclass
 from io import BytesIO, StringIO
@@ -110,11 +112,13 @@ class Drawing:
     title : of the figure
     panels : in the order in which they are looked at; none where nothing could be drawn
     notes : sentences about what the panels can't show
+    view : the place of a view of rays in an HTML page with the script for it; empty where there is none
     """
 
     title: str
     panels: tuple[Panel, ...] = ()
     notes: tuple[str, ...] = ()
+    view: str = ""
 
 
 def draw(figure: Figure) -> Drawing:
@@ -429,4 +433,18 @@ def with_own_ids(svg: str, prefix: str) -> str:
     return _IDS.sub(rename, svg)
 
 
-_BY_KIND = {"pictures": draw_pictures, "points": draw_points, "histogram": draw_histogram}
+def draw_rays(figure: Figure) -> Drawing:
+    """The rays of a pixel: sentences that say what is different, and a view of both."""
+    from course.recording.pair import told
+    from course.recording.view import element
+
+    data = json.loads(zlib.decompress(figure.arrays["data"].tobytes()))
+    return Drawing(figure.title, notes=tuple(told(data)), view=element(data))
+
+
+_BY_KIND = {
+    "pictures": draw_pictures,
+    "points": draw_points,
+    "histogram": draw_histogram,
+    "rays": draw_rays,
+}

@@ -1,6 +1,6 @@
-"""HTML pages that need nothing else: no network, no script, no other file; and a student's report as one of them.
+"""HTML pages that need nothing else, no network and no other file; and a student's report as one of them.
 
-Everything that the templates print is cleaned and escaped.
+The only script is that of views of rays. Everything that the templates print is cleaned and escaped.
 """
 
 import re
@@ -11,7 +11,7 @@ from typing import Any
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup, escape
 
-from course.grading.checks.result import Status
+from course.grading.checks.result import Result, Status
 from course.grading.report import Report, docs_page, ending, findings, grouped, reproduce, unstarted
 from course.grading.reports.formats import clean
 
@@ -19,6 +19,7 @@ from course.grading.reports.formats import clean
 def as_page(report: Report) -> str:
     """A student's report as a page; figures are drawn for the checks that didn't pass."""
     from course.grading.reports.drawing import draw, with_own_ids
+    from course.recording.view import script, script_hash, style
 
     modules = grouped(report)
     plots = count(1)
@@ -30,6 +31,11 @@ def as_page(report: Report) -> str:
         names={module.name for module in modules},
         counts=[(str(status), report.count(status)) for status in Status if report.count(status)],
         draw=draw,
+        # Made here from numbers and the scenes' own names: the view's data are text to the page.
+        as_markup=Markup,
+        rays={"style": Markup(style()), "script": Markup(script()), "hash": Markup(script_hash())}
+        if any(_shows_rays(result) for result in report.results)
+        else None,
         # Made here from numbers: nothing of a student's text is in it.
         plot=lambda svg: Markup(with_own_ids(svg, f"p{next(plots)}")),
         reproduce=reproduce,
@@ -38,6 +44,10 @@ def as_page(report: Report) -> str:
         unstarted=unstarted,
         ending=ending,
     )
+
+
+def _shows_rays(result: Result) -> bool:
+    return result.status is not Status.PASSED and any(f.kind == "rays" for f in result.figures)
 
 
 def render(template: str, **values: Any) -> str:
