@@ -81,7 +81,7 @@ def told(data: Data) -> list[str]:
         lines.append(f"The samples shown bring {light} on average; right is {should}.")
     if (weights := _weights(data)) != (should := _weights(right)):
         lines.append(f"The filter weighs them {weights}; right is {should}.")
-    elif light == _light(right):
+    elif light == _light(right) and data["color"] != right["color"]:
         plain, mean = light, _light(data, weighted=True)
         if plain != mean:
             lines.append(f"The samples' plain mean is {plain}, their weighted mean {mean}.")
