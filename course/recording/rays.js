@@ -123,7 +123,7 @@ penumbra.rays = function (root, data) {
   const weights = samples.map((each) => Number(each.weight));
   const heaviest = Math.max(...weights), lightest = Math.min(...weights);
   const dots = samples.map((each, number) => {
-    const dot = drawn("circle", {});
+    const dot = drawn("circle", { class: "sample" });
     const shade = each.radiance.map((x) => Math.round(255 * Math.min(1, Math.max(0, Number(x) / brightest)) ** (1 / 2.2)));
     dot.setAttribute("cx", each.offset[0]);
     dot.setAttribute("cy", each.offset[1]);

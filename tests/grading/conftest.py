@@ -9,10 +9,7 @@ import pytest
 
 from course.grading.checks.check import References
 from course.grading.references import make_references, read_references
-from tests.docs.conftest import browser
 from tests.once import Once
-
-__all__ = ["browser"]
 
 SEED = 0
 """The seed that the checks usually have."""

@@ -17,7 +17,6 @@ from course.grading.pictures.catalog import RAYS
 from course.grading.pictures.rays import PIXELS, SAMPLES
 from course.grading.report import Report
 from course.grading.reports.page import as_page
-from tests.docs.conftest import untroubled
 
 SHOWN = ("soft_shadows.point_on_sphere", "motion_blur.shutter_times", "thin_lens.lens_rays")
 
@@ -71,44 +70,3 @@ def test_rays_that_cannot_be_had_leave_the_check_as_it_is(usual_references: Refe
     ).results
     assert result.status is Status.FAILED
     assert [figure.kind for figure in result.figures] == ["pictures"]
-
-
-PIXELS_OF_VIEW = "() => document.querySelector('.rays canvas').toDataURL()"
-SETTLED = "() => new Promise((d) => requestAnimationFrame(() => requestAnimationFrame(d)))"
-
-
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_the_page_shows_both_and_each_by_itself(
-    browser: Any, tmp_path: Any, usual_references: References, scheme: str
-) -> None:
-    accessibility = pytest.importorskip("tests.docs.test_accessibility")
-    file = tmp_path / "report.html"
-    file.write_text(as_page(report("ball_centre_forgotten", usual_references)), encoding="utf-8")
-    options = {"viewport": {"width": 390, "height": 844}, "color_scheme": scheme}
-    with untroubled(browser, **options) as tab:
-        tab.goto(file.as_uri())
-        tab.locator(".rays").scroll_into_view_if_needed()
-        tab.wait_for_selector(".rays canvas")
-        assert tab.locator(".rays circle.chosen").count() > 0
-        seen = []
-        for who in ("-1", "0", "1"):
-            tab.check(f"input[data-who='{who}']")
-            tab.evaluate(SETTLED)
-            seen.append(tab.evaluate(PIXELS_OF_VIEW))
-        assert len(set(seen)) == 3
-        tab.select_option(".rays select", label="light 0")
-        tab.evaluate(SETTLED)
-        assert tab.evaluate(PIXELS_OF_VIEW) != seen[-1]
-        assert tab.evaluate("document.documentElement.scrollWidth") <= 390
-        for rules in (accessibility.RULES, accessibility.COLOURS):
-            assert accessibility._faults(tab, rules) == []
-
-
-def test_without_scripts_the_page_says_it_in_words(
-    browser: Any, tmp_path: Any, usual_references: References
-) -> None:
-    file = tmp_path / "report.html"
-    file.write_text(as_page(report("ball_centre_forgotten", usual_references)), encoding="utf-8")
-    with untroubled(browser, java_script_enabled=False) as tab:
-        tab.goto(file.as_uri())
-        assert "soft_shadows.point_in_ball(center = " in tab.inner_text("main")

@@ -144,11 +144,11 @@ def test_the_keyboard_does_everything(opened: Any) -> None:
         opened.keyboard.press(key)
         pictures.append(_picture(opened))
     assert len(set(pictures)) == len(pictures)
-    assert opened.locator("circle.chosen").count() == 1
+    assert opened.locator("circle.sample.chosen").count() == 1
     assert "Sample 0:" in opened.inner_text(".told")
     assert "soft_shadows.point_on_sphere returned (" in opened.inner_text(".told")
     opened.keyboard.press("Escape")
-    assert opened.locator("circle.chosen").count() == 0
+    assert opened.locator("circle.sample.chosen").count() == 0
     opened.keyboard.press("Home")
     assert _picture(opened) == pictures[0]
 
@@ -162,7 +162,7 @@ def test_kinds_can_be_hidden_and_dots_chosen(opened: Any) -> None:
     opened.check("input[data-kind=shadow]")
     opened.check("input[data-kind=camera]")
     assert _picture(opened) == whole
-    opened.locator(".rays circle").nth(7).click()
+    opened.locator(".rays circle.sample").nth(7).click()
     assert "Sample 7:" in opened.inner_text(".told")
     assert opened.locator(".rays input[type=range]").last.input_value() == "8"
 
@@ -192,9 +192,9 @@ def test_a_click_on_a_ray_chooses_its_sample(opened: Any) -> None:
     box = opened.locator(".rays canvas").bounding_box()
     for across in range(20, 100, 4):
         opened.mouse.click(box["x"] + box["width"] * across / 100, box["y"] + 0.55 * box["height"])
-        if opened.locator("circle.chosen").count():
+        if opened.locator("circle.sample.chosen").count():
             break
-    assert opened.locator("circle.chosen").count() == 1
+    assert opened.locator("circle.sample.chosen").count() == 1
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
@@ -202,7 +202,7 @@ def test_axe_finds_nothing_on_a_telephone(opened: Any, scheme: str) -> None:
     accessibility = pytest.importorskip("tests.docs.test_accessibility")
     opened.emulate_media(color_scheme=scheme)
     opened.set_viewport_size({"width": 390, "height": 844})
-    opened.locator(".rays circle").nth(1).click()
+    opened.locator(".rays circle.sample").nth(1).click()
     assert opened.evaluate("document.documentElement.scrollWidth") <= 390
     for rules in (accessibility.RULES, accessibility.COLOURS):
         assert accessibility._faults(opened, rules) == []
