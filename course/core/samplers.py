@@ -8,7 +8,6 @@ other dimensions it has points of the same kind, shuffled independently. Without
 pixel would always use the point in the corner of the light (Cook 1984, section 4.2).
 """
 
-# `np.random` in an annotation would be imported.
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from functools import cached_property
@@ -63,7 +62,8 @@ class Sampler(ABC):
         return self.draw(block, dimension, width).take(path, axis=1)
 
 
-def generator(seed: int, dimension: int, block: Block) -> np.random.Generator:
+# In quotes, so that numpy.random isn't imported with this file.
+def generator(seed: int, dimension: int, block: Block) -> "np.random.Generator":
     """A new NumPy generator for one dimension of one block."""
     return np.random.default_rng((seed, dimension, block.part, block.first))
 
