@@ -162,6 +162,7 @@ def _check(
 
 def _print_lines(report: Report, folder: Path) -> None:
     """A line for each function that isn't right, the first thing that was found of it."""
+    from course.grading.progress import line_of
     from course.grading.report import grouped
     from course.grading.reports.formats import clean
 
@@ -177,18 +178,8 @@ def _print_lines(report: Report, folder: Path) -> None:
             if severity == "warning"
             else f"{told.title}: {_short(clean(told.found))}"
         )
-        line = _line_of(path, function.name)
+        line = line_of(path, function.name)
         click.echo(f"{path}:{line}: {severity}: {function.name}: {text}")
-
-
-def _line_of(path: Path, function: str) -> int:
-    """The line that begins a function; 1 where there is none."""
-    try:
-        rows = path.read_text(encoding="utf-8", errors="replace").splitlines()
-    except OSError:
-        return 1
-    begins = f"def {function}("
-    return next((n for n, row in enumerate(rows, start=1) if row.startswith(begins)), 1)
 
 
 def _chooser(only: str | None) -> Callable[[Check], bool] | None:

@@ -1,0 +1,129 @@
+"""`course status`: how far one is, and what comes next."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from course.cli.options import modules_from
+from course.effects import ASSIGNMENTS, CHECKOUT
+from course.errors import CourseError
+
+if TYPE_CHECKING:
+    from course.grading.progress import Progress
+
+
+@click.command()
+@click.argument("modules", nargs=-1, metavar="[MODULE]...", callback=modules_from)
+@click.option(
+    "--folder",
+    type=click.Path(path_type=Path, file_okay=False),
+    default=ASSIGNMENTS,
+    show_default="assignments",
+    help="Where the modules are.",
+)
+@click.option("--json", "as_json", is_flag=True, help="Print every function as JSON, for programs.")
+def status(modules: tuple[str, ...], folder: Path, as_json: bool) -> None:
+    """Show which modules are done, the points, and what comes next.
+
+    Files that have changed since they were checked last are checked; what was found is kept in
+    the folder, in .course/checked.json.
+    """
+    if not folder.is_dir():
+        remedy = "" if CHECKOUT else ", `course start FOLDER` makes a folder to work in"
+        raise CourseError(f"{folder}: no such folder; --folder says where your modules are{remedy}")
+    from course.grading.progress import as_data, next_one, progress
+
+    def before(module: str) -> None:
+        if not as_json:
+            click.echo(f"checking {module}", err=True)
+
+    found = list(progress(folder, modules, before))
+    every = [function for functions in found for function in functions]
+    coming = next_one(every)
+    if as_json:
+        document = {
+            "points": sum(one.points for one in every),
+            "of": sum(one.of for one in every),
+            "functions": as_data(every),
+            "next": None if coming is None else as_data([coming])[0],
+        }
+        click.echo(json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False))
+        return
+    rows = [_row(functions) for functions in found if functions]
+    if sys.stdout.isatty():
+        _print_rich(rows)
+    else:
+        wide = max((len(row[0]) for row in rows), default=0)
+        for name, state, count, points in rows:
+            click.echo(f"{name:<{wide}}  {state:<10}  {count:<9}  {points}")
+    click.echo(f"\n{_total(every)}")
+    if coming is None:
+        click.echo("next: nothing; every function is right")
+        return
+    click.echo(f"next: {coming.module}.{coming.name}, {_state(coming)}")
+    click.echo(f"  write  {_near(coming.file)}:{coming.line}")
+    click.echo(f"  read   {coming.page}")
+    click.echo(f"  check  course check {coming.module} --only {coming.name}")
+
+
+def _near(file: str) -> str:
+    """A file as it is called from here, where it lies below."""
+    path = Path(file).resolve()
+    here = Path.cwd()
+    return str(path.relative_to(here) if path.is_relative_to(here) else path)
+
+
+def _state(function: Progress) -> str:
+    return f"{function.state}: {function.title}" if function.title else function.state
+
+
+def _row(functions: list[Progress]) -> tuple[str, str, str, str]:
+    right = sum(one.state == "right" for one in functions)
+    begun = any(one.state != "to do" for one in functions)
+    wrong = sum(one.state == "wrong" for one in functions)
+    state = (
+        "done"
+        if right == len(functions)
+        else f"{wrong} wrong"
+        if wrong
+        else "begun"
+        if begun
+        else "to do"
+    )
+    return functions[0].module, state, f"{right} of {len(functions)}", _points(functions)
+
+
+def _points(functions: list[Progress]) -> str:
+    from course.grading.report import as_points
+
+    return f"{as_points(sum(o.points for o in functions))} of {as_points(sum(o.of for o in functions))}"
+
+
+def _total(functions: list[Progress]) -> str:
+    right = sum(one.state == "right" for one in functions)
+    return f"{right} of {len(functions)} functions are right, {_points(functions)} points"
+
+
+def _print_rich(rows: list[tuple[str, str, str, str]]) -> None:
+    from rich.box import HORIZONTALS
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+    styles = {"done": "green", "to do": "dim", "begun": "yellow"}
+    table = Table(box=HORIZONTALS, border_style="dim")
+    for name, justify in (
+        ("module", "left"),
+        ("state", "left"),
+        ("right", "right"),
+        ("points", "right"),
+    ):
+        table.add_column(name, justify=justify, no_wrap=True)  # type: ignore[arg-type]
+    for name, state, count, points in rows:
+        table.add_row(Text(name), Text(state, style=styles.get(state, "red")), count, points)
+    Console().print(table)

@@ -1,0 +1,75 @@
+"""Checks of one's functions in the background, by a process that can be ended at any time."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import subprocess
+import sys
+import threading
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+import psutil
+
+from course.effects import PACKAGE
+
+NICE = 10
+"""Added to its niceness: pictures come first."""
+
+
+class Checker:
+    """Checks modules one after the other.
+
+    Parameters
+    ----------
+    folder : of the functions
+    event : called by a thread of its own with each line that ``course.studio.checking`` says, and {"done": True}
+    """
+
+    def __init__(self, folder: Path, event: Callable[[dict[str, Any]], None]) -> None:
+        self._folder, self._event = folder, event
+        self._process: subprocess.Popen[str] | None = None
+
+    def check(self, modules: Sequence[str]) -> None:
+        """Check these modules, and end what is being checked."""
+        self.close()
+        path = os.pathsep.join([str(PACKAGE.parent), *filter(None, sys.path)])
+        self._process = subprocess.Popen(
+            [sys.executable, "-m", "course.studio.checking", str(self._folder), *modules],
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            text=True,
+            encoding="utf-8",
+            env={**os.environ, "PYTHONPATH": path},
+            process_group=0 if os.name == "posix" else None,
+        )
+        if os.name == "posix":
+            with contextlib.suppress(OSError):
+                os.setpriority(os.PRIO_PROCESS, self._process.pid, NICE)
+        threading.Thread(target=self._listen, args=(self._process,), daemon=True).start()
+
+    def close(self) -> None:
+        """End it with the workers that it has started."""
+        process, self._process = self._process, None
+        if process is None:
+            return
+        with contextlib.suppress(psutil.Error):
+            for each in psutil.Process(process.pid).children(recursive=True):
+                with contextlib.suppress(psutil.Error):
+                    each.kill()
+        process.kill()
+        process.wait()
+
+    def _listen(self, process: subprocess.Popen[str]) -> None:
+        assert process.stdout is not None
+        with process.stdout as lines:
+            for line in lines:
+                if self._process is process:
+                    with contextlib.suppress(ValueError):
+                        self._event(json.loads(line))
+        if self._process is process:
+            self._event({"done": True})

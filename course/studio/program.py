@@ -1,0 +1,237 @@
+"""The program of a process that renders for the studio: ``python -m course.studio.program``.
+
+It gets commands as messages on its standard input, and answers on what was its standard output; what functions print
+goes to its standard error. A command that comes while a picture is rendered interrupts it. Commands, by ``do``:
+
+    scene    file, values, effects, late: compile it; if late, its functions are loaded afterwards
+    load     take the functions as they are in their files now
+    render   job, upto, most: add passes up to so many samples of the most that there will be; a new job begins again
+    pixel    x, y, job: tell what became of the samples of a pixel
+"""
+
+from __future__ import annotations
+
+import os
+import queue
+import sys
+import threading
+import traceback
+import warnings
+from dataclasses import replace
+from pathlib import Path
+from time import monotonic, sleep
+from typing import Any
+
+from course.core.film import Film
+from course.effects import Effects
+from course.errors import CourseError, CourseWarning
+from course.recording.recording import record, recordable
+from course.recording.story import Line, Story
+from course.recording.view import view_data
+from course.rendering.binding import needs_of
+from course.scene.scene import Scene
+from course.studio.late import StudioEffects
+from course.studio.messages import Channel, messages
+from course.studio.passes import Progressive, Whole, picture_of
+from course.studio.prepared import Values, changed, prepared, settings_of
+
+BEAT = 0.25
+"""Seconds between two signs of life."""
+
+LONG = 0.8
+"""Seconds of a call from which on it is told that it goes on."""
+
+SHOW_FIRST, SHOW = 0.08, 0.5
+"""Seconds between two looks at a picture before and after every pixel has a sample."""
+
+STORY_SAMPLES = 64
+"""The most samples of a pixel that are told."""
+
+
+class InterruptedRenderError(Exception):
+    """Another command has come."""
+
+
+class Program:
+    """What the process knows: a scene, and a picture of it."""
+
+    def __init__(self, channel: Channel) -> None:
+        self.channel = channel
+        self.commands: queue.Queue[dict[str, Any] | None] = queue.Queue()
+        self.late: StudioEffects | None = None
+        self._effects: str | None = None
+        self._scene: Scene | None = None
+        self._values: Values = {}
+        self._early: set[str] = set()
+        self._picture: Progressive | Whole | None = None
+        self._recordable: Scene | None = None
+        self._job = 0
+
+    def run(self) -> None:
+        """Do what is asked for, until nobody asks any more."""
+        while (command := self.commands.get()) is not None:
+            kind = command.pop("do")
+            try:
+                self._do(kind, command)
+            except InterruptedRenderError:
+                self.channel.send({"interrupted": self._job})
+            except (CourseError, NotImplementedError, MemoryError) as error:
+                told = str(error) or type(error).__name__
+                function = getattr(error, "function", "")
+                self.channel.send({"failed": told, "function": function, "of": kind})
+            except Exception as error:  # noqa: BLE001 - told on the page
+                told = f"{type(error).__name__}: {error}"
+                where = traceback.format_exc(limit=-4)
+                self.channel.send({"failed": told, "trace": where, "of": kind})
+
+    def _do(self, kind: str, command: dict[str, Any]) -> None:
+        if kind == "scene":
+            self._compile(**command)
+        elif kind == "load":
+            self._load()
+        elif kind == "render":
+            self._render(**command)
+        elif kind == "pixel":
+            self._tell(**command)
+
+    # ---------------------------------------------------------------- commands
+
+    def _compile(self, file: str, values: list[Any], effects: str | None, late: bool) -> None:
+        known = {tuple(path): value for path, value in values}
+        scene, self._effects = self._scene, effects
+        self._picture = self._recordable = None
+        if scene is not None and str(scene.path) == file:
+            self._scene = changed(scene, self._values, known)
+        else:
+            self._scene = None
+        self._values = known
+        if self._scene is None:
+            self._scene = self._compiled(Path(file), late)
+            self._warm(self._scene)
+        needs = [need.function for need in needs_of(self._scene, settings_of(self._scene))]
+        self.channel.send({"scene": file, "needs": needs, "early": sorted(self._early)})
+
+    def _compiled(self, file: Path, late: bool) -> Scene:
+        source = Effects(self._effects)
+        if not late:
+            return prepared(file, self._values, source)
+        if self.late is None:
+            # Until functions are loaded, whatever can be made ready with the course's own is.
+            self.late = StudioEffects(Effects("solutions" if source.mixed else self._effects))
+        self.late.called.clear()
+        scene = prepared(file, self._values, self.late)
+        self._early = set(self.late.called)
+        return scene
+
+    def _warm(self, scene: Scene) -> None:
+        """Render a few pixels, for much is made when the first ray is cast; never with functions of a student."""
+        source = scene.effects.source if isinstance(scene.effects, StudioEffects) else scene.effects
+        if source.trusted:
+            little = replace(settings_of(scene), width=24, height=16, samples=4, subdivision=None)
+            Progressive(scene, little).render(2, lambda _film, _samples, _complete: None)
+
+    def _load(self) -> None:
+        assert self.late is not None
+        assert self._scene is not None
+        scene = self._scene
+        needs = [need.function for need in needs_of(scene, settings_of(scene))]
+        self.late.load(Effects(self._effects), needs)
+        if self._early:
+            # What was worked out before belongs to other functions.
+            self._scene = prepared(scene.path, self._values, self.late)
+        self._picture = None
+        self.channel.send(
+            {"loaded": [name for name in needs if self.late.written(*name.split("."))]}
+        )
+
+    def _render(self, job: int, upto: int, most: int) -> None:
+        if self._picture is None or job != self._job:
+            settings = replace(settings_of(self.scene), samples=most)
+            self._picture = picture_of(self.scene, settings)
+        self._job = job
+        picture = self._picture
+        last = 0.0
+
+        def tell(film: Film, samples: int, complete: bool) -> None:
+            nonlocal last
+            now = monotonic()
+            if complete or now - last > (SHOW if samples else SHOW_FIRST):
+                last = now
+                arrays: list[Any] = [film.linear, film.samples > 0]
+                if complete and picture.variance is not None:
+                    arrays.append(picture.variance)
+                told = {"picture": job, "samples": samples, "seconds": picture.seconds}
+                self.channel.send(told | {"complete": complete}, *arrays)
+            if not self.commands.empty():
+                raise InterruptedRenderError
+
+        picture.render(upto, tell)
+        self.channel.send({"rendered": job, "samples": picture.samples})
+
+    def _tell(self, x: int, y: int, job: int) -> None:
+        began = monotonic()
+        if self._recordable is None:
+            self._recordable = recordable(self.scene)
+        settings = settings_of(self.scene)
+        size = settings.width, settings.height
+        spp = min(settings.samples, STORY_SAMPLES)
+        story = Story(record(self._recordable, x, y, spp=spp, size=size))
+        told = {
+            "story": [x, y],
+            "job": job,
+            "title": story.tree.text,
+            "reason": story.reason,
+            "tree": [_as_data(line) for line in story.tree.below[1:]],
+            "rays": view_data(story),
+        }
+        self.channel.send(told | {"seconds": monotonic() - began})
+
+    @property
+    def scene(self) -> Scene:
+        """The compiled scene; CourseError if there is none."""
+        if self._scene is None:
+            raise CourseError("the scene can't be rendered as it is")
+        return self._scene
+
+
+def _as_data(line: Line) -> list[Any]:
+    return [line.text, [_as_data(below) for below in line.below]]
+
+
+def _beat(program: Program) -> None:
+    """Tell again and again that the process lives, and which call goes on and on."""
+    while True:
+        sleep(BEAT)
+        told: dict[str, Any] = {"alive": True}
+        call = program.late.longest() if program.late is not None else None
+        if call is not None and call[1] > LONG:
+            told |= {"busy": call[0], "for": call[1], "line": call[2]}
+        try:
+            program.channel.send(told)
+        except OSError:
+            return
+
+
+def main() -> None:
+    """Answer commands until the standard input ends."""
+    sys.dont_write_bytecode = True
+    warnings.simplefilter("ignore", CourseWarning)
+    # What was the standard output is for answers; whatever else is written goes where errors go.
+    answers = os.fdopen(os.dup(1), "wb")
+    os.dup2(2, 1)
+    program = Program(Channel(answers))
+    program.channel.send({"ready": True})
+
+    def listen() -> None:
+        for command, _ in messages(sys.stdin.buffer):
+            program.commands.put(command)
+        # Nobody asks any more, whatever a function does.
+        os._exit(0)
+
+    for work in (listen, lambda: _beat(program)):
+        threading.Thread(target=work, daemon=True).start()
+    program.run()
+
+
+if __name__ == "__main__":
+    main()

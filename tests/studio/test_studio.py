@@ -1,0 +1,191 @@
+"""The studio follows every save, and a student's function can do it no harm."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from course.studio.studio import MOST, Studio
+from tests.studio.conftest import RIGHT, WRONG, until, write
+
+DONE = 16
+
+
+def mine(studio: Studio) -> dict[str, Any]:
+    told: dict[str, Any] = studio.state()["sides"]["mine"]
+    return told
+
+
+def course(studio: Studio) -> dict[str, Any]:
+    told: dict[str, Any] = studio.state()["sides"]["course"]
+    return told
+
+
+def whole(studio: Studio) -> bool:
+    """Whether all is rendered that can be."""
+    sides = studio.state()["sides"].values()
+    return all((s["samples"] >= DONE and not s["rendering"]) or s["trouble"] for s in sides)
+
+
+def linear(studio: Studio, side: str = "mine") -> Any:
+    shot = getattr(studio, side).shot
+    return shot.linear
+
+
+def test_without_a_function_of_ones_own_both_pictures_are_the_same(studio: Studio) -> None:
+    until(lambda: whole(studio))
+    assert mine(studio)["samples"] == DONE
+    assert course(studio)["samples"] == min(4 * DONE, MOST)
+    assert studio.state()["differing"] == 0
+    assert mine(studio)["yours"] == []
+    errors = [error for _, _, error in studio.state()["curve"]]
+    assert len(errors) >= 4
+    assert errors == sorted(errors, reverse=True)
+
+
+def test_a_save_shows_what_is_wrong_and_then_what_has_changed(studio: Studio, work: Path) -> None:
+    until(lambda: whole(studio))
+    write(work, WRONG)
+    until(lambda: mine(studio)["yours"] == ["soft_shadows.point_on_sphere"])
+    until(lambda: whole(studio) and (studio.state()["differing"] or 0) > 0.01)
+    # It is a change to what was before, too, for that was right.
+    assert studio.state()["changed"] > 0.01
+    difference = studio.picture("difference")
+    assert difference is not None
+    red, _, blue, _ = np.moveaxis(difference.astype(int), 2, 0)
+    assert (red > blue + 50).any()
+    assert (blue > red + 50).any()
+    write(work, RIGHT)
+    until(lambda: whole(studio) and studio.state()["differing"] == 0)
+    assert studio.state()["changed"] > 0.01
+    assert studio.state()["curve_before"]
+
+
+WRONGS = {
+    "import os\nos.abort()\n": "process ended: abort",
+    "import os\nos._exit(3)\n": "exit code 3",
+    "while True:\n    print('x' * 100000)\n": "printed more than",
+    "return np.full((3, u.shape[1]), np.nan, u.dtype)\n": "soft_shadows.point_on_sphere",
+    "return center / radius['a']\n": "soft_shadows.point_on_sphere",
+    "return ((\n": "can't be imported",
+    "exit()\n": "soft_shadows.point_on_sphere",
+}
+"""What a function may do, and what is said of it."""
+
+
+def test_what_goes_wrong_is_told_and_a_save_mends_it(studio: Studio, work: Path) -> None:
+    until(lambda: mine(studio)["samples"] == DONE)
+    for body, told in WRONGS.items():
+        write(work, body)
+        assert told in until(lambda: mine(studio)["trouble"]), body
+        write(work, RIGHT)
+        until(lambda: mine(studio)["samples"] == DONE and not mine(studio)["trouble"])
+    # The reference has gone on.
+    until(lambda: course(studio)["samples"] == 4 * DONE)
+
+
+def test_an_endless_loop_is_told_with_its_line_while_it_lasts(studio: Studio, work: Path) -> None:
+    until(lambda: mine(studio)["samples"] == DONE)
+    write(work, "while True:\n    pass\n")
+    note = until(lambda: mine(studio)["note"])
+    assert note.startswith("soft_shadows.point_on_sphere has been running for")
+    source = (work / "assignments" / "soft_shadows.py").read_text(encoding="utf-8").splitlines()
+    line = int(note.rpartition("line ")[2])
+    assert source[line - 1].strip() in ("while True:", "pass")
+    until(lambda: course(studio)["samples"] == 4 * DONE)
+    write(work, RIGHT)
+    until(lambda: mine(studio)["samples"] == DONE and not mine(studio)["note"])
+
+
+def test_a_loop_that_is_left_alone_is_ended(studio: Studio, work: Path) -> None:
+    until(lambda: mine(studio)["samples"] == DONE)
+    write(work, "while True:\n    pass\n")
+    assert "no answer within" in until(lambda: mine(studio)["trouble"])
+
+
+def test_what_a_function_prints_is_shown(studio: Studio, work: Path) -> None:
+    write(work, f"print('radius', radius)\n{RIGHT}")
+    assert "radius" in until(lambda: mine(studio)["printed"])
+
+
+def test_checks_follow_a_save(studio: Studio, work: Path) -> None:
+    def state() -> str:
+        functions = studio._told_functions()["modules"]
+        every = {f["name"]: f["state"] for module in functions for f in module["functions"]}
+        return str(every["point_on_sphere"])
+
+    until(lambda: state() == "to do")
+    write(work, WRONG)
+    until(lambda: state() == "wrong")
+    told = studio._told_functions()
+    assert told["next"] == "soft_shadows.point_on_sphere"
+    assert told["where"].endswith(":65")
+    write(work, RIGHT)
+    until(lambda: state() == "right")
+
+
+def test_a_slider_changes_both_pictures_and_nothing_else_can_be_changed(studio: Studio) -> None:
+    until(lambda: whole(studio))
+    before, job = linear(studio).copy(), mine(studio)["job"]
+    studio.ask("value", path=["lights", 0, "intensity"], value=3)
+    studio.ask("value", path=["lights", 0, "radius"], value=0.1)
+    until(lambda: mine(studio)["job"] == job + 1 and whole(studio))
+    assert np.abs(linear(studio) - before).max() > 0.05
+    np.testing.assert_allclose(linear(studio).mean(), linear(studio, "course").mean(), rtol=0.02)
+    now = {tuple(each["path"]): each["now"] for each in studio.state()["sliders"]}
+    assert now["lights", 0, "radius"] == 0.1
+    studio.ask("reset")
+    until(lambda: mine(studio)["job"] == job + 2 and whole(studio))
+    np.testing.assert_array_equal(linear(studio), before)
+
+
+def test_an_orbit_moves_the_camera_and_not_what_is_looked_at(viewer: Studio) -> None:
+    until(lambda: course(viewer)["samples"] >= DONE)
+    before = linear(viewer, "course").copy()
+    viewer.ask("orbit", turn=0.5, tilt=0.1, zoom=1.0)
+    until(lambda: course(viewer)["job"] == 2 and course(viewer)["samples"] >= DONE)
+    assert np.abs(linear(viewer, "course") - before).max() > 0.05
+    camera = viewer.state()["camera"]
+    distance = [
+        np.linalg.norm(np.subtract(e, camera["look_at"])) for e in (camera["eye"], (0, 1.2, 4))
+    ]
+    assert distance[0] == pytest.approx(distance[1], rel=1e-4)
+
+
+def test_a_pixel_tells_its_story_with_ones_own_function(studio: Studio, work: Path) -> None:
+    write(work, RIGHT)
+    until(lambda: mine(studio)["yours"] and mine(studio)["samples"] == DONE)
+    events = studio.listen()
+    studio.ask("pixel", x=20, y=40)
+    story = until(lambda: next((d for n, d in iter(events.get, None) if n == "story"), None))
+    assert story["story"] == [20, 40]
+    assert "soft_shadows.point_on_sphere was asked" in str(story["tree"])
+    assert len(story["rays"]["samples"]) == DONE
+    # Nothing is kept waiting.
+    until(lambda: whole(studio))
+
+
+def test_a_scene_with_a_mistake_is_told_and_a_save_mends_it(studio: Studio, work: Path) -> None:
+    until(lambda: mine(studio)["samples"] == DONE)
+    file = work / "ball.yaml"
+    text = file.read_text(encoding="utf-8")
+    file.write_text(text.replace("radius: 0.8", "radius: -1"), encoding="utf-8")
+    assert "lights[0].radius" in until(lambda: studio.state()["trouble"])
+    file.write_text(text.replace("radius: 0.8", "radius: 0.2"), encoding="utf-8")
+    until(lambda: not studio.state()["trouble"] and whole(studio))
+    sliders = {tuple(each["path"]): each["value"] for each in studio.state()["sliders"]}
+    assert sliders["lights", 0, "radius"] == 0.2
+
+
+def test_nothing_runs_on_when_it_is_closed(work: Path) -> None:
+    studio = Studio(work / "ball.yaml", "mine")
+    studio.start()
+    until(lambda: mine(studio)["samples"] == DONE)
+    write(work, "while True:\n    pass\n")
+    until(lambda: mine(studio)["note"])
+    processes = [side.worker._process for side in studio.sides if side.worker is not None]
+    studio.close()
+    assert all(process.poll() is not None for process in processes)
