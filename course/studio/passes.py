@@ -139,10 +139,10 @@ class Progressive:
         if not (self._scene.effects.trusted and available()):
             yield
             return
-        from course.rendering.later import Later
+        from course.rendering.background_compile import BackgroundCompiler
 
         make = partial(bind, self._scene, self._settings, None, True)
-        with closing(Later(self._pool, make, self._scene, self._settings)):
+        with closing(BackgroundCompiler(self._pool, make, self._scene, self._settings)):
             yield
 
 

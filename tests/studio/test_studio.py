@@ -76,13 +76,14 @@ WRONGS = {
 """What a function may do, and what is said of it."""
 
 
+@pytest.mark.timeout(900)
 def test_what_goes_wrong_is_told_and_a_save_mends_it(studio: Studio, work: Path) -> None:
     until(lambda: mine(studio)["samples"] == DONE)
     for body, told in WRONGS.items():
         write(work, body)
         assert told in until(lambda: mine(studio)["trouble"]), body
         write(work, RIGHT)
-        until(lambda: mine(studio)["samples"] == DONE and not mine(studio)["trouble"])
+        until(lambda: mine(studio)["samples"] and not mine(studio)["trouble"])
     # The reference has gone on.
     until(lambda: course(studio)["samples"] == 4 * DONE)
 

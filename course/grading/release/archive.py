@@ -30,7 +30,11 @@ SCENES = {
 PAGES = {"docs": {".md", ".json"}}
 """Reports tell students to read some of them, and these name the others."""
 
-FOLDERS = {"course": {".py", ".typed", ".json", ".jinja"}, **SCENES, **PAGES}
+FOLDERS = {
+    "course": {".py", ".typed", ".json", ".jinja", ".html", ".css", ".js"},
+    **SCENES,
+    **PAGES,
+}
 """Folders that students get, and the kinds of file in them."""
 
 FILES = ("LICENSE", "pyproject.toml")
