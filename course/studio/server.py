@@ -18,6 +18,7 @@ from queue import Empty
 from typing import Any
 from urllib.parse import parse_qs, urlsplit
 
+from course.recording import view
 from course.studio.saving import write_view, yaml_of_view
 from course.studio.studio import Studio
 
@@ -248,13 +249,13 @@ def page(studio: Studio, token: str, nonce: str) -> str:
         "mode": "view" if studio.mine is None else "studio",
         "token": token,
         "nonce": nonce,
-        "style": _file("course.recording", "rays.css") + _file("course.studio", "studio.css"),
-        "rays": _file("course.recording", "rays.js"),
-        "script": _file("course.studio", "studio.js"),
+        "style": view.style() + _file("studio.css"),
+        "rays": view.script(),
+        "script": _file("studio.js"),
     }
-    template = _file("course.studio", "studio.html")
+    template = _file("studio.html")
     return re.sub(r"\[\[(\w+)\]\]", lambda found: parts[found[1]], template)
 
 
-def _file(package: str, name: str) -> str:
-    return files(package).joinpath(name).read_text(encoding="utf-8")
+def _file(name: str) -> str:
+    return files("course.studio").joinpath(name).read_text(encoding="utf-8")

@@ -1,0 +1,180 @@
+"""The page of the studio in a browser: by keyboard and by hand, light and dark, wide and narrow."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from course.studio.server import Server
+from course.studio.studio import Studio
+from tests.docs.conftest import tab_to
+from tests.studio.conftest import RIGHT, WRONG, until, write
+
+Open = Callable[[Studio], Any]
+
+
+@contextmanager
+def opened(browser: Any, studio: Studio, **options: Any) -> Iterator[Any]:
+    """The page, which may complain of nothing and ask nobody but the studio."""
+    server = Server(studio)
+    context = browser.new_context(viewport={"width": 1280, "height": 900}, **options)
+    page = context.new_page()
+    trouble: list[str] = []
+    page.on("pageerror", lambda error: trouble.append(str(error)))
+    page.on("console", lambda said: trouble.append(said.text) if said.type == "error" else None)
+    own = f"http://127.0.0.1:{server.port}/"
+    page.on(
+        "request",
+        lambda asked: None if asked.url.startswith((own, "data:")) else trouble.append(asked.url),
+    )
+    page.goto(server.address)
+    yield page
+    context.close()
+    server.close()
+    assert trouble == []
+
+
+def ready(page: Any, side: str = "mine") -> None:
+    """Wait until nothing is rendered any more, and the picture of that side is drawn."""
+    until(
+        lambda: page.evaluate(
+            "side => document.body.dataset.state === 'ready' && /^[0-9]+ samples/"
+            ".test(document.getElementById(`${side}-told`).textContent)"
+            " && Number(document.getElementById(side).dataset.drawn) > 0",
+            side,
+        )
+    )
+
+
+def pixels(page: Any, name: str) -> str:
+    """What a canvas shows."""
+    shown: str = page.evaluate("name => document.getElementById(name).toDataURL()", name)
+    return shown
+
+
+def text(page: Any, selector: str) -> str:
+    return str(page.inner_text(selector))
+
+
+def state(page: Any) -> str:
+    """Of the function that is written."""
+    return str(page.get_attribute("[data-function='soft_shadows.point_on_sphere']", "data-state"))
+
+
+def test_a_student_saves_what_is_wrong_and_then_what_is_right(
+    browser: Any, studio: Studio, work: Path
+) -> None:
+    with opened(browser, studio) as page:
+        ready(page)
+        assert text(page, "#title") == "A ball (ball.yaml)"
+        assert text(page, "#verdict") == "No difference from the reference but noise."
+        first = pixels(page, "mine")
+        until(lambda: state(page) == "to do")
+        write(work, WRONG)
+        until(lambda: "by more than noise" in text(page, "#verdict"))
+        ready(page)
+        assert pixels(page, "mine") != first
+        until(lambda: state(page) == "wrong")
+        assert "course check soft_shadows --only point_on_sphere/" in text(page, "#modules")
+        assert page.locator("#curve polyline").count() == 2
+        difference = pixels(page, "difference")
+        page.select_option("#which", "change")
+        until(lambda: "the picture before the last save" in text(page, "#verdict"))
+        page.select_option("#which", "difference")
+        write(work, "return center / radius['a']\n")
+        until(lambda: "soft_shadows.point_on_sphere" in text(page, "#mine-trouble"))
+        write(work, RIGHT)
+        until(lambda: text(page, "#verdict") == "No difference from the reference but noise.")
+        assert page.is_hidden("#mine-trouble")
+        assert pixels(page, "difference") != difference
+        until(lambda: state(page) == "right")
+
+
+def test_a_click_tells_a_pixels_story_and_a_drag_orbits(browser: Any, studio: Studio) -> None:
+    with opened(browser, studio) as page:
+        ready(page)
+        before = pixels(page, "mine")
+        box = page.locator("#mine").bounding_box()
+        page.mouse.click(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+        page.locator("#story .rays canvas").wait_for()
+        assert page.get_attribute("#story", "data-pixel") == "36,24"
+        assert "With your functions, pixel 36,24 of ball.yaml" in text(page, "#story .reason")
+        assert page.locator("#story .rays circle").count() == 16
+        page.mouse.move(box["x"] + 50, box["y"] + 50)
+        page.mouse.down()
+        page.mouse.move(box["x"] + 150, box["y"] + 60, steps=5)
+        page.mouse.up()
+        until(lambda: pixels(page, "mine") != before)
+        assert page.is_enabled("#reset")
+        page.click("#reset")
+        until(lambda: page.is_disabled("#reset"))
+        until(lambda: pixels(page, "mine") == before)
+
+
+def test_the_keyboard_does_everything(browser: Any, studio: Studio) -> None:
+    with opened(browser, studio) as page:
+        ready(page)
+        for key in ("ArrowLeft", "+"):
+            before = pixels(page, "mine")
+            tab_to(page, "#mine")
+            page.keyboard.press(key)
+            until(lambda before=before: pixels(page, "mine") != before)
+        ready(page)
+        before = pixels(page, "mine")
+        label = page.locator("label", has_text="lights[0].radius")
+        name = label.get_attribute("for")
+        tab_to(page, f"#{name}")
+        for _ in range(10):
+            page.keyboard.press("ArrowLeft")
+        until(lambda: label.locator("output").inner_text().startswith("0.7"))
+        until(lambda: pixels(page, "mine") != before)
+        tab_to(page, "#x")
+        page.keyboard.type("20")
+        page.keyboard.press("Enter")
+        page.locator("#story .rays canvas").wait_for()
+
+
+def test_a_view_writes_its_camera_only_when_asked(browser: Any, viewer: Studio, work: Path) -> None:
+    with opened(browser, viewer) as page:
+        ready(page, "course")
+        assert page.is_hidden("#mine")
+        assert page.is_hidden("nav")
+        page.focus("#course")
+        before = pixels(page, "course")
+        page.keyboard.press("ArrowRight")
+        until(lambda: pixels(page, "course") != before)
+        page.click("#yaml")
+        until(lambda: text(page, "#view-yaml").startswith("camera:\n  eye: ["))
+        assert sorted(file.name for file in work.glob("*.yaml")) == ["ball.yaml"]
+        page.click("#save")
+        until(lambda: text(page, "#view-told") == "ball-view-1.yaml was written")
+        written = (work / "ball-view-1.yaml").read_text(encoding="utf-8")
+        eye = text(page, "#view-yaml").splitlines()[1].strip()
+        assert f"camera: {{{eye}, look_at" in written
+        assert "# The lamp." in written
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_axe_finds_nothing_and_a_telephone_is_wide_enough(
+    browser: Any, studio: Studio, work: Path, scheme: str
+) -> None:
+    accessibility = pytest.importorskip("tests.docs.test_accessibility")
+    write(work, WRONG)
+    # Axe is put into the page, which takes no scripts but its own.
+    with opened(browser, studio, bypass_csp=True, color_scheme=scheme) as page:
+        ready(page)
+        until(lambda: state(page) == "wrong")
+        page.fill("#x", "20")
+        page.click("#pixel-form button")
+        page.locator("#story .rays canvas").wait_for()
+        page.click("#yaml")
+        page.click("#others summary")
+        for width in (1280, 390):
+            page.set_viewport_size({"width": width, "height": 844})
+            assert page.evaluate("document.documentElement.scrollWidth") <= width
+            for rules in (accessibility.RULES, accessibility.COLOURS):
+                assert accessibility._faults(page, rules) == []
