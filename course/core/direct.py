@@ -70,7 +70,7 @@ class DirectLight:
     shaded : ``MaterialTable.shaded_sides``; None if all materials reflect direct light on both sides
     diffuse : (3, M) reflectance
     specular, exponent : (3, M) and (M,) of the highlights; specular is None if no material has one
-    sky : returns irradiance / pi (3, n) of the environment, None for 0; None if the environment is not a light
+    sky : returns the environment's irradiance / pi (3, n), or None for 0. If it is None, the environment is no light
     """
 
     surface: Surface

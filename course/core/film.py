@@ -24,7 +24,7 @@ class Reconstruction:
 
     Attributes
     ----------
-    single : true if each pixel has one sample, whose radiance is its colour
+    single : true if each pixel has one sample; the pixel's colour is its radiance
     sigma : standard deviation of the Gaussian [pixels]; None for the box filter
     """
 

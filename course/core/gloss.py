@@ -41,7 +41,7 @@ class Lobe:
         return scattered
 
     def keep_above(self, direction: Floats32, ng: Floats32) -> Floats32:
-        """Move directions (3, N) that point below the surface above it. Its geometric normals are ng (3, N)."""
+        """Change directions (3, N) that point into the surface, so that they leave it; ng (3, N): geometric normals."""
         kept: Floats32 = self.glossy.keep_above(direction, ng)
         return kept
 

@@ -179,7 +179,7 @@ class Surface:
 
 
 def turn_to_viewer(ns: Floats32, direction: Floats32) -> None:
-    """Turn shading normals that face away from the ray until they are orthogonal to it, in place."""
+    """Turn shading normals that face away from the viewer until they are orthogonal to the ray, in place."""
     away = dot(ns, direction)
     wrong = np.flatnonzero(away > 0)
     if len(wrong):

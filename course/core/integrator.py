@@ -25,7 +25,7 @@ LARGEST_BATCH = 4 * RAYS
 
 
 Absorption = Callable[[Rays, Hits, Floats32 | None, Media | None, bool], Floats32 | None]
-"""Reduces throughput along rays. Its arguments are rays, hits, throughput and medium at the hits, and ``of_camera``."""
+"""Reduces throughput along rays. Takes rays, hits, throughput and medium at the hits, and true for camera rays."""
 
 
 class CancelledError(Exception):
@@ -41,7 +41,7 @@ class Integrator:
     environment : radiance of the rays that hit nothing; None if it is black
     environment_depth : largest depth at which rays see the environment, -1 for none
     ambient : (3, M) reflected ambient radiance
-    dark_inside : (M,) bool, the dielectrics, whose insides reflect neither ambient nor diffuse light
+    dark_inside : (M,) bool, true for dielectrics: their insides reflect no ambient and no diffuse light
     glow : (3, M) radiance emitted from both sides by surfaces that are not sampled as lights
     emission : (3, M) radiance emitted from the fronts of the surfaces of lights
     absorption : reduces the throughput along rays in dielectrics (``course.extras.absorption``)

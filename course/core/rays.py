@@ -14,9 +14,9 @@ RAYS = 65536
 """Maximum number of camera rays in a batch.
 
 A batch shares the cost of Python among its rays: the longer each call of NumPy or Embree runs, the less time threads
-spend waiting for the interpreter's lock. On two cores with 1 MB of second-level cache each, a render took
-1.85 times as long as Embree alone with 32 thousand rays, 1.53 to 1.64 times with 64 thousand, and 1.59 times with 128
-thousand (medians of five).
+spend waiting for the interpreter's lock. With 32 thousand rays a render took 1.85 times as long as Embree alone, with
+64 thousand 1.53 to 1.64 times, and with 128 thousand 1.59 times (medians of five, on two cores with 1 MB of
+second-level cache each).
 """
 
 OPEN = np.int16(-1)
@@ -70,7 +70,7 @@ class Rays:
 
 
 def join_rays(batches: Sequence[Rays]) -> Rays:
-    """Join batches: one costs less than several small ones. An attribute must be None in all batches or in none."""
+    """Join batches: a large one costs less than several small ones. An attribute is None in all batches or in none."""
 
     def columns(name: str) -> Any:
         arrays = [getattr(rays, name) for rays in batches]
@@ -109,7 +109,7 @@ class Dimensions:
 
 @dataclass(frozen=True)
 class Draws:
-    """Draws random numbers for the paths of a block on demand, and counts them and their rays.
+    """Draws random numbers for the paths of a block on demand; counts the numbers, and the rays of the paths.
 
     ``cancelled`` returns true if the render has been cancelled; ``costs`` are the paths' costs
     (``course.adaptive.costs``), None without adaptive sampling.

@@ -1,4 +1,4 @@
-"""Samplers: the numbers in [0, 1) that paths use, and the classic samplers: random, jittered and regular points.
+"""Samplers draw the numbers in [0, 1) that paths use. Here are the classic ones: random, jittered and regular.
 
 A block holds the same range of samples of several pixels. Path p of a block is sample ``first + p % samples`` of its
 pixel ``p // samples``. So an array (paths,), reshaped to (pixels, samples), has one row per pixel.

@@ -161,8 +161,9 @@ class Scatter:
         depth: int,
         draws: Draws,
     ) -> Rays | None:
-        """Refracted rays if ``boundary`` is given, and else reflected rays; ``throughput`` (3, n) is that after the
-        bounce.
+        """Refracted rays if ``boundary`` is given, otherwise reflected rays.
+
+        ``throughput`` (3, n) includes the bounce.
         """
         which = np.flatnonzero(throughput.max(axis=0) > self.cutoff)
         if len(which) == 0:
@@ -185,7 +186,7 @@ class Scatter:
 
 
 def kept_above(direction: Floats32, ng: Floats32) -> Floats32:
-    """Reflect directions (3, n) that point below the surface to above it. Its geometric normals are ng (3, n)."""
+    """Mirror directions (3, n) that point into the surface, so that they leave it; ng (3, n): geometric normals."""
     below = np.minimum(dot(direction, ng), 0)
     if not below.any():
         return direction

@@ -1,4 +1,4 @@
-"""Vector arithmetic on (3, N) arrays: rows are x, y, z; columns are vectors or points. It keeps the dtype."""
+"""Vector arithmetic on (3, N) arrays: rows are x, y, z; columns are vectors or points. The dtype is kept."""
 
 from typing import Any
 

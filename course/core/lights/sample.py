@@ -12,8 +12,8 @@ from course.core.vectors import dot
 TO_A_POINT, TO_A_SURFACE, TO_THE_LIGHT = 1 - 2.0**-20, 1 - 1e-4, 1 + 2.0**-15
 """Lengths of shadow rays, as fractions of the distance to the light. The first is for points that belong to no
 surface. The second is for visible lights: it ends short of their own triangles. The third ends behind a point light
-on a surface, so that the surface blocks it. Rounding moves a surface by 2^-16 at 1/50 of the scene's size and 60
-degrees."""
+on a surface, so that the surface blocks it. For a ray of 1/50 of the scene's size that meets the surface at 60 degrees,
+rounding moves the surface by 2^-16 of the ray's length."""
 
 
 @dataclass(frozen=True)
