@@ -58,7 +58,7 @@ class Module:
 
     Attributes
     ----------
-    name : as in `course.effects.MODULES`
+    name : as in `course.modules.MODULES`
     scene : the scene file
     groups : comparisons, each a figure: name -> its title
     """

@@ -21,7 +21,6 @@ import pytest
 from numpy.typing import NDArray
 
 from course import Picture, Scene, load_scene, render
-from course import render_scene as rendering
 from course.adaptive import rounds as adaptive
 from course.adaptive.allocation import FIRST, FIRST_OF_NET, LADDER, LONGEST
 from course.adaptive.film import PARTS, AdaptiveFilm
@@ -31,7 +30,7 @@ from course.core.tiles import Work
 from course.core.tracer import Tracer
 from course.errors import CourseError, SceneError
 from course.formats.pictures.reading import read_picture
-from course.rendering import threads as pool
+from tests.rendering.clock import Clock
 
 MakeScene = Callable[..., Scene]
 EveryStage = Callable[..., Scene]
@@ -686,20 +685,6 @@ def test_rare_light_on_black_ground_is_darkened_by_less_than_a_fifth_of_the_erro
 
 
 # --- Time limits, Ctrl-C, and what can't be -------------------------------------------------------
-
-
-class Clock:
-    """Moves on by one whenever a thread looks before it takes a group, and stands still for the one that waits."""
-
-    def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
-        self.now = 1000.0
-        for module in (rendering, pool):
-            monkeypatch.setattr(module, "monotonic", self)
-
-    def __call__(self) -> float:
-        if threading.current_thread() is not threading.main_thread():
-            self.now += 1
-        return self.now
 
 
 def test_with_time_to_spare_a_limit_changes_nothing(every_stage: EveryStage) -> None:

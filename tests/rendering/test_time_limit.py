@@ -1,6 +1,5 @@
 """Rendering against the clock, with a clock that the test turns: no test depends on how fast a machine is."""
 
-import threading
 from typing import Any
 
 import numpy as np
@@ -10,26 +9,12 @@ from course import Scene, render
 from course import render_scene as rendering
 from course.core.tracer import Tracer
 from course.extras.samplers import FUNCTIONS
-from course.rendering import threads as pool
 from course.rendering.binding import bind
 from tests.conftest import MakeScene
+from tests.rendering.clock import Clock
 
 LIMITS = (6.0, 12.0, 24.0, 48.0)
 """In looks at the clock, of which there is one before each tile."""
-
-
-class Clock:
-    """Moves on by one whenever a thread looks before it takes a tile, and stands still for the one that waits."""
-
-    def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
-        self.now = 1000.0
-        for module in (rendering, pool):
-            monkeypatch.setattr(module, "monotonic", self)
-
-    def __call__(self) -> float:
-        if threading.current_thread() is not threading.main_thread():
-            self.now += 1
-        return self.now
 
 
 @pytest.fixture
