@@ -200,9 +200,9 @@ def demo(scenes: tuple[Path, ...], out: Path) -> None:
     cards = []
     for number, path in enumerate(scenes, start=1):
         click.echo(f"[{number}/{len(scenes)}] {path}", err=True)
-        scene = load_scene(path)
         try:
             with progress_bar(path.stem) as progress:
+                scene = load_scene(path)
                 picture = render(scene, progress=progress)
         except EffectError as error:
             # Only a student's copy shows what there is of what nobody has written yet.

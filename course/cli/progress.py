@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import sys
-import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from threading import Lock, Timer
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -36,23 +36,37 @@ def progress_bar(label: str) -> Iterator[Report | None]:
 
 
 class _Bar:
-    """A bar that appears once the work has lasted for PATIENCE."""
+    """A bar that appears once the work has lasted for PATIENCE; it only pulses until a share is reported."""
 
     def __init__(self, label: str) -> None:
         self._label = label
-        self._since = time.perf_counter()
+        self._done: float | None = None
         self._shown: tuple[Progress, TaskID] | None = None
+        self._closed = False
+        self._lock = Lock()
+        # In a thread of its own, since a scene may be read for many seconds without a report.
+        self._timer = Timer(PATIENCE, self._show)
+        self._timer.daemon = True
+        self._timer.start()
 
     def report(self, done: float, _available: bool) -> None:
-        if self._shown is None and time.perf_counter() - self._since >= PATIENCE:
-            self._shown = self._open()
-        if self._shown is not None:
-            progress, task = self._shown
-            progress.update(task, completed=done)
+        with self._lock:
+            self._done = done
+            if self._shown is not None:
+                progress, task = self._shown
+                progress.update(task, completed=done, total=1.0)
 
     def close(self) -> None:
-        if self._shown is not None:
-            self._shown[0].stop()
+        self._timer.cancel()
+        with self._lock:
+            self._closed = True
+            if self._shown is not None:
+                self._shown[0].stop()
+
+    def _show(self) -> None:
+        with self._lock:
+            if not self._closed:
+                self._shown = self._open()
 
     def _open(self) -> tuple[Progress, TaskID]:
         from rich.console import Console
@@ -76,4 +90,5 @@ class _Bar:
             refresh_per_second=8,
         )
         progress.start()
-        return progress, progress.add_task(self._label, total=1.0)
+        total = None if self._done is None else 1.0
+        return progress, progress.add_task(self._label, total=total, completed=self._done or 0.0)

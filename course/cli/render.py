@@ -73,7 +73,7 @@ SAMPLERS = ("sobol", "random", "jittered", "regular", "halton", "hammersley", "c
     "--receipt",
     "receipt_path",
     callback=options.json_path,
-    help="Write what the render cost as JSON.",
+    help="Write what the render cost as JSON, and why each effect was skipped that the scene doesn't need.",
 )
 @click.option(
     "--watch",
@@ -160,7 +160,7 @@ def _render_one(
     from course.scene.darkness import warn_of_darkness
 
     began = monotonic()
-    with told_of(scene, file):
+    with told_of(scene, file), progress_bar(f"reading {scene.name}"):
         world = load_scene(file, effects=effects)
     if choices["time_limit"] is not None:
         choices = choices | {"since": began}

@@ -73,7 +73,7 @@ def receipt_sections(receipt: Mapping[str, Any]) -> list[Section]:
             "effects",
             [
                 *(("yours" if name in yours else "called", name) for name in effects["called"]),
-                *((f"skipped {name}", reason) for name, reason in effects["skipped"].items()),
+                *_skipped(effects["skipped"]),
             ],
         ),
         ("seconds", [(stage, f"{time:9.3f}") for stage, time in receipt["seconds"].items()]),
@@ -110,10 +110,15 @@ def _tests(receipt: Mapping[str, Any]) -> list[tuple[str, str]]:
     ]
 
 
+def _skipped(skipped: Mapping[str, str]) -> list[tuple[str, str]]:
+    """One line: most scenes need few of all effects; the receipt as JSON has the reason of each."""
+    return [("skipped", f"{len(skipped)} that the scene doesn't need")] if skipped else []
+
+
 def _samples(receipt: Mapping[str, Any]) -> list[tuple[str, str]]:
-    error = receipt["error"]
+    error, mean = receipt["error"], receipt["samples"]
     if error is None:
-        return []
+        return [("a pixel", f"{mean:g}" if mean == int(mean) else f"{mean:.1f} on average")]
     estimated, target = error["estimated"], error["target"]
     missed = (
         ""
@@ -121,10 +126,7 @@ def _samples(receipt: Mapping[str, Any]) -> list[tuple[str, str]]:
         else f", above the target {target:g}: more samples (--spp) bring it down"
     )
     return [
-        (
-            "a pixel",
-            f"{receipt['samples']:.1f} on average, {error['fewest']:,} to {error['most']:,}",
-        ),
+        ("a pixel", f"{mean:.1f} on average, {error['fewest']:,} to {error['most']:,}"),
         ("estimated error", f"{estimated:.3g}{missed}"),
         ("saved", f"{error['saved']:.0%} of {error['uniform']:.1f} in every pixel alike"),
     ]

@@ -53,6 +53,14 @@ class Picture:
 
         save(Path(path), heat_map(np.maximum(self.film.samples, 1)))
 
+    def __repr__(self) -> str:
+        receipt = self.receipt
+        height, width = self.film.samples.shape
+        return (
+            f"<Picture {width} x {height}, {receipt.samples:g} samples a pixel,"
+            f" {receipt.wall_seconds:.2f} s on {receipt.threads} thread{'s' * (receipt.threads > 1)}>"
+        )
+
     def _repr_png_(self) -> bytes:
         from course.formats.pictures.files import encode_png
 

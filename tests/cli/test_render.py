@@ -292,7 +292,8 @@ def test_the_receipt_is_printed_as_plain_text_where_there_is_no_terminal(run: Ru
     assert lines[0] == ["box.png"]
     assert ["rays", "camera", "4,915,200"] in lines
     assert ["effects", "called", "supersampling.resolve"] in lines
-    assert "skipped thin_lens" in result.stdout
-    assert "the aperture is 0" in result.stdout
+    assert "skipped 1 that the scene doesn't need" in " ".join(result.stdout.split())
+    assert "the aperture is 0" not in result.stdout
+    assert ["samples", "a", "pixel", "16"] in lines
     assert "reflection" not in result.stdout
     assert result.stdout.isascii()

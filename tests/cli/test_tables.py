@@ -45,6 +45,19 @@ def test_embrees_share_is_of_all_threads_time() -> None:
     assert "50% of all threads' time" in rows["inside Embree"]
 
 
+@pytest.mark.parametrize(("mean", "told"), [(64, "64"), (64.0, "64"), (10.94, "10.9 on average")])
+def test_the_samples_that_were_reached_are_told(mean: float, told: str) -> None:
+    sections = dict(tables.receipt_sections(RECEIPT | {"samples": mean}))
+    assert sections["samples"] == [("a pixel", told)]
+
+
+def test_what_was_skipped_is_one_line() -> None:
+    skipped = {name: "nothing needs it" for name in ("thin_lens", "motion_blur", "cube_map")}
+    receipt = RECEIPT | {"effects": {"called": [], "skipped": skipped}}
+    sections = dict(tables.receipt_sections(receipt))
+    assert sections["effects"] == [("skipped", "3 that the scene doesn't need")]
+
+
 def test_a_receipt_of_nothing_divides_by_nothing() -> None:
     empty = RECEIPT | {
         "rays": {},
@@ -54,7 +67,7 @@ def test_a_receipt_of_nothing_divides_by_nothing() -> None:
         "wall_seconds": 0.0,
         "embree_seconds": 0.0,
     }
-    assert [heading for heading, _ in tables.receipt_sections(empty)] == ["time"]
+    assert [heading for heading, _ in tables.receipt_sections(empty)] == ["samples", "time"]
     assert tables.plain_text("nothing", [])
 
 

@@ -1,6 +1,7 @@
 """Pictures on their way to files and notebooks: shown as the scene's film asks."""
 
 import io
+import re
 from pathlib import Path
 from typing import Any
 
@@ -59,3 +60,8 @@ def test_an_exr_holds_the_radiance_whatever_a_png_shows(
     picture = half(make_scene, {"encoding": "linear", "white": 255})
     picture.save(tmp_path / "one.exr")
     assert (read_picture(tmp_path / "one.exr") == 0.5).all()
+
+
+def test_a_picture_tells_of_itself_in_one_line(make_scene: MakeScene) -> None:
+    told = repr(half(make_scene, {"width": 16}))
+    assert re.fullmatch(r"<Picture 16 x 8, \d+ samples a pixel, [\d.]+ s on \d+ threads?>", told)
