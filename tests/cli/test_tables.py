@@ -52,7 +52,7 @@ def test_the_samples_that_were_reached_are_told(mean: float, told: str) -> None:
 
 
 def test_what_was_skipped_is_one_line() -> None:
-    skipped = {name: "nothing needs it" for name in ("thin_lens", "motion_blur", "cube_map")}
+    skipped = dict.fromkeys(("thin_lens", "motion_blur", "cube_map"), "nothing needs it")
     receipt = RECEIPT | {"effects": {"called": [], "skipped": skipped}}
     sections = dict(tables.receipt_sections(receipt))
     assert sections["effects"] == [("skipped", "3 that the scene doesn't need")]
