@@ -47,10 +47,14 @@ ifneq ($(shell $(RUNS) && echo yes),yes)
 .PHONY: $(STAMP)
 endif
 
+# A sign of life every two seconds beside the program that follows on the same line, until that line's shell ends.
+DOTS := while sleep 2 && kill -0 $$$$ 2>/dev/null; do printf .; done &
+
 $(STAMP): pyproject.toml
-	@$(RUNS) || $(or $(PYTHON),$(error no Python 3.11 or newer with venv and pip was found: install one, or say make PYTHON=...)) -m venv --clear $(VENV)
-	@echo "installing into $(VENV) (a minute, once)"
-	@"$(RUN)" -m pip --disable-pip-version-check -qq install --editable ".[dev]"
+	@printf "installing into $(VENV): about 210 MB to download, a minute, once "
+	@$(DOTS) $(RUNS) || $(or $(PYTHON),$(error no Python 3.11 or newer with venv and pip was found: install one, or say make PYTHON=...)) -m venv --clear $(VENV)
+	@$(DOTS) "$(RUN)" -m pip --disable-pip-version-check -qq install --editable ".[dev]"
+	@echo
 	@"$(RUN)" -c "open('$(STAMP)', 'w').close()"
 
 check: $(STAMP)
