@@ -90,5 +90,7 @@ class _Bar:
             refresh_per_second=8,
         )
         progress.start()
-        total = None if self._done is None else 1.0
-        return progress, progress.add_task(self._label, total=total, completed=self._done or 0.0)
+        task = progress.add_task(self._label, total=None)
+        if self._done is not None:
+            progress.update(task, completed=self._done, total=1.0)
+        return progress, task
