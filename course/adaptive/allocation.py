@@ -26,8 +26,13 @@ pixels have the error by what these tell, all get FIRST (``rounds.CONCENTRATED``
 LONGEST = 1024
 """Samples of a pixel between two rungs: as many as one table of points holds."""
 
-GROWTH = 2
-"""By what a pixel's samples may grow in one round; more would be decided on too little knowledge."""
+KNOWN = 16
+"""From so many samples on a pixel's variance is known well enough to take larger steps."""
+
+GROWTH = 2, 4
+"""By what a pixel's samples may grow in one round, below KNOWN and from there on. More would be decided on too little
+knowledge, and each further round is one more chance to stop too early. With 2 throughout, 42 of 70 runs on six scenes
+ended within a tenth of what was asked, with 4 from 16 samples on 60, from 32 on 59, with 3 throughout 47."""
 
 
 def _ladder(most: int) -> Numbers:
@@ -82,9 +87,14 @@ def best_samples(
     return best
 
 
+def growth(samples: Numbers) -> Floats32:
+    """By what the samples (P,) of pixels may grow in one round."""
+    return np.where(samples < KNOWN, *map(np.float32, GROWTH))
+
+
 def next_rung(samples: Numbers, best: Floats32) -> Numbers:
     """The samples (P,) int32 that each pixel shall have after the next round; as many as now where it is done."""
-    reachable = np.minimum(best, GROWTH * samples.astype(np.float32)).astype(np.int32)
+    reachable = np.minimum(best, growth(samples) * samples.astype(np.float32)).astype(np.int32)
     highest = LADDER.take(_RUNG.take(np.minimum(samples + np.int32(LONGEST), LADDER[-1])))
     wanted: Numbers = np.clip(_NEAREST.take(np.minimum(reachable, LADDER[-1])), samples, highest)
     return wanted

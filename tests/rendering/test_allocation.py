@@ -8,10 +8,10 @@ from numpy.typing import NDArray
 
 from course.adaptive.allocation import (
     FIRST_OF_NET,
-    GROWTH,
     LADDER,
     LONGEST,
     best_samples,
+    growth,
     next_rung,
     one_rung_more,
 )
@@ -168,7 +168,7 @@ def test_only_rungs_of_the_ladder_are_reached_from_a_rung() -> None:
     assert after.dtype == np.int32
     assert set(after.tolist()) <= set(LADDER.tolist())
     assert (after >= samples).all()
-    assert (after <= GROWTH * samples).all()
+    assert (after <= growth(samples) * samples).all()
     assert (after <= samples + LONGEST).all()
     by_rung = after.reshape(len(LADDER), -1)
     assert (np.diff(by_rung, axis=1) >= 0).all(), "who wants more gets as much or more"
@@ -179,7 +179,7 @@ def test_what_is_in_reach_is_rounded_to_the_nearest_rung_by_ratio() -> None:
     rng = np.random.default_rng(7)
     best = rng.integers(16, 1000, 6000).astype(np.float32)
     samples = LADDER.take(rng.integers(0, 14, 6000))
-    free = (best > samples) & (best < GROWTH * samples) & (best < samples + LONGEST / 2)
+    free = (best > samples) & (best < growth(samples) * samples) & (best < samples + LONGEST / 2)
     ratio = np.abs(np.log(best[:, None] / LADDER[None]))
     nearest = LADDER.take(ratio.argmin(axis=1))
     assert free.sum() > 500
