@@ -8,7 +8,6 @@ import pytest
 
 from tests.docs.conftest import tab_to, untroubled
 
-
 CUT_OFF = "[...document.querySelectorAll('.formula')].some((f) => f.scrollWidth > f.clientWidth)"
 
 
