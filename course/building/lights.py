@@ -1,6 +1,7 @@
 """From light descriptions to lights in the frame of the compiled scene, and to surfaces that rays can see."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,6 +20,7 @@ from course.core.triangles import Mesh, Triangles
 from course.core.types import Floats32, Floats64, Functions
 from course.effects import Bound
 from course.errors import FunctionError
+from course.extras.light_choice import LightChoice, PowerChoice
 from course.extras.mesh_light import MeshLight, areas, shares
 from course.extras.sampled import SampledSphereLight
 from course.extras.surface import FullPart
@@ -70,6 +72,16 @@ def compile_lights(
         else:
             lights += compiler(light)
     return tuple(lights), skipped
+
+
+def compile_choice(loaded: Loaded, lights: Sequence[Light]) -> LightChoice | None:
+    """What chooses one of the lights for each hit; None if all of them are asked."""
+    asked = loaded.description.integrator.light_sampling
+    # The cells of a grid are one light of the file.
+    many = len({light.name for light in lights}) > d.MANY_LIGHTS
+    if len(lights) < 2 or asked == "all" or (asked == "automatic" and not many):
+        return None
+    return PowerChoice(tuple(lights))
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from course.building.cutting import cut
 from course.building.environment import compile_environment
 from course.building.frame import Frame, bounds_of, in_range, in_reach
 from course.building.gloss import compile_lobes, compile_rough_glass, reflecting
-from course.building.lights import Lit, compile_lights, emitter_parts
+from course.building.lights import Lit, compile_choice, compile_lights, emitter_parts
 from course.building.materials import check_growth, compile_materials, material_columns
 from course.building.motion import check_sweeps, compile_motion, shutter_of
 from course.building.objects import CONVEX, object_mesh
@@ -150,6 +150,7 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
         backdrop=scene.environment.seen_by == "camera",
         keeps=scene.integrator.into_surface == "keep",
         lifted=scene.integrator.surface_offset > 0,
+        choice=compile_choice(loaded, lights),
     )
     check_growth(loaded, columns.names, world)
     if small is not None:

@@ -78,7 +78,8 @@ class CompiledDirectLight(FullDirectLight):
         """In one loop a light for what the camera sees."""
         accelerator = self.surface.accelerator
         # After a bounce neighbours go apart, and few face the light: to gather those that do makes fuller packets.
-        if depth or self.lifted or not isinstance(accelerator, PacketAccelerator | MovingPackets):
+        several = depth or self.lifted or self.choice is not None
+        if several or not isinstance(accelerator, PacketAccelerator | MovingPackets):
             return super()._from_lights(hits, path, depth, draws)
         diffuse: Floats32 | None = None
         specular: Floats32 | None = None

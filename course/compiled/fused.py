@@ -125,7 +125,9 @@ def _fits_environment(environment: Environment | None) -> bool:
 def _fits_direct_light(direct: DirectLight | None) -> bool:
     if direct is None:
         return True
-    plain = not isinstance(direct, FullDirectLight) or (direct.plain is None and not direct.lifted)
+    plain = not isinstance(direct, FullDirectLight) or (
+        direct.plain is None and not direct.lifted and direct.choice is None
+    )
     lamps = all(_lamp(light) is not None for light in direct.lights)
     return plain and lamps and (direct.sky is None or _fits_sky(direct.sky))
 

@@ -1,14 +1,16 @@
 """Direct light with what only some scenes have: the environment's light, and other renderers' conventions."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from course.core.direct import Candidates, DirectLight
 from course.core.hits import Hits
 from course.core.lights.sample import TO_THE_LIGHT, Light
-from course.core.types import Floats32, Mask
+from course.core.rays import Draws
+from course.core.types import Floats32, Indices, Mask
 from course.core.vectors import dot
+from course.extras.light_choice import WHERE, WHICH, LightChoice, some_of
 
 
 @dataclass(frozen=True)
@@ -19,10 +21,32 @@ class FullDirectLight(DirectLight):
     ----------
     plain : (M,) bool, materials whose highlights lack the cosine in E; None if there are none
     lifted : true if rays start so far above surfaces that lights are sampled for the surface itself
+    choice : chooses one light for each hit; None if all lights send light to all hits
     """
 
     plain: Mask | None = None
     lifted: bool = False
+    choice: LightChoice | None = None
+
+    def _from_lights(
+        self, hits: Hits, path: Indices | None, depth: int, draws: Draws
+    ) -> tuple[Floats32 | None, Floats32 | None]:
+        choice = self.choice
+        if choice is None:
+            return super()._from_lights(hits, path, depth, draws)
+        u = draws(WHICH, path, depth)[0]
+        places = draws(WHERE, path, depth) if choice.width else None
+        diffuse: Floats32 | None = None
+        specular: Floats32 | None = None
+        for light, which in choice.groups(hits, u, places):
+            stage = replace(self, lights=(light,), choice=None)
+            if which is None:
+                return stage._from_lights(hits, path, depth, draws)
+            of = which if path is None else path.take(which)
+            more = stage._from_lights(some_of(hits, which), of, depth, draws)
+            diffuse = _spread(diffuse, more[0], which, hits.size)
+            specular = _spread(specular, more[1], which, hits.size)
+        return diffuse, specular
 
     def _points(self, hits: Hits, light: Light) -> Floats32:
         return (
@@ -43,3 +67,14 @@ class FullDirectLight(DirectLight):
             plain = self.plain.take(candidates.of(hits.material))
             highlight /= np.where(plain, np.maximum(cosine, np.float32(1e-20)), np.float32(1))
         return highlight
+
+
+def _spread(
+    total: Floats32 | None, values: Floats32 | None, which: Indices, n: int
+) -> Floats32 | None:
+    """The total (3, n) with values (3, m) at the hits ``which`` (m,); None stands for 0."""
+    if values is None:
+        return total
+    total = np.zeros((3, n), np.float32) if total is None else total
+    total[:, which] = values
+    return total

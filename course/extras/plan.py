@@ -21,6 +21,7 @@ from course.core.scene import (
 from course.extras.absorption import Absorption
 from course.extras.conductors import Conductors
 from course.extras.direct import FullDirectLight
+from course.extras.light_choice import WHERE, WHICH
 from course.extras.materials import FullMaterials
 from course.extras.path_bounce import PathBounce
 from course.extras.path_tracing import PathIntegrator, glow
@@ -62,10 +63,14 @@ def plan(
         integrator = replace(integrator, coherent_depth=min(integrator.coherent_depth, 0))
     rough = (REFRACTION,) if isinstance(scatter, FullScatter) and scatter.rough else ()
     further = [NUMBERS] if sky is not None else []
+    if isinstance(direct, FullDirectLight) and (choice := direct.choice) is not None:
+        further = [(WHICH, 1), (WHERE, choice.width), *further]
     if paths is not None:
         further += [BOUNCE, CHOICE] if diffuses and max_depth > 0 else [CHOICE]
         integrator = _path_integrator(integrator, world.materials, paths, sampler)
-    return integrator, plan_dimensions(world, camera, rough, further)
+    # Of a choice among lights the numbers are its own, and no light's.
+    drawing = world if world.choice is None else replace(world, lights=())
+    return integrator, plan_dimensions(drawing, camera, rough, further)
 
 
 def _scatter(world: FullWorld, max_depth: int, cutoff: float) -> Scatter | None:
@@ -99,10 +104,12 @@ def _direct_light(world: FullWorld, sky: Sky | None) -> DirectLight | None:
     materials = world.materials
     direct = plan_direct_light(world, sky is not None)
     plain = materials.plain if isinstance(materials, FullMaterials) else None
-    if direct is None or (sky is None and plain is None and not world.lifted):
+    choice = world.choice if world.lights else None
+    extras = sky, plain, choice
+    if direct is None or not (world.lifted or any(extra is not None for extra in extras)):
         return direct
     known = same_fields(direct) | {"sky": sky}
-    return FullDirectLight(**known, plain=plain, lifted=world.lifted)
+    return FullDirectLight(**known, plain=plain, lifted=world.lifted, choice=choice)
 
 
 def _path_integrator(

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from course.core.camera import Lens
 from course.core.scene import World
 from course.core.types import Functions, Mask
+from course.extras.light_choice import LightChoice
 from course.extras.rough_glass import RoughGlass
 from course.extras.sky import SkySampling
 
@@ -43,6 +44,7 @@ class FullWorld(World):
     backdrop : true if only camera rays see the environment
     keeps : true if directions that point into the surface are kept
     lifted : true if rays start so far above surfaces that lights are sampled for the surface itself
+    choice : chooses one light for each hit; None if all lights send light to all hits
     """
 
     skipped_lights: dict[str, str] = field(default_factory=dict)
@@ -53,3 +55,4 @@ class FullWorld(World):
     backdrop: bool = False
     keeps: bool = False
     lifted: bool = False
+    choice: LightChoice | None = None

@@ -95,6 +95,10 @@ def recorded(tracer: Tracer, recorder: Recorder) -> Tracer:
         seen = {"surface": type(integrator.surface)(**seen)}
         if (sky := integrator.direct.sky) is not None:
             seen["sky"] = _as(RecordedSky, sky, recorder, surface=seen["surface"])
+        choice = getattr(integrator.direct, "choice", None)
+        if choice is not None:
+            # Each light by itself, so that its rays have its name.
+            seen["choice"] = replace(choice, together=False)
         changed["direct"] = _as(RecordedDirect, integrator.direct, recorder, **seen)
     if integrator.scatter is not None:
         changed["scatter"] = _as(RecordedScatter, integrator.scatter, recorder)
@@ -204,6 +208,14 @@ class RecordedDirect(DirectLight):
             irradiance, which, places = recorder.sky
             self._tell(self._reflected(hits, irradiance, None), ENVIRONMENT_LIGHT, which, places)
         return radiance
+
+    def _from_lights(
+        self, hits: Hits, path: Indices | None, depth: int, draws: Draws
+    ) -> tuple[Floats32 | None, Floats32 | None]:
+        # Of several lights one is chosen by each hit, so only some hits ask it.
+        assert path is not None
+        self.recorder.ids = path
+        return super()._from_lights(hits, path, depth, draws)
 
     def _sample(self, light: Light, points: Floats32, u: Floats32 | None) -> Sample:
         self.recorder.stage = light.name

@@ -779,6 +779,10 @@ DEEPEST: Final = 1024
 _Bounces = Annotated[int, msgspec.Meta(ge=0, le=DEEPEST)]
 
 
+MANY_LIGHTS: Final = 64
+"""Lights up to which all are asked, unless a scene says otherwise."""
+
+
 class IntegratorDescription(Map, frozen=True, kw_only=True):
     """Which light reaches the eye, and where the recursion ends."""
 
@@ -803,6 +807,14 @@ class IntegratorDescription(Map, frozen=True, kw_only=True):
         _Bounces | None,
         about("Bounces that a path makes before Russian roulette may end it; null for never."),
     ] = 1
+    light_sampling: Annotated[
+        Literal["automatic", "all", "power"],
+        about(
+            "Which lights a hit asks for their light: `all`; or one that is chosen at random, in proportion to the"
+            " `power` that lights send out, so that many lights cost as little as one; `automatic`: all of up to"
+            f" {MANY_LIGHTS} lights, or one of more."
+        ),
+    ] = "automatic"
     into_surface: Annotated[
         Literal["mirror", "keep"],
         about(
