@@ -11,7 +11,10 @@ FLAT = ("Quad", "Box", "Disk")
 
 WORDS: dict[tuple[str, str], str] = {
     ("SceneDescription", "title"): NOTHING,
-    ("IntegratorDescription", "roulette"): "It changes the noise and the time, not what is shown.",
+    **{
+        ("IntegratorDescription", key): "It changes the noise and the time, not what is shown."
+        for key in ("light_sampling", "roulette")
+    },
     (
         "MeshFile",
         "normals",

@@ -71,6 +71,22 @@ def test_so_it_does_where_pixels_are_rendered_together(name: str) -> None:
     assert not recording.alone
 
 
+def test_so_it_does_where_a_hit_chooses_one_of_several_lights(make_scene: MakeScene) -> None:
+    lamp = {"type": "sphere", "radius": 0.2, "intensity": 2}
+    scene = make_scene(
+        camera={"eye": [0, 2, 3], "look_at": [0, 0, 0]},
+        materials={"grey": {"color": 0.5, "specular": 0.2}},
+        integrator={"light_sampling": "power"},
+        objects=[{"shape": "quad", "material": "grey", "width": 6, "depth": 6}],
+        lights=[lamp | {"center": [x, 1, 0]} for x in (-1, 0.2, 1)],
+    )
+    picture, recording = picture_and_recording(scene)
+    check(picture, recording)
+    lit = [one for one in recording.segments if one.kind == "shadow"]
+    assert {one.light for one in lit} == {"light 0", "light 1", "light 2"}
+    assert len(lit) == sum(one.kind == "camera" for one in recording.segments)
+
+
 WITH_ALL_KINDS = [
     "blurred_transparency",
     "glossy",
