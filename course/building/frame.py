@@ -47,8 +47,11 @@ class Frame:
 
 def bounds_of(mesh: Mesh) -> Floats64:
     """The lowest and the highest corner of a mesh's triangles, (2, 3)."""
-    corners = mesh.vertices[mesh.triangles.ravel()]
-    return np.stack((corners.min(axis=0), corners.max(axis=0)))
+    used = np.zeros(len(mesh.vertices), np.bool_)
+    used[mesh.triangles.ravel()] = True
+    vertices = mesh.vertices if used.all() else mesh.vertices[used]
+    # Column by column: along rows of three, NumPy takes eight times as long.
+    return np.array([[way(column) for column in vertices.T] for way in (np.min, np.max)])
 
 
 def frame_of(boxes: Sequence[Floats64]) -> Frame:

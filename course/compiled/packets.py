@@ -43,7 +43,8 @@ class PacketScene:
         # Embree reads 16 bytes of the last vertex, and reads the arrays for as long as the scene lives.
         self._vertices = np.zeros((len(vertices) + 2, 3), np.float32)
         self._vertices[: len(vertices)] = vertices
-        self._triangles = np.ascontiguousarray(triangles, np.uint32)
+        # The same bits: no number is negative.
+        self._triangles = np.ascontiguousarray(triangles, np.int32).view(np.uint32)
         geometry = embree.rtcNewGeometry(device(), _TRIANGLES)
         for kind, layout, array, count in (
             (_VERTICES, _THREE_FLOATS, self._vertices, len(vertices)),

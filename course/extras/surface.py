@@ -125,8 +125,8 @@ def build_surface(
     least_offset : rays start at least this far from surfaces
     camera_position : (3,) common origin of all camera rays; None if they have several
     """
-    tables = make_tables(parts, least_offset)
-    triangles = join_tables(tables, bulges)
+    tables, rows = make_tables(parts, least_offset)
+    triangles = join_tables(tables, rows, bulges)
     accelerator: Accelerator
     if hierarchy is not None:
         accelerator = HierarchyAccelerator(*vertices_and_triangles(tables), *hierarchy)
@@ -174,5 +174,6 @@ def _hidden(table: Tables, camera_position: Floats64 | None) -> Mask:
     """(T,) bool, triangles that are seen through from a camera's position (3,); none if it is None."""
     if camera_position is None or _behind(table) != "unseen":
         return np.zeros(len(table.triangles), np.bool_)
-    corner, normal = table.planes[:, :3].T.astype(np.float64), table.planes[:, 3:6].T
+    planes = table.rows.planes
+    corner, normal = planes[:, :3].T.astype(np.float64), planes[:, 3:6].T
     return np.asarray(dot(camera_position[:, None] - corner, normal.astype(np.float64)) <= 0)

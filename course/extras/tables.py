@@ -3,6 +3,8 @@
 The scene has already been moved and scaled to [-1, 1], in float64.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -18,6 +20,9 @@ from course.core.types import Floats, Floats32, Floats64, Functions, Numbers
 from course.core.vectors import cross, dot
 from course.extras.own import courses_own
 from course.extras.swept_movers import SweptMovers
+
+CHUNK = 8192
+"""Triangles whose tables are made at once: numbers in between are 600 bytes a triangle, which stay in the cache."""
 
 UNIT = 1e-9
 """Normals whose lengths are within this of 1 count as unit vectors."""
@@ -52,48 +57,68 @@ class Part:
 
 
 @dataclass(frozen=True)
-class Tables:
-    """One part's rows of ``Triangles``; ``kept`` (T,) are the numbers of the mesh's triangles that have an area.
+class Rows:
+    """Rows of ``Triangles``; normals and bulge are empty if no part of the scene has normals."""
 
-    Normals and bulge are empty if no part of the scene has normals.
-    """
-
-    part: Part
-    kept: NDArray[np.intp]
-    vertices: Floats32
-    triangles: Numbers
     planes: Floats32
     edges: Floats32
     inset: Floats32
     corner_normals: Floats32
     bulge: Floats32
+
+    @classmethod
+    def empty(cls, count: int, smooth: bool) -> Rows:
+        """Room for so many triangles."""
+        widths = (8, 8, 3, *((9, 3) if smooth else (0, 0)))
+        return cls(*(np.empty((count, width), np.float32) for width in widths))
+
+    def __getitem__(self, rows: slice) -> Rows:
+        arrays = self.planes, self.edges, self.inset, self.corner_normals, self.bulge
+        return Rows(*(array[rows] for array in arrays))
+
+
+@dataclass(frozen=True)
+class Tables:
+    """One part's share of ``Triangles``; ``kept`` (T,) are the numbers of the mesh's triangles that have an area."""
+
+    part: Part
+    kept: NDArray[np.intp]
+    vertices: Floats32
+    triangles: Numbers
+    rows: Rows
     largest_sine: float
 
 
-def make_tables(parts: Sequence[Part], least_offset: float = 0.0) -> list[Tables]:
-    """Tables of all parts, static ones first, then moving ones sorted by velocity. Coordinates lie in about [-1, 1].
+def make_tables(parts: Sequence[Part], least_offset: float = 0.0) -> tuple[list[Tables], Rows]:
+    """Tables of all parts, static ones first, then moving ones sorted by velocity, and the rows of all.
 
-    Triangles without area in float32 are left out: no ray can hit them. ``least_offset`` is the least distance from a
-    surface at which rays leave it.
+    Triangles without area in float32 are left out: no ray can hit them. Coordinates lie in about [-1, 1].
+    ``least_offset`` is the least distance from a surface at which rays leave it.
     """
     ordered = sorted(parts, key=lambda part: (part.velocity != STILL, part.velocity))
     smooth = any(part.mesh.normals is not None for part in ordered)
-    empty = Part(Mesh(np.zeros((0, 3)), np.zeros((0, 3), np.intp)), 0)
-    return [_tables(part, smooth, least_offset) for part in ordered or [empty]]
+    if not ordered:
+        ordered = [Part(Mesh(np.zeros((0, 3)), np.zeros((0, 3), np.intp)), 0)]
+    rows = Rows.empty(sum(len(part.mesh.triangles) for part in ordered), smooth)
+    tables, count = list[Tables](), 0
+    for part in ordered:
+        tables.append(_tables(part, rows[count:], smooth, least_offset))
+        count += len(tables[-1].triangles)
+    return tables, rows[:count]
 
 
-def join_tables(tables: Sequence[Tables], bulges: bool = True) -> Triangles:
+def join_tables(tables: Sequence[Tables], rows: Rows, bulges: bool = True) -> Triangles:
     """The triangles of all parts; without ``bulges``, shadow rays start from the flat triangles."""
     smooth = any(t.part.mesh.normals is not None for t in tables)
-    materials = [np.full(len(t.triangles), t.part.material, np.uint16) for t in tables]
+    counts = [len(t.triangles) for t in tables]
     return Triangles(
-        planes=np.concatenate([t.planes for t in tables]),
-        edges=np.concatenate([t.edges for t in tables]),
-        inset=np.concatenate([t.inset for t in tables]),
-        corner_normals=np.concatenate([t.corner_normals for t in tables]) if smooth else None,
-        bulge=np.concatenate([t.bulge for t in tables]) if smooth and bulges else None,
+        planes=rows.planes,
+        edges=rows.edges,
+        inset=rows.inset,
+        corner_normals=rows.corner_normals if smooth else None,
+        bulge=rows.bulge if smooth and bulges else None,
         largest_sine=max(t.largest_sine for t in tables),
-        material=np.concatenate(materials),
+        material=np.repeat(np.array([t.part.material for t in tables], np.uint16), counts),
         parts=tuple((len(t.vertices), len(t.triangles), t.part.convex) for t in tables),
     )
 
@@ -114,12 +139,13 @@ def accelerate(tables: Sequence[Tables], motion_blur: Functions | None = None) -
 
 def vertices_and_triangles(tables: Sequence[Tables]) -> tuple[Floats32, Numbers]:
     """Vertices (V, 3) and triangles (T, 3) of several parts."""
+    if len(tables) == 1:
+        return tables[0].vertices, tables[0].triangles
     if not tables:
         return np.zeros((0, 3), np.float32), np.zeros((0, 3), np.int32)
-    first = np.cumsum([0, *(len(table.vertices) for table in tables)])[:-1]
+    first = np.cumsum([0, *(len(table.vertices) for table in tables)], dtype=np.int32)[:-1]
     triangles = [table.triangles + start for table, start in zip(tables, first, strict=True)]
-    vertices = np.concatenate([table.vertices for table in tables])
-    return vertices, np.concatenate(triangles).astype(np.int32)
+    return np.concatenate([table.vertices for table in tables]), np.concatenate(triangles)
 
 
 def _movers(groups: dict[Velocity, list[Tables]], tables: Sequence[Tables]) -> Iterator[Mover]:
@@ -133,60 +159,92 @@ def _movers(groups: dict[Velocity, list[Tables]], tables: Sequence[Tables]) -> I
         first = last
 
 
-def _tables(part: Part, smooth: bool, least_offset: float) -> Tables:
+def _tables(part: Part, rows: Rows, smooth: bool, least_offset: float) -> Tables:
+    """Tables of a part, whose rows are the first of ``rows``."""
     mesh = part.mesh
     # Rounded to float32 once, so that every number below agrees with Embree's vertices.
     vertices = mesh.vertices.astype(np.float32)
-    p = np.ascontiguousarray(np.moveaxis(vertices.astype(np.float64)[mesh.triangles], 0, 2))
-    ng = cross(p[1] - p[0], p[2] - p[0])
-    has_area = np.flatnonzero(dot(ng, ng) > 0)
-    triangles = mesh.triangles[has_area]
-    p, ng = p[:, :, has_area], ng[:, has_area]
+    normals = mesh.normals
+    unit = normals is not None and _are_unit(normals)
+    kept, count, sine = [np.empty(0, np.intp)], 0, 0.0
+    for first in range(0, len(mesh.triangles), CHUNK):
+        corners = mesh.triangles[first : first + CHUNK]
+        p = np.ascontiguousarray(np.moveaxis(vertices[corners], 0, 2), np.float64)
+        ng: Floats64 = np.asarray(cross(p[1] - p[0], p[2] - p[0]), np.float64)
+        has_area = np.flatnonzero(dot(ng, ng) > 0)
+        if len(has_area) < len(corners):
+            corners, p, ng = corners[has_area], p[:, :, has_area], ng[:, has_area]
+        own = None if normals is None else _normals(normals[corners], unit)
+        chunk = rows[count : count + len(corners)]
+        sine = max(sine, _fill(chunk, p, ng, own, smooth, least_offset))
+        kept.append(first + has_area)
+        count += len(has_area)
+    found = np.concatenate(kept)
+    triangles = mesh.triangles if count == len(mesh.triangles) else mesh.triangles[found]
+    return Tables(part, found, vertices, triangles.astype(np.int32, copy=False), rows[:count], sine)
+
+
+def _fill(
+    rows: Rows,
+    p: Floats64,
+    ng: Floats64,
+    normals: tuple[Floats64, Floats64] | None,
+    smooth: bool,
+    least_offset: float,
+) -> float:
+    """Fill the rows of T triangles; returns the sine of the largest angle between ng and a corner normal.
+
+    Parameters
+    ----------
+    p, ng : (3, 3, T) corners and (3, T) cross products of edges, none of them 0
+    normals : see ``_normals``; None if the mesh has none
+    smooth : true if any part has normals
+    """
     e1, e2 = p[1] - p[0], p[2] - p[0]
     twice_area = np.sqrt(dot(ng, ng))
-    ng /= twice_area
+    ng = ng / twice_area
     lengths = np.sqrt(np.stack([dot(e, e) for e in (e2 - e1, e2, e1)]))
     offset, inset = offset_and_inset(p, lengths, twice_area)
-    corner_normals, bulge = np.zeros((2, 0, 0), np.float32)
     largest_sine = 0.0
-    flat = np.ones(len(triangles))
+    flat = np.ones(p.shape[2])
     if smooth:
         n = unit = np.repeat(ng[None], 3, axis=0)
-        if mesh.normals is not None:
-            n, unit = _at_corners(mesh.normals, triangles)
+        if normals is not None:
+            n, unit = normals
             # The file's normal is more precise: rounding vertices to float32 turns a small triangle.
             flat = (np.abs(n - ng) < FLAT).all(axis=(0, 1)) & (n == n[0]).all(axis=(0, 1))
             ng = np.where(flat, n[0], ng)
             cosine = min((float(dot(ng, corner).min(initial=1)) for corner in unit), default=1.0)
             largest_sine = math.sqrt(max(1 - cosine * cosine, 0)) if cosine > 0 else 1.0
-        corner_normals = _table(n[0], n[1] - n[0], n[2] - n[0])
+        _put(rows.corner_normals, n[0], n[1] - n[0], n[2] - n[0])
         d1, d2 = unit[1] - unit[0], unit[2] - unit[0]
-        bulge = _table(np.stack((dot(e1, d1), dot(e2, d2), dot(e2 - e1, d2 - d1))) / 2)
-    return Tables(
-        part=part,
-        kept=has_area,
-        vertices=vertices,
-        triangles=triangles.astype(np.int32),
-        planes=_table(p[0], ng, np.maximum(offset, least_offset)[None], flat[None]),
-        edges=_table(e1, e2, inset.max(axis=0)[None], np.zeros((1, len(flat)))),
-        inset=_table(inset),
-        corner_normals=corner_normals,
-        bulge=bulge,
-        largest_sine=largest_sine,
-    )
+        _put(rows.bulge, np.stack((dot(e1, d1), dot(e2, d2), dot(e2 - e1, d2 - d1))) / 2)
+    _put(rows.planes, p[0], ng, np.maximum(offset, least_offset)[None], flat[None])
+    _put(rows.edges, e1, e2, inset.max(axis=0)[None], np.zeros((1, len(flat))))
+    _put(rows.inset, inset)
+    return largest_sine
 
 
-def _at_corners(normals: Floats64, triangles: NDArray[np.integer]) -> tuple[Floats64, Floats64]:
-    """Corner normals (3, 3, T), as interpolated and at unit length."""
-    n = np.moveaxis(normals[triangles], 0, 2)
-    lengths = np.sqrt(np.stack([dot(corner, corner) for corner in n]))
-    if np.abs(lengths - 1).max(initial=0) < UNIT:
+def _are_unit(normals: Floats64) -> bool:
+    """True if all normals (V, 3) have length 1."""
+    lengths = np.sqrt(np.einsum("ij,ij->i", normals, normals))
+    return bool(np.abs(lengths - 1).max(initial=0) < UNIT)
+
+
+def _normals(at_corners: Floats64, unit: bool) -> tuple[Floats64, Floats64]:
+    """Corner normals (3 corners, 3, T), as interpolated and at unit length, of (T, 3 corners, 3).
+
+    ``unit`` is true if they have it already.
+    """
+    n = np.moveaxis(at_corners, 0, 2)
+    if unit:
         return n, n
+    lengths = np.sqrt(np.stack([dot(corner, corner) for corner in n]))
     # Only ratios within a triangle matter. The longest gets length 1, so that no square leaves float32's range.
-    unit = n / lengths[:, None]
-    return unit * np.maximum(lengths / lengths.max(axis=0), FAINTEST)[:, None], unit
+    units = n / lengths[:, None]
+    return units * np.maximum(lengths / lengths.max(axis=0), FAINTEST)[:, None], units
 
 
-def _table(*rows: Floats) -> Floats32:
-    """Float64 rows, together (k, T), as a float32 table (T, k)."""
-    return np.ascontiguousarray(np.concatenate(rows).T, np.float32)
+def _put(table: Floats32, *rows: Floats) -> None:
+    """Fill a float32 table (T, k) with float64 rows, together (k, T)."""
+    table[:] = np.concatenate(rows).T
