@@ -52,8 +52,9 @@ class Effects:
     Parameters
     ----------
     folder : where the modules are; ``solutions`` and ``assignments`` mean the project's own folders, and ``mine`` means
-        the assignments, with the solution's function in the place of each that is not written. None means ``mine`` in
-        a folder made by `course start`, else the solutions where they are, and else the assignments.
+        the assignments, with the solution's function in the place of each that is not written; where there are no
+        solutions, with a stand-in that switches its effect off. None means ``mine`` in a folder made by `course start`
+        and in a student's copy, else the solutions.
     trusted : whether what the functions return is taken as it is; None means the project's own solutions, and no others
     """
 
@@ -63,13 +64,16 @@ class Effects:
             folder = "mine"
         elif folder is None:
             # A student's copy has no solutions.
-            folder = "solutions" if (PROJECT / "solutions").is_dir() else "assignments"
+            folder = "solutions" if (PROJECT / "solutions").is_dir() else "mine"
         path = Path(folder)
         self._rest: Effects | None = None
+        self._stands_in = False
         if str(folder) == "mine" and not path.is_dir():
             folder, path = "assignments", Path("assignments")
             if (PROJECT / "solutions").is_dir():
                 self._rest = Effects("solutions")
+            else:
+                self._stands_in = True
         if str(folder) in ("solutions", "assignments") and not path.is_dir():
             path = PROJECT / path
         if str(folder) == "assignments" and not path.is_dir() and not CHECKOUT:
@@ -87,8 +91,17 @@ class Effects:
 
     @property
     def mixed(self) -> bool:
-        """True if functions that are not written are replaced by those of the solutions."""
-        return self._rest is not None
+        """True if functions that are not written are replaced by those of the solutions, or by stand-ins."""
+        return self._rest is not None or self._stands_in
+
+    def stand_in(self, module: str, name: str) -> str:
+        """What a picture looks like with the stand-in for a function; empty if it is written, or has none."""
+        if not self._stands_in or self.written(module, name):
+            return ""
+        # Here, for a command line's help needs no NumPy.
+        from course.stand_ins import STAND_INS
+
+        return STAND_INS.get(f"{module}.{name}", (None, ""))[1]
 
     def written(self, module: str, name: str) -> bool:
         """True if the folder has the function, and its last word isn't that it is not written yet."""
@@ -109,6 +122,10 @@ class Effects:
         """
         if self._rest is not None and not self.written(module, name):
             return self._rest.function(module, name)
+        if self.stand_in(module, name):
+            from course.stand_ins import STAND_INS
+
+            return STAND_INS[f"{module}.{name}"][0]
         known = self._functions.get((module, name))
         if known is not None:
             return known

@@ -5,6 +5,7 @@ import sys
 from contextlib import ExitStack, closing
 from functools import partial
 from time import monotonic
+from typing import Any
 
 from course import __version__
 from course.compiled.library import available as packets_available
@@ -200,9 +201,11 @@ def _receipt(
     tests = {"boxes": counters.embree.box_tests, "triangles": counters.embree.triangle_tests}
     samples = float(film.samples.mean())
     called, effects = [need.function for need in bound.needs], job.scene.effects
-    yours = {}
+    yours: dict[str, Any] = {}
     if effects.mixed:
         yours["yours"] = [name for name in called if effects.written(*name.split("."))]
+    if standing := {name: said for name in called if (said := effects.stand_in(*name.split(".")))}:
+        yours["stand-ins"] = standing
     return Receipt(
         rays=dict(counters.rays),
         numbers=dict(counters.numbers),

@@ -87,8 +87,8 @@ scene_argument = click.argument("scene", metavar="SCENE", type=PATH)
 effects_option = click.option(
     "--effects",
     help="Whose functions to call: solutions, assignments, a folder of modules, or mine: the assignments, with the"
-    " solutions where a function is not written."
-    "  [default: mine in a folder of `course start`, else solutions, or assignments where there are none]",
+    " solutions where a function is not written; in a copy without solutions its effect is switched off there."
+    "  [default: mine in a folder of `course start` and in a student's copy, else solutions]",
 )
 
 

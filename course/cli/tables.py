@@ -62,7 +62,7 @@ def receipt_sections(receipt: Mapping[str, Any]) -> list[Section]:
     wall, threads = receipt["wall_seconds"], receipt["threads"]
     spent, embree = wall * threads, receipt["embree_seconds"]
     effects = receipt["effects"]
-    yours = effects.get("yours", ())
+    yours, standing = effects.get("yours", ()), effects.get("stand-ins", {})
     sections = [
         ("rays", [*_counts(rays), *_total(rays, wall)]),
         ("samples", _samples(receipt)),
@@ -72,7 +72,12 @@ def receipt_sections(receipt: Mapping[str, Any]) -> list[Section]:
         (
             "effects",
             [
-                *(("yours" if name in yours else "called", name) for name in effects["called"]),
+                *(
+                    ("yours" if name in yours else "called", name)
+                    for name in effects["called"]
+                    if name not in standing
+                ),
+                *(("stand-in", f"{name}: {said}") for name, said in standing.items()),
                 *_skipped(effects["skipped"]),
             ],
         ),

@@ -14,7 +14,8 @@ class Receipt:
         on from a surface, whichever way
     numbers : dimension -> numbers drawn
     effects : "called" -> list of functions, "skipped" -> name -> reason; with "mine" for effects also "yours" -> the
-        functions called that aren't the solutions'
+        functions called that aren't the solutions', and where there are no solutions "stand-ins" -> name -> what the
+        picture looks like without the function
     seconds : stage -> seconds, summed over threads
     embree_seconds : inside Embree, summed over threads
     wall_seconds : from the call to the finished picture

@@ -3,6 +3,7 @@
 import json
 import shutil
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -10,11 +11,15 @@ from click.testing import CliRunner
 
 from course import EffectError, load_scene, pixel, render
 from course.cli.main import commands
+from course.contracts import CONTRACTS
+from course.core.types import Floats32
 from course.effects import PROJECT, Effects, written_functions
 from course.modules import COURSE
+from course.stand_ins import STAND_INS
+from tests.conftest import MakeScene
 
 SCENE = PROJECT / "scenes" / "glossy.yaml"
-SMALL = {"size": (24, 16), "spp": 4}
+SMALL: Any = {"size": (24, 16), "spp": 4}
 MIRRORED = '''
 
 def sample_phong_lobe(direction, exponent, u):
@@ -131,3 +136,55 @@ def test_a_folder_of_that_name_is_meant_first(
     (tmp_path / "mine").mkdir()
     monkeypatch.chdir(tmp_path)
     assert not Effects("mine").mixed
+
+
+WITHOUT = ("bounding_volumes", "radiosity")
+"""Modules whose results can't be had without them."""
+
+
+@pytest.fixture
+def unsolved(mine: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The folder to work in, where no solutions are."""
+    monkeypatch.setattr("course.effects.PROJECT", mine.parent)
+    return mine
+
+
+def test_what_the_renderer_calls_has_a_stand_in() -> None:
+    called = {name for name in CONTRACTS if name.partition(".")[0] not in WITHOUT}
+    assert called == STAND_INS.keys()
+
+
+@pytest.mark.usefixtures("unsolved")
+@pytest.mark.parametrize("name", ["gallery/everything", "glossy"])
+def test_without_solutions_unwritten_functions_have_no_effect(name: str) -> None:
+    effects = Effects()
+    assert effects.mixed
+    picture = render(load_scene(PROJECT / "scenes" / f"{name}.yaml", effects), **SMALL)
+    assert np.isfinite(picture.linear).all()
+    assert picture.linear.mean() > 0.05
+    told = picture.receipt.to_dict()["effects"]
+    yours = {"glossy.sample_phong_lobe"} & set(told["called"])
+    assert set(told["yours"]) == yours
+    assert told["stand-ins"].keys() == set(told["called"]) - yours
+
+
+@pytest.mark.usefixtures("unsolved")
+def test_a_lamp_without_its_function_is_a_point(make_scene: MakeScene) -> None:
+    def picture(**lamp: object) -> Floats32:
+        place = {"eye": [0, 3, 6], "look_at": [0, 0, 0]}
+        things = [
+            {"shape": "quad", "material": "grey"},
+            {"shape": "sphere", "material": "grey", "transform": [{"translate": [0, 1, 0]}]},
+        ]
+        scene = make_scene(camera=place, lights=[lamp], objects=things, materials={"grey": {}})
+        return render(load_scene(scene.path, "mine"), **SMALL).linear
+
+    ball = picture(type="sphere", center=[3, 5, 0], radius=1, intensity=30)
+    point = picture(type="point", position=[3, 5, 0], intensity=30)
+    np.testing.assert_allclose(ball, point, rtol=1e-5, atol=1e-7)
+
+
+@pytest.mark.usefixtures("unsolved")
+def test_a_hierarchy_can_be_had_from_its_functions_alone() -> None:
+    with pytest.raises(EffectError, match=r"bounding_volumes\.build"):
+        render(load_scene(PROJECT / "scenes" / "bounding_volumes.yaml", "mine"), **SMALL)

@@ -125,8 +125,9 @@ def test_a_students_copy_asks_for_the_function_that_is_not_written(
     with zipfile.ZipFile(archive) as file:
         file.extractall(tmp_path)
     copy = tmp_path / "penumbra"
+    command = [sys.executable, "-m", "course", "render", "scenes/cornell_box.yaml"]
     done = subprocess.run(
-        [sys.executable, "-m", "course", "render", "scenes/cornell_box.yaml", "--size", "16x16"],
+        [*command, "--size", "16x16", "--effects", "assignments"],
         cwd=copy,
         env={"PYTHONPATH": str(copy), "PATH": ""},
         capture_output=True,
@@ -138,3 +139,23 @@ def test_a_students_copy_asks_for_the_function_that_is_not_written(
     assert "asks for it" in done.stderr
     assert "Traceback" not in done.stderr
     assert not list(copy.glob("*.png"))
+
+
+def test_a_students_copy_shows_pictures_before_the_first_function(
+    archive: Path, tmp_path: Path
+) -> None:
+    with zipfile.ZipFile(archive) as file:
+        file.extractall(tmp_path)
+    copy = tmp_path / "penumbra"
+    command = [sys.executable, "-m", "course", "render", "scenes/cornell_box.yaml"]
+    done = subprocess.run(
+        [*command, "--size", "16x16", "--spp", "4", "-o", "box.png"],
+        cwd=copy,
+        env={"PYTHONPATH": str(copy), "PATH": "", "COURSE_NO_COMPILER": "1"},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    assert (copy / "box.png").is_file()
+    assert "soft_shadows.point_on_rectangle: the lamp is a point" in done.stdout

@@ -1,0 +1,162 @@
+"""What stands in for functions that nobody has written yet, where no solutions are: each switches its effect off.
+
+A lamp is a point, what is glossy a mirror, the lens a pinhole. So a student's copy shows a picture from the first
+function on, and holds nothing of the solutions: with each function that is written an effect comes in. Shapes are those
+of ``course.contracts``.
+"""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[Any]
+
+
+def _still(vectors: Array, *_: Any) -> Array:
+    """The first argument, unchanged."""
+    return vectors.copy()
+
+
+def _all(point: Any, like: Array) -> Array:
+    """A point (d,) for each column of an array (..., n)."""
+    column = np.asarray(point, like.dtype)[:, None]
+    return np.repeat(column, like.shape[-1], axis=1)
+
+
+def _middle(corner: Any, edge_u: Any, edge_v: Any) -> Array:
+    middle: Array = np.asarray(corner) + (np.asarray(edge_u) + np.asarray(edge_v)) / 2
+    return middle
+
+
+def _halves(*shape: int) -> Array:
+    return np.full(shape, 0.5, np.float32)
+
+
+def _mean_color(image: Array, like: Array) -> Array:
+    """The mean of a picture or of pictures (..., 3), for each column."""
+    return _all(image.reshape(-1, 3).mean(axis=0), like)
+
+
+def _up(u: Array) -> Array:
+    return _all((0, 0, 1), u)
+
+
+def _everywhere(cosines: Array, *_: Any) -> Array:
+    """Density of directions that are spread evenly over the hemisphere [1/sr]."""
+    return np.full_like(cosines, 1 / (2 * np.pi))
+
+
+_CENTRE = "samples lie in the pixel's centre, so edges are jagged"
+_POINT = "the lamp is a point, so shadows are hard"
+_MIRROR = "what is glossy is a mirror"
+_PINHOLE = "the lens is a pinhole, so all is in focus"
+_FROZEN = "what moves stands still"
+_FLAT_SKY = "the environment has its mean colour"
+_FLAT = "textures have their mean colour"
+_CLEAR = "glass is clear, and what is behind it isn't bent"
+_SKY = "the environment lights from straight above"
+_WHOLE = "no cell is divided"
+_PATHS = "paths go on along the normal, and lose half their light"
+
+STAND_INS: dict[str, tuple[Callable[..., Any], str]] = {
+    "supersampling.regular": (lambda k, n: _halves(2, n, k * k), _CENTRE),
+    "supersampling.random": (lambda k, n, _rng: _halves(2, n, k * k), _CENTRE),
+    "supersampling.jittered": (lambda k, n, _rng: _halves(2, n, k * k), _CENTRE),
+    "supersampling.gaussian_weights": (
+        lambda offsets, _sigma: np.ones_like(offsets[0]),
+        "all samples of a pixel count alike",
+    ),
+    "supersampling.resolve": (
+        lambda radiance, _weights: radiance.mean(axis=-1, dtype=radiance.dtype),
+        "all samples of a pixel count alike",
+    ),
+    "soft_shadows.light_grid": (
+        lambda corner, edge_u, edge_v, k: np.repeat(
+            _middle(corner, edge_u, edge_v)[:, None], k * k, axis=1
+        ),
+        _POINT,
+    ),
+    "soft_shadows.point_on_rectangle": (
+        lambda corner, edge_u, edge_v, u: _all(_middle(corner, edge_u, edge_v), u),
+        _POINT,
+    ),
+    "soft_shadows.point_on_sphere": (lambda center, _radius, u: _all(center, u), _POINT),
+    "soft_shadows.point_in_ball": (lambda center, _radius, u: _all(center, u), _POINT),
+    "soft_shadows.point_on_facing_disk": (
+        lambda center, _radius, _point, u: _all(center, u),
+        _POINT,
+    ),
+    "glossy.jitter_on_plane": (_still, _MIRROR),
+    "glossy.jitter_in_ball": (_still, _MIRROR),
+    "glossy.sample_phong_lobe": (_still, _MIRROR),
+    "glossy.keep_above": (_still, "rays that fell below the surface are lost"),
+    "thin_lens.point_on_disk": (np.zeros_like, _PINHOLE),
+    "thin_lens.lens_rays": (
+        lambda origin, _right, _up, _forward, directions, _lens_points, _focus_distance: (
+            _all(origin, directions),
+            directions.copy(),
+        ),
+        _PINHOLE,
+    ),
+    "motion_blur.shutter_times": (lambda opened, _close, u: np.full_like(u, opened), _FROZEN),
+    "motion_blur.displacement": (
+        lambda _velocity, time: np.zeros((3, len(time)), time.dtype),
+        _FROZEN,
+    ),
+    "motion_blur.to_object_space": (_still, _FROZEN),
+    "cube_map.lookup": (_mean_color, _FLAT_SKY),
+    "cube_map.lookup_seamless": (_mean_color, _FLAT_SKY),
+    "sampling.disk_by_rejection": (lambda n, _rng: np.zeros((2, n), np.float32), _PINHOLE),
+    "sampling.disk_by_polar": (np.zeros_like, _PINHOLE),
+    "sampling.ball_by_rejection": (lambda n, _rng: np.zeros((3, n), np.float32), _POINT),
+    "sampling.ball_by_polar": (np.zeros_like, _POINT),
+    "sampling.sphere_by_polar": (lambda u: _all((0, 0, 0), u), _POINT),
+    "sampling.xorshift32": (lambda state: (state.copy(), _halves(*state.shape)), _CENTRE),
+    "importance_sampling.uniform_hemisphere": (_up, _SKY),
+    "importance_sampling.cosine_hemisphere": (_up, _SKY),
+    "importance_sampling.cosine_hemisphere_pdf": (_everywhere, _SKY),
+    "importance_sampling.phong_lobe_pdf": (_everywhere, "highlights weigh as if they were wide"),
+    "importance_sampling.power_heuristic": (
+        lambda a, _b: np.full_like(a, 0.5),
+        "both ways of sampling count alike",
+    ),
+    "blurred_transparency.refract": (
+        lambda direction, _normal, _eta: (direction.copy(), np.zeros(direction.shape[1], bool)),
+        _CLEAR,
+    ),
+    "blurred_transparency.jitter_refraction": (_still, _CLEAR),
+    "blurred_transparency.fresnel": (
+        lambda cos_i, _eta: np.zeros_like(cos_i),
+        "glass mirrors nothing",
+    ),
+    "adaptive_sampling.needs_subdivision": (
+        lambda corners, _threshold: np.zeros(corners.shape[2], bool),
+        _WHOLE,
+    ),
+    "adaptive_sampling.subdivide": (
+        lambda *sides: tuple(np.repeat(side[None], 4, axis=0) for side in sides),
+        _WHOLE,
+    ),
+    "textures.rectangle_uv": (lambda p, _p1, _p2, _p3: _all((0.5, 0.5), p), _FLAT),
+    "textures.sphere_uv": (lambda p, _center: _all((0.5, 0.5), p), _FLAT),
+    "textures.triangle_uv": (lambda barycentric, *_uv: _all((0.5, 0.5), barycentric), _FLAT),
+    "textures.texture_lookup": (_mean_color, _FLAT),
+    "quasi_monte_carlo.halton": (lambda i, dims: _halves(dims, len(i)), _CENTRE),
+    "quasi_monte_carlo.hammersley": (lambda n, dims: _halves(dims, n), _CENTRE),
+    "quasi_monte_carlo.chain": (
+        lambda patterns, ids, _rng: [p[:, ids % p.shape[1]] for p in patterns],
+        "patterns are chained without a permutation",
+    ),
+    "path_tracing.diffuse_bounce": (lambda normal, _u: normal.copy(), _PATHS),
+    "path_tracing.throughput": (lambda beta, _albedo: beta / 2, _PATHS),
+    "path_tracing.russian_roulette": (
+        lambda beta, u: (np.ones(len(u), bool), beta.copy()),
+        "all paths go on to the greatest depth",
+    ),
+}
+"""By "module.function": what stands in for it, and what a picture then looks like.
+
+The modules bounding_volumes and radiosity have none: what they make can't be had without them.
+"""
