@@ -19,6 +19,7 @@ FLOORS = {
     "effects": 1,
     "inputs": 1,
     "modules": 1,
+    "stand_ins": 1,
     "atomic": 1,
     "extras": 2,
     "shapes": 2,
