@@ -17,7 +17,13 @@ def start(folder: Path, instructor: bool) -> None:
 
     FOLDER must be new or empty.
     """
-    from course.grading.release.archive import PAGES, SCENES, project_files, write_folder
+    from course.grading.release.archive import (
+        LICENSES,
+        PAGES,
+        SCENES,
+        project_files,
+        write_folder,
+    )
     from course.grading.release.folder import made_contents
 
     if not (PROJECT / "solutions").is_dir():
@@ -25,7 +31,7 @@ def start(folder: Path, instructor: bool) -> None:
     solutions = PROJECT / "solutions"
     folders = SCENES | PAGES | ({"solutions": {".py"}} if instructor else {})
     made = made_contents(solutions, copy=False, instructor=instructor)
-    files = write_folder(made | project_files(PROJECT, (), folders), folder)
+    files = write_folder(made | project_files(PROJECT, LICENSES, folders), folder)
     click.echo(f"{folder}: {count(files, 'file')}. Begin with README.md there:")
     click.echo(f"    cd {folder}")
     click.echo("    course check sampling")

@@ -1,7 +1,7 @@
 """The generated parts of pages, and when they are made anew.
 
-A part is asked for by ``<!-- site: KIND NAME WORDS -->`` on a line of its own; `PARTS` has the kinds. "The
-phenomenon" of a module that has two scenes begins with the pair of their pictures, unasked.
+A part is asked for by ``<!-- site: KIND NAME WORDS -->`` on a line of its own; `PARTS` has the kinds. Unasked, a
+module's objectives stand before "The phenomenon", which begins with the pair of its two scenes' pictures if it has two.
 """
 
 import re
@@ -22,10 +22,12 @@ from sitebuild.diagrams.part import diagram
 from sitebuild.functions import functions
 from sitebuild.mistakes.part import mistakes
 from sitebuild.notebook import notebook
+from sitebuild.objectives import objectives
 from sitebuild.other_shots import metu_shot, radiosity_shot
 from sitebuild.pattern_explorer import pattern_explorer
 from sitebuild.peer_times import peer_times
 from sitebuild.place import Place
+from sitebuild.plans import minutes_table, plan
 from sitebuild.radiosity_pictures import radiosity_flight, radiosity_steps
 from sitebuild.rays import rays
 from sitebuild.scene_keys import scene_keys
@@ -47,10 +49,13 @@ PARTS: dict[str, Part] = {
     "functions": functions,
     "mistakes": mistakes,
     "metu_shot": metu_shot,
+    "minutes": minutes_table,
     "notebook": notebook,
+    "objectives": objectives,
     "pattern_explorer": pattern_explorer,
     "peer_times": peer_times,
     "picture": picture,
+    "plan": plan,
     "radiosity_flight": radiosity_flight,
     "radiosity_shot": radiosity_shot,
     "radiosity_steps": radiosity_steps,
@@ -119,12 +124,10 @@ class Site:
         folder, _, module = page.rpartition("/")
         if folder == "modules":
             text = linked(module, text)
-        if folder == "modules" and pictures.scene_path(f"before/{module}").is_file():
-            text = text.replace(
-                "\n## The phenomenon\n",
-                f"\n## The phenomenon\n\n<!-- site: before_after {module} -->\n",
-                1,
-            )
+            heading = f"\n<!-- site: objectives {module} -->\n\n## The phenomenon\n"
+            if pictures.scene_path(f"before/{module}").is_file():
+                heading += f"\n<!-- site: before_after {module} -->\n"
+            text = text.replace("\n## The phenomenon\n", heading, 1)
         place = Place(
             up="../" * page.count("/"),
             blank=self.app.config.pictures == "blank",

@@ -32,13 +32,14 @@ DOCUMENTS = [
     PROJECT / "README.md",
     PROJECT / "CONTRIBUTING.md",
     PROJECT / "scenes" / "README.md",
+    PROJECT / "paper" / "paper.md",
 ]
 
 
 @pytest.mark.parametrize("path", DOCUMENTS, ids=lambda path: path.name)
 def test_every_file_that_is_named_is_there(path: Path) -> None:
     text = path.read_text(encoding="utf-8")
-    folders = "assignments|benchmarks|course|docs|scenes|solutions|tests"
+    folders = "assignments|benchmarks|course|docs|paper|scenes|solutions|tests"
     for name in re.findall(rf"`((?:{folders})/[\w/.]*)`", text):
         # Nor are a name to be replaced, the module that a reader adds, or a file that a command writes.
         made = "NAME" in name or "vignetting" in name or name == "scenes/scene.schema.json"

@@ -37,7 +37,9 @@ FOLDERS = {
 }
 """Folders that students get, and the kinds of file in them."""
 
-FILES = ("LICENSE", "pyproject.toml")
+LICENSES = ("LICENSE", "docs/LICENSE")
+
+FILES = (*LICENSES, "pyproject.toml")
 
 REFERENCES = "course/grading/data/references.npz"
 

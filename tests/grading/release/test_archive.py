@@ -11,6 +11,7 @@ import pytest
 
 from course.errors import OutputError
 from course.grading.release.archive import (
+    LICENSES,
     LeakError,
     archive_contents,
     solution_lines,
@@ -49,6 +50,7 @@ def test_the_archive_has_nothing_that_could_hide_a_solution(archive: Path) -> No
     assert "penumbra/assignments/supersampling.py" in names
     assert "penumbra/course/cli/main.py" in names
     assert "penumbra/README.md" in names
+    assert {f"penumbra/{name}" for name in LICENSES} <= set(names)
     hiding = ("solutions/", "tests/", "__pycache__", ".pyc", ".ipynb", ".whl", ".git", ".venv")
     found = [name for name in names if any(part in name for part in hiding)]
     assert found == ["penumbra/tests/test_copy.py"]

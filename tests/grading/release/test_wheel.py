@@ -17,6 +17,7 @@ from pathlib import Path
 import pytest
 
 from course.effects import PROJECT
+from course.grading.release.archive import LICENSES
 from course.modules import COURSE
 from tests.once import Once
 
@@ -129,6 +130,8 @@ def test_where_nothing_is_yet_the_remedy_is_told(course: Course) -> None:
 
 def test_links_of_the_folder_lead_somewhere(course: Course, tmp_path: Path) -> None:
     course("start", "mine", "--instructor")
+    for name in LICENSES:
+        assert (tmp_path / "mine" / name).read_bytes() == (PROJECT / name).read_bytes()
     pages = sorted((tmp_path / "mine").rglob("*.md"))
     assert len(pages) > 20
     for page in pages:
