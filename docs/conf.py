@@ -48,6 +48,7 @@ html_js_files = [
     ("patterns.js", {"defer": "defer"}),
     ("pattern_explorer.js", {"defer": "defer"}),
 ]
+html_search_scorer = str(Path(__file__).parent / "sitebuild" / "search_scorer.js")
 html_copy_source = False
 html_show_sphinx = False
 html_last_updated_fmt = None

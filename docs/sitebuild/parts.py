@@ -20,6 +20,7 @@ from sitebuild.command_line import command_line
 from sitebuild.convergence import convergence
 from sitebuild.diagrams.part import diagram
 from sitebuild.functions import functions
+from sitebuild.glossary import directives, indexed
 from sitebuild.mistakes.part import mistakes
 from sitebuild.notebook import notebook
 from sitebuild.objectives import objectives
@@ -123,11 +124,13 @@ class Site:
         """Return a page's Markdown with its generated parts."""
         folder, _, module = page.rpartition("/")
         if folder == "modules":
-            text = linked(module, text)
+            text = indexed(module, linked(module, text))
             heading = f"\n<!-- site: objectives {module} -->\n\n## The phenomenon\n"
             if pictures.scene_path(f"before/{module}").is_file():
                 heading += f"\n<!-- site: before_after {module} -->\n"
             text = text.replace("\n## The phenomenon\n", heading, 1)
+        if page == "glossary":
+            text = directives(text)
         place = Place(
             up="../" * page.count("/"),
             blank=self.app.config.pictures == "blank",
