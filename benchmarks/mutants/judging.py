@@ -5,8 +5,9 @@ from dataclasses import dataclass, replace
 
 from benchmarks.mutants.severity import is_right_elsewhere, is_useless
 from course.grading.catalog import module_checks
-from course.grading.checks.check import SLIPS, Caller, Check, References
+from course.grading.checks.check import Caller, Check, References
 from course.grading.checks.declare import declared_function
+from course.grading.checks.mistakes import SLIPS
 from course.grading.checks.result import Result, Status
 from course.grading.checks.running import run_checks
 from course.grading.known import Known, trusted
