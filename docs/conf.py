@@ -1,6 +1,7 @@
 """How Sphinx builds the site: `make docs`."""
 
 import sys
+from os import environ
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent))
@@ -14,7 +15,7 @@ copyright = author  # noqa: A001
 version = release = __version__
 
 extensions = ["myst_parser", "sphinx.ext.autodoc", "sitebuild"]
-exclude_patterns = ["_build", "sitebuild", "_static"]
+exclude_patterns = ["_build", "sitebuild", "_static", "_templates"]
 
 # Headings are linked as in the repository, by the slugs that hosts of Markdown files make of them.
 myst_enable_extensions = ["deflist", "dollarmath"]
@@ -29,7 +30,12 @@ python_use_unqualified_type_names = True
 
 html_theme = "furo"
 html_title = "Penumbra"
+# Where the site will be, for canonical links, previews and sitemap.xml; empty if nobody knows.
+html_baseurl = environ.get("SITE_ADDRESS", "")
 html_static_path = ["_static"]
+html_favicon = "_static/favicon.svg"
+templates_path = ["_templates"]
+html_additional_pages = {"404": "404.html"}
 html_css_files = [
     "site.css",
     "key_pictures.css",
@@ -39,6 +45,7 @@ html_css_files = [
     "picture_grid.css",
     "pattern_explorer.css",
     "mistakes.css",
+    ("print.css", {"media": "print"}),
 ]
 html_js_files = [
     ("before_after.js", {"defer": "defer"}),
@@ -47,6 +54,7 @@ html_js_files = [
     ("series.js", {"defer": "defer"}),
     ("patterns.js", {"defer": "defer"}),
     ("pattern_explorer.js", {"defer": "defer"}),
+    ("printing.js", {"defer": "defer"}),
 ]
 html_search_scorer = str(Path(__file__).parent / "sitebuild" / "search_scorer.js")
 html_copy_source = False

@@ -8,7 +8,7 @@ from typing import Any
 
 from sphinx.application import Sphinx
 
-from sitebuild import captions, docstrings, mathematics, numbers, parts
+from sitebuild import captions, docstrings, mathematics, numbers, page_heads, parts
 
 
 def setup(app: Sphinx) -> dict[str, Any]:
@@ -17,5 +17,6 @@ def setup(app: Sphinx) -> dict[str, Any]:
     docstrings.connect(app)
     mathematics.connect(app)
     numbers.connect(app)
+    page_heads.connect(app)
     parts.connect(app)
     return {"version": "1", "parallel_read_safe": False, "parallel_write_safe": True}

@@ -180,6 +180,8 @@ class Page:
                 return "saved"
             case "yaml":
                 return self._yaml(block)
+            case "bibtex":
+                return "compared with CITATION.cff by tests/docs/test_citation.py"
         raise FollowingError(f"nothing is known of code of the kind {block.kind!r}")
 
     def _line(self, line: str) -> str:
