@@ -21,10 +21,11 @@ class LateEffects(Effects):
     """
 
     def __init__(self, source: Effects) -> None:
-        vars(self).update(vars(source))
         self._use(source)
 
     def _use(self, source: Effects) -> None:
+        # Who asks for a folder, or what is written in it, is told that of the source.
+        vars(self).update(vars(source))
         self.source = source
         self.called: set[str] = set()
         self._busy: dict[int, tuple[str, float]] = {}
@@ -49,7 +50,6 @@ class LateEffects(Effects):
 
         Raises EffectError: a file or a function is missing.
         """
-        vars(self).update(vars(source) | {"recorder": None})
         self._use(source)
         thread = threading.get_ident()
         self._busy[thread] = IMPORTING, monotonic()
@@ -74,9 +74,14 @@ class LateEffects(Effects):
         return name, monotonic() - since, line
 
 
-class StudioEffects(RecordedEffects, LateEffects):
+class StudioEffects(RecordedEffects):
     """Late functions whose calls can be recorded."""
 
     def __init__(self, source: Effects) -> None:
-        LateEffects.__init__(self, source)
-        self.recorder = None
+        self.late = LateEffects(source)
+        super().__init__(self.late)
+
+    def load(self, source: Effects, functions: Iterable[str]) -> None:
+        """See ``LateEffects``."""
+        vars(self).update(vars(source))
+        self.late.load(source, functions)

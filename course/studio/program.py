@@ -58,8 +58,8 @@ class Program:
     def __init__(self, channel: Channel) -> None:
         self.channel = channel
         self.commands: queue.Queue[dict[str, Any] | None] = queue.Queue()
-        self.late: StudioEffects | None = None
-        self._effects: str | None = None
+        self.effects: StudioEffects | None = None
+        self._folder: str | None = None
         self._scene: Scene | None = None
         self._values: Values = {}
         self._early: set[str] = set()
@@ -98,7 +98,7 @@ class Program:
 
     def _compile(self, file: str, values: list[Any], effects: str | None, late: bool) -> None:
         known = {tuple(path): value for path, value in values}
-        scene, self._effects = self._scene, effects
+        scene, self._folder = self._scene, effects
         self._picture = self._recordable = None
         if scene is not None and str(scene.path) == file:
             self._scene = changed(scene, self._values, known)
@@ -112,36 +112,38 @@ class Program:
         self.channel.send({"scene": file, "needs": needs, "early": sorted(self._early)})
 
     def _compiled(self, file: Path, late: bool) -> Scene:
-        source = Effects(self._effects)
+        source = Effects(self._folder)
         if not late:
             return prepared(file, self._values, source)
-        if self.late is None:
+        if self.effects is None:
             # Until functions are loaded, whatever can be made ready with the course's own is.
-            self.late = StudioEffects(Effects("solutions" if source.mixed else self._effects))
-        self.late.called.clear()
-        scene = prepared(file, self._values, self.late)
-        self._early = set(self.late.called)
+            self.effects = StudioEffects(Effects("solutions" if source.mixed else self._folder))
+        self.effects.late.called.clear()
+        scene = prepared(file, self._values, self.effects)
+        self._early = set(self.effects.late.called)
         return scene
 
     def _warm(self, scene: Scene) -> None:
         """Render a few pixels, for much is made when the first ray is cast; never with functions of a student."""
-        source = scene.effects.source if isinstance(scene.effects, StudioEffects) else scene.effects
+        source = (
+            scene.effects.late.source if isinstance(scene.effects, StudioEffects) else scene.effects
+        )
         if source.trusted:
             little = replace(settings_of(scene), width=24, height=16, samples=4, subdivision=None)
             Progressive(scene, little).render(2, lambda _film, _samples, _complete: None)
 
     def _load(self) -> None:
-        assert self.late is not None
+        assert self.effects is not None
         assert self._scene is not None
         scene = self._scene
         needs = [need.function for need in needs_of(scene, settings_of(scene))]
-        self.late.load(Effects(self._effects), needs)
+        self.effects.load(Effects(self._folder), needs)
         if self._early:
             # What was worked out before belongs to other functions.
-            self._scene = prepared(scene.path, self._values, self.late)
+            self._scene = prepared(scene.path, self._values, self.effects)
         self._picture = None
         self.channel.send(
-            {"loaded": [name for name in needs if self.late.written(*name.split("."))]}
+            {"loaded": [name for name in needs if self.effects.written(*name.split("."))]}
         )
 
     def _render(self, job: int, upto: int, most: int) -> None:
@@ -203,7 +205,7 @@ def _beat(program: Program) -> None:
     while True:
         sleep(BEAT)
         told: dict[str, Any] = {"alive": True}
-        call = program.late.longest() if program.late is not None else None
+        call = program.effects.late.longest() if program.effects is not None else None
         if call is not None and call[1] > LONG:
             told |= {"busy": call[0], "for": call[1], "line": call[2]}
         try:

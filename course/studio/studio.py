@@ -315,7 +315,8 @@ class Studio:
     def _on_failed(self, side: Side, told: dict[str, Any]) -> None:
         if told.get("of") == "pixel":
             self._lost_pixel(told["failed"])
-        else:
+        elif not side.trouble:
+            # What follows from the first is no news.
             trace = told.get("trace", "")
             side.fail(told["failed"] + (f"\n{trace}" if trace else ""), told.get("function", ""))
         self._check_soon()
