@@ -94,6 +94,11 @@ class Effects:
         """True if functions that are not written are replaced by those of the solutions, or by stand-ins."""
         return self._rest is not None or self._stands_in
 
+    @property
+    def on_solutions(self) -> bool:
+        """True if the solutions are in the place of functions that are not written."""
+        return self._rest is not None
+
     def stand_in(self, module: str, name: str) -> str:
         """What a picture looks like with the stand-in for a function; empty if it is written, or has none."""
         if not self._stands_in or self.written(module, name):

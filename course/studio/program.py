@@ -117,7 +117,9 @@ class Program:
             return prepared(file, self._values, source)
         if self.effects is None:
             # Until functions are loaded, whatever can be made ready with the course's own is.
-            self.effects = StudioEffects(Effects("solutions" if source.mixed else self._folder))
+            self.effects = StudioEffects(
+                Effects("solutions" if source.on_solutions else self._folder)
+            )
         self.effects.late.called.clear()
         scene = prepared(file, self._values, self.effects)
         self._early = set(self.effects.late.called)

@@ -103,7 +103,7 @@ def test_a_click_tells_a_pixels_story_and_a_drag_orbits(browser: Any, studio: St
         page.locator("#story .rays canvas").wait_for()
         assert page.get_attribute("#story", "data-pixel") == "36,24"
         assert "With your functions, pixel 36,24 of ball.yaml" in text(page, "#story .reason")
-        assert page.locator("#story .rays circle").count() == 16
+        assert page.locator("#story .rays circle.sample").count() == 16
         page.mouse.move(box["x"] + 50, box["y"] + 50)
         page.mouse.down()
         page.mouse.move(box["x"] + 150, box["y"] + 60, steps=5)
