@@ -28,7 +28,7 @@ from benchmarks.radiosity import measure_radiosity
 from benchmarks.reached_error import measure_quickly, measure_reached_error
 from benchmarks.report import publish
 from benchmarks.sampling import measure_sampling
-from benchmarks.scaling import measure_scaling
+from benchmarks.scaling import measure_scaling, write_scaling
 from course.benchmarking.machine import machine
 from course.benchmarking.tables import print_tables
 from course.cli.bench import DOCUMENTS, bench
@@ -107,6 +107,8 @@ def _report(found: dict[str, list[Figure]], write_docs: bool) -> None:
     if write_docs:
         publish(list(found), DOCUMENTS / "data")
         write_ratios(found, made_with, DOCUMENTS, MEASURES)
+        if "scaling" in found:
+            write_scaling(made_with, DOCUMENTS)
 
 
 if __name__ == "__main__":

@@ -2,7 +2,8 @@
 
 Each point is a process of its own: seconds to read and build the scene, seconds of the second of two pictures, and peak
 memory. The exponent is the slope of the last steps, both axes logarithmic: 1 where twice the work costs twice as much.
-Mitsuba is its LLVM variant with its own integrators, where it can do the same.
+Mitsuba is its LLVM variant with its own integrators, where it can do the same. Of many lights both choose one for each
+hit; ours asks all of up to 64, and as ``ALL`` any number.
 """
 
 import json
@@ -10,7 +11,7 @@ import os
 import resource
 import subprocess
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
@@ -27,6 +28,7 @@ from benchmarks.mitsuba_scalar import NativeScene
 from benchmarks.mitsuba_variants import find_llvm, start_llvm
 from benchmarks.report import report
 from course import load_scene, render
+from course.benchmarking.documents import replace_marked
 from course.benchmarking.plot_data import Plot, Series
 from course.benchmarking.tables import Table
 from course.compiled.library import available
@@ -35,6 +37,13 @@ from course.effects import PROJECT
 SIZE, SAMPLES, THREADS = (200, 150), 16, 2
 STEPS = 3
 """Of an axis, the last ones, whose slope is the exponent: what is small costs as much as nothing."""
+
+ABOUT = f"{SIZE[0]} x {SIZE[1]} pixels, {SAMPLES} samples, {THREADS} threads; of pixels, one sample each"
+TABLE = Path("out/bench/scaling.md")
+
+OURS, ALL, MITSUBA = "ours", "ours, all lights asked", "Mitsuba"
+MOST_ASKED = 100
+"""Lights up to which all are asked; ten times as many would take ten times as long."""
 
 SUN = [{"type": "directional", "direction": [-0.4, -1, -0.3], "irradiance": 3}]
 
@@ -90,24 +99,24 @@ class Axis:
     ----------
     counts : of it
     scene : of a count
-    most : the exponent of seconds that it should not exceed
-    mitsuba : whether Mitsuba can do the same
+    most : exponent of a picture's seconds that it should not exceed
+    programs : that are measured; Mitsuba where it can do the same
     """
 
     counts: Sequence[int]
     scene: Callable[[int], dict[str, Any]]
     most: float
-    mitsuba: bool = True
+    programs: Sequence[str] = (OURS, MITSUBA)
 
 
 AXES = {
     # Embree's hierarchy is as deep as the logarithm; building it takes in proportion.
     "triangles": Axis((10**3, 10**4, 10**5, 10**6, 10**7), hills, 0.3),
-    "lights": Axis((1, 10, 100, 1000), lamps, 1.05),
-    "movers": Axis((1, 4, 16, 64), movers, 0.5, mitsuba=False),
+    "lights": Axis((1, 10, 100, 1000), lamps, 0.3, programs=(OURS, ALL, MITSUBA)),
+    "movers": Axis((1, 4, 16, 64), movers, 0.5, programs=(OURS,)),
     # Powers of 4, times 512 x 256.
     "pixels": Axis((1, 4, 16, 64, 256), lambda _: _scene([FLOOR, BALL]), 1.05),
-    "threads": Axis((1, 2, 4, 8, 16), lambda _: _scene([FLOOR, BALL]), 0.2, mitsuba=False),
+    "threads": Axis((1, 2, 4, 8, 16), lambda _: _scene([FLOOR, BALL]), 0.2, programs=(OURS,)),
 }
 
 
@@ -125,12 +134,13 @@ def measure_scaling() -> list[Figure]:
     """Measure all axes, draw them, and give their exponents."""
     figures, rows, plots = [], [], []
     for name, axis in AXES.items():
-        programs = ["ours"]
-        if axis.mitsuba and find_spec("mitsuba") is not None and find_llvm() is not None:
-            programs.append("Mitsuba")
+        programs = [p for p in axis.programs if p != MITSUBA or _has_mitsuba()]
         series = []
         for style, program in enumerate(programs):
-            points = [_process(name, count, program) for count in axis.counts]
+            # Loops that are compiled take memory: not in a process that is measured.
+            _process(name, axis.counts[0], program)
+            counts = [n for n in axis.counts if program != ALL or n <= MOST_ASKED]
+            points = [_process(name, count, program) for count in counts]
             exponents = {
                 key: exponent([p.count for p in points], [getattr(p, key) for p in points])
                 for key in ("building", "seconds", "memory")
@@ -143,7 +153,7 @@ def measure_scaling() -> list[Figure]:
             x = tuple(_units(name, p.count) for p in points)
             seconds = tuple(p.seconds for p in points)
             series.append(Series(program, style, {"count": x}, seconds, exponents["seconds"]))
-            if program == "ours":
+            if program == OURS:
                 value = exponents["seconds"]
                 figures.append(summary(f"{name}: exponent of seconds", [value], axis.most))
         axes = {"count": name}
@@ -151,9 +161,22 @@ def measure_scaling() -> list[Figure]:
             Plot(name, f"Seconds over {name}", axes, "seconds", tuple(series), slope=False)
         )
     columns = ("what grows", "program", "count", "building [s]", "picture [s]", "memory [MB]")
-    about = f"{SIZE[0]} x {SIZE[1]} pixels, {SAMPLES} samples, {THREADS} threads"
-    report("scaling", about, [Table(f"cost as work grows, {about}", columns, tuple(rows))], plots)
+    found = Table(f"cost as work grows, {ABOUT}", columns, tuple(rows))
+    report("scaling", ABOUT, [found], plots)
+    TABLE.write_text(found.markdown(), encoding="utf-8")
     return figures
+
+
+def write_scaling(machine: Mapping[str, str], folder: Path) -> None:
+    """Put the last table, and where its plots are, into performance.md of the documentation's folder."""
+    made = f"Made by `python -m benchmarks scaling --write-docs` on {', '.join(machine.values())}."
+    about = f"{ABOUT[0].upper()}{ABOUT[1:]}."
+    plots, table = "<!-- site: convergence scaling -->", TABLE.read_text(encoding="utf-8")
+    replace_marked(folder / "performance.md", "scaling", f"{made}\n\n{about}\n\n{plots}\n\n{table}")
+
+
+def _has_mitsuba() -> bool:
+    return find_spec("mitsuba") is not None and find_llvm() is not None
 
 
 def exponent(counts: Sequence[float], values: Sequence[float]) -> float:
@@ -174,8 +197,11 @@ def _process(name: str, count: int, program: str) -> Point:
     threads = count if name == "threads" else THREADS
     with TemporaryDirectory() as folder:
         path = Path(folder, "scene.yaml")
-        path.write_text(yaml.safe_dump(AXES[name].scene(count)))
-        if program == "Mitsuba":
+        scene = AXES[name].scene(count)
+        if program == ALL:
+            scene["integrator"] = {"light_sampling": "all"}
+        path.write_text(yaml.safe_dump(scene))
+        if program == MITSUBA:
             write(export(load_scene(path), *size), path.parent)
         arguments = [program, str(path), *map(str, (*size, samples, threads))]
         done = subprocess.run(
@@ -191,7 +217,7 @@ def main(program: str, path: str, *numbers: str) -> None:
     """Build, render twice, and print what that took."""
     width, height, samples, threads = map(int, numbers)
     began = perf_counter()
-    if program == "ours":
+    if program != MITSUBA:
         scene = load_scene(path)
 
         def picture(seed: int) -> object:
