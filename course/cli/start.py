@@ -29,7 +29,7 @@ def start(folder: Path, instructor: bool) -> None:
     if not (PROJECT / "solutions").is_dir():
         raise CourseError("this is a student's copy: its stubs are in assignments/ already")
     solutions = PROJECT / "solutions"
-    folders = SCENES | PAGES | ({"solutions": {".py"}} if instructor else {})
+    folders = SCENES | PAGES | ({"solutions": {".py", ".md"}} if instructor else {})
     made = made_contents(solutions, copy=False, instructor=instructor)
     files = write_folder(made | project_files(PROJECT, LICENSES, folders), folder)
     click.echo(f"{folder}: {count(files, 'file')}. Begin with README.md there:")

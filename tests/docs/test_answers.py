@@ -1,0 +1,42 @@
+"""Answers to the exercises of the core modules: one for each, and none where students would find it."""
+
+import re
+
+import pytest
+
+from course.effects import PROJECT
+from course.grading.release.archive import PAGES, SCENES, project_files, solution_lines
+from course.modules import MODULES
+
+ANSWERS = PROJECT / "solutions" / "answers"
+
+
+def numbers(text: str) -> list[int]:
+    return [int(number) for number in re.findall(r"^(\d+)\. ", text, re.MULTILINE)]
+
+
+def test_each_core_module_has_answers_and_nothing_else_does() -> None:
+    assert {path.name for path in ANSWERS.iterdir()} == {f"{module}.md" for module in MODULES}
+
+
+@pytest.mark.parametrize("module", MODULES)
+def test_there_is_an_answer_for_each_exercise(module: str) -> None:
+    page = (PROJECT / "docs" / "modules" / f"{module}.md").read_text(encoding="utf-8")
+    exercises = page.partition("\n## Exercises\n")[2].partition("\n## ")[0]
+    answers = (ANSWERS / f"{module}.md").read_text(encoding="utf-8")
+    assert numbers(answers) == numbers(exercises) != []
+
+
+def test_the_archive_is_searched_for_lines_of_answers() -> None:
+    lines = solution_lines(PROJECT / "solutions")
+    for path in ANSWERS.iterdir():
+        answer = max(path.read_text(encoding="utf-8").splitlines(), key=len)
+        assert answer.strip() in lines
+
+
+def test_nothing_that_students_get_has_a_line_of_an_answer() -> None:
+    lines = solution_lines(PROJECT / "solutions")
+    for name, content in project_files(PROJECT, (), SCENES | PAGES).items():
+        assert not name.startswith("solutions")
+        rows = {row.strip() for row in content.decode("utf-8", "replace").splitlines()}
+        assert not rows & lines, name
