@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager, nullcontext
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from time import perf_counter
@@ -9,9 +10,9 @@ from typing import Any
 
 from course import __version__
 from course.grading.catalog import module_checks, with_whole
-from course.grading.checks.check import Caller, Check, References
-from course.grading.checks.result import Result, Status
-from course.grading.checks.running import Lenders, run_checks, unusable
+from course.grading.checks.check import Caller, Check, ModuleChecks, References
+from course.grading.checks.result import Result, Status, troubled
+from course.grading.checks.running import Lenders, run_checks
 from course.grading.errors import StudentError
 from course.grading.pictures.whole import ALL, NAME, Together
 from course.grading.references import SOLUTIONS, reference
@@ -93,7 +94,7 @@ def grade(
                 _lenders(module, worker, partial(right, module, budget)) as lenders,
             ):
                 for result in (
-                    unusable(checks, error, only)
+                    _unusable(checks, error, only)
                     if error is not None
                     else run_checks(
                         checks, caller, references, seed, only, yardstick, lenders, standard
@@ -145,6 +146,17 @@ def _lenders(
         yield lend
     finally:
         close()
+
+
+def _unusable(
+    checks: ModuleChecks, error: StudentError, only: Callable[[Check], bool] | None = None
+) -> Iterator[Result]:
+    """Results where no function of the module can be called: none passes, and the first says why in full."""
+    first = ""
+    for check in filter(only, checks.checks):
+        result = replace(troubled(checks.module, check, error), expected="", module_wide=True)
+        yield replace(result, where="", same_as=first) if first else result
+        first = first or result.id
 
 
 def _solution(module: str) -> Path:

@@ -21,7 +21,6 @@ from course.grading.checks.check import (
     Caller,
     Check,
     Failure,
-    Figure,
     ModuleChecks,
     References,
     Trial,
@@ -30,6 +29,7 @@ from course.grading.checks.check import (
 from course.grading.checks.declare import Arguments, Function, declaration, unstacked
 from course.grading.checks.examples import where
 from course.grading.checks.mistakes import SLIPS, explains, known_mistake
+from course.grading.checks.picture_rays import PICTURE, rays_behind
 from course.grading.checks.result import NOT_WRITTEN, Result, Status, broken, result_of, troubled
 from course.grading.errors import StudentError
 from course.grading.worker.limits import NOT_RUN
@@ -94,24 +94,14 @@ def run_checks(
         if result.status is Status.FAILED:
             wrong.setdefault(check.function)
             if check.name == PICTURE:
-                shown = _rays(checks, check, asked, references, seed)
+                gate = Gate(checks.module, asked)
+                shown = rays_behind(checks, check, gate, references, seed)
                 result = replace(result, figures=(*result.figures, *shown))
         if error is not None:
             first_id = by_cause.setdefault((check.function, error.cause), result.id)
             if first_id != result.id:
                 result = replace(result, same_as=first_id, where="")
         yield replace(result, seconds=perf_counter() - started)
-
-
-def unusable(
-    checks: ModuleChecks, error: StudentError, only: Callable[[Check], bool] | None = None
-) -> Iterator[Result]:
-    """Results where no function of the module can be called: none passes, and the first says why in full."""
-    first = ""
-    for check in filter(only, checks.checks):
-        result = replace(troubled(checks.module, check, error), expected="", module_wide=True)
-        yield replace(result, where="", same_as=first) if first else result
-        first = first or result.id
 
 
 STANDS_ON = "Right by itself: the check passes when the functions above it, which this one calls, are the course's own."
@@ -251,31 +241,6 @@ def _breaks(
     except Exception:  # noqa: BLE001 - in whatever way
         return True
     return False
-
-
-PICTURE = "picture"
-"""The check whose failure asks for the rays behind it."""
-
-
-def _rays(
-    checks: ModuleChecks, picture: Check, caller: Caller, references: References, seed: int
-) -> tuple[Figure, ...]:
-    """The rays behind a picture that is wrong."""
-    check = checks.rays.get(picture.function)
-    if check is None:
-        return ()
-    trial = Trial(
-        check.function, Gate(checks.module, caller), generator(seed, checks.module, check)
-    )
-    try:
-        trial.references = {
-            **_prepared(checks.module, picture, references),
-            **_prepared(checks.module, check, references),
-        }
-        check.run(trial)
-    except Exception:  # noqa: BLE001 - the check has said what is wrong, and goes on without them
-        return ()
-    return tuple(trial.figures)
 
 
 # ---------------------------------------------------------------- the gate
