@@ -144,6 +144,8 @@ def _common(
     return {
         "integrator": {
             "max_depth": _depth(scene, notes),
+            # METU's renderers ask every light at every hit.
+            "light_sampling": "all",
             "cutoff": CUTOFF,
             # What is below a surface meets it again, and facets shade each other.
             "into_surface": "keep",

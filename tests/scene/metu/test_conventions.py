@@ -1,6 +1,7 @@
 """Conventions of METU scenes that this course's own scenes don't have, and what older files write in other ways."""
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -65,6 +66,13 @@ def test_an_instance_is_as_smooth_as_its_base(metu: Metu, tmp_path: Path) -> Non
 def test_without_a_depth_six_bounces_are_followed(metu: Metu) -> None:
     assert metu.load(tree()).loaded.description.integrator.max_depth == 6
     assert metu.load(tree(MaxRecursionDepth="0")).loaded.description.integrator.max_depth == 0
+
+
+def test_every_light_is_asked_however_many_there_are(metu: Metu) -> None:
+    lights = [POINT | {"_id": str(number), "Position": f"{number} 0 0"} for number in range(1, 71)]
+    scene: Any = metu.load(tree(lights={"PointLight": lights}))
+    assert len(scene.compiled.world.lights) == 70
+    assert scene.compiled.world.choice is None
 
 
 def test_directions_into_a_surface_are_kept_and_shadow_rays_start_at_facets(metu: Metu) -> None:
