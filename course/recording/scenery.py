@@ -1,6 +1,7 @@
 """The scene around recorded rays: its triangles, camera and lamps, as few numbers as show it."""
 
 from typing import Any
+from weakref import ref
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,8 +37,28 @@ def rounded(value: Any) -> Any:
     return (int(number) if number.is_integer() else number) if np.isfinite(number) else str(number)
 
 
+def _rounded_rows(rows: Floats64) -> list[list[float]]:
+    """Finite numbers (n, m) to five digits, many at once."""
+    digits = 4 - np.floor(np.log10(np.maximum(np.abs(rows), 1e-30))).astype(int)
+    # Powers of ten up to the 22nd are exact, so a quotient is the number that its five digits say.
+    up, down = 10.0 ** np.clip(digits, 0, 22), 10.0 ** np.clip(-digits, 0, 22)
+    found: list[list[float]] = (np.round(rows * up / down) / up * down).tolist()
+    return found
+
+
+_latest: list[tuple[Any, list[dict[str, Any]]]] = []
+"""The triangles that were asked for last, with what is drawn of them: a scene is clicked at more than once."""
+
+
 def objects(recording: Recording) -> list[dict[str, Any]]:
     """Every object with its name, colour and triangles, each of nine coordinates."""
+    of = recording.scene.compiled
+    if not (_latest and _latest[0][0]() is of):
+        _latest[:] = [(ref(of), _objects(recording))]
+    return _latest[0][1]
+
+
+def _objects(recording: Recording) -> list[dict[str, Any]]:
     scene = recording.scene
     world, frame, names = scene.compiled.world, scene.compiled.frame, Names(scene)
     triangles, materials = world.surface.triangles, world.materials
@@ -55,7 +76,7 @@ def objects(recording: Recording) -> list[dict[str, Any]]:
                     "name": name,
                     "color": (255 * shade).astype(int).tolist(),
                     "lamp": bool(materials.emission[:, int(triangles.material[first])].any()),
-                    "triangles": [rounded(each.ravel()) for each in corners],
+                    "triangles": _rounded_rows(corners.reshape(-1, 9)),
                 }
             )
         first = end

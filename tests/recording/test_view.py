@@ -206,3 +206,21 @@ def test_axe_finds_nothing_on_a_telephone(opened: Any, scheme: str) -> None:
     assert opened.evaluate("document.documentElement.scrollWidth") <= 390
     for rules in (accessibility.RULES, accessibility.COLOURS):
         assert accessibility._faults(opened, rules) == []
+
+
+def test_many_numbers_are_rounded_as_single_ones() -> None:
+    numbers = np.random.default_rng(3)
+    scales: Floats64 = 10.0 ** numbers.integers(-9, 12, (200, 9))
+    rows = numbers.normal(size=(200, 9)) * scales
+    rows[0, 0] = 0
+    found = np.array(scenery._rounded_rows(rows))
+    wanted = np.array([scenery.rounded(row) for row in rows], np.float64)
+    np.testing.assert_allclose(found, wanted, rtol=2e-5)
+    assert max(len(repr(x)) for x in found.ravel().tolist()) <= 15
+
+
+def test_another_scene_has_its_own_objects(story: Story) -> None:
+    first = view_data(story)["objects"]
+    other = pixel(SCENES / "cornell_box.yaml", 30, 30, spp=1, size=(64, 48))
+    assert view_data(other)["objects"] != first
+    assert view_data(story)["objects"] == first
