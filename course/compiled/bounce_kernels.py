@@ -245,8 +245,12 @@ def _mirror(scattering, s, whole):
         twice = dx * nx + dy * ny + dz * nz
         twice += twice
         x, y, z = above(
-            *(dx - twice * nx, dy - twice * ny, dz - twice * nz),
-            *(s[NG + i], s[NG + _Y + i], s[NG + _Z + i]),
+            dx - twice * nx,
+            dy - twice * ny,
+            dz - twice * nz,
+            s[NG + i],
+            s[NG + _Y + i],
+            s[NG + _Z + i],
         )
         s[DIRECTION + i], s[DIRECTION + _Y + i], s[DIRECTION + _Z + i] = x, y, z
     return kept
@@ -275,7 +279,9 @@ def _refract(scattering, s, whole):
             s[TO + i] * eta + s[NS + i] * along,
             s[TO + _Y + i] * eta + s[NS + _Y + i] * along,
             s[TO + _Z + i] * eta + s[NS + _Z + i] * along,
-            *(-s[NG + i], -s[NG + _Y + i], -s[NG + _Z + i]),
+            -s[NG + i],
+            -s[NG + _Y + i],
+            -s[NG + _Z + i],
         )
         s[DIRECTION + i], s[DIRECTION + _Y + i], s[DIRECTION + _Z + i] = x, y, z
     return kept

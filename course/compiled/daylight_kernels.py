@@ -171,9 +171,16 @@ def shine(sky, scene, numbers, pair, same, timed, scratch, counts):
         return 0
     start = nanoseconds(scratch.call) if timed else 0
     occlude(
-        *(scene.scenes, scene.velocity, scene.boxes, s[TIME : TIME + WIDTH], 0, WIDTH),
-        *(s[SHADOW : SHADOW + PACKET], whole[ASKED : ASKED + WIDTH]),
-        *(whole[OTHERS : OTHERS + WIDTH], scratch.arguments),
+        scene.scenes,
+        scene.velocity,
+        scene.boxes,
+        s[TIME : TIME + WIDTH],
+        0,
+        WIDTH,
+        s[SHADOW : SHADOW + PACKET],
+        whole[ASKED : ASKED + WIDTH],
+        whole[OTHERS : OTHERS + WIDTH],
+        scratch.arguments,
     )
     if timed:
         counts[NANOSECONDS] += nanoseconds(scratch.call) - start

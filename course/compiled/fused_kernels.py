@@ -65,6 +65,7 @@ from course.compiled.packet_kernels import (
     begin,
     intersect16,
 )
+from course.compiled.packets import COHERENT
 from course.compiled.point_kernels import place, to_viewer
 from course.core.embree import NO_HIT
 from course.core.ray_offset import OFFSET as LEAST_OFFSET
@@ -205,9 +206,7 @@ def _query(scene, mask, arguments, s, whole):
         s[TFAR + i] = _FAR if whole[mask + i] else s[TFAR + i]
         lanes[GEOMETRY + i] = -1
     if scene.scenes[0]:
-        intersect16(
-            *(whole[mask:].ctypes.data, scene.scenes[0], s.ctypes.data, arguments.ctypes.data)
-        )
+        intersect16(whole[mask:].ctypes.data, scene.scenes[0], s.ctypes.data, arguments.ctypes.data)
     for i in range(WIDTH):
         if whole[mask + i]:
             hit = lanes[GEOMETRY + i] >= 0
@@ -222,9 +221,7 @@ def _query(scene, mask, arguments, s, whole):
             continue
         for i in range(WIDTH):
             lanes[GEOMETRY + i] = -1
-        intersect16(
-            *(others.ctypes.data, scene.scenes[1 + k], s.ctypes.data, arguments.ctypes.data)
-        )
+        intersect16(others.ctypes.data, scene.scenes[1 + k], s.ctypes.data, arguments.ctypes.data)
         for i in range(WIDTH):
             if lanes[GEOMETRY + i] >= 0 and whole[OTHERS + i]:
                 whole[HIT + i] = -1
@@ -275,7 +272,7 @@ def _intersect(scene, of_camera, coherent, count, timed, scratch, counts):
         s[TFAR + i] = _FAR
     if len(scene.objects) and not of_camera:
         _unspared(scene.objects, s, whole)
-    arguments[0] = 1 << 16 if coherent else 0
+    arguments[0] = COHERENT if coherent else 0
     start = nanoseconds(call) if timed else 0
     _query(scene, ASKED, arguments, s, whole)
     arguments[0] = 0
@@ -334,8 +331,9 @@ def _find(scene, s, whole):
     for i in range(WIDTH):
         if s[A + i] < 0 and whole[HIT + i]:
             k = np.uint64(whole[TRIANGLE + i])
-            arrays = scene.planes, scene.edges, scene.inset
-            s[P + i], s[P + _Y + i], s[P + _Z + i] = place(k, s[U + i], s[V + i], *arrays)
+            s[P + i], s[P + _Y + i], s[P + _Z + i] = place(
+                k, s[U + i], s[V + i], scene.planes, scene.edges, scene.inset
+            )
     if len(scene.velocity):
         for i in range(WIDTH):
             mover = -1
@@ -483,7 +481,18 @@ def _miss(surroundings, count, s, whole, scratch):
 
 @njit(**LEAN)
 def _shade(
-    scene, materials, lights, sky, numbers, depth, stride, same, timed, film, scratch, count
+    scene,
+    materials,
+    lights,
+    sky,
+    numbers,
+    depth,
+    stride,
+    same,
+    timed,
+    film,
+    scratch,
+    count,
 ):
     """Direct, ambient and own light of the hits, into DIFFUSE."""
     s, whole, counts = scratch.s, scratch.whole, film.counts
@@ -492,8 +501,19 @@ def _shade(
     for k in range(len(lights.kind)):
         pair = lights.pair[k] + depth * stride
         shadows = illuminate(
-            *(lights, k, scene, materials, numbers, pair, same, timed),
-            *(scratch.call, scratch.arguments, s, whole, counts),
+            lights,
+            k,
+            scene,
+            materials,
+            numbers,
+            pair,
+            same,
+            timed,
+            scratch.call,
+            scratch.arguments,
+            s,
+            whole,
+            counts,
         )
         counts[SHADOW_RAYS] += shadows
         if len(film.cost) and shadows:
@@ -629,8 +649,18 @@ def follow(
                 # ---- direct light, ambient light, emission
                 pairs = depths.pairs
                 _shade(
-                    *(scene, materials, lights, sky, numbers, depth, pairs, same, timed),
-                    *(film, scratch, count),
+                    scene,
+                    materials,
+                    lights,
+                    sky,
+                    numbers,
+                    depth,
+                    pairs,
+                    same,
+                    timed,
+                    film,
+                    scratch,
+                    count,
                 )
                 for i in range(3 * WIDTH):
                     s[DIFFUSE + i] *= s[THROUGHPUT + i]
@@ -639,8 +669,16 @@ def follow(
                 if scatters and depth < depths.bounces:
                     pair = scattering.lobe_pair + depth * pairs
                     more, further = scatter(
-                        *(scattering, numbers, pair, same, scratch.call, s, whole),
-                        *(stack[start + back :], refracted[through:], counts),
+                        scattering,
+                        numbers,
+                        pair,
+                        same,
+                        scratch.call,
+                        s,
+                        whole,
+                        stack[start + back :],
+                        refracted[through:],
+                        counts,
                     )
                     if len(film.cost):
                         _charge_rays(film, stack, start + back, more)

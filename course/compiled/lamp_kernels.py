@@ -325,12 +325,13 @@ def illuminate(
     for i in range(WIDTH):
         s[SHADOW_TFAR + i] = limit
     start = nanoseconds(call) if timed else 0
-    tables = scene.scenes, scene.velocity, scene.boxes, s[TIME : TIME + WIDTH], 0, WIDTH
-    others = whole[OTHERS : OTHERS + WIDTH]
+    time, others = s[TIME : TIME + WIDTH], whole[OTHERS : OTHERS + WIDTH]
+    scenes, velocity, boxes = scene.scenes, scene.velocity, scene.boxes
     if raised:
-        above = s[ABOVE : ABOVE + PACKET]
-        occlude(*tables, above, whole[RAISED : RAISED + WIDTH], others, arguments)
-    occlude(*tables, s[SHADOW : SHADOW + PACKET], whole[ASKED : ASKED + WIDTH], others, arguments)
+        above, mask = s[ABOVE : ABOVE + PACKET], whole[RAISED : RAISED + WIDTH]
+        occlude(scenes, velocity, boxes, time, 0, WIDTH, above, mask, others, arguments)
+    packet, mask = s[SHADOW : SHADOW + PACKET], whole[ASKED : ASKED + WIDTH]
+    occlude(scenes, velocity, boxes, time, 0, WIDTH, packet, mask, others, arguments)
     if timed:
         counts[NANOSECONDS] += nanoseconds(call) - start
     # Embree sets tfar to minus infinity where something is in the way.
@@ -344,6 +345,6 @@ def illuminate(
         for i in range(WIDTH):
             s[DIFFUSE + c * WIDTH + i] += s[IRRADIANCE + i] * color
     if len(materials.exponent):
-        arrays = materials.exponent, materials.specular, lights.color[k]
-        _highlight(*arrays, raised, call, s, whole)
+        color = lights.color[k]
+        _highlight(materials.exponent, materials.specular, color, raised, call, s, whole)
     return candidates
