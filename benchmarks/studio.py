@@ -23,7 +23,7 @@ from course.modules import MODULES
 from course.studio import studio as whole
 from course.studio.studio import GOOD, SOON, Studio
 
-SAVES = 5
+SAVES = 3
 """Of each scene; medians are told."""
 
 SETTLED = 600.0

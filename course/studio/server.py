@@ -190,9 +190,14 @@ class _Handler(BaseHTTPRequestHandler):
         try:
             while not self.server.closing:
                 try:
-                    name, data = events.get(timeout=QUIET)
-                    # Of several states that wait only the last one counts.
-                    text = f"event: {name}\ndata: {json.dumps(data)}\n\n"
+                    waiting = [events.get(timeout=QUIET)]
+                    while not events.empty():
+                        waiting.append(events.get())
+                    # Of several of a kind that wait only the last one counts.
+                    text = "".join(
+                        f"event: {name}\ndata: {json.dumps(data)}\n\n"
+                        for name, data in dict(waiting).items()
+                    )
                 except Empty:
                     text = ": still here\n\n"
                 self.wfile.write(text.encode())

@@ -36,6 +36,7 @@ from sitebuild.series import series
 from sitebuild.series_grid import series_grid
 from sitebuild.shots import before_after, picture, shot
 from sitebuild.signatures import linked
+from sitebuild.studio_film import studio_film
 
 MARK = re.compile(r"^<!-- site: (\w+) ?([\w./]*) ?(.*?) ?-->$", re.MULTILINE)
 
@@ -65,6 +66,7 @@ PARTS: dict[str, Part] = {
     "series": series,
     "series_grid": series_grid,
     "shot": shot,
+    "studio_film": studio_film,
 }
 
 

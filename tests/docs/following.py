@@ -372,6 +372,8 @@ def _run(words: list[str]) -> str:
         if not saved or output.count("of") < 2 or output.count("watching") != 2:
             raise FollowingError(f"it did not check again when the file was saved:\n{output}")
         return output
+    if name in ("studio", "view"):
+        return _opened(words)
     if name == "check":
         output = _invoke(words, 3)
         if "to do" not in output:
@@ -393,6 +395,16 @@ def _invoke(words: list[str], code: int = 0) -> str:
             f"exit code {done.exit_code} instead of {code}, {done.exception!r}; it printed:\n{done.output}"
         )
     return done.output
+
+
+def _opened(words: Sequence[str]) -> str:
+    """Have a page served, and press Ctrl-C; return what was printed."""
+    pressed = SimpleNamespace(wait=mock.Mock(side_effect=KeyboardInterrupt), set=mock.Mock())
+    with mock.patch("course.cli.serving.threading", SimpleNamespace(Event=lambda: pressed)):
+        output = _invoke([*words, "--no-browser"])
+    if not re.match(r"http://127\.0\.0\.1:\d+/\?token=\S{32}\n", output):
+        raise FollowingError(f"no address of a page is printed:\n{output}")
+    return output
 
 
 @contextmanager

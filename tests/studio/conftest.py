@@ -59,7 +59,7 @@ def write(folder: Path, body: str) -> None:
     other.replace(file)
 
 
-def until(found: Callable[[], Any], seconds: float = 120.0) -> Any:
+def until(found: Callable[[], Any], seconds: float = 280.0) -> Any:
     """Wait for something that is true; how long decides no test."""
     end = time.monotonic() + seconds
     while not (value := found()):

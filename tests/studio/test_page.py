@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -14,7 +14,8 @@ from course.studio.studio import Studio
 from tests.docs.conftest import tab_to
 from tests.studio.conftest import RIGHT, WRONG, until, write
 
-Open = Callable[[Studio], Any]
+# Where many tests run at once, a process is long in starting.
+pytestmark = pytest.mark.timeout(900)
 
 
 @contextmanager

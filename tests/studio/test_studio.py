@@ -13,6 +13,9 @@ from tests.studio.conftest import RIGHT, WRONG, until, write
 
 DONE = 16
 
+# Where many tests run at once, a process is long in starting.
+pytestmark = pytest.mark.timeout(900)
+
 
 def mine(studio: Studio) -> dict[str, Any]:
     told: dict[str, Any] = studio.state()["sides"]["mine"]
@@ -76,7 +79,6 @@ WRONGS = {
 """What a function may do, and what is said of it."""
 
 
-@pytest.mark.timeout(900)
 def test_what_goes_wrong_is_told_and_a_save_mends_it(studio: Studio, work: Path) -> None:
     until(lambda: mine(studio)["samples"] == DONE)
     for body, told in WRONGS.items():
