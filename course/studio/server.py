@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import re
 import secrets
+import sys
 import threading
 from html import escape
 from http import HTTPStatus
@@ -72,6 +73,11 @@ class _HTTP(ThreadingHTTPServer):
     studio: Studio
     token: str
     closing = False
+
+    def handle_error(self, request: Any, client_address: Any) -> None:
+        """Tell of an error, unless a page was closed while it was answered."""
+        if not isinstance(sys.exc_info()[1], ConnectionError):
+            super().handle_error(request, client_address)
 
 
 class _Handler(BaseHTTPRequestHandler):

@@ -13,7 +13,7 @@ from urllib.parse import urlsplit
 
 import pytest
 
-from course.studio.server import LARGEST, Server
+from course.studio.server import LARGEST, Server, _Handler
 from course.studio.studio import Studio
 
 
@@ -153,3 +153,15 @@ def test_the_page_names_no_other_host(server: Server) -> None:
     _, text, _ = ask(server, "/", {"X-Token": server.token})
     addresses = set(re.findall(rb"https?://[^\"' <`]+", text))
     assert addresses <= {b"http://www.w3.org/2000/svg"}
+
+
+def test_a_page_that_is_closed_while_it_is_answered_is_no_error(
+    server: Server, capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def gone(*_: Any) -> None:
+        raise BrokenPipeError
+
+    monkeypatch.setattr(_Handler, "do_GET", gone)
+    with pytest.raises(http.client.RemoteDisconnected):
+        ask(server, "/")
+    assert capfd.readouterr().err == ""
