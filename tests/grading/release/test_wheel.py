@@ -133,6 +133,7 @@ def test_links_of_the_folder_lead_somewhere(course: Course, tmp_path: Path) -> N
     for name in LICENSES:
         assert (tmp_path / "mine" / name).read_bytes() == (PROJECT / name).read_bytes()
     pages = sorted((tmp_path / "mine").rglob("*.md"))
+    assert tmp_path / "mine" / "solutions" / "answers" / "glossy.md" in pages
     assert len(pages) > 20
     for page in pages:
         for target in re.findall(r"\]\(([^)#\s]+)", page.read_text(encoding="utf-8")):
