@@ -84,7 +84,7 @@ def test_a_search_finds_first_the_page_that_explains(site: Path, browser: Any) -
             assert asked.setdefault(term.lower(), page) == page
     page = browser.new_page()
     page.goto((site / "search.html").as_uri())
-    page.wait_for_function("window.Search && Search.hasIndex()")
+    page.wait_for_function("typeof Search !== 'undefined' && Search.hasIndex()")
     found = page.evaluate(FIRST, list(asked))
     page.close()
     assert {term: first for term, (first, _) in zip(asked, found, strict=True)} == asked
