@@ -69,6 +69,8 @@ def sliders(loaded: Loaded, modules: typing.Collection[str]) -> list[Slider]:
     """The sliders for what some modules are about, and the number of samples."""
     wanted = ["sampler.samples"]
     wanted += [each for module in modules for each in ABOUT.get(module, ())]
+    if loaded.description.film.filter != "gaussian":
+        wanted = [each for each in wanted if each != "film.sigma"]
     found: dict[KeyPath, Slider] = {}
     for pattern in wanted:
         for path, value, meta in _numbers(loaded.description, tuple(pattern.split("."))):

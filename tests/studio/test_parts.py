@@ -84,6 +84,13 @@ def test_the_keys_that_a_module_is_about_have_sliders(module: str, key: str) -> 
     assert key in [each.label for each in sliders(loaded, [module])]
 
 
+def test_a_filter_that_is_not_used_has_no_slider(ball: Path) -> None:
+    for name, used in (("box", False), ("gaussian", True)):
+        loaded = load_description(ball, {("film", "filter"): name})
+        labels = [each.label for each in sliders(loaded, ["supersampling"])]
+        assert ("film.sigma" in labels) == used
+
+
 # ---------------------------------------------------------------- noise
 
 
