@@ -15,8 +15,11 @@ from numpy.typing import NDArray
 
 from course import Scene, load_scene
 from course import render_scene as rendering
+from tests.browser import browser
 from tests.forms import FORMS
 from tests.once import Once, made_once, shared_folder
+
+__all__ = ["browser"]
 
 MakeScene = Callable[..., Scene]
 PixelRays = Callable[[Scene], tuple[NDArray[np.float64], NDArray[np.float64]]]

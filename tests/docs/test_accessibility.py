@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from tests.docs.conftest import tab_to
+from tests.browser import tab_to
 
 axe = pytest.importorskip(
     "axe_playwright_python.sync_playwright",

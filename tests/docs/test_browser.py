@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from tests.docs.conftest import tab_to, untroubled
+from tests.browser import tab_to, untroubled
 
 CUT_OFF = "[...document.querySelectorAll('.formula')].some((f) => f.scrollWidth > f.clientWidth)"
 

@@ -12,7 +12,7 @@ from course.core.types import Floats32
 from course.effects import PROJECT, Effects
 from course.errors import CourseError
 from course.extras.samplers.sobol import owen_scrambled, sobol_words
-from tests.docs.conftest import untroubled
+from tests.browser import untroubled
 
 pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')
 

@@ -16,7 +16,7 @@ from course.cli.main import commands
 from course.effects import PROJECT
 from course.errors import CourseError
 from course.formats.yaml.loading import load_description
-from tests.docs.conftest import tab_to, untroubled
+from tests.browser import tab_to, untroubled
 
 pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')
 

@@ -10,7 +10,7 @@ from course.grading.known import known, trusted
 from course.grading.references import prepared, reference
 from course.grading.report import Report
 from course.grading.reports.page import as_page
-from tests.docs.conftest import untroubled
+from tests.browser import untroubled
 
 
 @pytest.fixture(scope="module")

@@ -1,4 +1,4 @@
-"""A folder of a student's, a studio that follows it, and the browser that looks at pages of the site."""
+"""A folder of a student's, and a studio that follows it."""
 
 from __future__ import annotations
 
@@ -13,9 +13,6 @@ import pytest
 
 from course.effects import PROJECT
 from course.studio.studio import Studio
-from tests.docs.conftest import browser
-
-__all__ = ["browser"]
 
 SCENE = """\
 # A ball under a lamp.

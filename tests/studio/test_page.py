@@ -11,7 +11,7 @@ import pytest
 
 from course.studio.server import Server
 from course.studio.studio import Studio
-from tests.docs.conftest import tab_to
+from tests.browser import tab_to
 from tests.studio.conftest import RIGHT, WRONG, until, write
 
 # Where many tests run at once, a process is long in starting.
