@@ -10,16 +10,17 @@ import json
 import os
 import queue
 import shutil
-import sys
 import tempfile
 from pathlib import Path
 from statistics import median
 from time import monotonic, sleep
 from typing import Any
 
+import click
+
 from course.benchmarking.machine import machine
 from course.effects import PROJECT
-from course.modules import MODULES
+from course.modules import COURSE, MODULES
 from course.studio import studio as whole
 from course.studio.studio import GOOD, SOON, Studio
 
@@ -29,11 +30,13 @@ SAVES = 3
 SETTLED = 600.0
 
 
-def main() -> None:
+@click.command()
+@click.argument("scenes", nargs=-1, type=click.Choice(tuple(COURSE)))
+def main(scenes: tuple[str, ...]) -> None:
     """Measure the six core scenes, or those that are named, and print a table."""
     # A better reference only takes longer.
     whole.MOST = GOOD
-    names = sys.argv[1:] or list(MODULES)
+    names = scenes or tuple(MODULES)
     print("| scene | first pixels [s] | 1 sample [s] | 16 samples [s] | click to rays [s] |")
     print("| --- | ---: | ---: | ---: | ---: |")
     with tempfile.TemporaryDirectory() as folder:

@@ -16,6 +16,7 @@ from io import BytesIO
 from pathlib import Path
 from typing import Any
 
+import click
 from PIL import Image
 
 from course.effects import PROJECT
@@ -74,7 +75,8 @@ class Camera:
         self.take(LONG)
 
 
-def record() -> None:
+@click.command()
+def main() -> None:
     """Record the film."""
     from playwright.sync_api import sync_playwright
 
@@ -149,4 +151,4 @@ def record() -> None:
 
 
 if __name__ == "__main__":
-    record()
+    main()
