@@ -119,7 +119,8 @@ def _axes(
         yield f'<path class="grid" d="M{x(tick)} {TOP}V{bottom}"/>'
         # A number that would run into the one before it is left out.
         if x(tick) - last >= room:
-            yield _text(x(tick), bottom + 16, plain(tick), "middle")
+            half = LETTER * len(plain(tick)) / 2
+            yield _text(min(x(tick), WIDTH - half), bottom + 16, plain(tick), "middle")
             last = x(tick)
     yield f'<path class="axis" d="M{x.start:.1f} {TOP}V{bottom}H{x.end}"/>'
     yield _text((x.start + x.end) / 2, HEIGHT - 6, plot.axes[axis], "middle")

@@ -30,7 +30,7 @@ STYLES = PROJECT / "docs" / "_static" / "plots.css"
 OWN = sorted(
     path.stem
     for path in (PROJECT / "docs" / "data").glob("*.json")
-    if path.stem not in ("bench", "ratios", "peers")
+    if path.stem not in ("bench", "ratios", "peers", "scaling")
 )
 
 SAMPLES = (1, 4, 16, 64)
@@ -436,7 +436,9 @@ def test_every_page_that_estimates_has_its_plots(site: Path) -> None:
 @pytest.mark.parametrize("name", ["accuracy", "performance"])
 def test_the_documents_show_every_module(site: Path, name: str) -> None:
     groups = [group for each in (BENCHED | FURTHER_BENCHED).values() for group in each.groups]
-    assert _text(site, name).count('<figure class="convergence">') == len(groups)
+    others = [plot for record in convergence.records("scaling") for plot in record.plots]
+    count = len(groups) + len(others) * (name == "performance")
+    assert _text(site, name).count('<figure class="convergence">') == count
 
 
 def _open(browser: Any, site: Path, **options: Any) -> Any:
