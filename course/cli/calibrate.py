@@ -4,13 +4,13 @@ from pathlib import Path
 
 import click
 
-from course.cli.options import modules_from
+from course.cli.options import modules_argument
 from course.cli.outputs import check_outputs
 from course.effects import PACKAGE
 
 
 @click.command()
-@click.argument("modules", nargs=-1, metavar="[MODULE]...", callback=modules_from)
+@modules_argument
 @click.option(
     "--seeds",
     type=click.IntRange(1),

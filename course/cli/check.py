@@ -11,11 +11,10 @@ from typing import TYPE_CHECKING
 import click
 
 from course.atomic import write_text
-from course.cli.options import FAILED, modules_from
+from course.cli.options import FAILED, folder_option, modules_argument
 from course.cli.outputs import check_outputs
 from course.cli.tables import count
 from course.cli.watching import await_change, times
-from course.effects import ASSIGNMENTS, CHECKOUT
 from course.errors import CourseError
 
 if TYPE_CHECKING:
@@ -28,14 +27,8 @@ SHORT = 100
 
 
 @click.command()
-@click.argument("modules", nargs=-1, metavar="[MODULE]...", callback=modules_from)
-@click.option(
-    "--folder",
-    type=click.Path(path_type=Path, file_okay=False),
-    default=ASSIGNMENTS,
-    show_default="assignments",
-    help="Where the modules are.",
-)
+@modules_argument
+@folder_option
 @click.option(
     "--only", metavar="FUNCTION[/CHECK]", help="Run only this function's checks, or this one check."
 )
@@ -87,9 +80,6 @@ def check(
     """
     from course.grading.references import references
 
-    if not folder.is_dir():
-        remedy = "" if CHECKOUT else ", `course start FOLDER` makes a folder to work in"
-        raise CourseError(f"{folder}: no such folder; --folder says where your modules are{remedy}")
     check_outputs(files=[("--html", html), ("--json", json_file)])
     arrays = references(seed)
 

@@ -11,6 +11,8 @@ from pathlib import Path
 
 import click
 
+from course.effects import ASSIGNMENTS, CHECKOUT
+from course.errors import CourseError
 from course.modules import COURSE
 
 INTERRUPTED = 130
@@ -83,6 +85,26 @@ def modules_from(
 PATH = click.Path(path_type=Path)
 
 scene_argument = click.argument("scene", metavar="SCENE", type=PATH)
+
+modules_argument = click.argument("modules", nargs=-1, metavar="[MODULE]...", callback=modules_from)
+
+
+def own_folder(_ctx: click.Context, _option: click.Parameter, folder: Path) -> Path:
+    """Return the folder of one's own modules, which must be there."""
+    if not folder.is_dir():
+        remedy = "" if CHECKOUT else ", `course start FOLDER` makes a folder to work in"
+        raise CourseError(f"{folder}: no such folder; --folder says where your modules are{remedy}")
+    return folder
+
+
+folder_option = click.option(
+    "--folder",
+    type=click.Path(path_type=Path, file_okay=False),
+    default=ASSIGNMENTS,
+    show_default="assignments",
+    callback=own_folder,
+    help="Where the modules are.",
+)
 
 effects_option = click.option(
     "--effects",

@@ -9,23 +9,15 @@ from typing import TYPE_CHECKING
 
 import click
 
-from course.cli.options import modules_from
-from course.effects import ASSIGNMENTS, CHECKOUT
-from course.errors import CourseError
+from course.cli.options import folder_option, modules_argument
 
 if TYPE_CHECKING:
     from course.grading.progress import Progress
 
 
 @click.command()
-@click.argument("modules", nargs=-1, metavar="[MODULE]...", callback=modules_from)
-@click.option(
-    "--folder",
-    type=click.Path(path_type=Path, file_okay=False),
-    default=ASSIGNMENTS,
-    show_default="assignments",
-    help="Where the modules are.",
-)
+@modules_argument
+@folder_option
 @click.option("--json", "as_json", is_flag=True, help="Print every function as JSON, for programs.")
 def status(modules: tuple[str, ...], folder: Path, as_json: bool) -> None:
     """Show which modules are done, the points, and what comes next.
@@ -33,9 +25,6 @@ def status(modules: tuple[str, ...], folder: Path, as_json: bool) -> None:
     Files that have changed since they were checked last are checked; what was found is kept in
     the folder, in .course/checked.json.
     """
-    if not folder.is_dir():
-        remedy = "" if CHECKOUT else ", `course start FOLDER` makes a folder to work in"
-        raise CourseError(f"{folder}: no such folder; --folder says where your modules are{remedy}")
     from course.grading.progress import as_data, next_one, progress
 
     def before(module: str) -> None:

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from course.core.embree import EmbreeAccelerator, Intersections, QueryStats
-from course.core.types import Floats32, Functions, Mask, Numbers
+from course.core.types import Floats32, Functions, Indices, Mask, Numbers
 from course.core.vectors import repeated
 
 MOSTLY_UNBLOCKED = 0.9
@@ -68,12 +68,7 @@ class MovingAccelerator:
             other = mover.accelerator.intersect(
                 shifted, direction, stats, limit=found.t, coherent=coherent
             )
-            nearer = np.flatnonzero(other.triangle >= 0)
-            if len(nearer) == 0:
-                continue
-            found.triangle[nearer] = other.triangle.take(nearer) + np.int32(mover.first)
-            for mine, theirs in ((found.u, other.u), (found.v, other.v), (found.t, other.t)):
-                mine[nearer] = theirs.take(nearer)
+            self._take(found, other, mover)
         return found
 
     def unoccluded(
@@ -105,6 +100,17 @@ class MovingAccelerator:
             shifted = self._shifted(start, mover, when)
             free[unblocked] &= mover.accelerator.unoccluded(shifted, toward, limit, stats)
         return free
+
+    @staticmethod
+    def _take(
+        found: Intersections, other: Intersections, mover: Mover, which: Indices | None = None
+    ) -> None:
+        """Put what rays ``which`` (n,) have hit of a mover in the place of what they had found; None for all rays."""
+        hit = np.flatnonzero(other.triangle >= 0)
+        nearer = hit if which is None else which.take(hit)
+        found.triangle[nearer] = other.triangle.take(hit) + np.int32(mover.first)
+        for mine, theirs in ((found.u, other.u), (found.v, other.v), (found.t, other.t)):
+            mine[nearer] = theirs.take(hit)
 
     def _shifted(self, origin: Floats32, mover: Mover, time: Floats32) -> Floats32:
         """Origins (3, N) in the mover's frame."""

@@ -64,11 +64,7 @@ class SweptMovers(MovingAccelerator):
             other = mover.accelerator.intersect(
                 shifted, toward, stats, limit=found.t.take(which), coherent=coherent
             )
-            hit = np.flatnonzero(other.triangle >= 0)
-            nearer = which.take(hit)
-            found.triangle[nearer] = other.triangle.take(hit) + np.int32(mover.first)
-            for mine, theirs in ((found.u, other.u), (found.v, other.v), (found.t, other.t)):
-                mine[nearer] = theirs.take(hit)
+            self._take(found, other, mover, which)
         return found
 
     def unoccluded(
