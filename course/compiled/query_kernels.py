@@ -16,10 +16,10 @@ from course.compiled.packet_kernels import (
 )
 
 _TNEAR, _TIME, _TFAR, _MASK, _ID, _FLAGS = 3, 7, 8, 9, 10, 11
-_RAY_ROWS = 12
 _U, _V, _PRIMITIVE, _GEOMETRY = 15, 16, 17, 18
-# Hits end with the instances' numbers, one row or two by how Embree was built; more room does no harm.
-_ALL_ROWS = 24
+# Hits end with the instances' numbers, one row or two by how Embree was built; more room does no harm. Shadow rays have
+# none, but where Embree's shadow queries don't take 16 rays at once (no AVX-512), they read and write these rows, too.
+ALL_ROWS = 24
 
 
 @njit(**OPTIONS)
@@ -82,7 +82,7 @@ def intersect(scene, origin, direction, limit, which, every, hint, triangle, uvt
     which : (n,) the rays that are asked, in ascending order; of no meaning where ``every`` one is
     """
     n = direction.shape[1] if every else len(which)
-    packet = aligned(_ALL_ROWS)
+    packet = aligned(ALL_ROWS)
     whole = packet.view(np.int32)
     _begin(packet, whole, origin)
     valid = aligned(1).view(np.int32)
@@ -122,7 +122,7 @@ def intersect(scene, origin, direction, limit, which, every, hint, triangle, uvt
 def unoccluded(scene, origin, direction, limit, free):
     """Whether the ways are free, into ``free`` (N,); see ``PacketScene.unoccluded``."""
     n = direction.shape[1]
-    packet = aligned(_RAY_ROWS)
+    packet = aligned(ALL_ROWS)
     whole = packet.view(np.int32)
     _begin(packet, whole, origin)
     valid = aligned(1).view(np.int32)

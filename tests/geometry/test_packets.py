@@ -64,6 +64,34 @@ def test_nearest_hits_are_the_same_bit_for_bit(
         assert (packet.t[~hit] == np.float32(NO_HIT)).all()
 
 
+@pytest.mark.parametrize("query", library.QUERIES)
+def test_embree_keeps_to_the_rows_of_a_packet(accelerator: EmbreeAccelerator, query: str) -> None:
+    """Shadow queries, too, touch the rows of hits where the processor has no AVX-512."""
+    from course.compiled.query_kernels import ALL_ROWS
+
+    guard = np.float32(12345)
+    memory = np.full((ALL_ROWS + 41, 16), guard, np.float32)
+    memory = memory.reshape(-1)[-memory.ctypes.data % 64 // 4 :][: (ALL_ROWS + 40) * 16]
+    packet = memory.reshape(-1, 16)
+    packet[:3], packet[4:7] = rays(16, 5)
+    packet[3], packet[7], packet[8] = 0, 0, np.inf
+    whole = packet.view(np.int32)
+    whole[9], whole[10:12], whole[18] = -1, 0, -1
+    valid = np.full(32, -1, np.int32)
+    valid = valid[-valid.ctypes.data % 64 // 4 :][:16]
+    arguments = np.zeros(16, np.uint32)
+    arguments[1] = 0xFFFFFFFF
+    scene = packed(accelerator).packets
+    embree = library.library()
+    assert scene is not None
+    assert embree is not None
+    getattr(embree, query)(
+        valid.ctypes.data, scene.scene, packet.ctypes.data, arguments.ctypes.data
+    )
+    assert (packet[8] < np.inf).any()
+    assert (packet[ALL_ROWS:] == guard).all()
+
+
 def test_limits_hold_and_rays_may_share_an_origin(accelerator: EmbreeAccelerator) -> None:
     _, direction = rays(5000, 3)
     limit = np.random.default_rng(4).uniform(0, 1, 5000).astype(np.float32)

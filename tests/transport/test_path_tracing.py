@@ -301,11 +301,8 @@ def everything(make_scene: MakeScene, **more: Any) -> Scene:
 
 
 def test_batches_that_are_followed_together_give_the_same_bits(
-    monkeypatch: pytest.MonkeyPatch, each_form: bool
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    if each_form:
-        # Loops that are loaded from disk gave other bits in some runs, and ended one process; why isn't known yet.
-        pytest.skip("compiled path tracing from loops on disk isn't reliable yet")
     scene = load_scene(PROJECT / "scenes" / "path_tracing.yaml")
     monkeypatch.setattr(work, "SHARES", 1)
 
