@@ -6,6 +6,7 @@ OpenImageIO, one that fails loads neither.
 
 import io
 from pathlib import Path
+from typing import BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
@@ -51,21 +52,26 @@ def write_png(path: Path, linear: NDArray[np.float32], display: Display = SRGB) 
 
     Raises OutputError: the file can't be written.
     """
-    with replacing(path) as temporary:
-        temporary.write_bytes(encode_png(linear, display))
+    with replacing(path) as temporary, temporary.open("wb") as file:
+        _encode_png(file, linear, display)
 
 
 def encode_png(linear: NDArray[np.float32], display: Display = SRGB) -> bytes:
     """Return the bytes of the file that `write_png` writes."""
+    file = io.BytesIO()
+    _encode_png(file, linear, display)
+    return file.getvalue()
+
+
+def _encode_png(file: BinaryIO, linear: NDArray[np.float32], display: Display) -> None:
     from PIL import Image, PngImagePlugin
 
     info = PngImagePlugin.PngInfo()
     if display.encoding == "srgb":
         # Its values are sRGB (PNG specification, 11.3.2.5; perceptual).
         info.add(b"sRGB", b"\0")
-    file, image = io.BytesIO(), Image.fromarray(display.codes(linear))
+    image = Image.fromarray(display.codes(linear))
     image.save(file, "PNG", compress_level=COMPRESS_LEVEL, pnginfo=info)
-    return file.getvalue()
 
 
 def write_exr(path: Path, linear: NDArray[np.float32]) -> None:
