@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from course.building.cutting import SmallThings
-from course.building.frame import Frame, frame_of
+from course.building.frame import FARTHEST, Frame, frame_of
 from course.building.motion import Shutter
 from course.core.triangles import Mesh
 from course.core.types import Floats64
@@ -117,7 +117,9 @@ def frame_for(extents: Extents, objects: int) -> tuple[Frame, SmallThings | None
     ``objects``: how many of the extents are those of objects.
     """
     frame = frame_of(list(extents.boxes[:objects]))
-    there = extents.sizes > 0
+    # A lamp out of float32's reach is refused where lights are compiled; the frame is that of the others.
+    apart = np.abs(extents.boxes - frame.center).max(axis=(1, 2))
+    there = (extents.sizes > 0) & (apart < FARTHEST * frame.scale)
     if not there[:objects].any() or extents.sizes[there].min() / frame.scale * TOO_LARGE >= 1:
         return frame, None
     # Smaller objects have no surface in float32.

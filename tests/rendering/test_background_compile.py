@@ -100,11 +100,14 @@ def test_a_render_waits_for_no_compiler(
 
 def test_one_process_compiles_at_a_time(tmp_path: Path) -> None:
     """A second one that begins while the first runs ends with 1 before it reads the scene."""
-    line = [sys.executable, "-c", "import time; time.sleep(60)", background_compile.MODULE]
+    # Named apart from what compiles for other renders of this user meanwhile.
+    name = tmp_path.name
+    line = [sys.executable, "-c", "import time; time.sleep(60)", name]
     with subprocess.Popen(line) as first:
         try:
             task = pickle.dumps((tmp_path / "no.yaml", tmp_path, None))
-            second = [sys.executable, "-m", background_compile.MODULE]
+            program = f"import {background_compile.MODULE} as it; it.MODULE = {name!r}; it.main()"
+            second = [sys.executable, "-c", program]
             done = subprocess.run(second, input=task, capture_output=True, check=False, timeout=60)
         finally:
             first.kill()

@@ -33,6 +33,13 @@ def test_lights(make_scene: MakeScene, light: dict[str, Any]) -> None:
         make_scene(objects=[BALL], lights=[light])
 
 
+def test_a_lamp_beside_large_and_small_objects(make_scene: MakeScene) -> None:
+    """Small objects choose the frame together with the lamps, but not with one that nothing can hold."""
+    lamp = {"type": "rectangle", "corner": [0, 3, 0], "edge_u": [2, -1e150, 0], "edge_v": [0, 0, 1]}
+    with pytest.raises(SceneError, match=r"lights\[0\].*less than 1e\+18"):
+        make_scene(objects=[BALL, {**BALL, "radius": 1e6}], lights=[{**lamp, "intensity": 1}])
+
+
 def test_a_lamp_that_is_only_seen(make_scene: MakeScene) -> None:
     """No light falls on black things, but the lamp itself would be in the picture."""
     black = {"materials": {"black": {"color": 0}}, "objects": [{**BALL, "material": "black"}]}
