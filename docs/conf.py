@@ -45,6 +45,7 @@ html_css_files = [
     "picture_grid.css",
     "pattern_explorer.css",
     "mistakes.css",
+    "slides.css",
     ("print.css", {"media": "print"}),
 ]
 html_js_files = [
@@ -55,6 +56,7 @@ html_js_files = [
     ("patterns.js", {"defer": "defer"}),
     ("pattern_explorer.js", {"defer": "defer"}),
     ("printing.js", {"defer": "defer"}),
+    ("slides.js", {"defer": "defer"}),
 ]
 html_search_scorer = str(Path(__file__).parent / "sitebuild" / "search_scorer.js")
 html_copy_source = False

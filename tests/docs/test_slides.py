@@ -1,0 +1,79 @@
+"""Slides are made from the pages: nothing of a page is lost, keys turn them, and the speaker's window follows."""
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from course.modules import COURSE
+from tests.browser import untroubled
+
+DECK = ".deck .slide.now"
+
+WORDS = """(root) => [...document.querySelectorAll(`${root} p, ${root} li, ${root} figure`)]
+  .filter((each) => !each.matches(".lead")).map((each) => each.textContent.replace(/\\s+/g, " ").trim())"""
+"""What stands on a page or in its slides; first sentences are there twice."""
+
+FITS = """() => {
+  const seen = document.querySelector(".slide.now .seen");
+  return seen.scrollWidth <= seen.clientWidth + 2 && seen.clientHeight > 400;
+}"""
+
+
+@pytest.mark.parametrize("module", COURSE)
+def test_all_of_a_page_is_in_its_slides_or_its_notes(browser: Any, site: Path, module: str) -> None:
+    file = site / "modules" / f"{module}.html"
+    with untroubled(browser, viewport={"width": 1280, "height": 720}) as page:
+        page.goto(file.as_uri())
+        words = page.evaluate(WORDS, "article")
+        titles = page.evaluate(
+            "[...document.querySelectorAll('article :is(h1, h2, h3)')].map((e) => e.firstChild.textContent)"
+        )
+        page.goto(f"{file.as_uri()}?slides")
+        page.wait_for_selector(DECK)
+        # A link to a figure that stands beside it is left out.
+        lost = set(words) - set(page.evaluate(WORDS, ".deck")) - {"The view by itself"}
+        assert lost == set()
+        found = page.locator(".slide h2").all_text_contents()
+        assert list(dict.fromkeys(found)) == list(dict.fromkeys(titles))
+        for _ in range(len(found)):
+            assert page.evaluate(FITS), page.url
+            page.keyboard.press("ArrowRight")
+        assert page.url.endswith(f"?slides={len(found)}")
+
+
+def test_keys_turn_slides_and_sliders_keep_theirs(browser: Any, site: Path) -> None:
+    file = site / "modules" / "soft_shadows.html"
+    with untroubled(browser) as page:
+        page.goto(file.as_uri())
+        page.get_by_role("button", name="Show as slides").click()
+        page.wait_for_selector(DECK)
+        assert not page.locator(f"{DECK} aside").is_visible()
+        for key in ("n", "ArrowRight", "End", "ArrowLeft", "Home", "PageDown"):
+            page.keyboard.press(key)
+        assert page.url.endswith("?slides=2")
+        assert page.locator(f"{DECK} aside").is_visible()
+        slider = page.locator(f"{DECK} input[type=range]").first
+        slider.focus()
+        before = slider.input_value()
+        page.keyboard.press("ArrowRight")
+        assert slider.input_value() != before
+        assert page.url.endswith("?slides=2")
+        page.evaluate("document.activeElement.blur()")
+        page.keyboard.press("Escape")
+        page.wait_for_url(file.as_uri())
+
+
+def test_the_speakers_window_follows_and_leads(browser: Any, site: Path) -> None:
+    with untroubled(browser) as page:
+        page.goto(f"{(site / 'modules' / 'glossy.html').as_uri()}?slides=3")
+        page.wait_for_selector(DECK)
+        with page.context.expect_page() as opened:
+            page.keyboard.press("s")
+        speaker = opened.value
+        speaker.wait_for_selector(DECK)
+        assert speaker.locator(f"{DECK} aside").is_visible()
+        page.keyboard.press("ArrowRight")
+        speaker.wait_for_url("**/glossy.html?slides=4&notes")
+        speaker.keyboard.press("ArrowRight")
+        page.wait_for_url("**/glossy.html?slides=5")
