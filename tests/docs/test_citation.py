@@ -99,3 +99,16 @@ def test_the_wrong_submissions_of_each_module_are_as_many_as_the_paper_says() ->
     assert "at least thirty for each module" in " ".join(PAPER.split())
     for module in COURSE:
         assert len([*(PROJECT / "solutions" / "wrong" / module).glob("*.py")]) >= 30
+
+
+def test_the_checklist_has_its_thirteen_items_and_leads_to_what_it_says() -> None:
+    text = text_of("paper/checklist.md")
+    assert re.findall(r"^\| (\d+) \|", text, re.MULTILINE) == [str(k) for k in range(1, 14)]
+    for link in re.findall(r"\]\(([^)]+)\)", text):
+        name, _, heading = link.partition("#")
+        page = (PROJECT / "paper" / name).read_text(encoding="utf-8")
+        headings = re.findall(r"^#+ (.*)$", page, re.MULTILINE)
+        slugs = [re.sub(r"[^\w -]", "", each).lower().replace(" ", "-") for each in headings]
+        assert not heading or heading in slugs, link
+    for name in re.findall(r"`((?:docs|tests)/[\w/.]+)`", text):
+        assert (PROJECT / name).is_file(), name
