@@ -1,14 +1,16 @@
-"""Answers to the exercises of the core modules: one for each, and none where students would find it."""
+"""Answers to the exercises and the questions for exams: numbers are right, and students find none of them."""
 
+import math
 import re
 
 import pytest
 
 from course.effects import PROJECT
 from course.grading.release.archive import PAGES, SCENES, project_files, solution_lines
-from course.modules import MODULES
+from course.modules import COURSE, MODULES
 
 ANSWERS = PROJECT / "solutions" / "answers"
+EXAMS = PROJECT / "solutions" / "exams"
 
 
 def numbers(text: str) -> list[int]:
@@ -29,7 +31,7 @@ def test_there_is_an_answer_for_each_exercise(module: str) -> None:
 
 def test_the_archive_is_searched_for_lines_of_answers() -> None:
     lines = solution_lines(PROJECT / "solutions")
-    for path in ANSWERS.iterdir():
+    for path in (*ANSWERS.iterdir(), *EXAMS.iterdir()):
         answer = max(path.read_text(encoding="utf-8").splitlines(), key=len)
         assert answer.strip() in lines
 
@@ -40,3 +42,17 @@ def test_nothing_that_students_get_has_a_line_of_an_answer() -> None:
         assert not name.startswith("solutions")
         rows = {row.strip() for row in content.decode("utf-8", "replace").splitlines()}
         assert not rows & lines, name
+
+
+@pytest.mark.parametrize("module", COURSE)
+def test_exams_have_questions_with_answers_whose_numbers_are_right(module: str) -> None:
+    text = (EXAMS / f"{module}.md").read_text(encoding="utf-8")
+    questions = re.split(r"^(?=\d+\. )", text, flags=re.MULTILINE)[1:]
+    assert numbers(text) == [*range(1, len(questions) + 1)]
+    assert len(questions) >= 3
+    for question in questions:
+        assert re.match(
+            r"\d+\. \(\d+ points, \d+ minutes\) .*\n\n   \*Answer\.\* ", question, re.DOTALL
+        )
+    for holds in re.findall(r"<!-- holds: (.*?) -->", text):
+        assert eval(holds, vars(math).copy()), holds
