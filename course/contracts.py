@@ -79,6 +79,11 @@ CONTRACTS = {
     "radiosity.shoot": "radiosity: 3 P, unshot: 3 P, reflectance: 3 P, areas: P, form_factors: P, shooter"
     " -> the radiosity: 3 P, the unshot radiosity: 3 P",
     "radiosity.needs_split": "patch_radiosity: 3 K N, threshold -> the decisions: bool N",
+    "film.expose": "radiance: 3 N, stops -> the radiance: 3 N",
+    "film.photographic": "radiance: 3 N, key, burn, saturation -> the colours: 3 N",
+    "film.encode_srgb": "linear: 3 N -> the encoded colours: 3 N",
+    "film.convert_gamut": "rgb: 3 N, source: 2 4, target: 2 4 -> the colours: 3 N",
+    "film.quantize": "encoded: 3 N, u: 3 N -> the codes: whole 3 N",
 }
 """Every function that the renderer calls, "module.function", and its contract."""
 

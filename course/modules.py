@@ -29,6 +29,7 @@ FURTHER = _named(
         "quasi_monte_carlo": "radical_inverse halton hammersley chain",
         "path_tracing": "diffuse_bounce throughput russian_roulette",
         "radiosity": "hemicube_form_factors gather shoot needs_split",
+        "film": "expose luminance photographic encode_srgb convert_gamut quantize",
     }
 )
 """The other modules. The renderer calls the functions of both that are listed in ``course.contracts``."""

@@ -3,6 +3,7 @@
 import os
 import sys
 from contextlib import ExitStack, closing
+from dataclasses import replace
 from functools import partial
 from time import monotonic
 from typing import Any
@@ -19,6 +20,7 @@ from course.jobs.job import Job, Mode, check_memory, chosen_settings
 from course.jobs.picture import Picture
 from course.jobs.receipt import Receipt
 from course.rendering.binding import bind, lines_named, skipped_modules
+from course.rendering.developing import developing
 from course.rendering.memory import keep_freed_memory
 from course.rendering.threads import Pool, ThreadedExecutor, default_threads
 from course.rendering.uniform import TIMED, UNIFORM
@@ -114,6 +116,7 @@ def render(
     began = monotonic()
     with lines_named(scene, bound):
         tracer = bind(scene, settings, bound, packets and not later and address is None)
+        display = developing(scene, settings, bound)
         film, schedule = mode.make(job, tracer, bound)
         with ExitStack() as closed:
             executor: ThreadedExecutor
@@ -133,6 +136,7 @@ def render(
                 executor.limit_time(time_limit, since)
             complete = render_film(film, schedule, executor, progress)
     receipt = _receipt(job, bound, tracer, film, schedule, executor, monotonic() - began)
+    settings = replace(settings, display=display)
     return Picture(film, settings, receipt, complete, executor.interrupted)
 
 

@@ -155,6 +155,14 @@ STAND_INS: dict[str, tuple[Callable[..., Any], str]] = {
         lambda beta, u: (np.ones(len(u), bool), beta.copy()),
         "all paths go on to the greatest depth",
     ),
+    "film.expose": (_still, "the exposure is left out"),
+    "film.photographic": (_still, "what is brighter than white is cut off"),
+    "film.convert_gamut": (_still, "colours of a wide gamut look pale"),
+    "film.encode_srgb": (lambda linear: linear.clip(0, 1), "the picture is too dark"),
+    "film.quantize": (
+        lambda encoded, _u: np.round(255 * encoded.clip(0, 1)).astype(np.uint8),
+        "codes are not dithered, so that smooth shades have steps",
+    ),
 }
 """By "module.function": what stands in for it, and what a picture then looks like.
 

@@ -41,6 +41,7 @@ MAY_DIFFER = {
     "textures": r"materials\.(floor|globe|vase)\.(color|texture)\..*",
     "bounding_volumes": r"acceleration\..*",
     "quasi_monte_carlo": r"sampler\.type",
+    "film": r"film\.(tone\..*|gamut|dither)",
     "path_tracing": r"integrator\.type",
 }
 
@@ -53,6 +54,7 @@ CALLS = {
     "textures": "rectangle_uv sphere_uv texture_lookup triangle_uv",
     "bounding_volumes": "build traverse",
     "quasi_monte_carlo": "chain hammersley",
+    "film": "photographic encode_srgb convert_gamut quantize",
     "path_tracing": "diffuse_bounce russian_roulette throughput",
 }
 

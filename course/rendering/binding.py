@@ -74,6 +74,21 @@ def _reconstruction(scene: Scene, settings: Settings, bound: Bound) -> Reconstru
     return Reconstruction(Functions(**functions), settings.samples == 1, sigma)
 
 
+def developed_by(scene: Scene) -> dict[str, str]:
+    """The functions of `film` that a scene asks for, and the key of its film that does; empty for most."""
+    film = scene.loaded.description.film
+    asked = {
+        "expose": "exposure" if film.exposure else "",
+        "convert_gamut": "gamut" if film.gamut != "srgb" else "",
+        "photographic": "tone" if film.tone else "",
+        "quantize": "dither" if film.dither else "",
+    }
+    found = {name: key for name, key in asked.items() if key}
+    if found and film.encoding == "srgb" and not (film.tone and film.tone.gamma):
+        found["encode_srgb"] = next(iter(found.values()))
+    return found
+
+
 def needs_of(scene: Scene, settings: Settings) -> tuple[Need, ...]:
     """Every function that rendering with these settings calls, and what asks for it."""
     bound = Bound(scene.effects, scene.compiled.needs)
@@ -82,6 +97,8 @@ def needs_of(scene: Scene, settings: Settings) -> tuple[Need, ...]:
         from course.adaptive import subdivision
 
         subdivision.Functions(bound, settings.subdivision)
+    for name, key in developed_by(scene).items():
+        bound.function("film", name, ("film", key))
     return bound.needs
 
 
@@ -116,6 +133,7 @@ _REASONS = {
     "textures": "no surface shows a texture",
     "bounding_volumes": "Embree answers the rays",
     "importance_sampling": "no directions towards an environment are chosen by its functions",
+    "film": "the film asks for no exposure, gamut, tone mapping or dithering",
 }
 
 

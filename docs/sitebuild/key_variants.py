@@ -216,6 +216,15 @@ VARIANTS: dict[tuple[str, str], list[tuple[str, Changes]]] = {
     ),
     ("FilmDescription", "white"): _values("film.white", 0.5, 1, 2),
     ("FilmDescription", "encoding"): _values("film.encoding", "srgb", "linear"),
+    ("FilmDescription", "exposure"): _values("film.exposure", -1, 0, 1),
+    ("FilmDescription", "gamut"): _values("film.gamut", "srgb", "rec2020"),
+    ("FilmDescription", "tone"): _values("film.tone", None, {"key": 0.18}),
+    ("ToneDescription", "key"): _values("film.tone.key", 0.09, 0.18, 0.36, on={"film.tone": {}}),
+    ("ToneDescription", "burn"): _values("film.tone.burn", 0, 5, 30, on={"film.tone": {}}),
+    ("ToneDescription", "saturation"): _values(
+        "film.tone.saturation", 0, 0.5, 1, on={"film.tone": {}}
+    ),
+    ("ToneDescription", "gamma"): _values("film.tone.gamma", 1, 2.2, 3, on={"film.tone": {}}),
     ("SamplerDescription", "type"): _values(
         "sampler.type",
         "regular",

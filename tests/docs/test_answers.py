@@ -17,11 +17,14 @@ def numbers(text: str) -> list[int]:
     return [int(number) for number in re.findall(r"^(\d+)\. ", text, re.MULTILINE)]
 
 
-def test_each_core_module_has_answers_and_nothing_else_does() -> None:
-    assert {path.name for path in ANSWERS.iterdir()} == {f"{module}.md" for module in MODULES}
+ANSWERED = sorted(path.stem for path in ANSWERS.iterdir())
 
 
-@pytest.mark.parametrize("module", MODULES)
+def test_each_core_module_has_answers() -> None:
+    assert set(MODULES) <= set(ANSWERED) <= set(COURSE)
+
+
+@pytest.mark.parametrize("module", ANSWERED)
 def test_there_is_an_answer_for_each_exercise(module: str) -> None:
     page = (PROJECT / "docs" / "modules" / f"{module}.md").read_text(encoding="utf-8")
     exercises = page.partition("\n## Exercises\n")[2].partition("\n## ")[0]

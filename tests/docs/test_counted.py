@@ -13,7 +13,16 @@ from tests.test_layers import FLOORS
 
 DOCS = PROJECT / "docs"
 
-WORDS = {"three": 3, "six": 6, "seven": 7, "fifteen": 15, "twenty": 20}
+WORDS = {
+    "three": 3,
+    "six": 6,
+    "seven": 7,
+    "fifteen": 15,
+    "sixteen": 16,
+    "seventeen": 17,
+    "eighteen": 18,
+    "twenty": 20,
+}
 """Numbers that pages write as words."""
 
 

@@ -141,6 +141,10 @@ RANGES = {
     "base": "an integer >= 2",
     "hemicube_form_factors-k": "even and >= 2",
     "shooter": "from 0 to 3",
+    "stops": "finite",
+    "key": "finite and > 0",
+    "burn": "from 0 to 100",
+    "saturation": "finite and >= 0",
 }
 """What numbers must be, as messages say it."""
 

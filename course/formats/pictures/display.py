@@ -1,5 +1,6 @@
 """Radiance on a screen: the sRGB curve of IEC 61966-2-1, exposure, and heat maps of one number a pixel."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -39,11 +40,14 @@ def srgb_to_linear(encoded: Floats) -> Floats32:
 
 
 def _encode(linear: NDArray[np.float32]) -> NDArray[np.uint8]:
+    codes: NDArray[np.uint8] = (255.0 * _curve(linear) + 0.5).astype(np.uint8)
+    return codes
+
+
+def _curve(linear: Floats) -> Floats:
     x = np.clip(linear, 0.0, 1.0, dtype=np.float32)
     curve = 1.055 * np.power(x, np.float32(1 / 2.4)) - 0.055
-    encoded = np.where(x <= 0.0031308, 12.92 * x, curve)
-    codes: NDArray[np.uint8] = (255.0 * encoded + 0.5).astype(np.uint8)
-    return codes
+    return np.where(x <= 0.0031308, 12.92 * x, curve)
 
 
 ROUNDING = 2.0**-17
@@ -61,13 +65,17 @@ class Display:
     ----------
     white : the radiance that shows as 255
     encoding : "srgb", the nearest code of the curve; or "linear", in proportion to the radiance and rounded down
+    develop : makes the codes in another way, by the functions of the module `film`; None for the two above
     """
 
     white: float = 1.0
     encoding: str = "srgb"
+    develop: Callable[[Floats32], NDArray[np.uint8]] | None = None
 
     def codes(self, linear: NDArray[np.float32]) -> NDArray[np.uint8]:
         """(H, W, 3) uint8 codes of a picture (3, H, W) float32; beyond white they stay 255, below 0 they are 0."""
+        if self.develop is not None:
+            return self.develop(linear)
         if self.encoding == "linear":
             scaled = linear.astype(np.float64) * (255.0 / self.white * (1.0 + ROUNDING))
             return np.ascontiguousarray(

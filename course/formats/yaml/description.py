@@ -720,6 +720,24 @@ class SubdivisionDescription(Map, frozen=True, kw_only=True):
     ] = 3
 
 
+class ToneDescription(Map, frozen=True, kw_only=True):
+    """Photographic tone mapping (Reinhard et al., 2002): a picture of any range, brought to what a screen shows."""
+
+    key: Annotated[
+        float, about("What the logarithmic mean of the luminances becomes.", gt=0, le=100)
+    ] = 0.18
+    burn: Annotated[
+        float, about("The part of the pixels that may burn out to white.", "percent", ge=0, le=100)
+    ] = 1.0
+    saturation: Annotated[
+        float, about("1 keeps colours as they are, 0 makes the picture grey.", ge=0, le=10)
+    ] = 1.0
+    gamma: Annotated[
+        _Positive | None,
+        about("Values are encoded by the power 1 / gamma; null for the film's encoding."),
+    ] = None
+
+
 class FilmDescription(Map, frozen=True, kw_only=True):
     """Size of the picture and its reconstruction filter."""
 
@@ -752,6 +770,19 @@ class FilmDescription(Map, frozen=True, kw_only=True):
             "Codes of a PNG: the nearest ones of the sRGB curve, or in proportion to the radiance and rounded down."
         ),
     ] = "srgb"
+    exposure: Annotated[
+        float,
+        about("A PNG shows 2 to this power times as much light.", "stop", ge=-60, le=60),
+    ] = 0.0
+    gamut: Annotated[
+        Literal["srgb", "display_p3", "rec2020"],
+        about("The primaries of the scene's colours; a PNG is in those of sRGB."),
+    ] = "srgb"
+    tone: Annotated[ToneDescription | None, about("Tone mapping of a PNG; null for none.")] = None
+    dither: Annotated[
+        bool,
+        about("Codes of a PNG are chosen by chance, with the right mean, in place of the nearest."),
+    ] = False
     sigma: Annotated[float, about("Standard deviation of the gaussian filter.", "pixel", gt=0)] = (
         1 / 6
     )

@@ -132,6 +132,14 @@ def texture_lookup(image, uv):
     return found.T.astype(uv.dtype)
 """,
     ),
+    "film.encode_srgb": Answer(
+        "course/formats/pictures/display.py",
+        ("_curve",),
+        """
+def encode_srgb(linear):
+    return _curve(linear).astype(linear.dtype)
+""",
+    ),
 }
 """Function -> how the engine answers it, in whole or nearly."""
 

@@ -1,0 +1,16 @@
+"""Rounded, without u."""
+
+import numpy as np
+
+FUNCTION = "quantize"
+CAUGHT_BY = "unbiased"
+MISTAKE = "not-dithered"
+SAYS = "You round: u decides which of the two codes it is."
+
+
+def quantize(encoded, u):
+    """With a mistake."""
+    _check_batch("encoded", encoded)
+    if np.shape(u) != np.shape(encoded):
+        raise ValueError(f"u must have the shape {np.shape(encoded)}, got {np.shape(u)}")
+    return np.floor(255 * encoded.astype(float) + 0.5).astype(np.uint8)
