@@ -47,7 +47,7 @@ def _encode(linear: NDArray[np.float32]) -> NDArray[np.uint8]:
 def _curve(linear: Floats) -> Floats:
     x = np.clip(linear, 0.0, 1.0, dtype=np.float32)
     curve = 1.055 * np.power(x, np.float32(1 / 2.4)) - 0.055
-    return np.where(x <= 0.0031308, 12.92 * x, curve)
+    return np.asarray(np.where(x <= 0.0031308, 12.92 * x, curve))
 
 
 ROUNDING = 2.0**-17
