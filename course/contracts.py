@@ -91,10 +91,7 @@ DTYPES: dict[str, Any] = {
     "whole": "int",
     "floating": "floating",
     "bool": np.bool_,
-    "float32": np.float32,
-    "float64": np.float64,
-    "int32": np.int32,
-    "uint32": np.uint32,
+    **{name: getattr(np, name) for name in ("float32", "float64", "int32", "uint32")},
 }
 """Numbers of a result: a dtype, or a kind of which any dtype will do."""
 

@@ -54,7 +54,7 @@ CALLS = {
     "textures": "rectangle_uv sphere_uv texture_lookup triangle_uv",
     "bounding_volumes": "build traverse",
     "quasi_monte_carlo": "chain hammersley",
-    "film": "photographic encode_srgb convert_gamut quantize",
+    "film": "convert_gamut encode_srgb photographic quantize",
     "path_tracing": "diffuse_bounce russian_roulette throughput",
 }
 
