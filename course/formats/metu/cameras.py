@@ -89,8 +89,38 @@ def _camera(element: Element, steps: dict[str, dict[str, Any]], notes: Notes) ->
         raise element.error(f"handedness is {show(handedness)}: expected right or left")
     if handedness == "left":
         camera["handedness"] = "left"
-    film = {"width": int(width), "height": int(height), "white": 255.0, "encoding": "linear"}
+    film: dict[str, Any] = {
+        "width": int(width),
+        "height": int(height),
+        "white": 255.0,
+        "encoding": "linear",
+        **_tone(element, notes),
+    }
     return MetuCamera(name, _image_name(element, notes), camera, film, _sampler(element, notes))
+
+
+def _tone(element: Element, notes: Notes) -> dict[str, Any]:
+    """The film's tone mapping, by the first Tonemap that is Photographic; others are named and left out."""
+    found: dict[str, Any] = {}
+    for each in element.all("Tonemap"):
+        operator = each.child("TMO", "such as Photographic")
+        name, photographic = " ".join(operator.words()), operator.words() == ["Photographic"]
+        if not photographic or found:
+            why = "a second tone mapping" if photographic else "only Photographic is known"
+            notes.add(each, f"has TMO {name}: {why}, so it was left out")
+            for tag in ("TMOOptions", "Saturation", "Gamma"):
+                if (part := each.maybe(tag)) is not None:
+                    part.words()
+            continue
+        options = each.child("TMOOptions", "key and burn [%], such as 0.18 1")
+        key, burn = options.numbers(2, "0.18 1")
+        if not (0 < key <= 100 and 0 <= burn <= 100):
+            raise options.unexpected("a key from 0 to 100 and a percentage, such as 0.18 1")
+        saturation = each.child("Saturation", "such as 1").number(0)
+        gamma = each.child("Gamma", "such as 2.2").number(0, above=True)
+        tone = {"key": key, "burn": burn, "saturation": saturation, "gamma": gamma}
+        found = {"tone": tone}
+    return found
 
 
 def _gaze(element: Element, position: Floats64) -> Floats64:

@@ -182,7 +182,7 @@ def test_missing_files_and_folders_are_told(tmp_path: Path) -> None:
 
 def test_what_is_not_known_is_named_once_a_kind(metu: Metu) -> None:
     scene = tree(
-        camera={"Tonemap": {"TMO": "Photographic"}, "_fovAxis": "x"},
+        camera={"Tonemap": {"TMO": "ACES", "Gamma": "2.2"}, "_fovAxis": "x"},
         lights={"AmbientLight": "9 9 9", "SpotLight": [{"_id": "1"}, {"_id": "2"}, {"_id": "3"}]},
         Textures={"Images": ""},
     )
@@ -190,7 +190,7 @@ def test_what_is_not_known_is_named_once_a_kind(metu: Metu) -> None:
     metu.load(scene)
     warnings = "\n".join(metu.warnings)
     for part in (
-        "Scene/Cameras/Camera/Tonemap is not known, and was left out",
+        "Scene/Cameras/Camera/Tonemap has TMO ACES: only Photographic is known, so it was left out",
         "Scene/Cameras/Camera, attribute fovAxis is not known",
         "Scene/Lights/SpotLight[1] is not known, and was left out (and 2 more of this kind)",
         "Scene/Textures is not known",
