@@ -52,6 +52,12 @@ CONTRACTS = {
     "importance_sampling.cosine_hemisphere_pdf": "cos: N -> the density: N",
     "importance_sampling.phong_lobe_pdf": "cos: N, exponent -> the density: N",
     "importance_sampling.power_heuristic": "a: N, b: N -> the weights: N",
+    "environment_light.texel_weights": "image: H W 3 -> the weights: H W",
+    "environment_light.cumulate": "weights: H W -> rows: float64 H, columns: float64 H W",
+    "environment_light.sample_direction": "rows: H, columns: H W, u: 2 N -> the directions: unit 3 N",
+    "environment_light.density": "weights: H W, direction: 3 N -> the density: N",
+    "environment_light.alias_table": "weights: K -> probability: float64 K, alias: whole K",
+    "environment_light.draw_alias": "probability: K, alias: K, u: N -> outcome: whole N, rest: N",
     "blurred_transparency.refract": "direction: 3 N, normal: 3 N, eta: N"
     " -> directions: unit 3 N, total: bool N",
     "blurred_transparency.jitter_refraction": "direction: 3 N, normal: 3 N, roughness, u: 2 N"

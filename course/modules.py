@@ -22,6 +22,7 @@ FURTHER = _named(
         "sampling": "disk_by_rejection disk_by_polar ball_by_rejection ball_by_polar sphere_by_polar xorshift32",
         "importance_sampling": "uniform_hemisphere cosine_hemisphere cosine_hemisphere_pdf phong_lobe_pdf estimate"
         " power_heuristic",
+        "environment_light": "texel_weights cumulate sample_direction density alias_table draw_alias",
         "blurred_transparency": "refract jitter_refraction fresnel",
         "adaptive_sampling": "needs_subdivision subdivide",
         "textures": "rectangle_uv sphere_uv triangle_uv texture_lookup",

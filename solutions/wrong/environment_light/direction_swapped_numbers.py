@@ -1,0 +1,33 @@
+"""You chose the row by u[1]: it is u[0] that does."""
+
+import numpy as np
+
+FUNCTION = "sample_direction"
+CAUGHT_BY = "texel"
+MISTAKE = "numbers-swapped"
+SAYS = "You chose the row by u[1]: it is u[0] that does."
+
+
+def sample_direction(rows, columns, u):
+    """With a mistake."""
+    if np.ndim(columns) != 2 or np.shape(rows) != np.shape(columns)[:1]:
+        raise ValueError(
+            f"rows and columns must have shapes (H,) and (H, W), got {np.shape(rows)} and {np.shape(columns)}"
+        )
+    if np.ndim(u) != 2 or np.shape(u)[0] != 2:
+        raise ValueError(f"u must have shape (2, N), got {np.shape(u)}")
+    height, width = columns.shape
+    u1, u0 = np.asarray(u, np.float64)
+    u1 = np.minimum(u1, 1 - 2.0**-40)
+    row = np.searchsorted(rows, u0, side="right")
+    texel = np.searchsorted((columns + np.arange(height)[:, None]).ravel(), u1 + row, side="right")
+    column = np.minimum(texel - row * width, width - 1)
+    low = np.where(row > 0, rows[row - 1], 0)
+    left = np.where(column > 0, columns[row, column - 1], 0)
+    down = (u0 - low) / (rows[row] - low)
+    along = (u1 - left) / (columns[row, column] - left)
+    top, bottom = np.cos(np.pi * row / height), np.cos(np.pi * (row + 1) / height)
+    y = top + np.clip(down, 0, 1) * (bottom - top)
+    phi = 2 * np.pi * ((column + np.clip(along, 0, 1)) / width - 0.5)
+    ring = np.sqrt((1 - y) * (1 + y))
+    return np.stack((ring * np.sin(phi), y, -ring * np.cos(phi))).astype(u.dtype)

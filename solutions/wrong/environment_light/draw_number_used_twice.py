@@ -1,0 +1,25 @@
+"""You compared u with the probability, in place of the fraction of K u."""
+
+import numpy as np
+
+FUNCTION = "draw_alias"
+CAUGHT_BY = "outcome"
+MISTAKE = "whole-number-compared"
+SAYS = "You compared u with the probability, in place of the fraction of K u."
+
+
+def draw_alias(probability, alias, u):
+    """With a mistake."""
+    if np.ndim(probability) != 1 or np.shape(alias) != np.shape(probability):
+        raise ValueError(
+            f"probability and alias must have the same shape (K,), got {np.shape(probability)} and {np.shape(alias)}"
+        )
+    if np.ndim(u) != 1:
+        raise ValueError(f"u must have shape (N,), got {np.shape(u)}")
+    place = np.asarray(u, np.float64) * len(probability)
+    column = np.minimum(place.astype(np.intp), len(probability) - 1)
+    fraction, own = place - column, probability[column]
+    kept = np.asarray(u, np.float64) < own
+    share = np.where(kept, own, 1 - own)
+    rest = np.where(kept, fraction, fraction - own) / np.where(share > 0, share, 1)
+    return np.where(kept, column, alias[column]), rest.astype(u.dtype)
