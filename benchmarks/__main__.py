@@ -18,6 +18,7 @@ from benchmarks.allocation_oracle import measure_oracle
 from benchmarks.bounding_volumes import measure_bounding_volumes
 from benchmarks.convergence import measure_convergence
 from benchmarks.engine import measure_degenerate, measure_dragons, measure_effects, measure_engine
+from benchmarks.environment_light import measure_environment_light
 from benchmarks.figures import Figure, table, write_ratios
 from benchmarks.grading import measure_grading
 from benchmarks.importance_sampling import measure_importance_sampling
@@ -53,6 +54,7 @@ MEASURES = {
     "sampling": measure_sampling,
     "adaptive_sampling": measure_adaptive_sampling,
     "importance_sampling": measure_importance_sampling,
+    "environment_light": measure_environment_light,
     "quasi_monte_carlo": measure_quasi_monte_carlo,
 }
 

@@ -106,10 +106,11 @@ class Guard:
             raise self._error(f"{which}{told(value)}; expected {expected}", arguments)
         if result.kind in ("bool", "whole"):
             return value
-        if value.dtype != np.float32:
-            self._warn(value.dtype)
+        wanted = np.dtype(np.float64 if result.dtype is np.float64 else np.float32)
+        if value.dtype != wanted:
+            self._warn(value.dtype, wanted)
             with np.errstate(all="ignore"):
-                value = value.astype(np.float32)
+                value = value.astype(wanted)
         flags = value.flags
         if not (flags.c_contiguous and flags.writeable):
             # The caller may write into what it gets, and a column that is repeated can't be written to.
@@ -118,12 +119,12 @@ class Guard:
             raise self._error(f"{which}{told(value)} {_wrong(value, result.kind)}", arguments)
         return value
 
-    def _warn(self, dtype: np.dtype[Any]) -> None:
+    def _warn(self, dtype: np.dtype[Any], wanted: np.dtype[Any]) -> None:
         if not self._warned:
             self._warned = True
             warnings.warn(
-                f"{self._name} ({self._place()}) returned {dtype}, which is converted to float32; "
-                "a result has the dtype of the arguments: see `course check`",
+                f"{self._name} ({self._place()}) returned {dtype}, which is converted to {wanted}; "
+                "a result has the dtype of the arguments, or the one that is asked for: see `course check`",
                 CourseWarning,
                 stacklevel=2,
             )

@@ -122,6 +122,27 @@ STAND_INS: dict[str, tuple[Callable[..., Any], str]] = {
         lambda a, _b: np.full_like(a, 0.5),
         "both ways of sampling count alike",
     ),
+    "environment_light.texel_weights": (lambda image: np.ones_like(image[..., 0]), _SKY),
+    "environment_light.cumulate": (
+        lambda weights: (
+            np.linspace(0, 1, len(weights) + 1)[1:],
+            np.tile(np.linspace(0, 1, weights.shape[1] + 1)[1:], (len(weights), 1)),
+        ),
+        _SKY,
+    ),
+    "environment_light.sample_direction": (lambda _rows, _columns, u: _all((0, 1, 0), u), _SKY),
+    "environment_light.density": (
+        lambda _weights, direction: np.full(direction.shape[1], 1 / np.pi, direction.dtype),
+        _SKY,
+    ),
+    "environment_light.alias_table": (
+        lambda weights: (np.ones(len(weights)), np.arange(len(weights))),
+        _SKY,
+    ),
+    "environment_light.draw_alias": (
+        lambda _probability, _alias, u: (np.zeros(len(u), int), np.full_like(u, 0.5)),
+        _SKY,
+    ),
     "blurred_transparency.refract": (
         lambda direction, _normal, _eta: (direction.copy(), np.zeros(direction.shape[1], bool)),
         _CLEAR,

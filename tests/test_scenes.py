@@ -36,6 +36,7 @@ MAY_DIFFER = {
     "cube_map": r"environment\.(type|cross|radiance\.[012])",
     "sampling": r"(camera\.lens|lights\.[012])\.samples|sampler\.type",
     "importance_sampling": r"environment\.sampling",
+    "environment_light": r"environment\.sampling",
     "blurred_transparency": r"materials\.(pane|amber)\.dielectric\.roughness",
     "adaptive_sampling": r"film\.subdivision\..*|sampler\.samples",
     "textures": r"materials\.(floor|globe|vase)\.(color|texture)\..*",
@@ -49,6 +50,7 @@ MAY_DIFFER = {
 CALLS = {
     "sampling": "ball_by_polar ball_by_rejection disk_by_polar sphere_by_polar xorshift32",
     "importance_sampling": "cosine_hemisphere cosine_hemisphere_pdf",
+    "environment_light": "cumulate density sample_direction texel_weights",
     "blurred_transparency": "fresnel jitter_refraction refract",
     "adaptive_sampling": "needs_subdivision subdivide",
     "textures": "rectangle_uv sphere_uv texture_lookup triangle_uv",

@@ -1,5 +1,7 @@
 """From an environment description to the environment of the compiled scene."""
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from course.building.frame import in_range
@@ -9,6 +11,7 @@ from course.core.types import Floats32
 from course.effects import Bound
 from course.extras.cube_faces import cube_from_cross, cube_from_lat_long
 from course.extras.environment_hemispheres import WAYS, HemisphereSampling
+from course.extras.environment_light import PictureSampling, picture_sampling
 from course.extras.environment_sampling import product_sampling
 from course.extras.sky import CosineSampling, SkySampling
 from course.formats.yaml import description as d
@@ -26,7 +29,13 @@ HEMISPHERES = {
         "power_heuristic",
     ),
 }
-"""The importance_sampling functions for each value of ``sampling``, but for ``automatic``."""
+"""The importance_sampling functions for values of ``sampling``."""
+
+BY_PICTURE = {
+    "inversion": ("texel_weights", "cumulate", "sample_direction", "density"),
+    "alias": ("texel_weights", "alias_table", "draw_alias", "density"),
+}
+"""The environment_light functions for values of ``sampling``."""
 
 
 def compile_environment(
@@ -43,8 +52,8 @@ def compile_environment(
         radiance = in_range(rgb(environment.radiance), loaded, ("environment",), "radiance")
         if not radiance.any():
             return None, None
-        sampling = _sampling(environment.lights, _hemispheres(loaded, bound))
-        return ConstantEnvironment(radiance), sampling
+        even = ConstantEnvironment(radiance)
+        return even, _sampling(environment.lights, _students(even, loaded, bound))
     if isinstance(environment, d.CubeEnvironment):
         faces = _faces(environment, loaded)
     else:
@@ -67,11 +76,12 @@ def compile_environment(
         return None, None
     lookup = LOOKUPS[environment.lookup]
     cube_map = bound.functions("cube_map", lookup, asked_by=("environment", "type"))
-    chosen: SkySampling | None = _hemispheres(loaded, bound)
     seamless = environment.lookup == "seamless"
+    cube = CubeEnvironment(faces, cube_map, seamless)
+    chosen = _students(cube, loaded, bound)
     if chosen is None and environment.lights and _anything_diffuse(loaded):
         chosen = product_sampling(faces, seamless)
-    return CubeEnvironment(faces, cube_map, seamless), _sampling(environment.lights, chosen)
+    return cube, _sampling(environment.lights, chosen)
 
 
 def _sampling(lights: bool, chosen: SkySampling | None) -> SkySampling | None:
@@ -80,22 +90,29 @@ def _sampling(lights: bool, chosen: SkySampling | None) -> SkySampling | None:
     return chosen or CosineSampling()
 
 
-def hemisphere_functions(loaded: Loaded) -> list[str]:
-    """Names of the importance_sampling functions that are called."""
+def _names(ways: Mapping[str, tuple[str, ...]], loaded: Loaded) -> list[str]:
+    """The functions of a way, if the environment lights anything in that way."""
     environment = loaded.description.environment
-    if not environment.lights or environment.sampling == "automatic":
+    if not environment.lights or not _anything_diffuse(loaded):
         return []
-    return list(HEMISPHERES[environment.sampling]) if _anything_diffuse(loaded) else []
+    return list(ways.get(environment.sampling, ()))
 
 
-def _hemispheres(loaded: Loaded, bound: Bound) -> HemisphereSampling | None:
-    """None if no function of the importance_sampling module is called; the module isn't imported then."""
-    names = hemisphere_functions(loaded)
-    if not names:
-        return None
+def _students(
+    environment: Environment, loaded: Loaded, bound: Bound
+) -> HemisphereSampling | PictureSampling | None:
+    """The sampling by functions of importance_sampling or environment_light.
+
+    None if neither is asked for; the modules aren't imported then.
+    """
     asked_by = ("environment", "sampling")
-    functions = bound.functions("importance_sampling", *names, asked_by=asked_by)
-    return HemisphereSampling(functions, tuple(name for name in WAYS if name in names))
+    if names := _names(HEMISPHERES, loaded):
+        functions = bound.functions("importance_sampling", *names, asked_by=asked_by)
+        return HemisphereSampling(functions, tuple(name for name in WAYS if name in names))
+    if names := _names(BY_PICTURE, loaded):
+        functions = bound.functions("environment_light", *names, asked_by=asked_by)
+        return picture_sampling(environment, functions, "alias_table" in names)
+    return None
 
 
 def _anything_diffuse(loaded: Loaded) -> bool:

@@ -132,6 +132,7 @@ _REASONS = {
     "blurred_transparency": "no glass is rough",
     "textures": "no surface shows a texture",
     "bounding_volumes": "Embree answers the rays",
+    "environment_light": "no directions towards an environment are chosen by its picture",
     "importance_sampling": "no directions towards an environment are chosen by its functions",
     "film": "the film asks for no exposure, gamut, tone mapping or dithering",
 }

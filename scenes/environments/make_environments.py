@@ -1,4 +1,4 @@
-"""Paint the three environments that scenes use: a sky, a studio and a valley with a lake.
+"""Paint the four environments that scenes use: two skies, a studio and a valley with a lake.
 
 Run from the project's folder: ``python scenes/environments/make_environments.py``. An environment is nothing but
 radiance as a function of direction, so each is a function of directions (3, N) here, y up, and two loops over pixels
@@ -6,6 +6,7 @@ make pictures of them:
 
 - ``sky.exr``, ``studio.exr``: latitude and longitude, linear, brighter than 1 where light comes from. Their lights
   are large and soft, and so are the shadows in a scene with ``lights: true``.
+- ``clear_sky.exr``: the same form, with a sun as small as its picture allows.
 - ``valley.png``: the six faces of a cube as a cross, sRGB of 8 bits, so nothing in it is brighter than 1.
 """
 
@@ -19,7 +20,7 @@ from course.formats.pictures.files import save
 
 Array = NDArray[np.float64]
 HERE = Path(__file__).parent
-SKY_HEIGHT, STUDIO_HEIGHT, FACE = 176, 128, 336  # pixels
+SKY_HEIGHT, STUDIO_HEIGHT, CLEAR_SKY_HEIGHT, FACE = 176, 128, 128, 336  # pixels
 
 
 def sky(direction: Array) -> Array:
@@ -40,6 +41,17 @@ def sky(direction: Array) -> Array:
     radiance += _rgb(1.0, 0.86, 0.62) * glow
     ground = _rgb(0.20, 0.18, 0.15) * (1 + 0.5 * y)
     return radiance + (ground - radiance) * _step(-y, -0.01, 0.05)
+
+
+def clear_sky(direction: Array) -> Array:
+    """A blue sky, and a sun whose radius is 2 degrees: as bright as a lamp, and hardly ever met by chance."""
+    y = direction[1]
+    radiance = _rgb(0.55, 0.66, 0.80) + (_rgb(0.12, 0.28, 0.62) - _rgb(0.55, 0.66, 0.80)) * (
+        np.clip(y, 0, 1) ** 0.5
+    )
+    angle = np.arccos(np.clip(_unit(-0.62, 0.60, 0.50) @ direction, -1, 1))
+    radiance += _rgb(820.0, 700.0, 520.0) * _step(-angle, -0.040, -0.030)
+    return radiance + (_rgb(0.20, 0.18, 0.15) - radiance) * _step(-y, -0.01, 0.05)
 
 
 def studio(direction: Array) -> Array:
@@ -148,5 +160,6 @@ def _step(x: Array, low: float, high: float) -> Array:
 
 if __name__ == "__main__":
     save(HERE / "sky.exr", lat_long(sky, SKY_HEIGHT))
+    save(HERE / "clear_sky.exr", lat_long(clear_sky, CLEAR_SKY_HEIGHT))
     save(HERE / "studio.exr", lat_long(studio, STUDIO_HEIGHT))
     save(HERE / "valley.png", cross(valley, FACE))

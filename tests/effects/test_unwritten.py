@@ -21,6 +21,8 @@ materials/grey -> {dielectric: {roughness: 0.1}} |
 acceleration -> {type: hierarchy} | bounding_volumes.build: acceleration.type
 environment -> {type: constant, radiance: 1, lights: true, sampling: cosine} |
     importance_sampling.cosine_hemisphere: environment.sampling
+environment -> {type: constant, radiance: 1, lights: true, sampling: alias} |
+    environment_light.draw_alias: environment.sampling
 lights/0 -> {type: sphere, center: [0, 3, 0], radius: 1, intensity: 9, samples: ball by polar} |
     sampling.ball_by_polar: lights.0
 film/subdivision -> {threshold: 0.1} | adaptive_sampling.needs_subdivision: film.subdivision

@@ -549,10 +549,11 @@ _Lights: TypeAlias = Annotated[
     bool, about("Whether it also lights diffuse surfaces, by one shadow ray for each sample.")
 ]
 _Sampling: TypeAlias = Annotated[
-    Literal["automatic", "uniform", "cosine", "power"],
+    Literal["automatic", "uniform", "cosine", "power", "inversion", "alias"],
     about(
-        "How directions towards its light are chosen: `automatic`, by the cosine and the picture's brightness; or by"
-        " the module importance_sampling, `uniform`, by the `cosine`, or half and half with the `power` heuristic."
+        "How directions towards its light are chosen: `automatic`, by the cosine and the picture's brightness; by"
+        " the module importance_sampling, `uniform`, by the `cosine`, or half and half with the `power` heuristic; or"
+        " by the module environment_light, as the picture is bright, by `inversion` or by an `alias` table."
     ),
 ]
 _SeenBy: TypeAlias = Annotated[

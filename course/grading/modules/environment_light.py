@@ -168,6 +168,17 @@ CUMULATE = function(
             case=_many,
         ),
         close(
+            "values",
+            "Both are cumulative shares",
+            lambda a, r: tuple(
+                np.concatenate((x[0], x[1].ravel())) for x in (r, _shares(a.weights))
+            ),
+            "Each row has a distribution of its own, and the rows have one together.",
+            what="a sum of",
+            scales=SCALES,
+            whole=True,
+        ),
+        close(
             "rows",
             "Rows are cumulative shares of the whole",
             lambda a, r: (r[0], _shares(a.weights)[0]),
@@ -307,7 +318,7 @@ SAMPLE_DIRECTION = function(
             "u[0] chooses the row, u[1] the column; what is left of each says where in the texel.",
             floor=2e-5,
             case=_inside,
-            role="core",
+            whole=True,
         ),
         uniform(
             "density",
@@ -530,6 +541,16 @@ DRAW_ALIAS = function(
             floor=2e-3,
             case=_within_parts,
             role="core",
+        ),
+        close(
+            "values",
+            "Outcomes and what is left of the numbers are right together",
+            lambda a, r: (np.stack(r), np.stack(_drawn(a)), 1.0),
+            "K u says the column, and its fraction the outcome.",
+            what="an outcome or a rest of",
+            floor=2e-3,
+            case=_within_parts,
+            whole=True,
         ),
         holds(
             "outcome",
