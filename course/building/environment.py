@@ -78,7 +78,7 @@ def compile_environment(
     cube_map = bound.functions("cube_map", lookup, asked_by=("environment", "type"))
     seamless = environment.lookup == "seamless"
     cube = CubeEnvironment(faces, cube_map, seamless)
-    chosen = _students(cube, loaded, bound)
+    chosen: SkySampling | None = _students(cube, loaded, bound)
     if chosen is None and environment.lights and _anything_diffuse(loaded):
         chosen = product_sampling(faces, seamless)
     return cube, _sampling(environment.lights, chosen)

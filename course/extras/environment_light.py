@@ -86,7 +86,7 @@ def _picture(environment: Environment) -> Floats32:
     padded = np.pad(padded, ((0, 0), (1, 1), (0, 0)), mode="wrap")
     size = picture.shape[:2]
     blocks = np.lib.stride_tricks.sliding_window_view(padded, (3, 3), axis=(0, 1))
-    return blocks.reshape(*size, 3, 9).mean(axis=3, dtype=np.float64).astype(np.float32)
+    return np.asarray(blocks.reshape(*size, 3, 9).mean(axis=3, dtype=np.float64), np.float32)
 
 
 def _in_texels(

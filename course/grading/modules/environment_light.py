@@ -283,7 +283,7 @@ def _bright(a: Arguments, r: Array) -> Array:
     step = np.diff(np.concatenate((np.zeros((height, 1)), a.columns), axis=1), axis=1)
     weight = step[i, j] * np.diff(a.rows, prepend=0)[i]
     border = (np.abs(row - np.rint(row)) < 1e-3) | (np.abs(column - np.rint(column)) < 1e-3)
-    return (weight > 0) | border
+    return np.asarray((weight > 0) | border)
 
 
 def _borders(draw: Draw) -> Mapping[str, Any]:
@@ -425,11 +425,13 @@ def _given(probability: Array, alias: Array) -> Array:
 
 def _legal(a: Arguments, r: Any) -> Array:
     probability, alias = r
-    return (probability >= 0) & (probability <= 1) & (alias >= 0) & (alias < len(a.weights))
+    return np.asarray(
+        (probability >= 0) & (probability <= 1) & (alias >= 0) & (alias < len(a.weights))
+    )
 
 
 def _none_for_black(a: Arguments, r: Any) -> Array:
-    return (a.weights > 0) | (_given(*r) == 0)
+    return np.asarray((a.weights > 0) | (_given(*r) == 0))
 
 
 ALIAS_TABLE = function(
