@@ -46,6 +46,8 @@ html_css_files = [
     "pattern_explorer.css",
     "mistakes.css",
     "slides.css",
+    "live.css",
+    "cards.css",
     ("print.css", {"media": "print"}),
 ]
 html_js_files = [
@@ -56,6 +58,8 @@ html_js_files = [
     ("patterns.js", {"defer": "defer"}),
     ("pattern_explorer.js", {"defer": "defer"}),
     ("printing.js", {"defer": "defer"}),
+    ("mistakes.js", {"defer": "defer"}),
+    ("live.js", {"defer": "defer"}),
     ("slides.js", {"defer": "defer"}),
 ]
 html_search_scorer = str(Path(__file__).parent / "sitebuild" / "search_scorer.js")

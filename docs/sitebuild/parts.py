@@ -16,11 +16,13 @@ from sphinx.errors import ExtensionError
 
 from course.errors import CourseError
 from sitebuild import kept, pictures
+from sitebuild.cards import cards
 from sitebuild.command_line import command_line
 from sitebuild.convergence import convergence
 from sitebuild.diagrams.part import diagram
 from sitebuild.functions import functions
 from sitebuild.glossary import directives, indexed
+from sitebuild.live import live
 from sitebuild.mistakes.part import mistakes
 from sitebuild.notebook import notebook
 from sitebuild.objectives import objectives
@@ -45,10 +47,12 @@ Part = Callable[[Place, str, str], str]
 
 PARTS: dict[str, Part] = {
     "before_after": before_after,
+    "cards": cards,
     "command_line": command_line,
     "convergence": convergence,
     "diagram": diagram,
     "functions": functions,
+    "live": live,
     "mistakes": mistakes,
     "metu_shot": metu_shot,
     "minutes": minutes_table,

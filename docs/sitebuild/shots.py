@@ -10,15 +10,15 @@ from sitebuild.place import Place
 
 def picture(place: Place, name: str, words: str = "") -> str:
     """Show a scene; ``words`` are for those who don't see it."""
-    image, _ = _image(place, pictures.shot(name), words)
-    return f'<p class="wide">{image}</p>\n'
+    shown, _ = image(place, pictures.shot(name), words)
+    return f'<p class="wide">{shown}</p>\n'
 
 
 def before_after(place: Place, name: str, words: str = "") -> str:  # noqa: ARG001
     """Show a module's scene without the effect and with it."""
     before, after = pictures.shot(f"before/{name}"), pictures.shot(name)
-    left, _ = _image(place, before, f"{after.title}: the scene without it")
-    right, _ = _image(place, after, f"{after.title}: the same scene with it")
+    left, _ = image(place, before, f"{after.title}: the scene without it")
+    right, _ = image(place, after, f"{after.title}: the same scene with it")
     return f"""<figure class="before-after">
 <div class="pair">
 <div class="before">{left}<span>without</span></div>
@@ -32,10 +32,10 @@ def before_after(place: Place, name: str, words: str = "") -> str:  # noqa: ARG0
 def shot(place: Place, name: str, words: str = "") -> str:  # noqa: ARG001
     """Show a scene under its title, with its command, its receipt and its file."""
     planned = pictures.shot(name)
-    image, receipt = _image(place, planned)
+    shown, receipt = image(place, planned)
     text = pictures.receipt_text(planned, receipt) if receipt else "not rendered in this build"
     file = place.address(f"_scenes/{name.replace('/', '-')}.yaml", planned.scene)
-    return laid_out(planned.title, image, planned.command, text, planned.scene, file)
+    return laid_out(planned.title, shown, planned.command, text, planned.scene, file)
 
 
 def laid_out(title: str, image: str, command: str, receipt: str, scene: Path, file: str) -> str:
@@ -73,7 +73,7 @@ def laid_out(title: str, image: str, command: str, receipt: str, scene: Path, fi
 """
 
 
-def _image(
+def image(
     place: Place, planned: pictures.Shot, alternative: str = ""
 ) -> tuple[str, dict[str, Any]]:
     """Have the picture made; return it as HTML, and its receipt, which is empty for a blank one."""

@@ -7,6 +7,7 @@ from sitebuild.mistakes.bullets import Bullet, bullets, plain
 from sitebuild.mistakes.catalog import look, look_at
 from sitebuild.mistakes.figures import STUDIO, Figure, blank
 from sitebuild.mistakes.look import SIZE
+from sitebuild.mistakes.plots import is_plot
 from sitebuild.mistakes.submissions import submission
 from sitebuild.place import Place
 
@@ -65,7 +66,8 @@ def of_bullets(name: str, words: str) -> list[tuple[Bullet, list[str]]]:
 
 def _shown(figure: Figure, bullet: Bullet | None, address: str, note: str) -> str:
     """One figure; its caption is Markdown between blank lines."""
-    shows = look(figure.function, figure.seen).shows
+    looked = look(figure.function, figure.seen)
+    shows = looked.shows
     if bullet is None:
         kind, caption = "right", f"**Right.** {shows}."
         alternative = f"{figure.function} as it should be. {shows}."
@@ -74,6 +76,8 @@ def _shown(figure: Figure, bullet: Bullet | None, address: str, note: str) -> st
         said = "" if about.strip(".").lower() == bullet.title.strip(".").lower() else f" {about}"
         kind, caption = "wrong", f"**{bullet.title}**{said} {note}".rstrip()
         alternative = plain(f"{figure.function} with a mistake. {about} {bullet.text} {note}")
+    if is_plot(looked.draw):
+        kind += " plot"
     width, height = SIZE
     return f"""<figure class="{kind}">
 <img src="{address}" alt="{escape(alternative)}" width="{width}" height="{height}" loading="lazy">

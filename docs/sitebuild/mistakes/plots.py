@@ -30,6 +30,11 @@ def plot(draw: Plot, *, curve: bool = False) -> Draw:
     return partial(_plotted, draw, curve)
 
 
+def is_plot(draw: Draw) -> bool:
+    """True if a ``Draw`` makes a plot, and no picture."""
+    return getattr(draw, "func", None) is _plotted
+
+
 def _plotted(draw: Plot, curve: bool, made: ModuleType, right: ModuleType) -> Image.Image:
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure

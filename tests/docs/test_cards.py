@@ -1,0 +1,21 @@
+"""The home page shows each module once, the warm-up first, with minutes and what comes before it."""
+
+import re
+from pathlib import Path
+
+from course.modules import COURSE
+
+
+def test_each_module_has_a_card_in_the_order_of_the_course(site: Path) -> None:
+    text = (site / "index.html").read_text(encoding="utf-8")
+    shown = re.findall(r'<li><a href="modules/(\w+)\.html">.*?</li>', text, re.DOTALL)
+    assert shown == ["sampling", *(module for module in COURSE if module != "sampling")]
+
+
+def test_cards_say_how_long_it_takes_and_after_what(site: Path) -> None:
+    text = (site / "index.html").read_text(encoding="utf-8")
+    card = re.search(r'<li><a href="modules/soft_shadows\.html">(.*?)</li>', text, re.DOTALL)
+    assert card
+    assert "You write the functions that choose points on a light" in card[1]
+    assert re.search(r"long: \d+ \+ 150 minutes, after sampling and supersampling", card[1])
+    assert "<img" in card[1]

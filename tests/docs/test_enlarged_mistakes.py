@@ -1,0 +1,40 @@
+"""Pictures of mistakes are enlarged beside what is right and the difference of both, by mouse and by keyboard."""
+
+from pathlib import Path
+from typing import Any
+
+from tests.browser import tab_to, untroubled
+
+
+def test_a_mistake_opens_beside_what_is_right(browser: Any, site: Path) -> None:
+    with untroubled(browser) as page:
+        page.goto((site / "modules" / "soft_shadows.html").as_uri())
+        tab_to(page, ".mistakes button", 400)
+        page.keyboard.press("Enter")
+        dialog = page.locator("dialog.mistake")
+        assert dialog.is_visible()
+        captions = dialog.locator("figcaption").all_text_contents()
+        assert [caption.partition(",")[0] for caption in captions] == [
+            "Right",
+            "With the mistake",
+            "Difference",
+        ]
+        right, wrong, *both = dialog.locator("img").evaluate_all(
+            "(all) => all.map((each) => each.src)"
+        )
+        assert both == [right, wrong]
+        group = page.locator(".mistakes").first
+        assert right == group.locator("figure.right img").evaluate("(each) => each.src")
+        page.keyboard.press("ArrowRight")
+        assert dialog.locator("img").nth(1).evaluate("(each) => each.src") != wrong
+        page.keyboard.press("ArrowLeft")
+        page.keyboard.press("Escape")
+        assert not dialog.is_visible()
+        # Whoever closes it is where it was opened.
+        assert page.evaluate("document.activeElement.matches('.mistakes button')")
+
+
+def test_plots_are_marked_so_that_the_dark_scheme_can_turn_them(site: Path) -> None:
+    text = (site / "modules" / "soft_shadows.html").read_text(encoding="utf-8")
+    assert '<figure class="right plot">' in text
+    assert '<figure class="wrong">' in text
