@@ -267,11 +267,12 @@ void main() {
     measure();
   };
 
+  const marked = new Map();
   const seen = new IntersectionObserver((entries) => {
     for (const entry of entries) {
       if (!entry.isIntersecting) continue;
       seen.unobserve(entry.target);
-      const figure = entry.target.nextElementSibling;
+      const figure = marked.get(entry.target);
       if (made()) started(figure, VIEWS[figure.dataset.view]);
     }
   }, { rootMargin: "400px" });
@@ -279,6 +280,7 @@ void main() {
   for (const figure of document.querySelectorAll("figure.live")) {
     const mark = document.createElement("div");
     figure.before(mark);
+    marked.set(mark, figure);
     seen.observe(mark);
   }
 }

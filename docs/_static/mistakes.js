@@ -27,6 +27,7 @@
     close.addEventListener("click", () => dialog.close());
     dialog.replaceChildren(panes, words, close);
     if (!dialog.open) dialog.showModal();
+    close.focus();
   };
   dialog.addEventListener("keydown", (event) => {
     const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];

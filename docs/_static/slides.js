@@ -36,7 +36,7 @@
     const title = section.querySelector(":scope > h1, :scope > h2, :scope > h3");
     let slide = made(title, section === page);
     for (const node of [...section.children]) {
-      if (node === title || node.tagName === "SPAN" || node.tagName === "SCRIPT") continue;
+      if (node === title || ["SPAN", "SCRIPT"].includes(node.tagName)) continue;
       if (node.tagName === "SECTION") {
         end(slide, slides);
         slide = made(title, false);

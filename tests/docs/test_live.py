@@ -75,7 +75,7 @@ def test_pictures_are_seen_and_differ_by_the_effect_alone(
 
 def test_more_samples_lower_the_error_of_what_has_no_bias(browser: Any, site: Path) -> None:
     with untroubled(browser) as page:
-        figure = opened(page, site, "modules/soft_shadows")
+        figure = opened(page, site, "modules/motion_blur")
         samples = figure.get_by_label("Samples a pixel")
         found = []
         for power in (0, 6):
