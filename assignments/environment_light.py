@@ -87,10 +87,10 @@ def sample_direction(rows, columns, u):
 
     Task: environment_light.sample_direction.
     """
-    if np.ndim(columns) != 2 or np.shape(rows) != np.shape(columns)[:1]:
-        raise ValueError(
-            f"rows and columns must have shapes (H,) and (H, W), got {np.shape(rows)} and {np.shape(columns)}"
-        )
+    if np.ndim(rows) != 1:
+        raise ValueError(f"rows must have shape (H,), got {np.shape(rows)}")
+    if np.ndim(columns) != 2 or len(columns) != len(rows):
+        raise ValueError(f"columns must have shape ({len(rows)}, W), got {np.shape(columns)}")
     if np.ndim(u) != 2 or np.shape(u)[0] != 2:
         raise ValueError(f"u must have shape (2, N), got {np.shape(u)}")
     # TODO environment_light.sample_direction: write your solution here
@@ -180,10 +180,10 @@ def draw_alias(probability, alias, u):
 
     Task: environment_light.draw_alias.
     """
-    if np.ndim(probability) != 1 or np.shape(alias) != np.shape(probability):
-        raise ValueError(
-            f"probability and alias must have the same shape (K,), got {np.shape(probability)} and {np.shape(alias)}"
-        )
+    if np.ndim(probability) != 1:
+        raise ValueError(f"probability must have shape (K,), got {np.shape(probability)}")
+    if np.shape(alias) != np.shape(probability):
+        raise ValueError(f"alias must have shape {np.shape(probability)}, got {np.shape(alias)}")
     if np.ndim(u) != 1:
         raise ValueError(f"u must have shape (N,), got {np.shape(u)}")
     # TODO environment_light.draw_alias: write your solution here

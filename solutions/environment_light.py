@@ -99,17 +99,16 @@ def sample_direction(rows, columns, u):
 
     Task: environment_light.sample_direction.
     """
-    if np.ndim(columns) != 2 or np.shape(rows) != np.shape(columns)[:1]:
-        raise ValueError(
-            f"rows and columns must have shapes (H,) and (H, W), got {np.shape(rows)} and {np.shape(columns)}"
-        )
+    if np.ndim(rows) != 1:
+        raise ValueError(f"rows must have shape (H,), got {np.shape(rows)}")
+    if np.ndim(columns) != 2 or len(columns) != len(rows):
+        raise ValueError(f"columns must have shape ({len(rows)}, W), got {np.shape(columns)}")
     if np.ndim(u) != 2 or np.shape(u)[0] != 2:
         raise ValueError(f"u must have shape (2, N), got {np.shape(u)}")
     ### BEGIN SOLUTION
     height, width = columns.shape
-    u0, u1 = np.asarray(u, np.float64)
-    # Added to the number of a row, a number next to 1 must not become 1.
-    u1 = np.minimum(u1, 1 - 2.0**-40)
+    # Numbers that are rounded to 1, or that become it when a row is added to them, lie in the last texel.
+    u0, u1 = np.minimum(np.asarray(u, np.float64), 1 - 2.0**-40)
     row = np.searchsorted(rows, u0, side="right")
     # One search for all rows: the edges of row i are moved up by i, so that they stand in one rising list.
     texel = np.searchsorted((columns + np.arange(height)[:, None]).ravel(), u1 + row, side="right")
@@ -240,10 +239,10 @@ def draw_alias(probability, alias, u):
 
     Task: environment_light.draw_alias.
     """
-    if np.ndim(probability) != 1 or np.shape(alias) != np.shape(probability):
-        raise ValueError(
-            f"probability and alias must have the same shape (K,), got {np.shape(probability)} and {np.shape(alias)}"
-        )
+    if np.ndim(probability) != 1:
+        raise ValueError(f"probability must have shape (K,), got {np.shape(probability)}")
+    if np.shape(alias) != np.shape(probability):
+        raise ValueError(f"alias must have shape {np.shape(probability)}, got {np.shape(alias)}")
     if np.ndim(u) != 1:
         raise ValueError(f"u must have shape (N,), got {np.shape(u)}")
     ### BEGIN SOLUTION
