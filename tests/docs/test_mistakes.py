@@ -107,8 +107,9 @@ class Figures(HTMLParser):
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
         given = {name: value or "" for name, value in attrs}
-        if tag == "figure" and given.get("class") in ("right", "wrong"):
-            self.found.append((given["class"], {}, []))
+        kind = given.get("class", "").partition(" ")[0]
+        if tag == "figure" and kind in ("right", "wrong"):
+            self.found.append((kind, {}, []))
             self._inside = True
         elif tag == "img" and self._inside:
             self.found[-1][1].update(given)

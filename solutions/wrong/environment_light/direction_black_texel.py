@@ -10,15 +10,14 @@ SAYS = "A number that is equal to a sum belongs to the texel behind it: yours ma
 
 def sample_direction(rows, columns, u):
     """With a mistake."""
-    if np.ndim(columns) != 2 or np.shape(rows) != np.shape(columns)[:1]:
-        raise ValueError(
-            f"rows and columns must have shapes (H,) and (H, W), got {np.shape(rows)} and {np.shape(columns)}"
-        )
+    if np.ndim(rows) != 1:
+        raise ValueError(f"rows must have shape (H,), got {np.shape(rows)}")
+    if np.ndim(columns) != 2 or len(columns) != len(rows):
+        raise ValueError(f"columns must have shape ({len(rows)}, W), got {np.shape(columns)}")
     if np.ndim(u) != 2 or np.shape(u)[0] != 2:
         raise ValueError(f"u must have shape (2, N), got {np.shape(u)}")
     height, width = columns.shape
-    u0, u1 = np.asarray(u, np.float64)
-    u1 = np.minimum(u1, 1 - 2.0**-40)
+    u0, u1 = np.minimum(np.asarray(u, np.float64), 1 - 2.0**-40)
     row = np.searchsorted(rows, u0, side="left")
     texel = np.searchsorted((columns + np.arange(height)[:, None]).ravel(), u1 + row, side="right")
     column = np.minimum(texel - row * width, width - 1)

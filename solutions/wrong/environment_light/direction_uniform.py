@@ -10,15 +10,14 @@ SAYS = "Your directions don't know of the picture: all are alike."
 
 def sample_direction(rows, columns, u):
     """With a mistake."""
-    if np.ndim(columns) != 2 or np.shape(rows) != np.shape(columns)[:1]:
-        raise ValueError(
-            f"rows and columns must have shapes (H,) and (H, W), got {np.shape(rows)} and {np.shape(columns)}"
-        )
+    if np.ndim(rows) != 1:
+        raise ValueError(f"rows must have shape (H,), got {np.shape(rows)}")
+    if np.ndim(columns) != 2 or len(columns) != len(rows):
+        raise ValueError(f"columns must have shape ({len(rows)}, W), got {np.shape(columns)}")
     if np.ndim(u) != 2 or np.shape(u)[0] != 2:
         raise ValueError(f"u must have shape (2, N), got {np.shape(u)}")
     height, width = columns.shape
-    u0, u1 = np.asarray(u, np.float64)
-    u1 = np.minimum(u1, 1 - 2.0**-40)
+    u0, u1 = np.minimum(np.asarray(u, np.float64), 1 - 2.0**-40)
     rows = np.arange(1, height + 1) / height
     columns = np.tile(np.arange(1, width + 1) / width, (height, 1))
     row = np.searchsorted(rows, u0, side="right")

@@ -10,10 +10,10 @@ SAYS = "In the alias's part the place isn't counted from the probability on."
 
 def draw_alias(probability, alias, u):
     """With a mistake."""
-    if np.ndim(probability) != 1 or np.shape(alias) != np.shape(probability):
-        raise ValueError(
-            f"probability and alias must have the same shape (K,), got {np.shape(probability)} and {np.shape(alias)}"
-        )
+    if np.ndim(probability) != 1:
+        raise ValueError(f"probability must have shape (K,), got {np.shape(probability)}")
+    if np.shape(alias) != np.shape(probability):
+        raise ValueError(f"alias must have shape {np.shape(probability)}, got {np.shape(alias)}")
     if np.ndim(u) != 1:
         raise ValueError(f"u must have shape (N,), got {np.shape(u)}")
     place = np.asarray(u, np.float64) * len(probability)
