@@ -101,6 +101,8 @@ DTYPES: dict[str, Any] = {
 }
 """Numbers of a result: a dtype, or a kind of which any dtype will do."""
 
+_KINDS = {np.bool_: "bool", "int": "whole", np.int32: "whole", np.uint32: "whole"}
+
 Size = int | str | tuple[tuple[str, ...], int]
 """A number, a word, or words whose sizes are multiplied and then divided by a number."""
 
@@ -126,13 +128,7 @@ class Result:
     @cached_property
     def kind(self) -> str:
         """Condition for results: "" (floating and finite), "unit", "infinite", "whole" or "bool"."""
-        if self.unit:
-            return "unit"
-        if self.dtype is np.bool_:
-            return "bool"
-        if self.dtype in ("int", np.int32, np.uint32):
-            return "whole"
-        return "" if self.finite else "infinite"
+        return "unit" if self.unit else _KINDS.get(self.dtype, "" if self.finite else "infinite")
 
     @cached_property
     def sizes(self) -> tuple[Size, ...]:
@@ -186,8 +182,7 @@ def parsed(text: str) -> Contract:
     before, _, after = text.partition("->")
     pairs = [part.partition(":") for part in before.split(",")]
     arguments = tuple((name.strip(), shape.strip()) for name, _, shape in pairs)
-    results = []
-    several = False
+    results, several = [], False
     for part in after.split(","):
         name, _, rest = part.partition(":")
         words = rest.split()
@@ -213,9 +208,7 @@ def _size(word: str) -> Size:
 
 
 def _known(size: Size, known: dict[str, int]) -> int | str:
-    if isinstance(size, int):
-        return size
-    if isinstance(size, str):
-        return known.get(size, size)
+    if not isinstance(size, tuple):
+        return known.get(size, size) if isinstance(size, str) else size
     words, divisor = size
     return prod(known[word] for word in words) // divisor
