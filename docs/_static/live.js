@@ -1,5 +1,5 @@
 // Pictures that are computed as a slider moves: distribution ray tracing in a fragment shader, beside the same scene
-// without the effect. <figure class="live" data-view="NAME" hidden> asks for one; without WebGL 2 it stays hidden, and the
+// without the effect. <figure class="computed" data-view="NAME" hidden> asks for one; without WebGL 2 it stays hidden, and the
 // page's other pictures are there. One context draws for all figures of a page.
 {
   const WIDTH = 360, HEIGHT = 270;
@@ -277,7 +277,7 @@ void main() {
     }
   }, { rootMargin: "400px" });
   // A hidden figure is nowhere, so its place is marked by an empty line before it.
-  for (const figure of document.querySelectorAll("figure.live")) {
+  for (const figure of document.querySelectorAll("figure.computed")) {
     const mark = document.createElement("div");
     figure.before(mark);
     marked.set(mark, figure);

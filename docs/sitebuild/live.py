@@ -21,4 +21,4 @@ def live(place: Place, name: str, words: str = "") -> str:  # noqa: ARG001
     known = re.findall(r"^    (\w+): \{", text, re.MULTILINE)
     if name not in known:
         raise CourseError(f"live.js has no view {name}; it has {', '.join(known)}")
-    return f'<figure class="live" data-view="{name}" hidden></figure>\n'
+    return f'<figure class="computed" data-view="{name}" hidden></figure>\n'

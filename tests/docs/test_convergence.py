@@ -369,7 +369,8 @@ def test_the_plot_of_peers_has_the_numbers_of_its_tables(form: str) -> None:
         assert len(shown) == len(drawn)
         # The plot has three digits, the table three places.
         for seconds in drawn:
-            assert min(abs(each / seconds - 1) for each in shown) <= 0.006, (form, scene)
+            apart = min(abs(each - seconds) for each in shown)
+            assert apart <= max(0.006 * seconds, 0.0006), (form, scene)
 
 
 # ---------------------------------------------------------------- colours
@@ -424,7 +425,8 @@ def _text(site: Path, name: str) -> str:
 
 def test_every_page_that_estimates_has_its_plots(site: Path) -> None:
     measured = {*BENCHED, *FURTHER_BENCHED, *OWN}
-    assert measured == set(COURSE)
+    # What the film does comes after the rendering, and estimates nothing.
+    assert measured == set(COURSE) - {"film"}
     for module in measured:
         plots = [plot for record in convergence.records(module) for plot in record.plots]
         text = _text(site, f"modules/{module}")

@@ -21,23 +21,23 @@ CODES = """(figure) => [...figure.querySelectorAll("canvas")].map((canvas) =>
 
 def opened(page: Any, site: Path, name: str) -> Any:
     page.goto((site / f"{name}.html").as_uri())
-    figure = page.locator("figure.live").first
+    figure = page.locator("figure.computed").first
     figure.evaluate("(figure) => figure.previousElementSibling.scrollIntoView()")
-    page.wait_for_function("document.querySelector('figure.live .pair p')?.textContent")
+    page.wait_for_function("document.querySelector('figure.computed .pair p')?.textContent")
     return figure
 
 
 def moved(page: Any, slider: Any, value: float) -> None:
     """Move a slider, and wait until errors have been measured anew."""
     page.evaluate(
-        "for (const each of document.querySelectorAll('.live .pair p')) each.textContent = ''"
+        "for (const each of document.querySelectorAll('.computed .pair p')) each.textContent = ''"
     )
     slider.evaluate(
         "(slider, value) => { slider.value = value; slider.dispatchEvent(new Event('input')); }",
         value,
     )
     page.wait_for_function(
-        "[...document.querySelectorAll('.live .pair p')].every((each) => each.textContent)"
+        "[...document.querySelectorAll('.computed .pair p')].every((each) => each.textContent)"
     )
 
 
@@ -97,7 +97,7 @@ def test_the_keyboard_moves_the_sliders(browser: Any, site: Path) -> None:
         for _ in range(12):
             page.keyboard.press("ArrowLeft")
         page.wait_for_timeout(400)
-        page.wait_for_function("document.querySelector('figure.live .pair p').textContent")
+        page.wait_for_function("document.querySelector('figure.computed .pair p').textContent")
         assert slider.get_attribute("aria-valuetext") == "4.2"
         assert figure.evaluate(CODES)[1] != before
 
@@ -107,7 +107,7 @@ def test_without_webgl_the_page_has_its_other_pictures(browser: Any, site: Path)
         page.add_init_script("HTMLCanvasElement.prototype.getContext = () => null")
         page.goto((site / "modules" / "soft_shadows.html").as_uri())
         page.wait_for_timeout(200)
-        assert not page.locator("figure.live").first.is_visible()
+        assert not page.locator("figure.computed").first.is_visible()
         assert page.locator("figure.series").count() >= 1
 
 

@@ -251,7 +251,7 @@ def _encoded(a: Arguments, r: Array) -> tuple[Any, ...]:
 
 def _decoded(a: Arguments, r: Array) -> tuple[Any, ...]:
     back = np.where(r > 0.04045, ((np.abs(r) + 0.055) / 1.055) ** 2.4, r / 12.92)
-    return back, a.linear, 4.0
+    return back, np.clip(a.linear, 0, 1), 4.0
 
 
 def _beyond(draw: Draw) -> Mapping[str, Any]:

@@ -91,7 +91,7 @@ LOOKS = {
         Look(
             "What is left of the number",
             plot(_drawn(1), curve=True),
-            ("draw_rest_is_fraction", "draw_rest_is_u", "draw_rest_own_part"),
+            ("draw_rest_is_fraction",),
         ),
     ),
 }
