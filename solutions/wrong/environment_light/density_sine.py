@@ -22,5 +22,7 @@ def density(weights, direction):
     column = np.clip(column.astype(np.intp), 0, width - 1)
     edge = np.cos(np.pi * np.arange(height + 1) / height)
     solid_angle = 2 * np.pi / width * (edge[:-1] - edge[1:])
-    found = weights[row, column] / (weights.sum() * 2 * np.pi * np.pi / width / height * np.maximum(np.hypot(x, z), 1e-9))
+    found = weights[row, column] / (
+        weights.sum() * 2 * np.pi * np.pi / width / height * np.maximum(np.hypot(x, z), 1e-9)
+    )
     return found.astype(direction.dtype)

@@ -18,4 +18,6 @@ def texel_weights(image):
     width, height = height, width
     edge = np.cos(np.pi * np.arange(height + 1) / height)
     solid_angle = 2 * np.pi / width * (edge[:-1] - edge[1:])
-    return (image.mean(axis=2, dtype=np.float64) * np.resize(solid_angle, image.shape[0])[:, None]).astype(image.dtype)
+    return (
+        image.mean(axis=2, dtype=np.float64) * np.resize(solid_angle, image.shape[0])[:, None]
+    ).astype(image.dtype)

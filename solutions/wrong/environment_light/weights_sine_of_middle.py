@@ -16,5 +16,7 @@ def texel_weights(image):
         raise ValueError(f"image must be >= 0, got {np.min(image)}")
     height, width, _ = image.shape
     edge = np.cos(np.pi * np.arange(height + 1) / height)
-    solid_angle = 2 * np.pi / width * np.pi / height * np.sin(np.pi * (np.arange(height) + 0.5) / height)
+    solid_angle = (
+        2 * np.pi / width * np.pi / height * np.sin(np.pi * (np.arange(height) + 0.5) / height)
+    )
     return (image.mean(axis=2, dtype=np.float64) * solid_angle[:, None]).astype(image.dtype)
