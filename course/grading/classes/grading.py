@@ -9,6 +9,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime
 from pathlib import Path
+from types import MappingProxyType
 
 from course import __version__
 from course.errors import CourseError, OutputError
@@ -130,8 +131,10 @@ def grade_class(folder: Path, out: Path, settings: Settings, runner: Runner) -> 
     # Before hours of grading.
     runner.check(folder, out)
     terms = settings.read()
-    result = grade_all(find_submissions(folder, settings.modules), out, settings, runner)
-    finished = finish(result.submissions, result.reports, out, settings, terms)
+    submissions = find_submissions(folder, settings.modules)
+    earlier = {one.student: report for one in submissions if (report := kept(out, one.student))}
+    result = grade_all(submissions, out, settings, runner)
+    finished = finish(result.submissions, result.reports, out, settings, terms, earlier)
     settings.write(out)
     return replace(result, finished=finished)
 
@@ -204,8 +207,9 @@ def finish(
     out: Path,
     settings: Settings,
     terms: tuple[Rules | None, Sequence[Listed] | None],
+    earlier: Mapping[str, Report] = MappingProxyType({}),
 ) -> Finished:
-    """Write grades.csv, class.html, and with a roster canvas.csv and moodle.csv.
+    """Write grades.csv, class.html, lecture.html, and with a roster canvas.csv and moodle.csv.
 
     The names of the last two begin with ``NOT_CERTAIN`` where a submission was graded without protection.
 
@@ -213,8 +217,10 @@ def finish(
     ----------
     submissions, reports : in the same order
     terms : policy and roster
+    earlier : student -> what an earlier run had found
     """
     from course.grading.reports.classes import Line, write_class_page, write_grades
+    from course.grading.reports.insight import write_lecture_page
 
     rules, roster = terms
     (out / INSTRUCTOR).mkdir(parents=True, exist_ok=True)
@@ -237,7 +243,9 @@ def finish(
         total,
         not_compared=compared.left_out,
         matched=matched,
+        earlier=earlier,
     )
+    write_lecture_page([report for report in reports if not report.trouble], out / "lecture.html")
     scores = {
         one.student: marks[one.student].final if total is not None else TOTAL * one.score
         for one in reports

@@ -24,7 +24,15 @@ _DEVICES = {
     *("con", "prn", "aux", "nul"),
     *(f"{p}{n}" for p in ("com", "lpt") for n in range(1, 10)),
 }
-_OUTPUTS = ("grades.csv", "canvas.csv", "moodle.csv", "class.html", "references_", "instructor")
+_OUTPUTS = (
+    "grades.csv",
+    "canvas.csv",
+    "moodle.csv",
+    "class.html",
+    "lecture.html",
+    "references_",
+    "instructor",
+)
 
 
 @dataclass(frozen=True)

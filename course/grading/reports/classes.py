@@ -17,6 +17,7 @@ from course.grading.classes.policy import Mark
 from course.grading.classes.roster import Listed, Matched
 from course.grading.report import Report, ending, grouped
 from course.grading.reports.formats import clean, finite
+from course.grading.reports.insight import changes, misconceptions, without_name
 from course.grading.reports.page import render
 
 MARKS = ("raw", "adjusted", "final")
@@ -159,6 +160,7 @@ def write_class_page(
     *,
     not_compared: Sequence[tuple[str, str]] = (),
     matched: Matched | None = None,
+    earlier: Mapping[str, Report] = MappingProxyType({}),
 ) -> None:
     """Write the instructor's page; it links to each student's ``STUDENT/report.html`` beside it.
 
@@ -168,6 +170,7 @@ def write_class_page(
     lines, total : as for `write_grades`
     not_compared : student and module of files that were not looked at for likeness
     matched : whose submission is whose; None without a roster
+    earlier : student -> what an earlier run had found
 
     Raises
     ------
@@ -192,6 +195,9 @@ def write_class_page(
         median=median(scores) if scores else 0.0,
         bars=_bars(scores),
         failures=_failures(graded),
+        misconceptions=misconceptions(graded),
+        unnamed=without_name(graded),
+        changes=changes(earlier, graded),
         counts=[
             (str(status), number)
             for status in Status

@@ -269,6 +269,7 @@ def test_the_class_at_a_glance(report: Report, tmp_path: Path) -> None:
     assert links == {
         "./ada/report.html",
         "./bob/report.html",
+        "./lecture.html",
         "./eve%2F..%2Fx%20y/report.html",
     }
     (chart,) = [attributes for tag, attributes in page.tags if tag == "svg"]

@@ -1,0 +1,128 @@
+"""What a class has understood: mistakes counted by name, groups without one, changes, and a page without names."""
+
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from course.grading.checks.result import Result, Status
+from course.grading.known import known
+from course.grading.report import Report
+from course.grading.reports.classes import write_class_page
+from course.grading.reports.insight import (
+    Changed,
+    changes,
+    misconceptions,
+    without_name,
+    write_lecture_page,
+)
+
+
+def result(function: str, check: str, mistake: str = "", *, passed: bool = False) -> Result:
+    module, _, name = function.partition(".")
+    status = Status.PASSED if passed else Status.FAILED
+    return Result(
+        module,
+        name,
+        check,
+        f"Title of {check}",
+        "property",
+        status,
+        float(passed),
+        1.0,
+        expected="1",
+        found="2",
+        mistake=mistake,
+        says=f"You {mistake}." if mistake else "",
+    )
+
+
+def report(student: str, *results: Result) -> Report:
+    return Report(student, results)
+
+
+RIGHT = result("soft_shadows.point_on_sphere", "uniform", passed=True)
+CROWDS = result("soft_shadows.point_on_sphere", "uniform", "crowded-poles")
+UNKNOWN = result("soft_shadows.point_on_sphere", "uniform")
+NOT_WRITTEN = replace(UNKNOWN, status=Status.NOT_ATTEMPTED)
+
+
+def test_mistakes_are_counted_among_those_who_have_written_the_function() -> None:
+    graded = [
+        report("ada", CROWDS, replace(CROWDS, check="moments")),
+        report("bob", CROWDS),
+        report("cyd", RIGHT),
+        report("dan", NOT_WRITTEN),
+    ]
+    (found,) = misconceptions(graded)
+    assert (found.mistake, found.students, found.tried) == ("crowded-poles", ("ada", "bob"), 3)
+    assert found.share == pytest.approx(2 / 3)
+    assert found.says == "You crowded-poles."
+
+
+def test_what_has_no_name_is_grouped_by_the_checks_that_fail() -> None:
+    radius = result("soft_shadows.point_on_sphere", "radius")
+    graded = [
+        report("ada", UNKNOWN, radius),
+        report("bob", UNKNOWN),
+        report("cyd", UNKNOWN),
+        report("dan", CROWDS, radius),
+        report("eve", NOT_WRITTEN),
+    ]
+    found = [(one.checks, one.students) for one in without_name(graded)]
+    assert found == [(("uniform",), ("bob", "cyd")), (("uniform", "radius"), ("ada",))]
+
+
+def test_changes_are_those_of_functions() -> None:
+    earlier = {
+        "ada": report("ada", CROWDS),
+        "bob": report("bob", RIGHT),
+        "cyd": report("cyd", RIGHT),
+    }
+    now = [report("ada", RIGHT), report("bob", UNKNOWN), report("cyd", RIGHT), report("new", RIGHT)]
+    name = "soft_shadows.point_on_sphere"
+    assert changes(earlier, now) == [
+        Changed("bob", 1.0, 0.0, (), (name,)),
+        Changed("ada", 0.0, 1.0, (name,), ()),
+    ]
+
+
+def test_the_page_for_the_lecture_hall_has_no_names(tmp_path: Path) -> None:
+    (poles,) = [one for one in known("soft_shadows") if one.name == "sphere_crowded_poles"]
+    made = replace(CROWDS, mistake=poles.mistake)
+    students = [f"Ada Unmistakable {k}" for k in range(18)]
+    graded = [report(student, made) for student in students] + [
+        report(f"Bob Unmistakable {k}", RIGHT) for k in range(42)
+    ]
+    write_lecture_page(graded, tmp_path / "lecture.html")
+    text = (tmp_path / "lecture.html").read_text(encoding="utf-8")
+    assert "Unmistakable" not in text
+    assert "18 of 60 in <code>point_on_sphere</code>" in text
+    # The picture is that of the course's own submission with the mistake.
+    assert re.search(r"<svg|<img", text)
+
+
+def test_a_page_of_500_students_is_small_and_leads_to_each(tmp_path: Path) -> None:
+    rng = np.random.default_rng(0)
+    checks = [f"check {k}" for k in range(6)]
+    graded = []
+    for k in range(500):
+        results = [
+            result(
+                f"{module}.{name}",
+                check,
+                f"mistake {m}" if (m := rng.integers(40)) < 3 else "",
+                passed=m > 20,
+            )
+            for module, name in (("soft_shadows", "light_grid"), ("glossy", "keep_above"))
+            for check in checks
+        ]
+        graded.append(report(f"student {k}", *results))
+    write_class_page(graded, [], tmp_path / "class.html")
+    text = (tmp_path / "class.html").read_text(encoding="utf-8")
+    assert len(text) < 500_000
+    for k in range(500):
+        assert f'href="./student%20{k}/report.html"' in text
+    assert "<h2>Misconceptions</h2>" in text
