@@ -70,7 +70,7 @@ class DirectLight:
     shaded : ``MaterialTable.shaded_sides``; None if all materials reflect direct light on both sides
     diffuse : (3, M) reflectance
     specular, exponent : (3, M) and (M,) of the highlights; specular is None if no material has one
-    sky : returns the environment's irradiance / pi (3, n), or None for 0. If it is None, the environment is no light
+    sky : function that returns the environment's irradiance / pi (3, n), or None for 0; None without such a light
     """
 
     surface: Surface
@@ -165,8 +165,8 @@ class DirectLight:
         to_light = self._to_light(light, hits, candidates)
         if triangles.bulge is None:
             return unoccluded(origin, to_light, light.limit, stats, time, active=mask)
-        # If a facet faces away from the light, the light's elevation above the horizon of the shading normal is less
-        # than the angle a between both normals. So the cosine to the light is at most sin a.
+        # A facet's normal and its shading normal are an angle a apart. If the facet faces away from the light, the
+        # light is at least 90 degrees - a away from the shading normal. So the cosine to the light is at most sin a.
         most = np.float32(triangles.largest_sine + ROUNDING)
         column = self._turned_away(hits, candidates, to_light, most)
         height = bulge(triangles, hits, candidates.hit(column))

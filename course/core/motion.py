@@ -105,7 +105,7 @@ class MovingAccelerator:
     def _take(
         found: Intersections, other: Intersections, mover: Mover, which: Indices | None = None
     ) -> None:
-        """Put what rays ``which`` (n,) have hit of a mover in the place of what they had found; None for all rays."""
+        """Replace the hits ``found`` of rays ``which`` (n,), None for all, by nearer hits ``other`` on a mover."""
         hit = np.flatnonzero(other.triangle >= 0)
         nearer = hit if which is None else which.take(hit)
         found.triangle[nearer] = other.triangle.take(hit) + np.int32(mover.first)

@@ -10,7 +10,7 @@ from the round surface, higher by
 
 Along an edge, h is a parabola that is perpendicular to the corner normals at both ends. An edge of length L on a sphere
 of radius R has k = L^2 / R, and h at its middle is the sagitta L^2 / (8 R). Hanika ("Hacking the shadow
-terminator", Ray Tracing Gems II, ch. 4) projects the point to the tangent planes instead, which is twice as high.
+terminator", Ray Tracing Gems II, ch. 4) projects the point to the tangent planes instead. His point lies twice as high.
 """
 
 from __future__ import annotations

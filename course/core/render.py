@@ -1,4 +1,7 @@
-"""Render a picture: a schedule chooses the work, an executor does it, and a film accumulates it."""
+"""Render a picture: a schedule chooses the work, an executor does it, and a film accumulates it.
+
+The loop over the rays of a piece of work is ``Integrator.radiance`` in ``integrator.py``.
+"""
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -77,8 +80,8 @@ def render(
 
     def run(work: Iterable[Work], done: float = 0.0, after: float = 1.0) -> bool:
         nonlocal covered
-        # The length of an iterator is unknown. Such a render ends at the deadline, so its progress is the fraction of
-        # the time limit.
+        # The length of an iterator is unknown. A render with one ends at the deadline, so its progress is the fraction
+        # of the time limit.
         pieces = first_pass = inf
         if isinstance(work, Sequence):
             pieces, first_pass = max(len(work), 1), sum(item.order == 0 for item in work)

@@ -4,8 +4,8 @@ A block holds the same range of samples of several pixels. Path p of a block is 
 pixel ``p // samples``. So an array (paths,), reshaped to (pixels, samples), has one row per pixel.
 
 A classic sampler places its points in the pixel (dimensions 0 and 1) by the functions of `supersampling`. In the
-other dimensions it has points of the same kind, shuffled independently. Without that, the sample in the corner of the
-pixel would always use the point in the corner of the light (Cook 1984, section 4.2).
+other dimensions it has points of the same kind, shuffled independently. Without the shuffle, the sample in the corner
+of the pixel would always use the point in the corner of the light (Cook 1984, section 4.2).
 """
 
 from abc import ABC, abstractmethod

@@ -87,7 +87,7 @@ def plan_dimensions(
 
 
 def plan_direct_light(world: World, sky: bool = False) -> DirectLight | None:
-    """Direct light; None if there are no lights or no diffuse or specular terms, unless ``sky`` will be set."""
+    """Direct light; None if no light or no diffuse or specular term is there, and ``sky``, set later, is false."""
     materials = world.materials
     if not sky and not (world.lights and materials.shaded.any()):
         return None

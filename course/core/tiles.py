@@ -20,7 +20,7 @@ PASS = 16
 """Samples per pixel in a whole pass of an extensible sampler."""
 
 PAGE, APART = 1024, 64
-"""In float32 values. Two addresses whose distance is a multiple of PAGE map to the same set of the first-level cache.
+"""Lengths in float32 values. Two addresses whose distance is a multiple of PAGE map to the same set of the first-level cache.
 Rows have sets of their own if their length differs from every multiple of PAGE by at least APART."""
 
 

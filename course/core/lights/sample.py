@@ -13,7 +13,7 @@ TO_A_POINT, TO_A_SURFACE, TO_THE_LIGHT = 1 - 2.0**-20, 1 - 1e-4, 1 + 2.0**-15
 """Lengths of shadow rays, as fractions of the distance to the light. The first is for points that belong to no
 surface. The second is for visible lights: it ends short of their own triangles. The third ends behind a point light
 on a surface, so that the surface blocks it. For a ray of 1/50 of the scene's size that meets the surface at 60 degrees,
-rounding moves the surface by 2^-16 of the ray's length."""
+rounding moves the surface by 2^-16 of the ray's length; the third one allows twice that."""
 
 
 @dataclass(frozen=True)
@@ -24,8 +24,8 @@ class Sample:
     ----------
     to_light : (3, n) or (3, 1) float32, from the shading point to the point on the light, not normalised
     inverse_length : (n,) or (1,) float32, 1 / its length
-    factor : (n,) or (1,) float32; times ``Light.color`` it is the unoccluded irradiance / pi on a surface at right
-        angles to ``to_light``; 0 if the light faces away
+    factor : (n,) or (1,) float32; 0 if the light faces away. ``factor * Light.color`` is the unoccluded irradiance / pi
+        of a surface at right angles to ``to_light``
     """
 
     to_light: Floats32

@@ -1,4 +1,4 @@
-"""Radiance on a screen: the sRGB curve of IEC 61966-2-1, exposure, and heat maps of one number a pixel."""
+"""Radiance on a screen: the sRGB curve of IEC 61966-2-1, white, and heat maps of one number a pixel."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
