@@ -20,8 +20,8 @@ PASS = 16
 """Samples per pixel in a whole pass of an extensible sampler."""
 
 PAGE, APART = 1024, 64
-"""Lengths in float32 values. Two addresses whose distance is a multiple of PAGE map to the same set of the first-level cache.
-Rows have sets of their own if their length differs from every multiple of PAGE by at least APART."""
+"""Lengths in float32 values. Two addresses whose distance is a multiple of PAGE map to the same set of the first-level
+cache. Rows have sets of their own if their length differs from every multiple of PAGE by at least APART."""
 
 
 class Area(Protocol):

@@ -65,8 +65,8 @@ class SphereLight(Light):
         return on_light
 
     def _sample_emitter(self, points: Floats32, u: Floats32) -> Sample:
-        # Drawn on a sphere around the origin, a point is its own normal. Around a distant centre, rounding could move it
-        # by more than the radius.
+        # Drawn on a sphere around the origin, a point is its own normal. Around a distant centre, rounding could move
+        # it by more than the radius.
         from_center = self._on_light(np.zeros(3, np.float32), points, u)
         to_light = from_center + self.center[:, None]
         to_light -= points
