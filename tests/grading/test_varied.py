@@ -9,9 +9,10 @@ EXCUSED = {
     "in 1 of 8 octants": (
         *("u", "pdf", "barycentric", "albedo", "beta"),
         *("radiosity", "emission", "reflectance", "unshot", "patch_radiosity"),
+        *("radiance", "rgb", "encoded"),
     ),
 }
-"""What can't be negative: random numbers, densities, places in a triangle, light and shares of it."""
+"""What can't be negative: random numbers, densities, places in a triangle, light, its colours and shares of it."""
 
 
 @pytest.mark.parametrize("module", COURSE)

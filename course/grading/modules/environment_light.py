@@ -473,7 +473,7 @@ ALIAS_TABLE = function(
 
 
 def _table(draw: Draw) -> tuple[Array, Array]:
-    count = 4 if draw.simple else int(draw.rng.integers(2, 40))
+    count = 4 if draw.simple else int(draw.rng.integers(2, 90))
     probability = draw.uniform(0.1, 0.9, count)
     probability[draw.rng.random(count) < 0.2] = 1
     return probability, draw.rng.permutation(count)
