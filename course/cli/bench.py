@@ -25,7 +25,10 @@ if TYPE_CHECKING:
 DOCUMENTS = PROJECT / "docs"
 FURTHER = ("blurred_transparency", "textures")
 KNOWN = (*MODULES, *FURTHER)
-ELSEWHERE = tuple(module for module in COURSE if module not in KNOWN)
+EXACT = ("film",)
+"""Modules that estimate nothing, so that there is no error to be measured."""
+
+ELSEWHERE = tuple(module for module in COURSE if module not in (*KNOWN, *EXACT))
 """Modules whose measurements are programs of their own: `python -m benchmarks NAME`."""
 
 

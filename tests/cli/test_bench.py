@@ -12,7 +12,7 @@ from benchmarks.__main__ import MEASURES
 from course.benchmarking import measuring
 from course.benchmarking.estimators import BENCHED, FURTHER_BENCHED, Estimator, Module
 from course.benchmarking.measuring import FULL, QUICK, Effort, Measured
-from course.cli.bench import ELSEWHERE
+from course.cli.bench import ELSEWHERE, EXACT
 from course.modules import COURSE, MODULES
 from tests.benchmarking.curves import curve
 from tests.cli.conftest import Run
@@ -174,7 +174,7 @@ def test_help_lists_every_module_with_the_command_that_measures_it(run: Run) -> 
     assert named == [list(BENCHED | FURTHER_BENCHED), list(ELSEWHERE)]
     # The programs are there, and no module is forgotten.
     assert set(ELSEWHERE) <= set(MEASURES)
-    assert {*here.replace(".", "").replace(",", "").split(), *ELSEWHERE} == set(COURSE)
+    assert {*here.replace(".", "").replace(",", "").split(), *ELSEWHERE, *EXACT} == set(COURSE)
 
 
 def test_plots_without_matplotlib_are_refused_before_the_work(

@@ -17,6 +17,7 @@ from course.benchmarking import labels
 from course.benchmarking.estimators import BENCHED, FURTHER_BENCHED
 from course.benchmarking.plot_data import Plot, Record, Series, write_records
 from course.benchmarking.tables import digits
+from course.cli.bench import EXACT
 from course.effects import PROJECT
 from course.errors import CourseError
 from course.modules import COURSE
@@ -425,8 +426,7 @@ def _text(site: Path, name: str) -> str:
 
 def test_every_page_that_estimates_has_its_plots(site: Path) -> None:
     measured = {*BENCHED, *FURTHER_BENCHED, *OWN}
-    # What the film does comes after the rendering, and estimates nothing.
-    assert measured == set(COURSE) - {"film"}
+    assert measured == set(COURSE) - {*EXACT}
     for module in measured:
         plots = [plot for record in convergence.records(module) for plot in record.plots]
         text = _text(site, f"modules/{module}")
