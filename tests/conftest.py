@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from course import Scene, load_scene
 from course import render_scene as rendering
+from course.rendering.threads import default_threads
 from tests.browser import browser
 from tests.forms import FORMS
 from tests.once import Once, made_once, shared_folder
@@ -30,6 +31,11 @@ os.environ.setdefault("COURSE_NO_COMPILER", "1")
 # A shell's background jobs begin with Ctrl-C ignored, and so would every process that a test interrupts.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+def pytest_xdist_auto_num_workers() -> int:
+    """One process more than there are cores: many tests wait for processes that they have started."""
+    return default_threads() + 1
 
 
 @pytest.hookimpl(wrapper=True)
