@@ -94,8 +94,9 @@ def _in_texels(
 ) -> Floats32:
     """Directions (3, n) that are uniform over the solid angles of texels (n,), by numbers (n,) in [0, 1]."""
     row, column = np.divmod(texel, width)
-    edge = np.cos(np.pi * np.arange(height + 1) / height)
-    y = edge[row] + down * (edge[row + 1] - edge[row])
-    phi = 2 * np.pi * ((column + along) / width - 0.5)
-    ring = np.sqrt((1 - y) * (1 + y))
-    return np.stack((ring * np.sin(phi), y, -ring * np.cos(phi))).astype(np.float32)
+    heights = np.cos(np.linspace(0, np.pi, height + 1))
+    up = heights[row] + down * np.diff(heights)[row]
+    azimuth = np.pi * (2 * (column + along) / width - 1)
+    radius = np.sqrt((1 - up) * (1 + up))
+    direction = np.stack((radius * np.sin(azimuth), up, -radius * np.cos(azimuth)))
+    return direction.astype(np.float32)

@@ -116,9 +116,9 @@ TEXEL_WEIGHTS = function(
 
 def _shares(weights: Array) -> tuple[Array, Array]:
     """Rows (H,) and columns (H, W), cumulated."""
-    each = weights.sum(axis=1)
-    filled = np.where(each[:, None] > 0, weights, 1)
-    rows, columns = np.cumsum(each), np.cumsum(filled, axis=1)
+    of_rows = weights.sum(axis=1)
+    filled = np.where(of_rows[:, None] > 0, weights, 1)
+    rows, columns = np.cumsum(of_rows), np.cumsum(filled, axis=1)
     return rows / rows[-1], columns / columns[:, -1:]
 
 

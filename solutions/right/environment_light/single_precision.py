@@ -3,6 +3,18 @@
 import numpy as np
 
 
+def texel_weights(image):
+    """By the heights of the rows' edges."""
+    if np.ndim(image) != 3 or np.shape(image)[2] != 3 or not np.size(image):
+        raise ValueError("image must have shape (H, W, 3)")
+    if not (image >= 0).all():
+        raise ValueError("image must be >= 0")
+    heights = np.cos(np.linspace(0, np.pi, len(image) + 1))
+    per_texel = -np.diff(heights) * (2 * np.pi / image.shape[1])
+    power = np.einsum("ijk,i->ij", image.astype(np.float64), per_texel)
+    return (power / 3).astype(image.dtype)
+
+
 def sample_direction(rows, columns, u):
     """By the smallest sum that is larger, row by row of the picture."""
     if np.ndim(columns) != 2 or np.shape(rows) != np.shape(columns)[:1]:

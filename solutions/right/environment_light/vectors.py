@@ -1,6 +1,31 @@
 """Sums with their beginnings, and the density by way of cumulate's own sums."""
 
+from collections import deque
+
 import numpy as np
+
+
+def alias_table(weights):
+    """Two queues: who lacks weight, and who has too much."""
+    if np.ndim(weights) != 1:
+        raise ValueError("weights must have shape (K,)")
+    if not (weights >= 0).all() or not weights.any():
+        raise ValueError("weights must be >= 0, and not 0 everywhere")
+    share = weights.astype(np.float64) / weights.max()
+    share *= len(share) / share.sum()
+    most = int(weights.argmax())
+    poor, rich = (
+        deque(np.flatnonzero(share < 1).tolist()),
+        deque(np.flatnonzero(share >= 1).tolist()),
+    )
+    probability, alias = (weights > 0).astype(np.float64), np.full(len(share), most)
+    while poor and rich:
+        k, giver = poor.popleft(), rich[0]
+        probability[k], alias[k] = share[k], giver
+        share[giver] = share[giver] + share[k] - 1
+        if share[giver] < 1:
+            poor.append(rich.popleft())
+    return probability, alias
 
 
 def cumulate(weights):

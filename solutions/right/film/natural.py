@@ -51,3 +51,19 @@ def quantize(encoded, u):
     if np.shape(u) != np.shape(encoded):
         raise ValueError("u must have the shape of encoded")
     return np.clip((255 * encoded + u).astype(int), 0, 255)
+
+
+def convert_gamut(rgb, source, target):
+    """One matrix, by einsum."""
+    _check_batch("rgb", rgb)
+    for gamut in (source, target):
+        if np.shape(gamut) != (2, 4):
+            raise ValueError("source and target must have shape (2, 4)")
+    basis = []
+    for gamut in (source, target):
+        xy = np.array(gamut, dtype=float)
+        xyz = np.vstack([xy, 1 - xy.sum(axis=0)])
+        lamps, white = xyz[:, :3], xyz[:, 3] / xyz[1, 3]
+        basis.append(lamps * (np.linalg.inv(lamps) @ white))
+    there = np.linalg.inv(basis[1]).dot(basis[0])
+    return np.einsum("ij,jn->in", there.astype(rgb.dtype), rgb)
