@@ -90,11 +90,11 @@ def test_infinity_is_refused(path: str, number: int, kind: str) -> None:
 @pytest.mark.parametrize(("path", "number"), [case[:2] for case in NUMBERS if case[2] == ""])
 def test_finite_numbers_whose_sum_overflows_are_taken(path: str, number: int) -> None:
     """Their sum is looked at first, and each only if that isn't finite; infinities of both signs are no way past it."""
-    taken = spoiled(path, lambda a: np.full_like(a, 3e38, np.float32), number)()
+    taken = spoiled(path, lambda a: np.full_like(a, 3e38), number)()
     assert taken is not None
 
     def spoil(array: Any) -> Any:
-        changed = np.zeros((*array.shape[:-1], max(array.shape[-1], 2)), np.float32)
+        changed = np.zeros((*array.shape[:-1], max(array.shape[-1], 2)), array.dtype)
         changed[..., 0], changed[..., 1] = np.inf, -np.inf
         return changed[..., : array.shape[-1]]
 

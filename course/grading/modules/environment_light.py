@@ -119,7 +119,7 @@ def _shares(weights: Array) -> tuple[Array, Array]:
     of_rows = weights.sum(axis=1)
     filled = np.where(of_rows[:, None] > 0, weights, 1)
     rows, columns = np.cumsum(of_rows), np.cumsum(filled, axis=1)
-    return rows / rows[-1], columns / columns[:, -1:]
+    return np.divide(rows, rows[-1]), np.divide(columns, columns[:, -1:])
 
 
 def _ends(_: Arguments, r: Any) -> Array:
@@ -341,7 +341,7 @@ SAMPLE_DIRECTION = function(
 def _in_texels(draw: Draw) -> Mapping[str, Any]:
     """Directions within texels of weights, black ones too."""
     weights = _weights(draw)
-    height, width = weights.shape
+    height, width = np.shape(weights)
     row, column = draw.rng.integers(0, height, draw.n), draw.rng.integers(0, width, draw.n)
     place = INSIDE + (1 - 2 * INSIDE) * draw.rng.random((2, draw.n))
     theta, phi = pi * (row + place[0]) / height, 2 * pi * ((column + place[1]) / width - 0.5)
