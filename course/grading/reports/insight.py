@@ -89,7 +89,7 @@ def misconceptions(graded: Sequence[Report]) -> list[Misconception]:
         Misconception(*key, next(iter(said.values())), tuple(said), tried[key[:2]])
         for key, said in made.items()
     ]
-    order = list(dict.fromkeys(function.module for _, function in _functions(graded)))
+    order = list(dict.fromkeys(module for module, _ in tried))
     return sorted(found, key=lambda one: (order.index(one.module), -len(one.students), one.mistake))
 
 
