@@ -139,7 +139,7 @@
       if (!still) turn(at + (event.clientX < innerWidth / 3 ? -1 : 1));
     });
     addEventListener("load", () => fit(boxes[at]));
-    turn(Number(asked.get("slides") || 1) - 1);
+    turn((parseInt(asked.get("slides"), 10) || 1) - 1);
   };
 
   if (page && /\/modules\//.test(location.pathname)) {

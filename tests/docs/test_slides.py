@@ -64,6 +64,14 @@ def test_keys_turn_slides_and_sliders_keep_theirs(browser: Any, site: Path) -> N
         page.wait_for_url(file.as_uri())
 
 
+def test_an_address_with_another_number_opens_a_slide(browser: Any, site: Path) -> None:
+    with untroubled(browser) as page:
+        for asked, shown in (("nonsense", 1), ("2.5", 2), ("-3", 1), ("", 1)):
+            page.goto(f"{(site / 'modules' / 'glossy.html').as_uri()}?slides={asked}")
+            page.wait_for_selector(DECK)
+            assert page.url.endswith(f"?slides={shown}")
+
+
 def test_the_speakers_window_follows_and_leads(browser: Any, site: Path) -> None:
     with untroubled(browser) as page:
         page.goto(f"{(site / 'modules' / 'glossy.html').as_uri()}?slides=3")
