@@ -61,7 +61,8 @@ class LightChoice(ABC):
         keys: dict[Any, int] = {}
         kinds, colors, shares = list[int](), list[Floats32](), list[float]()
         for number, light in enumerate(self.lights):
-            share = light.color.max()
+            # A light whose colour is lost to float32, in a scene of 1e30, is black.
+            share = float(light.color.max()) or 1.0
             key = number if not self.together else _kind(light, light.color / share)
             kind = keys.setdefault(key, len(keys))
             kinds.append(kind)
@@ -129,7 +130,7 @@ class PowerChoice(LightChoice):
     def _ends(self) -> Floats32:
         """Ends (L,) of the lights' shares of [0, 1)."""
         power = np.array([power_of(light) for light in self.lights])
-        share = (1 - UNIFORM) * power / power.sum() + UNIFORM / len(power)
+        share = (1 - UNIFORM) * power / (power.sum() or 1) + UNIFORM / len(power)
         ends = np.cumsum(share)
         # In float32, as the numbers are that they are compared with.
         return np.asarray(ends / ends[-1], np.float32)

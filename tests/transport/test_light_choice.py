@@ -172,3 +172,21 @@ def test_few_lights_are_all_asked(make_scene: MakeScene) -> None:
     assert world.choice is None
     # A choice of one is none.
     assert seen(make_scene, [lamp], "power").compiled.world.choice is None
+
+
+@pytest.mark.parametrize("suns", [0, 1])
+def test_lights_whose_colours_are_lost_to_float32_are_black(
+    make_scene: MakeScene, suns: int
+) -> None:
+    lamp = {"type": "point", "intensity": 1}
+    sun = {"type": "directional", "direction": [0, -1, 0], "irradiance": 3}
+    lights = [lamp | {"position": [x, 1e30, 0]} for x in (-1e30, 1e30)] + [sun] * suns
+    scene = make_scene(
+        camera={"eye": [0, 3e30, 0], "look_at": [0, 0, 0], "up": [0, 0, 1]},
+        objects=[{"shape": "quad", "material": "grey", "width": 8e30, "depth": 8e30}],
+        integrator={"light_sampling": "power"},
+        lights=lights,
+    )
+    linear = render(scene, spp=16).linear
+    assert np.isfinite(linear).all()
+    assert (linear.mean() > 0) == bool(suns)
