@@ -7,7 +7,7 @@ for (const figure of document.querySelectorAll(".before-after")) {
   slider.min = 0;
   slider.max = 100;
   slider.value = 50;
-  slider.setAttribute("aria-label", "Where the picture without the effect ends, in percent of the width");
+  slider.setAttribute("aria-label", "Where the left picture ends, in percent of the width");
   const show = () => pair.style.setProperty("--border", slider.value + "%");
   slider.addEventListener("input", show);
 

@@ -1,7 +1,8 @@
 """The generated parts of pages, and when they are made anew.
 
 A part is asked for by ``<!-- site: KIND NAME WORDS -->`` on a line of its own; `PARTS` has the kinds. Unasked, a
-module's objectives stand before "The phenomenon", which begins with the pair of its two scenes' pictures if it has two.
+module's objectives stand before "The phenomenon", which begins with the pair of its two scenes' pictures if it has two
+that differ.
 """
 
 import re
@@ -22,6 +23,7 @@ from sitebuild.convergence import convergence
 from sitebuild.diagrams.part import diagram
 from sitebuild.functions import functions
 from sitebuild.glossary import directives, indexed
+from sitebuild.heat_maps import INSTEAD, heat_map
 from sitebuild.live import live
 from sitebuild.mistakes.part import mistakes
 from sitebuild.notebook import notebook
@@ -52,6 +54,7 @@ PARTS: dict[str, Part] = {
     "convergence": convergence,
     "diagram": diagram,
     "functions": functions,
+    "heat_map": heat_map,
     "live": live,
     "mistakes": mistakes,
     "metu_shot": metu_shot,
@@ -132,7 +135,7 @@ class Site:
         if folder == "modules":
             text = indexed(module, linked(module, text))
             heading = f"\n<!-- site: objectives {module} -->\n\n## The phenomenon\n"
-            if pictures.scene_path(f"before/{module}").is_file():
+            if module not in INSTEAD and pictures.scene_path(f"before/{module}").is_file():
                 heading += f"\n<!-- site: before_after {module} -->\n"
             text = text.replace("\n## The phenomenon\n", heading, 1)
         if page == "glossary":

@@ -144,8 +144,12 @@ def test_a_module_with_two_scenes_shows_both(
     page = pages[site / "modules" / f"{module}.html"]
     shown = [given["src"].rpartition("/")[2] for given in page.of("img")]
     pair = [f"before-{module}.webp", f"{module}.webp"]
+    # The same picture by Embree and by the hierarchy: there the heat map is what differs.
+    if module == "bounding_volumes":
+        pair = [f"{module}.webp", f"{module}-heat.webp"]
     there = (PROJECT / "scenes" / "before" / f"{module}.yaml").is_file()
-    assert [name for name in shown if name in pair] == (pair if there else [])
+    # A picture may stand beside its heat map again.
+    assert list(dict.fromkeys(name for name in shown if name in pair)) == (pair if there else [])
 
 
 @pytest.mark.parametrize("module", COURSE)
