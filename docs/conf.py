@@ -60,6 +60,8 @@ html_js_files = [
     ("printing.js", {"defer": "defer"}),
     ("mistakes.js", {"defer": "defer"}),
     ("live.js", {"defer": "defer"}),
+    ("drag_models.js", {"defer": "defer"}),
+    ("drag.js", {"defer": "defer"}),
     ("slides.js", {"defer": "defer"}),
 ]
 html_search_scorer = str(Path(__file__).parent / "sitebuild" / "search_scorer.js")

@@ -20,9 +20,9 @@ from sitebuild.diagrams import (
     blurred_transparency,
     bounding_volumes,
     cube_map,
-    motion_blur,
+    penumbra,
     radiosity,
-    soft_shadows,
+    streak,
 )
 from sitebuild.diagrams.canvas import Canvas, clipped, meeting
 from sitebuild.diagrams.figure import html, symbols
@@ -230,7 +230,7 @@ def test_a_view_is_a_rotation_with_its_axis_upwards(up: int) -> None:
     ("diameter", "a", "b"), [(1.3, 2.1, 1.5), (0.5, 4.0, 1.0), (2.0, 1.0, 3.0)]
 )
 def test_the_penumbra_is_as_wide_as_the_page_says(diameter: float, a: float, b: float) -> None:
-    near, far = soft_shadows.penumbra_of(diameter, a, b)
+    near, far = penumbra.penumbra_of(diameter, a, b)
     assert far - near == pytest.approx(diameter * b / a)
 
 
@@ -280,8 +280,8 @@ def test_faces_that_touch_unfolded_share_that_edge() -> None:
 def test_all_light_of_the_streak_is_kept() -> None:
     x = np.linspace(-3, 3, 60_001)
     # A ball of diameter 2 R covers that much of the picture at any time.
-    total = np.trapezoid(motion_blur.covered(x), x)
-    assert total == pytest.approx(2 * motion_blur.RADIUS, rel=1e-6)
+    total = np.trapezoid(streak.covered(x), x)
+    assert total == pytest.approx(2 * streak.RADIUS, rel=1e-6)
 
 
 @pytest.mark.parametrize(("degrees", "eta"), [(50, 1 / 1.5), (28, 1.5), (39, 1.5)])

@@ -6,6 +6,7 @@ from html import escape
 from xml.etree import ElementTree as ET
 
 from sitebuild.diagrams.canvas import Canvas
+from sitebuild.diagrams.movable import Movable, Movement, shown
 
 
 @dataclass(frozen=True)
@@ -34,21 +35,25 @@ class Figure:
     ----------
     caption : below all panels, one paragraph
     panels : drawings of one width, 350 units for one that fills a telephone's screen, 172 for two in a row
+    movement : what readers can drag, in a figure of one panel
     """
 
     caption: str
     panels: tuple[Panel, ...]
+    movement: Movement | None = None
 
 
 def html(figure: Figure, name: str) -> str:
     """The figure as a block of HTML without a blank line; its ids begin with the name."""
     width = "wide" if figure.panels[0].canvas.width > 200 else "small"
     panels = "\n".join(_panel(panel, f"{name}-{k}") for k, panel in enumerate(figure.panels, 1))
-    return f"""<figure class="diagram" id="{name}">
+    moves = figure.movement.attributes if figure.movement else ""
+    readout = _readout(figure.movement) if figure.movement else ""
+    return f"""<figure class="diagram" id="{name}"{moves}>
 <div class="panels {width} of-{len(figure.panels)}">
 {panels}
 </div>
-<figcaption>{symbols(figure.caption)}</figcaption>
+{readout}<figcaption>{symbols(figure.caption)}</figcaption>
 </figure>
 """
 
@@ -63,6 +68,8 @@ def _panel(panel: Panel, name: str) -> str:
             "aria-labelledby": f"{name}-title {name}-description",
         },
     )
+    if isinstance(canvas, Movable):
+        svg.set("data-frame", canvas.frame)
     ET.SubElement(svg, "title", id=f"{name}-title").text = panel.title
     ET.SubElement(svg, "desc", id=f"{name}-description").text = panel.description
     # Words stand on top of all lines.
@@ -70,6 +77,18 @@ def _panel(panel: Panel, name: str) -> str:
     drawn = ET.tostring(svg, encoding="unicode")
     words = f"<p>{symbols(panel.words)}</p>" if panel.words else ""
     return f'<div class="panel">{drawn}{words}</div>'
+
+
+def _readout(movement: Movement) -> str:
+    """The movement's sentence with the numbers of the drawing at rest."""
+    numbers = movement.model(movement.start).numbers
+
+    def number(match: re.Match[str]) -> str:
+        name, digits = match[1], int(match[2])
+        return f'<b data-number="{name}" data-digits="{digits}">{shown(numbers[name], digits)}</b>'
+
+    said = re.sub(r"\{(\w+):\.(\d)f\}", number, symbols(movement.sentence))
+    return f'<p class="readout">{said}</p>\n'
 
 
 def symbols(text: str) -> str:

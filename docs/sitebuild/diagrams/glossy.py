@@ -5,48 +5,10 @@ import math
 import numpy as np
 
 from course.core.vectors import reflect
-from sitebuild.diagrams.canvas import Canvas, columns, turned, unit
+from sitebuild.diagrams.canvas import Canvas, columns, turned
 from sitebuild.diagrams.figure import Figure, Panel
+from sitebuild.diagrams.lobe import lobe
 from solutions import glossy
-
-EXPONENT = 20.0
-
-
-def lobe() -> Figure:
-    """A lobe over a floor, and how wide its rays spread at two distances."""
-    canvas = Canvas(350, 205, (-2.5, 4.0, -0.4, 3.55), 3)
-    mirrored = turned(38)
-    incoming = unit(mirrored * (1, -1))
-    half = math.degrees(math.acos(0.5 ** (1 / EXPONENT)))
-    canvas.path(_polar(mirrored, EXPONENT, 1.5), "wash accent", closed=True)
-    for degrees in (38 - half, 38 + half):
-        canvas.line((0, 0), turned(degrees, 4.3), "faint dashed")
-    for distance in (1.9, 3.9):
-        turn = np.radians(np.linspace(38 - half, 38 + half, 20))
-        canvas.path(distance * np.stack((np.cos(turn), np.sin(turn))), "ink")
-    canvas.arrow(-2.4 * incoming, (0, 0))
-    canvas.arrow((0, 0), 1.72 * mirrored)
-    canvas.line((0, 0), (0, 1.9), "faint")
-    canvas.angle((0, 0), -incoming, (0, 1), "", 26)
-    canvas.angle((0, 0), (0, 1), mirrored, "", 26)
-    canvas.surface((-2.4, 0), (3.5, 0))
-    canvas.label((0, 1.9), "normal", "n", 3)
-    canvas.label(turned(38 - half, 1.9), "near: narrow", "se", 5)
-    canvas.label(turned(38 + half, 3.6), "far: wide", "nw", 6)
-    canvas.label(-2.0 * incoming, "ray", "ne", 6)
-    canvas.label(1.25 * turned(19), "$p(ω)$", "s", 3, "accent")
-    return Figure(
-        "A lobe. The length of the filled shape in a direction is the density there. Half as dense as in the middle it "
-        f"is at {half:.0f} degrees to the side; between the dashed lines the rays spread with distance.",
-        (
-            Panel(
-                canvas,
-                "A lobe about the mirrored direction",
-                "A ray falls on a floor. Around the mirrored direction lies a drop-shaped lobe. An arc near the floor "
-                "between the lobe's sides is short, one far off is long.",
-            ),
-        ),
-    )
 
 
 def steps() -> Figure:

@@ -3,6 +3,7 @@
 import numpy as np
 
 from sitebuild.diagrams.canvas import Canvas
+from sitebuild.diagrams.density import lobe
 from sitebuild.diagrams.figure import Figure, Panel
 from sitebuild.diagrams.view import View, ring
 from solutions import importance_sampling
@@ -185,4 +186,4 @@ def above() -> Figure:
     return Figure("250 directions, seen from above.", tuple(panels))
 
 
-FIGURES = {"gain": gain, "steps": steps, "lifted": lifted, "above": above}
+FIGURES = {"gain": gain, "lobe": lobe, "steps": steps, "lifted": lifted, "above": above}

@@ -4,55 +4,8 @@ import numpy as np
 
 from sitebuild.diagrams.canvas import Canvas, moved, unit
 from sitebuild.diagrams.figure import Figure, Panel
+from sitebuild.diagrams.streak import CLOSE, OPEN, RADIUS, SPEED, film
 from solutions import motion_blur
-
-OPEN, CLOSE = -0.5, 0.5
-SPEED, RADIUS = 1.6, 0.3
-
-
-def covered(x: np.ndarray) -> np.ndarray:
-    """For what share of the exposure the ball's middle line covers a place of the picture."""
-    first = np.clip((x - RADIUS) / SPEED, OPEN, CLOSE)
-    last = np.clip((x + RADIUS) / SPEED, OPEN, CLOSE)
-    return (last - first) / (CLOSE - OPEN)
-
-
-def film() -> Figure:
-    """A ball at five moments, and the mean over all."""
-    canvas = Canvas(350, 175, (-1.75, 1.75, -0.72, 1.03), 3)
-    for k, time in enumerate(np.linspace(OPEN, CLOSE, 5)):
-        x = float(motion_blur.displacement(np.array([SPEED, 0, 0]), np.array([time]))[0, 0])
-        canvas.circle((x, 0.6), RADIUS, "ink" if k == 2 else "faint")
-        canvas.dot((x, 0.6), "ink" if k == 2 else "faint", 2)
-    canvas.label((SPEED * OPEN, 0.6), "$t_0$", "w", 34)
-    canvas.label((SPEED * CLOSE, 0.6), "$t_1$", "e", 34)
-    canvas.arrow((-0.25, 0.22), (0.25, 0.22), "ink")
-    canvas.label((0.25, 0.22), "velocity", "e", 4)
-    x = np.linspace(-1.3, 1.3, 261)
-    share = covered(x)
-    bottom, tall = -0.5, 1.1
-    outline = np.stack(
-        (np.append(x, (x[-1], x[0])), np.append(bottom + tall * share, (bottom, bottom)))
-    )
-    canvas.path(outline, "wash", closed=True)
-    canvas.path((x, bottom + tall * share), "accent")
-    canvas.line((-1.7, bottom), (1.7, bottom))
-    most = float(share.max())
-    canvas.length((1.32, bottom + tall * most), (1.32, bottom), f"{most:.2f}", 0, 5)
-    canvas.label((0, bottom), "place in the picture", "s", 6)
-    return Figure(
-        f"Above: the ball while the shutter is open from $t_0$ to $t_1$. Below: for what share of that time it covers "
-        f"each place, and so how much of its colour the film keeps there. Nowhere more than {most:.2f}.",
-        (
-            Panel(
-                canvas,
-                "A ball during the exposure",
-                "Five places of a ball that moves to the right. Below them a curve rises from 0, "
-                "stays level, and falls "
-                "to 0: the streak.",
-            ),
-        ),
-    )
 
 
 def relative() -> Figure:

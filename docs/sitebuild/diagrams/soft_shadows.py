@@ -4,63 +4,9 @@ import numpy as np
 
 from sitebuild.diagrams.canvas import Canvas, between, meeting, moved, unit
 from sitebuild.diagrams.figure import Figure, Panel
+from sitebuild.diagrams.penumbra import penumbra
 from sitebuild.diagrams.view import View, ring
 from solutions import soft_shadows
-
-LAMP, EDGE, FLOOR = 3.6, 1.5, 0.0
-"""Heights of a lamp, of the edge that throws the shadow, and of the floor."""
-
-DIAMETER = 1.3
-
-
-def penumbra_of(diameter: float, a: float, b: float) -> tuple[float, float]:
-    """Where the penumbra begins and ends on the floor, for a lamp over an edge: the rays past the edge."""
-    lamp = ((-diameter / 2, a + b), (diameter / 2, a + b))
-    floor = ((0.0, 0.0), (1.0, 0.0))
-    first, second = (float(meeting(end, (0, b), *floor)[0]) for end in lamp)
-    return min(first, second), max(first, second)
-
-
-def penumbra() -> Figure:
-    """Similar triangles with their tip at the edge."""
-    canvas = Canvas(350, 300, (-2.45, 2.55, -0.62, 4.62), 2)
-    a, b = LAMP - EDGE, EDGE - FLOOR
-    near, far = penumbra_of(DIAMETER, a, b)
-    lo, hi = (-DIAMETER / 2, LAMP), (DIAMETER / 2, LAMP)
-    edge = (0.0, EDGE)
-    canvas.path(np.array([[near, far, 0], [0, 0, EDGE]]), "wash", closed=True)
-    canvas.path(np.array([[lo[0], hi[0], 0], [LAMP, LAMP, EDGE]]), "wash", closed=True)
-    canvas.path(np.array([[-2.3, near, 0, -2.3], [0, 0, EDGE, EDGE]]), "shade", closed=True)
-    canvas.line(lo, (far, 0), "accent")
-    canvas.line(hi, (near, 0), "accent")
-    canvas.circle((0, LAMP), DIAMETER / 2)
-    canvas.line(lo, hi)
-    canvas.line((-2.3, EDGE), edge, "ink thick")
-    canvas.surface((-2.35, 0), (2.45, 0))
-    canvas.length(lo, hi, "$D$", 40, 4)
-    canvas.length((1.75, LAMP), (1.75, EDGE), "$a$", 0)
-    canvas.length((1.75, EDGE), (1.75, 0), "$b$", 0)
-    canvas.line((DIAMETER / 2 + 0.1, LAMP), (1.9, LAMP), "faint dashed")
-    canvas.line((0.1, EDGE), (1.9, EDGE), "faint dashed")
-    canvas.label((-1.55, 0), "umbra", "s", 12)
-    canvas.length((near, 0), (far, 0), "penumbra, $D b / a$", -11, 3)
-    canvas.label((1.7, 0), "lit", "s", 12)
-    canvas.label((-1.3, EDGE), "what throws the shadow", "n", 5)
-    canvas.label((-0.45, LAMP + 0.45), "lamp", "w", 12)
-    return Figure(
-        "Two triangles with their tip at the edge: as wide as the lamp above it, as wide as the penumbra below. Widths "
-        f"are as distances: $D$ to $a$ as the penumbra to $b$. Here $b$ is {b / a:.2f} $a$, and the "
-        f"penumbra {b / a:.2f} $D$ wide.",
-        (
-            Panel(
-                canvas,
-                "Similar triangles of a penumbra",
-                "A lamp of diameter D stands at distance a above an edge; the floor lies b below the "
-                "edge. The rays from "
-                "the lamp's two ends past the edge cross there and meet the floor at the two ends of the penumbra.",
-            ),
-        ),
-    )
 
 
 def symbols() -> Figure:

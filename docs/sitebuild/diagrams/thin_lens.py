@@ -2,54 +2,12 @@
 
 import numpy as np
 
-from sitebuild.diagrams.canvas import Canvas, between, meeting, unit
+from sitebuild.diagrams.canvas import Canvas, between, unit
 from sitebuild.diagrams.figure import Figure, Panel
+from sitebuild.diagrams.lens import lens
 from solutions import thin_lens
 
 AXES = {"right": (1.0, 0, 0), "up": (0, 1.0, 0), "forward": (0, 0, 1.0)}
-
-
-def lens() -> Figure:
-    """A real lens: one distance is sharp on the film, another is not."""
-    canvas = Canvas(350, 170, (-2.75, 5.3, -1.75, 1.75), 4)
-    focal, radius, focused, nearer = 1.3, 1.0, 4.0, 2.4
-    film = thin_lens.image_distance(focal, focused)
-    turn = np.linspace(-1, 1, 41)
-    bulge = 0.16 * (1 - turn**2)
-    outline = np.concatenate(([bulge, turn * 1.15], [-bulge[::-1], turn[::-1] * 1.15]), axis=1)
-    canvas.line((-2.6, 0), (5.2, 0), "faint thin")
-    for distance, kind in ((nearer, "faint"), (focused, "accent")):
-        image = thin_lens.image_distance(focal, distance)
-        for y in (-radius, radius):
-            canvas.line((distance, 0), (0, y), kind)
-            end = meeting((0, y), (-image, 0), (-film, 0), (-film, 1))
-            canvas.line((0, y), end, kind)
-    spread = radius * (1 - film / thin_lens.image_distance(focal, nearer))
-    canvas.path(outline, "wash ink", closed=True)
-    canvas.line((-film, -1.2), (-film, 1.2), "ink")
-    canvas.line((-film, -spread), (-film, spread), "ink thick")
-    canvas.line((focused, -1.3), (focused, 1.3), "ink dashed")
-    canvas.dot((focused, 0), "accent", 3.2)
-    canvas.dot((nearer, 0), "ink", 3.2)
-    canvas.dot((-film, 0), "accent", 3.2)
-    canvas.label((focused, 1.3), "plane in focus", "n", 3)
-    canvas.label((-film, 1.2), "film", "n", 3)
-    canvas.label((0, 1.15), "lens", "n", 3)
-    canvas.length((0, -1.15), (focused, -1.15), "$d_o$", -9, 3)
-    canvas.length((-film, -1.15), (0, -1.15), "$d_i$", -9, 3)
-    return Figure(
-        "The rays of a point of the plane in focus meet again in one point of the film. Those of a nearer point would "
-        "meet behind the film, and spread over a disk on it, here the thick line.",
-        (
-            Panel(
-                canvas,
-                "A lens with a film",
-                "On the right a plane in focus with a point on it; its rays pass the lens's rim and "
-                "meet on the film on "
-                "the left. The rays of a second point nearer to the lens reach the film apart from each other.",
-            ),
-        ),
-    )
 
 
 def rays() -> Figure:
