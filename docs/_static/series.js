@@ -1,4 +1,4 @@
-// Shows one picture of a series at a time, the one that its sliders say, and with it how to render the same.
+// Shows one picture or drawing of a series at a time, the one that its sliders say, and with it how to render the same.
 // Without this script all pictures stand side by side.
 for (const figure of document.querySelectorAll("figure.series")) {
   const frames = [...figure.querySelectorAll(".frame")];
@@ -13,7 +13,7 @@ for (const figure of document.querySelectorAll("figure.series")) {
     const places = sliders.map((slider) => Number(slider.input.value));
     const chosen = frameAt(places);
     for (const frame of frames) frame.hidden = frame !== chosen;
-    same.innerHTML = chosen.dataset.same;
+    if (same) same.innerHTML = chosen.dataset.same;
     sliders.forEach((slider, i) => {
       slider.output.textContent = described[i].words[places[i]];
       slider.input.setAttribute("aria-valuetext", described[i].words[places[i]]);
@@ -26,7 +26,8 @@ for (const figure of document.querySelectorAll("figure.series")) {
     places.forEach((place, i) => {
       for (const next of [place - 1, place + 1]) {
         if (next < 0 || next >= described[i].words.length) continue;
-        frameAt(places.map((other, j) => (j === i ? next : other))).querySelector("img").loading = "eager";
+        const frame = frameAt(places.map((other, j) => (j === i ? next : other)));
+        for (const picture of frame.querySelectorAll("img")) picture.loading = "eager";
       }
     });
   };

@@ -41,6 +41,7 @@ from sitebuild.series_grid import series_grid
 from sitebuild.shots import before_after, picture, shot
 from sitebuild.signatures import linked
 from sitebuild.studio_film import studio_film
+from sitebuild.walk import walk_steps
 
 MARK = re.compile(r"^<!-- site: (\w+) ?([\w./]*) ?(.*?) ?-->$", re.MULTILINE)
 
@@ -74,6 +75,7 @@ PARTS: dict[str, Part] = {
     "series_grid": series_grid,
     "shot": shot,
     "studio_film": studio_film,
+    "walk": walk_steps,
 }
 
 

@@ -73,10 +73,10 @@ def boxes() -> Figure:
         for k in np.flatnonzero(entered & (count > 0))
         for t in order[first[k] : first[k] + count[k]]
     }
-    plane = _scene(visited)
+    plane = plane_of(visited)
     for k in range(len(count)):
         kind = "accent" if entered[k] else "faint dashed" if not asked[k] else "ink thin dashed"
-        _box(plane, tree, k, kind)
+        box(plane, tree, k, kind)
         # Leaves are named at their lower left corner, where no triangle is, the others elsewhere.
         x, y, side = {
             0: (tree[0][0, 0], tree[1][1, 0], "nw"),
@@ -87,7 +87,7 @@ def boxes() -> Figure:
     _ray(plane)
 
     chart = Canvas(350, 200, (0, 4, 2.75, -0.5), 4)
-    places = _places(tree)
+    places = tree_places(tree)
     for k in range(1, len(count)):
         chart.line(places[above[k]], places[k], "accent" if entered[k] else "faint")
     for k, place in enumerate(places):
@@ -127,14 +127,14 @@ def steps() -> Figure:
     tree = hierarchy()
     level = _levels(tree)
     corners = triangles()
-    own = _scene(set(), 172, 120)
+    own = plane_of(set(), 172, 120)
     for k in range(COUNT):
         own.rectangle(corners[:, :, k].min(axis=1), corners[:, :, k].max(axis=1), "accent thin")
     drawn = [own]
     for deepest in (1, 2):
-        canvas = _scene(set(), 172, 120)
+        canvas = plane_of(set(), 172, 120)
         for k in np.flatnonzero(level <= deepest):
-            _box(canvas, tree, k, "accent" if level[k] == deepest else "faint dashed")
+            box(canvas, tree, k, "accent" if level[k] == deepest else "faint dashed")
         drawn.append(canvas)
     asked, hit = tested(tree), met(tree)
     visited = asked & hit
@@ -144,9 +144,9 @@ def steps() -> Figure:
         for k in np.flatnonzero(visited & (count > 0))
         for t in order[first[k] : first[k] + count[k]]
     }
-    walk = _scene(reached, 172, 120)
+    walk = plane_of(reached, 172, 120)
     for k in np.flatnonzero(visited):
-        _box(walk, tree, k, "accent thin")
+        box(walk, tree, k, "accent thin")
     _ray(walk)
     drawn.append(walk)
     words = (
@@ -230,7 +230,8 @@ def slabs() -> Figure:
     )
 
 
-def _scene(filled: set[int], width: float = 350, height: float = 200) -> Canvas:
+def plane_of(filled: set[int], width: float = 350, height: float = 200) -> Canvas:
+    """The triangles, some of them filled."""
     canvas = Canvas(width, height, (-1.05, 2.45, -0.2, 1.35), 3)
     corners = triangles()
     for k in range(COUNT):
@@ -242,7 +243,8 @@ def _scene(filled: set[int], width: float = 350, height: float = 200) -> Canvas:
     return canvas
 
 
-def _box(canvas: Canvas, tree: Hierarchy, k: int, kind: str) -> None:
+def box(canvas: Canvas, tree: Hierarchy, k: int, kind: str) -> None:
+    """The box of a node."""
     # Boxes of one edge would hide each other: the nearer to the root, the larger they are drawn.
     away = 0.035 * (2 - _levels(tree)[k]) + 0.02
     canvas.rectangle(tree[0][:2, k] - away, tree[1][:2, k] + away, kind)
@@ -261,7 +263,7 @@ def _levels(tree: Hierarchy) -> np.ndarray:
     return level
 
 
-def _places(tree: Hierarchy) -> list[tuple[float, float]]:
+def tree_places(tree: Hierarchy) -> list[tuple[float, float]]:
     """Where nodes stand in the drawing of the tree."""
     first, count = tree[2], tree[3]
     places: dict[int, tuple[float, float]] = {}
