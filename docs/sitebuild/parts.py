@@ -34,6 +34,7 @@ from sitebuild.peer_times import peer_times
 from sitebuild.place import Place
 from sitebuild.plans import minutes_table, plan
 from sitebuild.radiosity_pictures import radiosity_flight, radiosity_steps
+from sitebuild.radiosity_scrubber import radiosity_scrubber
 from sitebuild.rays import rays
 from sitebuild.scene_keys import scene_keys
 from sitebuild.series import series
@@ -67,6 +68,7 @@ PARTS: dict[str, Part] = {
     "picture": picture,
     "plan": plan,
     "radiosity_flight": radiosity_flight,
+    "radiosity_scrubber": radiosity_scrubber,
     "radiosity_shot": radiosity_shot,
     "radiosity_steps": radiosity_steps,
     "rays": rays,

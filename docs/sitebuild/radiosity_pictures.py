@@ -6,9 +6,10 @@ The pictures are the ones that `course radiosity` makes; each is kept with the c
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cache
+from dataclasses import replace
+from functools import cache, cached_property
 from html import escape
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from PIL import Image
 
@@ -17,7 +18,12 @@ from sitebuild.picture_grid import Cell, grid
 from sitebuild.place import Place
 
 if TYPE_CHECKING:
+    from course.radiosity.patches import Patches
+    from course.radiosity.solving import Solved
     from course.radiosity.viewing import Solution, View
+    from course.scene.scene import Scene
+
+Method = Literal["gather", "shoot"]
 
 STEPS = (1, 32, 320)
 GATHERED = 1000
@@ -42,11 +48,12 @@ SIZE = (280, 280)
 
 def radiosity_steps(place: Place, name: str, words: str = "") -> str:
     """Show a room after some iterations, and under them after as many shots; ``words`` are the title."""
-    gathered = [_step(place, name, "gather", steps) for steps in (0, *STEPS)]
-    shot = [_step(place, name, "shoot", steps) for steps in STEPS]
+    room = Room(name)
+    gathered = [step(place, room, "gather", steps) for steps in (0, *STEPS)]
+    shot = [step(place, room, "shoot", steps) for steps in STEPS]
     same = (
-        f"The last of each row: <code>{escape(_command(name, 'gather', STEPS[-1]))}</code> and"
-        f" <code>{escape(_command(name, 'shoot', STEPS[-1]))}</code>"
+        f"The last of each row: <code>{escape(command(name, 'gather', STEPS[-1]))}</code> and"
+        f" <code>{escape(command(name, 'shoot', STEPS[-1]))}</code>"
     )
     cells = [*gathered, None, *shot]
     return grid(f"steps-{name}", words, len(gathered), cells, same)
@@ -84,30 +91,68 @@ def radiosity_flight(place: Place, name: str, words: str = "") -> str:
     return grid(f"flight-{name}", words, FRAMES // 2, cells, same)
 
 
-def _step(place: Place, name: str, method: Literal["gather", "shoot"], steps: int) -> Cell:
-    command = _command(name, method, steps)
+class Room:
+    """A scene whose light is gathered once, however many iterations are looked at.
+
+    Parameters
+    ----------
+    name : in ``scenes/``
+    """
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+
+    def after(self, method: Method, steps: int) -> Solution:
+        """The light after so many iterations or shots."""
+        from course import load_scene
+        from course.radiosity.radiosity import as_solution, solve
+
+        if method == "gather":
+            scene, patches, solved = self._gathered
+            return as_solution(scene, patches, solved[min(steps, len(solved) - 1)])
+        scene = load_scene(pictures.scene_path(self.name))
+        return solve(scene, patches=SHOT, iterations=steps, method=method)
+
+    @cached_property
+    def _gathered(self) -> tuple[Scene, Patches, list[Solved]]:
+        """The scene in patches, and the light of these after each iteration."""
+        from course import load_scene
+        from course.radiosity.patches import Functions, make_patches
+        from course.radiosity.radiosity import solve_patches
+
+        scene = load_scene(pictures.scene_path(self.name))
+        patches, functions = make_patches(scene, GATHERED), Functions(scene.effects)
+        gather = functions.gather
+        given: list[Any] = []
+
+        def remembered(radiosity: Any, *others: Any) -> Any:
+            if not given:
+                given.append(radiosity)
+            given.append(gather(radiosity, *others))
+            return given[-1]
+
+        functions.gather = remembered  # type: ignore[method-assign]
+        solved = solve_patches(patches, functions, TINY, STEPS[-1], "gather")
+        return scene, patches, [replace(solved, radiosity=each) for each in given]
+
+
+def step(place: Place, room: Room, method: Method, steps: int) -> Cell:
+    """The picture of a room after so many iterations or shots."""
+    line = command(room.name, method, steps)
 
     def make() -> other_shots.Made:
-        from course import load_scene
-        from course.radiosity.radiosity import TOLERANCE, solve
         from course.radiosity.viewing import own_view
 
-        solution = solve(
-            load_scene(pictures.scene_path(name)),
-            patches=GATHERED if method == "gather" else SHOT,
-            tolerance=TINY if method == "gather" else TOLERANCE,
-            iterations=steps,
-            method=method,
-        )
-        return _seen(solution, own_view(solution)), command
+        solution = room.after(method, steps)
+        return _seen(solution, own_view(solution)), line
 
     what = "iteration" if method == "gather" else "shot"
-    caption = f"{steps} {what}{'s' * (steps != 1)}" + ": the lamp alone" * (steps == 0)
-    address = _kept(place, name, f"{method}-{steps}", command, make)
+    caption = f"{steps:,} {what}{'s' * (steps != 1)}" + ": the lamp alone" * (steps == 0)
+    address = _kept(place, room.name, f"{method}-{steps}", line, make)
     return Cell(address, caption, f"The room after {caption}.", SIZE)
 
 
-def _command(name: str, method: Literal["gather", "shoot"], steps: int) -> str:
+def command(name: str, method: Method, steps: int) -> str:
     """The line that makes the same picture."""
     how = (
         f"--patches {GATHERED} --tolerance {TINY:.0e}"

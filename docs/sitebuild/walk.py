@@ -4,7 +4,7 @@ import json
 from html import escape
 
 from sitebuild.diagrams.bounding_volumes import hierarchy
-from sitebuild.diagrams.figure import panel
+from sitebuild.diagrams.figure import drawing
 from sitebuild.diagrams.walk import panels, walk
 from sitebuild.place import Place
 
@@ -16,7 +16,7 @@ def walk_steps(place: Place, name: str, words: str = "") -> str:  # noqa: ARG001
     frames = []
     for k, step in enumerate(steps):
         drawn = "".join(
-            panel(each, f"walk-{k}-{side}")
+            drawing(each, f"walk-{k}-{side}")
             for each, side in zip(
                 panels(tree, step, k, len(steps) - 1), ("boxes", "tree"), strict=True
             )

@@ -1,10 +1,12 @@
 """Pictures in rows and columns: each is the one that its command makes, and stands where its caption says."""
 
+import json
 import re
 import shlex
 from html import unescape
 from io import BytesIO
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -13,6 +15,8 @@ from PIL import Image
 
 from course.cli.main import commands
 from course.effects import PROJECT
+from course.radiosity import radiosity
+from tests.browser import untroubled
 
 pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')
 
@@ -21,6 +25,7 @@ from sitebuild import (
     parts,
     pictures,
     radiosity_pictures,
+    radiosity_scrubber,
     series_grid,
     series_pictures,
 )
@@ -140,6 +145,56 @@ def test_a_flight_is_what_its_commands_make(small: Path) -> None:
     assert html.index("frame 1<") < html.index("frame 4<")
 
 
+def test_pictures_under_sliders_are_what_their_commands_make(
+    small: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(radiosity_scrubber, "ITERATIONS", (0, 2, 3))
+    monkeypatch.setattr(radiosity_scrubber, "SHOTS", (1, 10))
+    solved = []
+    gathering = radiosity.solve_patches
+    monkeypatch.setattr(
+        radiosity, "solve_patches", lambda *asked: solved.append(asked) or gathering(*asked)
+    )
+    place = _place(small)
+    html = radiosity_scrubber.radiosity_scrubber(place, "corner", "They gather. | They shoot.")
+    # The iterations are those of one solution.
+    assert [asked[4] for asked in solved].count("gather") == 1
+    assert [text.strip() for text in re.findall(r"<figcaption>(.*?)\n", html)] == [
+        "They gather.",
+        "They shoot.",
+    ]
+    sliders = [json.loads(unescape(each)) for each in re.findall(r'data-sliders="(.*?)"', html)]
+    assert [slider["words"] for (slider,) in sliders] == [["0", "2", "3"], ["1", "10"]]
+    lines = [unescape(unescape(each)) for each in re.findall(r'data-same="(&lt;.*?)"', html)]
+    seen = set()
+    names = ("gather-0", "gather-2", "gather-3", "shoot-1", "shoot-10")
+    for line, name in zip(lines, names, strict=True):
+        _run(shlex.split(re.sub("</?code>", "", line))[1:])
+        kept = place.files[f"_radiosity/corner-{name}.webp"].read_bytes()
+        assert _as_kept(small / "room.png") == kept, name
+        seen.add(kept)
+    assert len(seen) == len(names)
+
+
+def test_sliders_go_through_iterations_and_shots(browser: Any, site: Path) -> None:
+    with untroubled(browser, viewport={"width": 390, "height": 800}) as page:
+        page.goto((site / "modules" / "radiosity.html").as_uri())
+        for name, method, counts in (
+            ("iterations", "gather", radiosity_scrubber.ITERATIONS),
+            ("shots", "shoot", radiosity_scrubber.SHOTS),
+        ):
+            figure = page.locator(f"#{name}-radiosity")
+            slider = figure.get_by_label(name)
+            slider.focus()
+            for count in counts:
+                assert slider.get_attribute("aria-valuetext") == f"{count:,}"
+                shown = figure.locator("img:visible")
+                assert shown.get_attribute("src").endswith(f"radiosity-{method}-{count}.webp")
+                assert f"--iterations {count} " in figure.locator(".same").inner_text()
+                page.keyboard.press("ArrowRight")
+        assert page.evaluate("document.documentElement.scrollWidth") <= 390
+
+
 def test_a_room_is_worked_out_once(small: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     made = [
         part(_place(small), "corner", "")
@@ -206,7 +261,7 @@ def test_words_of_a_grid_are_no_markup() -> None:
 @pytest.mark.parametrize(
     ("page", "kinds"),
     [
-        ("radiosity", {"radiosity_steps", "radiosity_flight"}),
+        ("radiosity", {"radiosity_steps", "radiosity_scrubber", "radiosity_flight"}),
         ("path_tracing", {"series_grid"}),
     ],
 )

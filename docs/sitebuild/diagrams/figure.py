@@ -46,7 +46,7 @@ class Figure:
 def html(figure: Figure, name: str) -> str:
     """The figure as a block of HTML without a blank line; its ids begin with the name."""
     width = "wide" if figure.panels[0].canvas.width > 200 else "small"
-    panels = "\n".join(panel(panel, f"{name}-{k}") for k, panel in enumerate(figure.panels, 1))
+    panels = "\n".join(drawing(panel, f"{name}-{k}") for k, panel in enumerate(figure.panels, 1))
     moves = figure.movement.attributes if figure.movement else ""
     readout = _readout(figure.movement) if figure.movement else ""
     return f"""<figure class="diagram" id="{name}"{moves}>
@@ -58,7 +58,7 @@ def html(figure: Figure, name: str) -> str:
 """
 
 
-def panel(panel: Panel, name: str) -> str:
+def drawing(panel: Panel, name: str) -> str:
     """A drawing with its words, as one line of HTML; its ids begin with the name."""
     canvas = panel.canvas
     svg = ET.Element(
