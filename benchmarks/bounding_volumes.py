@@ -16,7 +16,8 @@ from benchmarks.figures import Figure, summary
 from benchmarks.report import report
 from course.benchmarking.plot_data import Plot, Series
 from course.benchmarking.tables import Columns, Table, table_of
-from course.core.embree import EmbreeAccelerator, QueryStats
+from course.casters.choice import static_accelerator
+from course.core.accelerator import QueryStats, StaticAccelerator
 from course.core.types import Floats32
 from course.effects import PROJECT, Effects
 from course.shapes import torus_knot
@@ -160,11 +161,11 @@ def _rays() -> tuple[Floats32, Floats32]:
     return o.astype(np.float32), (d / np.linalg.norm(d, axis=0)).astype(np.float32)
 
 
-def _knot(size: tuple[int, int]) -> tuple[EmbreeAccelerator, Corners]:
+def _knot(size: tuple[int, int]) -> tuple[StaticAccelerator, Corners]:
     mesh = torus_knot(segments=size[0], sides=size[1])
     vertices, faces = mesh.vertices.astype(np.float32), mesh.triangles.astype(np.int32)
     p0, p1, p2 = (np.ascontiguousarray(vertices[faces[:, k]].T) for k in range(3))
-    return EmbreeAccelerator(vertices, faces), (p0, p1, p2)
+    return static_accelerator(vertices, faces), (p0, p1, p2)
 
 
 def _boxes(corners: Corners) -> tuple[Floats32, Floats32]:

@@ -9,6 +9,7 @@ from time import monotonic
 from typing import Any
 
 from course import __version__
+from course.casters.choice import VARIABLE, chosen
 from course.compiled.library import available as packets_available
 from course.core.film import AnyFilm
 from course.core.render import Progress, Schedule
@@ -162,7 +163,10 @@ def _check_start(*settings: Settings) -> None:
 
 def _use_compiled(settings: Settings, wanted: bool | None) -> bool:
     if wanted and not packets_available():
-        raise CourseError("compiled loops need Numba: pip install .[fast]")
+        raise CourseError(
+            "compiled loops need Numba (pip install .[fast]), and a caster that they can call:"
+            f" {VARIABLE} must not be numpy"
+        )
     if wanted is not None:
         return wanted
     if os.environ.get(NO_COMPILER):
@@ -215,6 +219,7 @@ def _receipt(
         numbers=dict(counters.numbers),
         effects={"called": called, "skipped": skipped} | yours,
         seconds=dict(counters.seconds),
+        caster=chosen(),
         embree_seconds=counters.embree.seconds,
         wall_seconds=wall,
         threads=executor.threads,

@@ -13,6 +13,7 @@ COURSE = ROOT / "course"
 FLOORS = {
     # The whole renderer for the six effects: it imports nothing else of the course.
     "core": 0,
+    "casters": 1,
     "errors": 1,
     "contracts": 1,
     "guard": 1,

@@ -6,14 +6,17 @@ from importlib.metadata import version
 from pathlib import Path
 
 from course import __version__
+from course.casters.choice import software
 from course.compiled.library import available
 from course.rendering.threads import default_threads
 
 
 def machine() -> dict[str, str]:
     """Names of the parts that decide a run time."""
-    names = ("embreex", "numpy", *(["numba"] if available() else []))
-    libraries = ", ".join(f"{name} {version(name)}" for name in names)
+    names = ("numpy", *(["numba"] if available() else []))
+    libraries = ", ".join(
+        dict.fromkeys([software(), *(f"{name} {version(name)}" for name in names)])
+    )
     return {
         "processor": _processor(),
         "threads": f"{default_threads()} of {os.cpu_count()} logical cores",

@@ -11,6 +11,7 @@ import numpy as np
 
 from course.atomic import make_folder, replacing
 from course.building.world import compile_scene
+from course.casters.choice import software
 from course.core.render import Progress
 from course.core.types import Floats32
 from course.effects import PACKAGE, Effects
@@ -23,12 +24,12 @@ from course.render_scene import render
 from course.scene.scene import Scene
 
 RENDERING = (
-    *("core", "extras", "compiled", "adaptive", "building", "formats", "shapes"),
+    *("core", "casters", "extras", "compiled", "adaptive", "building", "formats", "shapes"),
     *("scene", "jobs", "rendering"),
 )
 """The packages of the course that have a say in a picture."""
 
-LIBRARIES = ("embreex", "numpy", "pillow", "trimesh")
+LIBRARIES = ("numpy", "pillow", "trimesh")
 
 
 @lru_cache(maxsize=8)
@@ -37,7 +38,7 @@ def engine_hash(effects: Path) -> str:
 
     ``effects``: folder of the functions that the engine calls.
     """
-    digest = sha256()
+    digest = sha256(f"{software()}\n".encode())
     for name in LIBRARIES:
         digest.update(f"{name} {version(name)}\n".encode())
     files = [path for name in RENDERING for path in (PACKAGE / name).rglob("*.py")]

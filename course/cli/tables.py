@@ -10,6 +10,9 @@ Rows = Sequence[tuple[str, str]]
 Section = tuple[str, Rows]
 """A heading, and under it labels with their values."""
 
+_CASTERS = {"embree": "Embree", "numba": "Numba's BVH", "numpy": "NumPy's BVH"}
+"""What answers rays, by the receipt's names."""
+
 
 def print_sections(title: str, sections: Iterable[Section]) -> None:
     """Print a table on stdout."""
@@ -60,7 +63,8 @@ def receipt_sections(receipt: Mapping[str, Any]) -> list[Section]:
     """
     rays = receipt["rays"]
     wall, threads = receipt["wall_seconds"], receipt["threads"]
-    spent, embree = wall * threads, receipt["embree_seconds"]
+    spent, inside = wall * threads, receipt["embree_seconds"]
+    caster = _CASTERS[receipt["caster"]]
     effects = receipt["effects"]
     yours, standing = effects.get("yours", ()), effects.get("stand-ins", {})
     sections = [
@@ -86,7 +90,10 @@ def receipt_sections(receipt: Mapping[str, Any]) -> list[Section]:
             "time",
             [
                 ("wall clock", f"{wall:9.3f} s on {count(threads, 'thread')}"),
-                ("inside Embree", f"{embree:9.3f} s, {_share(embree, spent)} of all threads' time"),
+                (
+                    f"inside {caster}",
+                    f"{inside:9.3f} s, {_share(inside, spent)} of all threads' time",
+                ),
             ],
         ),
     ]

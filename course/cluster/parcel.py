@@ -18,6 +18,7 @@ from tempfile import TemporaryDirectory
 
 from course import __version__
 from course.building.world import compile_scene
+from course.casters.choice import software
 from course.compiled.library import available as packets_available
 from course.core.tracer import Tracer
 from course.effects import PACKAGE, Effects
@@ -123,7 +124,7 @@ class Order:
 
 @cache
 def edition() -> str:
-    """The versions that a picture's bits depend on beside the scene: those of the course, NumPy and Embree."""
+    """The versions that a picture's bits depend on beside the scene: those of the course, NumPy and the caster."""
     digest = sha256()
     for path in sorted(PACKAGE.rglob("*.py")):
         name = path.relative_to(PACKAGE)
@@ -134,7 +135,7 @@ def edition() -> str:
             digest.update(path.read_bytes().replace(b"\r\n", b"\n"))
     return (
         f"course {__version__} ({digest.hexdigest()[:8]}), NumPy {version('numpy')}, "
-        f"Embree {version('embreex')}"
+        f"rays by {software()}"
     )
 
 

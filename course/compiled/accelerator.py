@@ -1,4 +1,4 @@
-"""Embree asked for sixteen rays at a time, and the boxes of convex objects before it."""
+"""Embree or its stand-in asked for sixteen rays at a time, and the boxes of convex objects before it."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -10,13 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from course.compiled.convex import ConvexObjects, convex_objects
-from course.compiled.packets import COHERENT, PacketScene
-from course.core.embree import (
+from course.compiled.packets import COHERENT, PacketScene, packets_of
+from course.core.accelerator import (
     NO_HIT,
     Accelerator,
-    EmbreeAccelerator,
     Intersections,
     QueryStats,
+    StaticAccelerator,
     no_hits,
 )
 from course.core.motion import Mover, MovingAccelerator
@@ -29,7 +29,7 @@ WORTH_CHOOSING = 0.75
 
 _FAR, _ALL = np.full(1, NO_HIT, np.float32), np.empty(0, np.bool_)
 
-_BUILT: WeakKeyDictionary[EmbreeAccelerator, tuple[PacketScene, ConvexObjects | None]]
+_BUILT: WeakKeyDictionary[StaticAccelerator, tuple[PacketScene, ConvexObjects | None]]
 _BUILT = WeakKeyDictionary()
 """What has been built: a scene is rendered more than once."""
 
@@ -62,8 +62,8 @@ class SceneTables:
 
 
 @dataclass(frozen=True, eq=False)
-class PacketAccelerator(EmbreeAccelerator):
-    """Triangles that stand still; see ``EmbreeAccelerator``.
+class PacketAccelerator(StaticAccelerator):
+    """Triangles that stand still; see ``StaticAccelerator``.
 
     Attributes
     ----------
@@ -92,7 +92,7 @@ class PacketAccelerator(EmbreeAccelerator):
         excluded: Any = None,
         limit: Floats32 | None = None,
     ) -> Intersections:
-        """See ``EmbreeAccelerator``; ``excluded`` (N,) is the convex object that each ray leaves."""
+        """See ``StaticAccelerator``; ``excluded`` (N,) is the convex object that each ray leaves."""
         n = direction.shape[1]
         if self.packets is None or n == 0:
             return no_hits(n)
@@ -140,7 +140,7 @@ class PacketAccelerator(EmbreeAccelerator):
         *,
         active: Mask | None = None,
     ) -> Mask:
-        """See ``EmbreeAccelerator``."""
+        """See ``StaticAccelerator``."""
         n = direction.shape[1]
         if self.packets is None or n == 0:
             return np.ones(n, np.bool_)
@@ -224,13 +224,13 @@ class MovingPackets(MovingAccelerator):
 def in_packets(
     accelerator: Accelerator, parts: tuple[tuple[int, int, bool], ...] = ()
 ) -> Accelerator:
-    """The same triangles, asked by packets; a hierarchy that isn't Embree's as it is.
+    """The same triangles, asked by packets; another hierarchy, that of bounding_volumes, as it is.
 
     Parameters
     ----------
     parts : of the objects that the triangles belong to, where they stand still: see ``Triangles``
     """
-    if isinstance(accelerator, EmbreeAccelerator) and not isinstance(
+    if isinstance(accelerator, StaticAccelerator) and not isinstance(
         accelerator, PacketAccelerator
     ):
         return _packets(accelerator, parts, apart=False)
@@ -268,11 +268,11 @@ def _moving_packets(
 
 
 def _packets(
-    accelerator: EmbreeAccelerator, parts: tuple[tuple[int, int, bool], ...], apart: bool
+    accelerator: StaticAccelerator, parts: tuple[tuple[int, int, bool], ...], apart: bool
 ) -> PacketAccelerator:
     if not len(accelerator.triangles):
         return PacketAccelerator(None)
     if accelerator not in _BUILT:
-        arrays = accelerator.vertices, accelerator.triangles
-        _BUILT[accelerator] = PacketScene(*arrays), convex_objects(*arrays, parts)
+        convex = convex_objects(accelerator.vertices, accelerator.triangles, parts)
+        _BUILT[accelerator] = packets_of(accelerator), convex
     return PacketAccelerator(*_BUILT[accelerator], apart)

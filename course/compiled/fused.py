@@ -18,10 +18,10 @@ from course.compiled import (
     packet_kernels,
 )
 from course.compiled.accelerator import MovingPackets, PacketAccelerator, in_packets
+from course.core.accelerator import StaticAccelerator
 from course.core.camera import Camera, Lens
 from course.core.counters import Counters
 from course.core.direct import ROUNDING, DirectLight
-from course.core.embree import EmbreeAccelerator
 from course.core.environment import ConstantEnvironment, CubeEnvironment, Environment
 from course.core.gloss import Gloss, Lobe
 from course.core.integrator import CancelledError, Integrator
@@ -111,7 +111,7 @@ def _fits_motion(motion: Motion | None) -> bool:
 
 def _fits_surface(surface: Any) -> bool:
     extras = surface.painting, surface.turned, surface.kept, surface.through
-    known = type(surface.accelerator) in (EmbreeAccelerator, MovingAccelerator, SweptMovers)
+    known = type(surface.accelerator) in (StaticAccelerator, MovingAccelerator, SweptMovers)
     return isinstance(surface, FullSurface) and known and all(extra is None for extra in extras)
 
 

@@ -67,7 +67,7 @@ from course.compiled.packet_kernels import (
 )
 from course.compiled.packets import COHERENT
 from course.compiled.point_kernels import place, to_viewer
-from course.core.embree import NO_HIT
+from course.core.accelerator import NO_HIT
 from course.core.ray_offset import OFFSET as LEAST_OFFSET
 from course.core.types import Floats32, Indices, Mask, Materials
 

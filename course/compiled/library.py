@@ -1,4 +1,4 @@
-"""Embree's own interface, in the library that embreex brings along.
+"""What answers packets of rays: Embree by its own interface, in the library that embreex brings along, or its stand-in.
 
 This is the one file that calls Embree without embreex. Where library or Numba is missing, ``available`` says so.
 """
@@ -9,14 +9,18 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
+from course.casters.choice import chosen
+
 QUERIES = ("rtcIntersect16", "rtcOccluded16")
 """What the compiled loops call by name."""
 
 
 @cache
 def available() -> bool:
-    """Whether Numba is installed and embreex's library has what is needed."""
-    return find_spec("numba") is not None and library() is not None
+    """Whether Numba is installed, and the caster takes packets: of embreex, its library has what is needed."""
+    if find_spec("numba") is None:
+        return False
+    return chosen() == "numba" or (chosen() == "embree" and library() is not None)
 
 
 @cache
@@ -68,10 +72,18 @@ def device() -> int:
 
 
 def name_queries() -> None:
-    """Let compiled loops find the queries by their names."""
+    """Let compiled loops find the queries by their names, which are Embree's for its stand-in too."""
     import llvmlite.binding
 
-    embree = library()
-    for name in QUERIES:
-        address = ctypes.cast(getattr(embree, name), ctypes.c_void_p).value
+    for name, address in zip(QUERIES, _addresses(), strict=True):
         llvmlite.binding.add_symbol(name, address)
+
+
+def _addresses() -> tuple[int, ...]:
+    if chosen() == "numba":
+        from course.casters import cast_kernels
+
+        return cast_kernels.intersect.address, cast_kernels.occlude.address
+    embree = library()
+    addresses = [ctypes.cast(getattr(embree, name), ctypes.c_void_p).value for name in QUERIES]
+    return tuple(address or 0 for address in addresses)

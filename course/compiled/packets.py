@@ -4,14 +4,16 @@ embreex sends one ray after the other. The library that it brings along can also
 the way down the hierarchy and the width of the processor. Numba compiles the loop that fills the packets; the answers
 are the same, bit for bit, but for rays that meet an edge between two triangles at one and the same distance.
 
-This is the one file that calls Embree without embreex; the loops are in ``packet_kernels``. Like all files of that
-ending it imports Numba (``pip install .[fast]``). Where either is missing, ``available`` says so and everything works
-without.
+The loops are in ``packet_kernels``. Like all files of that ending it imports Numba (``pip install .[fast]``). Where
+Numba or Embree's library is missing, ``available`` says so. Where embreex is missing, the hierarchy that Numba compiles
+(``course.casters``) answers packets, bit for bit as it answers single rays.
 """
 
 import numpy as np
 
+from course.casters.choice import chosen
 from course.compiled.library import device, library
+from course.core.accelerator import StaticAccelerator
 from course.core.types import Floats32, Indices, Mask, Numbers
 from course.extras.boxes import roomy_box
 
@@ -23,52 +25,16 @@ _EVERY = np.empty(0, np.int64)
 
 
 class PacketScene:
-    """Triangles in a hierarchy of Embree's.
+    """Triangles in a hierarchy.
 
-    Parameters
+    Attributes
     ----------
-    vertices : (V, 3) float32
-    triangles : (T, 3) int32, T > 0
-
-    Raises
-    ------
-    RuntimeError
-        Embree can't build it.
+    scene : address of the hierarchy
+    box : (2, 3) float32 around all triangles, see ``roomy_box``
     """
 
-    def __init__(self, vertices: Floats32, triangles: Numbers) -> None:
-        embree = library()
-        assert embree is not None
-        self._library = embree
-        # Embree reads 16 bytes of the last vertex, and reads the arrays for as long as the scene lives.
-        self._vertices = np.zeros((len(vertices) + 2, 3), np.float32)
-        self._vertices[: len(vertices)] = vertices
-        # The same bits: no number is negative.
-        self._triangles = np.ascontiguousarray(triangles, np.int32).view(np.uint32)
-        geometry = embree.rtcNewGeometry(device(), _TRIANGLES)
-        for kind, layout, array, count in (
-            (_VERTICES, _THREE_FLOATS, self._vertices, len(vertices)),
-            (_INDICES, _THREE_UINTS, self._triangles, len(triangles)),
-        ):
-            embree.rtcSetSharedGeometryBuffer(
-                geometry, kind, 0, layout, array.ctypes.data, 0, 12, count
-            )
-        embree.rtcCommitGeometry(geometry)
-        self.scene = embree.rtcNewScene(device())
-        embree.rtcSetSceneFlags(self.scene, _ROBUST)
-        embree.rtcAttachGeometry(self.scene, geometry)
-        embree.rtcReleaseGeometry(geometry)
-        embree.rtcCommitScene(self.scene)
-        error = embree.rtcGetDeviceError(device())
-        if error:
-            raise RuntimeError(f"Embree's error {error}")
-        self.box = roomy_box(vertices)
-
-    def __del__(self) -> None:
-        """Give the hierarchy's memory back."""
-        scene = getattr(self, "scene", None)
-        if scene:
-            self._library.rtcReleaseScene(scene)
+    scene: int
+    box: Floats32
 
     def intersect(
         self,
@@ -123,3 +89,72 @@ class PacketScene:
         which = np.empty(direction.shape[1], np.int64)
         arrays = map(np.ascontiguousarray, (origin, direction, limit))
         return which[: box_kernels.entering(*arrays, self.box, which)]
+
+
+class EmbreePackets(PacketScene):
+    """Triangles in Embree's hierarchy.
+
+    Parameters
+    ----------
+    vertices : (V, 3) float32
+    triangles : (T, 3) int32, T > 0
+
+    Raises
+    ------
+    RuntimeError
+        Embree can't build it.
+    """
+
+    def __init__(self, vertices: Floats32, triangles: Numbers) -> None:
+        embree = library()
+        assert embree is not None
+        self._library = embree
+        # Embree reads 16 bytes of the last vertex, and reads the arrays for as long as the scene lives.
+        self._vertices = np.zeros((len(vertices) + 2, 3), np.float32)
+        self._vertices[: len(vertices)] = vertices
+        # The same bits: no number is negative.
+        self._triangles = np.ascontiguousarray(triangles, np.int32).view(np.uint32)
+        geometry = embree.rtcNewGeometry(device(), _TRIANGLES)
+        for kind, layout, array, count in (
+            (_VERTICES, _THREE_FLOATS, self._vertices, len(vertices)),
+            (_INDICES, _THREE_UINTS, self._triangles, len(triangles)),
+        ):
+            embree.rtcSetSharedGeometryBuffer(
+                geometry, kind, 0, layout, array.ctypes.data, 0, 12, count
+            )
+        embree.rtcCommitGeometry(geometry)
+        self.scene = embree.rtcNewScene(device())
+        embree.rtcSetSceneFlags(self.scene, _ROBUST)
+        embree.rtcAttachGeometry(self.scene, geometry)
+        embree.rtcReleaseGeometry(geometry)
+        embree.rtcCommitScene(self.scene)
+        error = embree.rtcGetDeviceError(device())
+        if error:
+            raise RuntimeError(f"Embree's error {error}")
+        self.box = roomy_box(vertices)
+
+    def __del__(self) -> None:
+        """Give the hierarchy's memory back."""
+        scene = getattr(self, "scene", None)
+        if scene:
+            self._library.rtcReleaseScene(scene)
+
+
+class HierarchyPackets(PacketScene):
+    """Triangles in the hierarchy that stands in for Embree's, of which single rays have the same."""
+
+    def __init__(self, accelerator: StaticAccelerator) -> None:
+        from course.casters.compiled import CompiledCaster
+
+        caster = accelerator.caster
+        assert isinstance(caster, CompiledCaster)
+        self._kept = caster
+        self.scene = caster.scene
+        self.box = roomy_box(accelerator.vertices)
+
+
+def packets_of(accelerator: StaticAccelerator) -> PacketScene:
+    """The triangles of an accelerator, T > 0, in the caster that this process has chosen."""
+    if chosen() == "numba":
+        return HierarchyPackets(accelerator)
+    return EmbreePackets(accelerator.vertices, accelerator.triangles)

@@ -7,7 +7,7 @@ import numpy as np
 from course.compiled import hit_kernels
 from course.compiled.accelerator import PacketAccelerator
 from course.compiled.convex import Objects
-from course.core.embree import Intersections
+from course.core.accelerator import Intersections
 from course.core.hits import Hits
 from course.core.types import Floats32, Indices
 from course.extras.surface import FullSurface

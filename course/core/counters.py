@@ -4,7 +4,7 @@ from collections import Counter
 from dataclasses import dataclass, field
 from time import perf_counter
 
-from course.core.embree import QueryStats
+from course.core.accelerator import QueryStats
 
 
 @dataclass

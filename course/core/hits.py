@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from course.core.embree import Accelerator, Intersections, QueryStats
+from course.core.accelerator import Accelerator, Intersections, QueryStats
 from course.core.motion import MovingAccelerator
 from course.core.ray_offset import pull_off_edges
 from course.core.rays import Rays

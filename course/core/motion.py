@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from course.core.embree import EmbreeAccelerator, Intersections, QueryStats
+from course.core.accelerator import Intersections, QueryStats, StaticAccelerator
 from course.core.types import Floats32, Functions, Indices, Mask, Numbers
 from course.core.vectors import repeated
 
@@ -36,16 +36,16 @@ class Mover:
     """Triangles first .. last - 1, with velocity (3,) float32 [units of the compiled scene / exposure]."""
 
     velocity: Floats32
-    accelerator: EmbreeAccelerator
+    accelerator: StaticAccelerator
     first: int
     last: int
 
 
 @dataclass(frozen=True)
 class MovingAccelerator:
-    """Static triangles and movers; see ``course.core.embree.Accelerator``."""
+    """Static triangles and movers; see ``course.core.accelerator.Accelerator``."""
 
-    static: EmbreeAccelerator
+    static: StaticAccelerator
     movers: tuple[Mover, ...]
     motion: Motion
 

@@ -8,7 +8,7 @@ from typing import Literal, TypeAlias
 
 import numpy as np
 
-from course.core.embree import Accelerator, Intersections, QueryStats
+from course.core.accelerator import Accelerator, Intersections, QueryStats
 from course.core.hits import Hits
 from course.core.types import Floats32, Indices, Mask, Numbers
 from course.core.vectors import dot

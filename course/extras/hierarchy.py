@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from course.core.embree import NO_HIT, Intersections, QueryStats
+from course.core.accelerator import NO_HIT, Intersections, QueryStats
 from course.core.types import Floats32, Floats64, Functions, Mask, Numbers
 from course.core.vectors import cross, dot
 from course.errors import EffectError

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from course.core.embree import Accelerator, EmbreeAccelerator, Intersections, QueryStats
+from course.core.accelerator import Accelerator, Intersections, QueryStats, StaticAccelerator
 from course.core.hits import Hits, Surface, turn_to_viewer
 from course.core.ray_offset import OFFSET
 from course.core.rays import Rays
@@ -136,11 +136,11 @@ def build_surface(
     if unseen is not None:
         hidden = np.concatenate([_hidden(table, camera_position) for table in tables])
         front = accelerator
-        if isinstance(accelerator, EmbreeAccelerator) and hidden.any():
+        if isinstance(accelerator, StaticAccelerator) and hidden.any():
             # These triangles become points, which no ray hits.
             corners = accelerator.triangles
             corners = np.where(hidden[:, None], corners[:, :1], corners)
-            front = EmbreeAccelerator(accelerator.vertices, corners)
+            front = StaticAccelerator(accelerator.vertices, corners, accelerator.make)
         through = SeenThrough(front, unseen, triangles.planes)
     return FullSurface(
         triangles=triangles,

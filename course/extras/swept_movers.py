@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from course.core.embree import Intersections, QueryStats
+from course.core.accelerator import Intersections, QueryStats
 from course.core.motion import MOSTLY_UNBLOCKED, MovingAccelerator
 from course.core.types import Floats32, Indices, Mask
 from course.core.vectors import repeated

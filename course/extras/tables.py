@@ -12,7 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from course.core.embree import Accelerator, EmbreeAccelerator
+from course.casters.choice import static_accelerator
+from course.core.accelerator import Accelerator
 from course.core.motion import Motion, Mover, MovingAccelerator
 from course.core.ray_offset import offset_and_inset
 from course.core.triangles import Mesh, Triangles
@@ -128,7 +129,7 @@ def accelerate(tables: Sequence[Tables], motion_blur: Functions | None = None) -
     groups: dict[Velocity, list[Tables]] = {STILL: []}
     for table in tables:
         groups.setdefault(table.part.velocity, []).append(table)
-    static = EmbreeAccelerator(*vertices_and_triangles(groups.pop(STILL)))
+    static = static_accelerator(*vertices_and_triangles(groups.pop(STILL)))
     if not groups:
         return static
     assert motion_blur is not None
@@ -154,7 +155,7 @@ def _movers(groups: dict[Velocity, list[Tables]], tables: Sequence[Tables]) -> I
     first = sum(len(table.triangles) for table in tables) - moving
     for velocity, group in groups.items():
         last = first + sum(len(table.triangles) for table in group)
-        accelerator = EmbreeAccelerator(*vertices_and_triangles(group))
+        accelerator = static_accelerator(*vertices_and_triangles(group))
         yield Mover(np.array(velocity, np.float32), accelerator, first, last)
         first = last
 

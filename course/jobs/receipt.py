@@ -17,7 +17,8 @@ class Receipt:
         functions called that aren't the solutions', and where there are no solutions "stand-ins" -> name -> what the
         picture looks like without the function
     seconds : stage -> seconds, summed over threads
-    embree_seconds : inside Embree, summed over threads
+    caster : what answered rays: "embree", or its stand-in, "numba" or "numpy"
+    embree_seconds : inside Embree or its stand-in, summed over threads
     wall_seconds : from the call to the finished picture
     threads : that rendered
     samples : a pixel; the mean where pixels differ
@@ -35,6 +36,7 @@ class Receipt:
     numbers: dict[str, int]
     effects: dict[str, Any]
     seconds: dict[str, float]
+    caster: str
     embree_seconds: float
     wall_seconds: float
     threads: int

@@ -12,7 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from course.core.embree import EmbreeAccelerator, QueryStats
+from course.casters.choice import static_accelerator
+from course.core.accelerator import QueryStats
 from course.core.types import Floats32, Floats64, Indices
 from course.radiosity.patches import Functions, Patches
 
@@ -83,7 +84,7 @@ class Views:
         self._centre = p.mean(axis=1)
         self._above = normal * ABOVE
         self._size = patches.size
-        self._accelerator = EmbreeAccelerator(vertices, corners)
+        self._accelerator = static_accelerator(vertices, corners)
         self._threads = os.cpu_count() or 1
         self.rays = 0
 

@@ -14,8 +14,9 @@ from numpy.typing import NDArray
 
 from course.atomic import replacing
 from course.building.cameras import make_camera
+from course.casters.choice import static_accelerator
+from course.core.accelerator import QueryStats, StaticAccelerator
 from course.core.camera import Camera
-from course.core.embree import EmbreeAccelerator, QueryStats
 from course.core.types import Floats32, Floats64, Numbers
 from course.errors import CourseError
 from course.inputs import read_arrays
@@ -53,9 +54,9 @@ class Solution:
     left: Floats64
 
     @cached_property
-    def accelerator(self) -> EmbreeAccelerator:
+    def accelerator(self) -> StaticAccelerator:
         """The triangles in Embree."""
-        return EmbreeAccelerator(self.vertices, self.triangles)
+        return static_accelerator(self.vertices, self.triangles)
 
     def save(self, path: Path) -> None:
         """Write an .npz file, whole or not at all.

@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
+from course.core.accelerator import QueryStats
 from course.core.direct import Candidates, DirectLight
-from course.core.embree import QueryStats
 from course.core.hits import Hits
 from course.core.integrator import Integrator
 from course.core.lights.sample import Light, Sample

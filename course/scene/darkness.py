@@ -14,8 +14,8 @@ import numpy as np
 
 from course.building.light_power import power
 from course.building.world import compile_camera
+from course.core.accelerator import QueryStats, StaticAccelerator
 from course.core.camera import Camera
-from course.core.embree import EmbreeAccelerator, QueryStats
 from course.core.hits import Hits
 from course.core.lights.point import DirectionalLight, PointLight
 from course.core.lights.rectangle import RectangleLight
@@ -85,7 +85,7 @@ def why_dark(scene: Scene) -> str:
     world = scene.compiled.world
     reason = why_black(scene)
     # What moves, and the student's hierarchy, would call the student's functions.
-    if reason or not isinstance(world.surface.accelerator, EmbreeAccelerator):
+    if reason or not isinstance(world.surface.accelerator, StaticAccelerator):
         return reason
     film = scene.settings
     camera = compile_camera(scene.loaded, scene.compiled.frame, film.width, film.height)

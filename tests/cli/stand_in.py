@@ -16,6 +16,7 @@ RECEIPT: dict[str, Any] = {
         "skipped": {"thin_lens": "the aperture is 0"},
     },
     "seconds": {"camera": 0.05, "trace": 0.5, "film": 0.125},
+    "caster": "embree",
     "embree_seconds": 0.5,
     "wall_seconds": 0.5,
     "threads": 2,

@@ -65,6 +65,7 @@ def test_a_receipt_of_nothing_divides_by_nothing() -> None:
         "effects": {"called": [], "skipped": {}},
         "seconds": {},
         "wall_seconds": 0.0,
+        "caster": "embree",
         "embree_seconds": 0.0,
     }
     assert [heading for heading, _ in tables.receipt_sections(empty)] == ["samples", "time"]

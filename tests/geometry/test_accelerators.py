@@ -6,8 +6,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from course.casters.choice import static_accelerator
 from course.compiled.accelerator import MovingPackets, PacketAccelerator, in_packets
-from course.core.embree import Accelerator, EmbreeAccelerator, QueryStats
+from course.core.accelerator import Accelerator, QueryStats, StaticAccelerator
 from course.core.motion import Motion, MovingAccelerator
 from course.core.types import Functions
 from course.extras.hierarchy import HierarchyAccelerator
@@ -16,7 +17,7 @@ from solutions import bounding_volumes, motion_blur
 from tests.forms import needs_numba
 
 KINDS = (
-    EmbreeAccelerator,
+    StaticAccelerator,
     MovingAccelerator,
     SweptMovers,
     HierarchyAccelerator,
@@ -32,7 +33,7 @@ def made(kind: type) -> Accelerator:
     """One triangle that stands still in z = 0."""
     if kind is HierarchyAccelerator:
         return HierarchyAccelerator(VERTICES, TRIANGLES, Functions(**vars(bounding_volumes)), 4)
-    still = EmbreeAccelerator(VERTICES, TRIANGLES)
+    still = static_accelerator(VERTICES, TRIANGLES)
     if kind in (MovingAccelerator, SweptMovers, MovingPackets):
         of = SweptMovers if kind is SweptMovers else MovingAccelerator
         moving = of(still, (), Motion(Functions(**vars(motion_blur))))
@@ -69,7 +70,7 @@ def test_who_knows_the_interface_alone_gets_the_same_answers(kind: type) -> None
 @needs_numba
 def test_packets_take_the_place_of_embree_alone() -> None:
     for kind, other in (
-        (EmbreeAccelerator, PacketAccelerator),
+        (StaticAccelerator, PacketAccelerator),
         (MovingAccelerator, MovingPackets),
         (SweptMovers, MovingPackets),
         (HierarchyAccelerator, HierarchyAccelerator),
@@ -81,7 +82,7 @@ def test_packets_take_the_place_of_embree_alone() -> None:
         # Nothing has happened to who is active for single rays.
         assert type(accelerator) is kind
         if kind is MovingAccelerator:
-            assert type(accelerator.static) is EmbreeAccelerator
+            assert type(accelerator.static) is StaticAccelerator
             assert type(packed.static) is PacketAccelerator
 
 

@@ -9,7 +9,7 @@ from course import shapes
 from course.building.objects import CONVEX
 from course.compiled import library
 from course.compiled.convex import ConvexObjects, convex_objects
-from course.core.embree import NO_HIT, EmbreeAccelerator, Intersections, QueryStats
+from course.core.accelerator import NO_HIT, Intersections, QueryStats, StaticAccelerator
 from course.core.hits import Hits, Surface
 from course.core.triangles import Mesh
 from course.core.types import Functions
@@ -93,7 +93,7 @@ def in_loops(surface: Surface) -> Any:
 def objects(surface: FullSurface) -> ConvexObjects | None:
     """What compiled loops would look at, whether there are any or not."""
     asked = surface.accelerator
-    assert isinstance(asked, EmbreeAccelerator)
+    assert isinstance(asked, StaticAccelerator)
     return convex_objects(asked.vertices, asked.triangles, surface.triangles.parts)
 
 

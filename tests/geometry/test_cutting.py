@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from course import shapes
 from course.building import cutting
 from course.building.cutting import NEAR, SmallThings, cut
-from course.core.embree import QueryStats
+from course.core.accelerator import QueryStats
 from course.core.ray_offset import OFFSET
 from course.core.triangles import Mesh
 from course.core.types import Floats32

@@ -10,7 +10,8 @@ import pytest
 from numpy.typing import NDArray
 
 from course import shapes
-from course.core.embree import NO_HIT, EmbreeAccelerator, QueryStats
+from course.casters.choice import static_accelerator
+from course.core.accelerator import NO_HIT, QueryStats, StaticAccelerator
 from course.core.types import Functions
 from course.core.vectors import dot
 from course.effects import Effects
@@ -19,7 +20,7 @@ from course.extras.hierarchy import HierarchyAccelerator
 
 N = 4000
 Array = NDArray[np.float32]
-Pair = tuple[HierarchyAccelerator, EmbreeAccelerator]
+Pair = tuple[HierarchyAccelerator, StaticAccelerator]
 
 
 def functions(**replaced: Any) -> Functions:
@@ -32,7 +33,7 @@ def both(
     vertices: NDArray[np.floating], triangles: NDArray[np.integer], leaf_size: int = 4
 ) -> Pair:
     shape = vertices.astype(np.float32), triangles.astype(np.int32)
-    return HierarchyAccelerator(*shape, functions(), leaf_size), EmbreeAccelerator(*shape)
+    return HierarchyAccelerator(*shape, functions(), leaf_size), static_accelerator(*shape)
 
 
 @pytest.fixture(scope="module", params=["knot", "heap"])

@@ -7,7 +7,7 @@ import pytest
 
 from course import shapes
 from course.compiled import library
-from course.core.embree import Intersections
+from course.core.accelerator import Intersections
 from course.core.hits import Hits
 from course.core.materials import Lookup
 from course.core.triangles import Mesh

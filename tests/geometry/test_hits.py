@@ -7,7 +7,7 @@ import pytest
 from numpy.typing import NDArray
 
 from course import Scene, render, shapes
-from course.core.embree import QueryStats
+from course.core.accelerator import QueryStats
 from course.core.hits import Hits
 from course.core.ray_offset import bulge
 from course.core.triangles import Mesh, Triangles

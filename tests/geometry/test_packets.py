@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from course.compiled import accelerator as compiled_accelerator
+from course.casters.choice import static_accelerator
 from course.compiled import library, packets
 from course.compiled.accelerator import PacketAccelerator, in_packets
 from course.core import embree
-from course.core.embree import NO_HIT, Accelerator, EmbreeAccelerator, QueryStats
+from course.core.accelerator import NO_HIT, Accelerator, QueryStats, StaticAccelerator
 
 if not library.available():
     pytest.skip("Numba is not installed (pip install .[fast])", allow_module_level=True)
@@ -36,11 +36,11 @@ def rays(n: int, seed: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 @pytest.fixture(scope="module")
-def accelerator() -> EmbreeAccelerator:
-    return EmbreeAccelerator(*soup(2000, 1))
+def accelerator() -> StaticAccelerator:
+    return static_accelerator(*soup(2000, 1))
 
 
-def packed(accelerator: EmbreeAccelerator) -> PacketAccelerator:
+def packed(accelerator: StaticAccelerator) -> PacketAccelerator:
     found = in_packets(accelerator)
     assert isinstance(found, PacketAccelerator)
     return found
@@ -50,7 +50,7 @@ def packed(accelerator: EmbreeAccelerator) -> PacketAccelerator:
 @pytest.mark.parametrize("n", [0, 1, 2, 15, 16, 17, 33, 20_000])
 @pytest.mark.parametrize("coherent", [False, True])
 def test_nearest_hits_are_the_same_bit_for_bit(
-    accelerator: EmbreeAccelerator, n: int, coherent: bool
+    accelerator: StaticAccelerator, n: int, coherent: bool
 ) -> None:
     origin, direction = rays(n, n)
     stats = QueryStats()
@@ -65,7 +65,7 @@ def test_nearest_hits_are_the_same_bit_for_bit(
 
 
 @pytest.mark.parametrize("query", library.QUERIES)
-def test_embree_keeps_to_the_rows_of_a_packet(accelerator: EmbreeAccelerator, query: str) -> None:
+def test_embree_keeps_to_the_rows_of_a_packet(accelerator: StaticAccelerator, query: str) -> None:
     """Shadow queries, too, touch the rows of hits where the processor has no AVX-512."""
     from course.compiled.query_kernels import ALL_ROWS
 
@@ -92,7 +92,7 @@ def test_embree_keeps_to_the_rows_of_a_packet(accelerator: EmbreeAccelerator, qu
     assert (packet[ALL_ROWS:] == guard).all()
 
 
-def test_limits_hold_and_rays_may_share_an_origin(accelerator: EmbreeAccelerator) -> None:
+def test_limits_hold_and_rays_may_share_an_origin(accelerator: StaticAccelerator) -> None:
     _, direction = rays(5000, 3)
     limit = np.random.default_rng(4).uniform(0, 1, 5000).astype(np.float32)
     origin = np.zeros((3, 1), np.float32)
@@ -108,7 +108,7 @@ def test_limits_hold_and_rays_may_share_an_origin(accelerator: EmbreeAccelerator
 
 @pytest.mark.parametrize("n", [0, 1, 16, 31, 20_000])
 @pytest.mark.parametrize("limit", [0.3, 1.0, 1e30])
-def test_free_ways_are_the_same(accelerator: EmbreeAccelerator, n: int, limit: float) -> None:
+def test_free_ways_are_the_same(accelerator: StaticAccelerator, n: int, limit: float) -> None:
     origin, direction = rays(n, n + 1)
     single = accelerator.unoccluded(origin, direction, limit, QueryStats())
     packet = packed(accelerator).unoccluded(origin, direction, limit, QueryStats())
@@ -118,7 +118,7 @@ def test_free_ways_are_the_same(accelerator: EmbreeAccelerator, n: int, limit: f
         assert 0.02 < packet.mean() < 0.98
 
 
-def test_columns_need_not_lie_next_to_each_other(accelerator: EmbreeAccelerator) -> None:
+def test_columns_need_not_lie_next_to_each_other(accelerator: StaticAccelerator) -> None:
     origin, direction = rays(999, 7)
     stats = QueryStats()
     expected = packed(accelerator).intersect(origin, direction, stats)
@@ -127,11 +127,11 @@ def test_columns_need_not_lie_next_to_each_other(accelerator: EmbreeAccelerator)
 
 
 def test_nothing_and_a_single_triangle() -> None:
-    none = EmbreeAccelerator(np.zeros((0, 3), np.float32), np.zeros((0, 3), np.int32))
+    none = static_accelerator(np.zeros((0, 3), np.float32), np.zeros((0, 3), np.int32))
     nothing = packed(none)
     assert (nothing.intersect(*rays(5, 1), QueryStats()).triangle == -1).all()
     corners = np.array([[-1, -1, 0], [1, -1, 0], [0, 1, 0]], np.float32)
-    one = packed(EmbreeAccelerator(corners, np.array([[0, 1, 2]], np.int32)))
+    one = packed(static_accelerator(corners, np.array([[0, 1, 2]], np.int32)))
     origin = np.array([[0], [0], [-2]], np.float32)
     found = one.intersect(origin, np.array([[0.0], [0.0], [1.0]], np.float32), QueryStats())
     assert found.triangle[0] == 0
@@ -149,7 +149,7 @@ def test_hierarchies_that_nobody_uses_give_their_memory_back(
     monkeypatch.setattr(
         queries, "rtcReleaseScene", lambda scene: (released.append(scene), release(scene))
     )
-    scene = packets.PacketScene(*soup(10, 2))
+    scene = packets.EmbreePackets(*soup(10, 2))
     number = scene.scene
     del scene
     gc.collect()
@@ -157,7 +157,7 @@ def test_hierarchies_that_nobody_uses_give_their_memory_back(
 
 
 @pytest.mark.parametrize("n", [0, 1, 255, 256, 257, 20_000])
-def test_rays_that_do_not_enter_the_box_hit_nothing(accelerator: EmbreeAccelerator, n: int) -> None:
+def test_rays_that_do_not_enter_the_box_hit_nothing(accelerator: StaticAccelerator, n: int) -> None:
     origin, direction = rays(n, n + 2)
     origin *= 4
     # Along the axes, where slabs are divided by 0, some of them in the box's own planes.
@@ -195,7 +195,7 @@ def test_rays_that_do_not_enter_the_box_hit_nothing(accelerator: EmbreeAccelerat
 
 @pytest.mark.parametrize("apart", [False, True])
 def test_where_most_rays_enter_all_are_asked(
-    accelerator: EmbreeAccelerator, apart: bool, monkeypatch: pytest.MonkeyPatch
+    accelerator: StaticAccelerator, apart: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     asked: list[int] = []
     scene = packets.PacketScene
@@ -225,7 +225,7 @@ def test_where_most_rays_enter_all_are_asked(
 
 def test_only_the_hierarchy_that_is_asked_is_built(monkeypatch: pytest.MonkeyPatch) -> None:
     built: list[str] = []
-    for module, name in ((embree, "EmbreeScene"), (compiled_accelerator, "PacketScene")):
+    for module, name in ((embree, "EmbreeScene"), (packets, "EmbreePackets")):
         made = getattr(module, name)
         monkeypatch.setattr(
             module,
@@ -235,9 +235,9 @@ def test_only_the_hierarchy_that_is_asked_is_built(monkeypatch: pytest.MonkeyPat
                 made(*arguments, **options),
             )[1],
         )
-    for wanted, name in ((True, "PacketScene"), (False, "EmbreeScene")):
+    for wanted, name in ((True, "EmbreePackets"), (False, "EmbreeScene")):
         built.clear()
-        mine = EmbreeAccelerator(*soup(10, 3))
+        mine = static_accelerator(*soup(10, 3))
         assert built == []
         for _ in range(2):
             asked: Accelerator = packed(mine) if wanted else mine

@@ -5,7 +5,7 @@ import pytest
 from numpy.typing import NDArray
 
 from course import shapes
-from course.core.embree import Intersections
+from course.core.accelerator import Intersections
 from course.core.hits import Hits
 from course.core.triangles import Mesh
 from course.extras.surface import FullPart, FullSurface, build_surface

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from course import render, shapes
 from course.core import ray_offset
-from course.core.embree import QueryStats
+from course.core.accelerator import QueryStats
 from course.core.hits import Hits
 from course.core.triangles import Mesh
 from course.extras.surface import FullPart, FullSurface, build_surface

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from course import shapes
-from course.core.embree import EmbreeAccelerator, QueryStats
+from course.core.accelerator import QueryStats, StaticAccelerator
 from course.core.motion import Motion, MovingAccelerator
 from course.core.triangles import Mesh
 from course.core.types import Functions
@@ -85,7 +85,7 @@ def asked(accelerator: MovingAccelerator, monkeypatch: pytest.MonkeyPatch) -> li
     counts = []
     movers = [mover.accelerator for mover in accelerator.movers]
     for query in ("intersect", "unoccluded"):
-        total, original = [0], getattr(EmbreeAccelerator, query)
+        total, original = [0], getattr(StaticAccelerator, query)
 
         def noted(
             self: Any,
@@ -98,7 +98,7 @@ def asked(accelerator: MovingAccelerator, monkeypatch: pytest.MonkeyPatch) -> li
             total[0] += origin.shape[1] if self in movers else 0
             return original(self, origin, *rest, **more)
 
-        monkeypatch.setattr(EmbreeAccelerator, query, noted)
+        monkeypatch.setattr(StaticAccelerator, query, noted)
         origin, direction, time = rays()
         limit = () if query == "intersect" else (1e30,)
         getattr(accelerator, query)(origin, direction, *limit, QueryStats(), time)

@@ -10,7 +10,7 @@ import pytest
 
 from course import load_scene, render
 from course.building.cameras import make_camera
-from course.core.embree import QueryStats
+from course.core.accelerator import QueryStats
 from course.effects import PROJECT
 from course.errors import CourseError
 from course.radiosity.radiosity import solve

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from course import shapes
-from course.core.embree import Intersections
+from course.core.accelerator import Intersections
 from course.core.hits import Hits
 from course.extras.surface import FullPart, build_surface
 

@@ -7,8 +7,8 @@ import pytest
 from numpy.typing import NDArray
 
 from course import Scene, render
+from course.core.accelerator import QueryStats
 from course.core.counters import Counters
-from course.core.embree import QueryStats
 from course.core.rays import Draws
 from course.core.samplers import Block
 from course.rendering.binding import bind

@@ -6,7 +6,7 @@ import pytest
 
 from course import render
 from course.compiled.accelerator import MovingPackets, PacketAccelerator
-from course.core.embree import EmbreeAccelerator
+from course.core.accelerator import StaticAccelerator
 from course.core.motion import MovingAccelerator
 from course.extras.swept_movers import SweptMovers
 from tests.conftest import MakeScene
@@ -43,7 +43,7 @@ def test_camera_rays_and_their_mirror_images(
     told: list[bool] = []
     inside: list[bool] = []
     for kind in (
-        *(EmbreeAccelerator, PacketAccelerator),
+        *(StaticAccelerator, PacketAccelerator),
         *(MovingAccelerator, MovingPackets, SweptMovers),
     ):
         intersect = kind.intersect

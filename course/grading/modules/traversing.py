@@ -9,7 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from course.core.embree import EmbreeAccelerator, QueryStats
+from course.casters.choice import static_accelerator
+from course.core.accelerator import QueryStats
 from course.grading.checks.check import Array, Failure, Trial
 from course.grading.checks.declare import Arguments, Case, Function, Law, Made, function
 from course.grading.checks.examples import example, where
@@ -134,7 +135,7 @@ def _embree(function: Function, trial: Trial) -> None:
         a = Arguments(ray_scenes.scene(p, balanced(*boxes_around(p), levels), rays[0], rays[1]))
         try:
             r = function.call(trial, a)
-            embree = EmbreeAccelerator(vertices, faces).intersect(rays[0], rays[1], QueryStats())
+            embree = static_accelerator(vertices, faces).intersect(rays[0], rays[1], QueryStats())
             if step == 1:
                 trial.show(
                     "pictures",

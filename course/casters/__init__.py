@@ -1,0 +1,1 @@
+"""What answers rays: Embree, and what stands in for it where embreex has no wheel."""
