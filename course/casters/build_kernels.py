@@ -12,8 +12,14 @@ One array of float32 holds everything, so that a loop needs one address only:
 - the triangles in the order of the leaves, 10 numbers each: three corners, then the triangle's number as an integer.
 """
 
+from pathlib import Path
+
 import numpy as np
 from numba import njit, types
+
+from course.casters.older_loops import forget_older_loops
+
+forget_older_loops(Path(__file__).parent)
 
 HEADER, NODE, TRIANGLE = 16, 16, 10
 LEAF = 4

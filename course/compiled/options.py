@@ -1,9 +1,10 @@
 """What the loops that Numba compiles have in common; imported by files named ``..._kernels`` alone."""
 
-from contextlib import suppress
 from pathlib import Path
 
 from numba import types
+
+from course.casters.older_loops import forget_older_loops
 
 COLUMNS = types.float32[:, ::1]
 """(k, N) float32, C-contiguous."""
@@ -25,15 +26,4 @@ LEAN = OPTIONS | _INNER | {"_nrt": False, "forceinline": True}
 arithmetic. So none can be made there."""
 
 
-def _forget_older_loops() -> None:
-    """Compile anew what is older than any source: Numba looks at a loop's own file, not at those that it calls."""
-    here = Path(__file__).parent
-    newest = max(file.stat().st_mtime for file in here.glob("*.py"))
-    for index in (here / "__pycache__").glob("*.nbi"):
-        # Another process may have deleted it, too.
-        with suppress(FileNotFoundError):
-            if index.stat().st_mtime < newest:
-                index.unlink()
-
-
-_forget_older_loops()
+forget_older_loops(Path(__file__).parent)
