@@ -58,6 +58,10 @@ CONTRACTS = {
     "environment_light.density": "weights: H W, direction: 3 N -> the density: N",
     "environment_light.alias_table": "weights: K -> probability: float64 K, alias: whole K",
     "environment_light.draw_alias": "probability: K, alias: K, u: N -> outcome: whole N, rest: N",
+    "microfacets.smith_g1": "cos: N, alpha -> the shares: N",
+    "microfacets.smith_g2": "cos_o: N, cos_i: N, alpha -> the shares: N",
+    "microfacets.sample_visible_normal": "wo: 3 N, alpha, u: 2 N -> the normals: unit 3 N",
+    "microfacets.fresnel_complex": "cos: N, n: 3, k: 3 -> the reflectance: 3 N",
     "blurred_transparency.refract": "direction: 3 N, normal: 3 N, eta: N"
     " -> directions: unit 3 N, total: bool N",
     "blurred_transparency.jitter_refraction": "direction: 3 N, normal: 3 N, roughness, u: 2 N"

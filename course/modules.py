@@ -23,6 +23,7 @@ FURTHER = _named(
         "importance_sampling": "uniform_hemisphere cosine_hemisphere cosine_hemisphere_pdf phong_lobe_pdf estimate"
         " power_heuristic",
         "environment_light": "texel_weights cumulate sample_direction density alias_table draw_alias",
+        "microfacets": "ggx smith_g1 smith_g2 sample_visible_normal visible_normal_pdf fresnel_complex brdf",
         "blurred_transparency": "refract jitter_refraction fresnel",
         "adaptive_sampling": "needs_subdivision subdivide",
         "textures": "rectangle_uv sphere_uv triangle_uv texture_lookup",

@@ -56,6 +56,7 @@ _FROZEN = "what moves stands still"
 _FLAT_SKY = "the environment has its mean colour"
 _FLAT = "textures have their mean colour"
 _CLEAR = "glass is clear, and what is behind it isn't bent"
+_OPEN = "no microfacet hides another"
 _SKY = "the environment lights from straight above"
 _WHOLE = "no cell is divided"
 _PATHS = "paths go on along the normal, and lose half their light"
@@ -142,6 +143,19 @@ STAND_INS: dict[str, tuple[Callable[..., Any], str]] = {
     "environment_light.draw_alias": (
         lambda _probability, _alias, u: (np.zeros(len(u), int), np.full_like(u, 0.5)),
         _SKY,
+    ),
+    "microfacets.sample_visible_normal": (
+        lambda wo, _alpha, _u: _all((0, 0, 1), wo),
+        "rough metals and glass are smooth",
+    ),
+    "microfacets.smith_g1": (lambda cos, _alpha: (cos > 0).astype(cos.dtype), _OPEN),
+    "microfacets.smith_g2": (
+        lambda cos_o, cos_i, _alpha: ((cos_o > 0) & (cos_i > 0)).astype(cos_o.dtype),
+        _OPEN,
+    ),
+    "microfacets.fresnel_complex": (
+        lambda cos, _n, _k: np.full((3, len(cos)), 0.5, cos.dtype),
+        "rough metals and glass mirror half of the light",
     ),
     "blurred_transparency.refract": (
         lambda direction, _normal, _eta: (direction.copy(), np.zeros(direction.shape[1], bool)),

@@ -1,4 +1,4 @@
-"""From gloss descriptions to lobes, and from dielectrics with a roughness to rough glass."""
+"""From gloss descriptions to lobes, and from what is rough to rough glass and to microfacets."""
 
 from collections.abc import Sequence
 
@@ -8,6 +8,7 @@ import numpy as np
 from course.core.gloss import Lobe
 from course.effects import Bound
 from course.extras.lobes import ForeignLobe
+from course.extras.microfacets import Microfacets
 from course.extras.rough_glass import RoughGlass
 from course.formats.yaml import description as d
 from course.formats.yaml.description import rgb
@@ -66,8 +67,9 @@ FUNCTIONS = ("refract", "fresnel", "jitter_refraction")
 
 
 def is_rough(material: d.MaterialDescription) -> bool:
-    """True if a material is rough glass."""
-    return material.dielectric is not None and material.dielectric.roughness > 0
+    """True if a material is rough glass, whose refracted directions are moved on a square."""
+    glass = material.dielectric
+    return glass is not None and glass.roughness > 0 and glass.distribution == "square"
 
 
 def reflecting(material: d.MaterialDescription) -> d.MaterialDescription:
@@ -96,4 +98,41 @@ def compile_rough_glass(
         functions = bound.functions("blurred_transparency", *FUNCTIONS, asked_by=asked_by)
         roughness = min(material.dielectric.roughness, FLAT)
         found.append(RoughGlass(number, roughness, number in glossy, functions))
+    return tuple(found)
+
+
+SMOOTHEST = 0.001
+"""The least roughness that the functions of microfacets know."""
+
+LARGEST_INDEX = 1e8
+"""An index of refraction beyond it is as good as infinite."""
+
+
+def compile_microfacets(
+    materials: Sequence[tuple[str, d.MaterialDescription]],
+    bound: Bound,
+    integrator: d.IntegratorDescription,
+) -> tuple[Microfacets, ...]:
+    """The metals and glasses with a GGX distribution of microfacets; none where the depth allows no reflection."""
+    found = []
+    for number, (which, material) in enumerate(materials):
+        metal, glass = material.conductor, material.dielectric
+        if integrator.max_depth == 0:
+            continue
+        if metal is not None and metal.roughness:
+            kind, roughness = "conductor", metal.roughness
+            n, k = (
+                np.minimum(rgb(part), LARGEST_INDEX)
+                for part in (metal.refraction_index, metal.absorption_index)
+            )
+            k[(n == 0) & (k == 0)] = 1.0
+        elif glass is not None and glass.roughness and glass.distribution == "ggx":
+            kind, roughness = "dielectric", glass.roughness
+            n, k = np.full(3, glass.refraction_index), None
+        else:
+            continue
+        names = ["sample_visible_normal", "smith_g1", "smith_g2", "fresnel_complex"]
+        asked_by = ("materials", which, kind, "roughness")
+        functions = bound.functions("microfacets", *names, asked_by=asked_by)
+        found.append(Microfacets(number, max(roughness, SMOOTHEST), n, k, functions))
     return tuple(found)

@@ -66,7 +66,7 @@ def _conductors(materials: Mapping[str, MaterialDescription], count: int) -> Con
     metals = {
         column: material.conductor
         for column, material in enumerate(materials.values())
-        if material.conductor is not None
+        if material.conductor is not None and not material.conductor.roughness
     }
     if not metals:
         return None

@@ -8,7 +8,12 @@ from course.building.cameras import compile_lens, make_camera, make_window_camer
 from course.building.cutting import cut
 from course.building.environment import compile_environment
 from course.building.frame import Frame, bounds_of, in_range, in_reach
-from course.building.gloss import compile_lobes, compile_rough_glass, reflecting
+from course.building.gloss import (
+    compile_lobes,
+    compile_microfacets,
+    compile_rough_glass,
+    reflecting,
+)
 from course.building.lights import Lit, compile_choice, compile_lights, emitter_parts
 from course.building.materials import check_growth, compile_materials, material_columns
 from course.building.motion import check_sweeps, compile_motion, shutter_of
@@ -151,6 +156,7 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
         keeps=scene.integrator.into_surface == "keep",
         lifted=scene.integrator.surface_offset > 0,
         choice=compile_choice(loaded, lights),
+        microfacets=compile_microfacets(named, bound, scene.integrator),
     )
     check_growth(loaded, columns.names, world)
     if small is not None:

@@ -145,7 +145,7 @@ def _fits_scatter(scatter: Scatter | None) -> bool:
     if scatter is None:
         return True
     if isinstance(scatter, FullScatter) and (
-        scatter.conductors is not None or scatter.rough or scatter.keeps
+        scatter.conductors is not None or scatter.rough or scatter.microfacets or scatter.keeps
     ):
         return False
     gloss = scatter.gloss

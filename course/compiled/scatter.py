@@ -30,7 +30,7 @@ class CompiledScatter(FullScatter):
 
     def boundary(self, hits: Hits, which: Indices | None, depth: int) -> Boundary:
         """See ``Scatter``."""
-        if self.rough or self.index is None:
+        if self.rough or self.microfacets or self.index is None:
             return super().boundary(hits, which, depth)
         if which is None:
             which = np.arange(hits.size)
@@ -59,7 +59,7 @@ class CompiledScatter(FullScatter):
         draws: Draws,
     ) -> Floats32:
         """See ``Scatter``."""
-        if self.rough or self.keeps:
+        if self.rough or self.microfacets or self.keeps:
             return super().refracted(hits, which, boundary, path, depth, draws)
         way = np.empty((3, len(which)), np.float32)
         arrays = hits.direction, hits.ns, hits.ng, boundary.cos_i, boundary.cos_t, boundary.eta

@@ -16,6 +16,7 @@ from course.core.rays import OPEN, Draws, Rays
 from course.core.scatter import Boundary, Scatter, kept_above
 from course.core.types import Floats32, Functions, Indices, Mask, Media
 from course.extras.russian_roulette import survivors
+from course.extras.scatter import FullScatter
 
 DIFFUSE, MIRRORED, REFRACTED = range(3)
 
@@ -112,6 +113,7 @@ class PathBounce:
         if len(back):
             mirrored = self.scatter.mirrored(hits, back, path[optical:crossing], depth, draws)
             directions.append(mirrored)
+            self._weigh(after[:, optical:crossing], hits, back, mirrored, depth, False)
         if len(through):
             assert other is not None
             assert boundary is not None
@@ -120,12 +122,28 @@ class PathBounce:
             within = boundary.of(np.flatnonzero(refracts))
             refracted = self.scatter.refracted(hits, through, within, path[crossing:], depth, draws)
             directions.append(refracted)
+            self._weigh(after[:, crossing:], hits, through, refracted, depth, True)
             if medium is not None:
                 medium[crossing:] = self.scatter.medium_behind(hits, through)
         direction = np.concatenate(directions, axis=1)
         excluded = self.surface.excluded_objects(hits, which, direction)
         rays = Rays(origin, direction, after, path, medium, time, excluded, start)
         return rays, np.arange(len(which)) >= optical
+
+    def _weigh(
+        self,
+        after: Floats32,
+        hits: Hits,
+        which: Indices,
+        way: Floats32,
+        depth: int,
+        through: bool,
+    ) -> None:
+        """Multiply the throughput (3, m) of mirrored or refracted rays by what their directions count."""
+        if isinstance(self.scatter, FullScatter):
+            count = self.scatter.weights(hits, which, way, depth, through)
+            if count is not None:
+                after *= count
 
     def _origins(
         self, hits: Hits, which: Indices, near: int, after: Floats32

@@ -23,6 +23,7 @@ from course.extras.conductors import Conductors
 from course.extras.direct import FullDirectLight
 from course.extras.light_choice import WHERE, WHICH
 from course.extras.materials import FullMaterials
+from course.extras.microfacets import NUMBERS as MICROFACET
 from course.extras.path_bounce import PathBounce
 from course.extras.path_tracing import PathIntegrator, glow
 from course.extras.rough_glass import REFRACTION
@@ -59,9 +60,11 @@ def plan(
         integrator = replace(integrator, environment_depth=seen)
     if scatter is not None and scatter.absorbs:
         integrator = replace(integrator, absorption=Absorption.of(world.materials, camera))
-    if world.rough or paths is not None:
+    if world.rough or world.microfacets or paths is not None:
         integrator = replace(integrator, coherent_depth=min(integrator.coherent_depth, 0))
-    rough = (REFRACTION,) if isinstance(scatter, FullScatter) and scatter.rough else ()
+    full = scatter if isinstance(scatter, FullScatter) else None
+    rough = [REFRACTION] if full and full.rough else []
+    rough += [MICROFACET] if full and full.microfacets else []
     further = [NUMBERS] if sky is not None else []
     if isinstance(direct, FullDirectLight) and (choice := direct.choice) is not None:
         further = [(WHICH, 1), (WHERE, choice.width), *further]
@@ -76,7 +79,7 @@ def plan(
 def _scatter(world: FullWorld, max_depth: int, cutoff: float) -> Scatter | None:
     scatter = plan_scatter(world, max_depth, cutoff)
     conductors = _conductors(world.materials)
-    if scatter is None or not (conductors or world.rough or world.keeps):
+    if scatter is None or not (conductors or world.rough or world.microfacets or world.keeps):
         return scatter
     rough = world.rough if scatter.index is not None else ()
     return FullScatter(
@@ -85,6 +88,7 @@ def _scatter(world: FullWorld, max_depth: int, cutoff: float) -> Scatter | None:
         rough=rough,
         keeps=world.keeps,
         max_depth=max_depth,
+        microfacets=world.microfacets,
     )
 
 

@@ -1,17 +1,18 @@
-"""Scattering by metals and rough glass, and without correcting directions that point into the surface."""
+"""Scattering by metals, rough glass and microfacets, and without correcting directions that point into the surface."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from course.core.fresnel_refraction import refract
 from course.core.hits import Hits
-from course.core.rays import Draws
+from course.core.rays import Draws, Rays
 from course.core.scatter import Boundary, Scatter, kept_above
-from course.core.types import Floats32, Indices
+from course.core.types import Floats32, Indices, Media
 from course.core.vectors import dot, reflect
-from course.extras import rough_glass
+from course.extras import microfacets, rough_glass
 from course.extras.conductors import Conductors
+from course.extras.microfacets import Microfacets
 from course.extras.rough_glass import RoughGlass
 
 
@@ -28,8 +29,9 @@ class FullScatter(Scatter):
 
     Attributes
     ----------
-    conductors : the metals; None if there are none
+    conductors : the smooth metals; None if there are none
     rough : the rough glasses
+    microfacets : the metals and glasses whose microfacets are drawn
     keeps : true if directions that point into the surface are kept
     max_depth : largest number of bounces
     """
@@ -38,6 +40,7 @@ class FullScatter(Scatter):
     rough: tuple[RoughGlass, ...] = ()
     keeps: bool = False
     max_depth: int = 0
+    microfacets: tuple[Microfacets, ...] = ()
 
     def reflectance(self, hits: Hits, which: Indices | None) -> Floats32:
         """See ``Scatter``."""
@@ -53,6 +56,9 @@ class FullScatter(Scatter):
     def boundary(self, hits: Hits, which: Indices | None, depth: int) -> Boundary:
         """See ``Scatter``."""
         smooth = super().boundary(hits, which, depth)
+        if self.microfacets:
+            material = hits.material if which is None else hits.material.take(which)
+            microfacets.chances(self.microfacets, material, smooth)
         if not self.rough or self.index is None:
             return smooth
         material, entering, direction, ns = hits.material, hits.entering, hits.direction, hits.ns
@@ -73,6 +79,7 @@ class FullScatter(Scatter):
     ) -> Floats32:
         """See ``Scatter``; inside rough glass without gloss, directions are jittered, too."""
         way = super().mirrored(hits, which, path, depth, draws)
+        microfacets.scatter(self.microfacets, hits, which, path, depth, draws, way)
         if not self.rough:
             return way
         material, ng = hits.material.take(which), hits.ng.take(which, axis=1)
@@ -100,7 +107,7 @@ class FullScatter(Scatter):
         draws: Draws,
     ) -> Floats32:
         """See ``Scatter``."""
-        if not self.keeps and not self.rough:
+        if not (self.keeps or self.rough or self.microfacets):
             return super().refracted(hits, which, boundary, path, depth, draws)
         direction, ns = hits.direction.take(which, axis=1), hits.ns.take(which, axis=1)
         ng = hits.ng.take(which, axis=1)
@@ -110,4 +117,33 @@ class FullScatter(Scatter):
         if isinstance(boundary, RoughBoundary):
             arrays = hits.material.take(which), boundary.rough_direction, ng, path
             rough_glass.scatter(self.rough, self.keeps, *arrays, depth, draws, direction=way)
+        arrays = self.microfacets, hits, which, path
+        microfacets.scatter(*arrays, depth, draws, way, boundary.eta)
         return way
+
+    def weights(
+        self, hits: Hits, which: Indices, way: Floats32, depth: int, through: bool
+    ) -> Floats32 | None:
+        """What directions count besides their throughput; see ``course.extras.microfacets``."""
+        if not self.microfacets:
+            return None
+        boundary = None if self.index is None else self.boundary(hits, which, depth)
+        return microfacets.weights(self.microfacets, hits, which, way, boundary, through)
+
+    def _leaving(
+        self,
+        hits: Hits,
+        throughput: Floats32,
+        boundary: Boundary | None,
+        path: Indices | None,
+        medium: Media | None,
+        depth: int,
+        draws: Draws,
+    ) -> Rays | None:
+        """See ``Scatter``."""
+        rays = super()._leaving(hits, throughput, boundary, path, medium, depth, draws)
+        if rays is None or not self.microfacets or rays.throughput is None:
+            return rays
+        which = np.flatnonzero(throughput.max(axis=0) > self.cutoff)
+        count = self.weights(hits, which, rays.direction, depth, boundary is not None)
+        return rays if count is None else replace(rays, throughput=rays.throughput * count)

@@ -6,6 +6,7 @@ from course.core.camera import Lens
 from course.core.scene import World
 from course.core.types import Functions, Mask
 from course.extras.light_choice import LightChoice
+from course.extras.microfacets import Microfacets
 from course.extras.rough_glass import RoughGlass
 from course.extras.sky import SkySampling
 
@@ -39,6 +40,7 @@ class FullWorld(World):
     skipped_lights : name of a light -> reason why it is left out
     sky : samples directions to the environment; None if the environment is not a light
     rough : the rough glasses
+    microfacets : the metals and glasses whose microfacets are drawn
     lens : lens of the camera; None for a pinhole
     paths : None for the distribution ray tracer
     backdrop : true if only camera rays see the environment
@@ -56,3 +58,4 @@ class FullWorld(World):
     keeps: bool = False
     lifted: bool = False
     choice: LightChoice | None = None
+    microfacets: tuple[Microfacets, ...] = ()

@@ -130,6 +130,7 @@ _REASONS = {
     "motion_blur": "nothing moves while the shutter is open",
     "cube_map": "the environment is no picture, or a black one",
     "blurred_transparency": "no glass is rough",
+    "microfacets": "no metal is rough, and no glass by microfacets",
     "textures": "no surface shows a texture",
     "bounding_volumes": "Embree answers the rays",
     "environment_light": "no directions towards an environment are chosen by its picture",

@@ -44,6 +44,7 @@ def check_consistency(description: d.SceneDescription, document: Document) -> No
         here.check(not sharp, "specular", f"numbers of at most {_SHARPEST:g}")
         if material.dielectric is not None and material.conductor is not None:
             raise here.error("both dielectric and conductor are given: expected one of them")
+        _check_microfacets(material, here)
     for index, light in enumerate(description.lights):
         _check_light(light, scene.at("lights", index))
     for index, thing in enumerate(description.objects):
@@ -56,6 +57,25 @@ def check_consistency(description: d.SceneDescription, document: Document) -> No
             glass is None or not glass.roughness or 0.1 < glass.refraction_index < 10,
             "refraction_index",
             "a number between 0.1 and 10 for rough glass, against what surrounds it",
+        )
+
+
+def _check_microfacets(material: d.MaterialDescription, here: Place) -> None:
+    """A roughness of microfacets is at most 1, and blurs by itself."""
+    glass, metal = material.dielectric, material.conductor
+    drawn = glass is not None and glass.distribution == "ggx" and glass.roughness > 0
+    if drawn and glass is not None:
+        small = glass.roughness <= 1
+        here.at("dielectric").check(
+            small, "roughness", "a number of at most 1 with distribution ggx"
+        )
+    if (drawn or (metal is not None and metal.roughness > 0)) and material.gloss is not None:
+        raise here.error(
+            "both gloss and a roughness of microfacets are given: expected one of them"
+        )
+    if metal is not None and metal.roughness > 0 and metal.fresnel == "approximate":
+        raise here.at("conductor").error(
+            "a rough conductor has the exact Fresnel equations: leave fresnel out"
         )
 
 

@@ -166,10 +166,17 @@ class Dielectric(Map, frozen=True, kw_only=True):
         float,
         about(
             "Frosted glass: refracted directions are moved on a square of this edge, at distance 1;"
-            " 0 is clear glass.",
+            " 0 is clear glass. With distribution ggx it is alpha, up to 1.",
             ge=0,
         ),
     ] = 0.0
+    distribution: Annotated[
+        Literal["square", "ggx"],
+        about(
+            "What the roughness is: the edge of a `square`, or the slopes of microfacets with a distribution by"
+            " `ggx`, which the module microfacets draws; they blur what is mirrored, too."
+        ),
+    ] = "square"
     surrounded_by: Annotated[
         str | None,
         about(
@@ -194,6 +201,18 @@ class Conductor(Map, frozen=True, kw_only=True):
             "The Fresnel equations, or their usual approximation, which holds where n^2 + k^2 is much larger than 1."
         ),
     ] = "exact"
+    roughness: Annotated[
+        float,
+        about(
+            "Alpha of the microfacets: half of the surface is turned by less than arctan(alpha). The module"
+            " microfacets draws them; 0 is smooth.",
+            ge=0,
+            le=1,
+        ),
+    ] = 0.0
+    distribution: Annotated[
+        Literal["ggx"], about("Which microfacets there are: their normals' distribution.")
+    ] = "ggx"
 
 
 _Times: TypeAlias = Annotated[float, msgspec.Meta(gt=0, le=1e4)]

@@ -1,0 +1,200 @@
+"""microfacets - metals and glass that are neither smooth nor matt: mirrors too small to be seen, turned every way.
+
+The surface's normal is +z, wo looks to the viewer, wi to the light, and wm are the normals of the mirrors. Half of the
+surface is turned by less than arctan(alpha). ValueError is raised for arrays of other shapes and for another alpha.
+"""
+
+import numpy as np
+
+
+def ggx(cos, alpha):
+    """D, the area of microfacets with normals at that angle: alpha^2 / (pi ((alpha^2 - 1) cos^2 + 1)^2), above +z.
+
+    Parameters
+    ----------
+    cos : (N,) floating in [-1, 1], of the angle between wm and +z
+    alpha : float, 0.001 to 1
+
+    Returns
+    -------
+    (N,) [1/sr], of the dtype of cos; 0 where cos <= 0. Times the cosine it integrates to 1.
+
+    Task: microfacets.ggx. Source: Walter et al., "Microfacet models for refraction through rough surfaces", 2007.
+    """
+    _check(alpha, cos=(cos, "N"))
+    ### BEGIN SOLUTION
+    # 1 - cos^2 is small where D is large: as a product it keeps its digits.
+    spread = (1 - cos) * (1 + cos) + (alpha * cos) ** 2
+    return np.where(cos > 0, alpha * alpha / np.pi / (spread * spread), 0).astype(cos.dtype)
+    ### END SOLUTION
+
+
+def smith_g1(cos, alpha):
+    """Masking: the share of the microfacets turned to a direction that aren't hidden from it by others.
+
+    Parameters
+    ----------
+    cos : (N,) floating in [-1, 1], of the angle between the direction and +z
+    alpha : float, 0.001 to 1
+
+    Returns
+    -------
+    (N,) in [0, 1], of the dtype of cos; 0 where cos <= 0
+        1 / (1 + Lambda), Lambda = (sqrt(1 + alpha^2 tan^2) - 1) / 2.
+
+    Task: microfacets.smith_g1. Source: Heitz, "Understanding the masking-shadowing function", 2014.
+    """
+    _check(alpha, cos=(cos, "N"))
+    ### BEGIN SOLUTION
+    up = np.maximum(cos, 0)
+    root = np.sqrt(up * up + alpha * alpha * ((1 - up) * (1 + up)))
+    return (2 * up / (up + root)).astype(cos.dtype)
+    ### END SOLUTION
+
+
+def smith_g2(cos_o, cos_i, alpha):
+    """Masking and shadowing: the share of microfacets seen from two directions, correlated by height.
+
+    Parameters
+    ----------
+    cos_o, cos_i : (N,) floating in [-1, 1], of the angles of wo and wi to +z
+    alpha : float, 0.001 to 1
+
+    Returns
+    -------
+    (N,) in [0, 1], of the dtype of the cosines, or NumPy's promotion of the two; 0 where one of them is <= 0
+        1 / (1 + Lambda_o + Lambda_i), Lambda as in `smith_g1`: what lies low is hidden from both.
+
+    Task: microfacets.smith_g2. Source: Heitz, 2014, section 5.3.
+    """
+    _check(alpha, cos_o=(cos_o, "N"), cos_i=(cos_i, "N"))
+    ### BEGIN SOLUTION
+    # Lambda is 1 / G1 - 1.
+    o, i = (smith_g1(cos.astype(np.float64), alpha) for cos in (cos_o, cos_i))
+    seen = np.where(o + i > 0, o + i - o * i, 1)
+    return (o * i / seen).astype(np.result_type(cos_o, cos_i))
+    ### END SOLUTION
+
+
+def sample_visible_normal(wo, alpha, u):
+    """Random microfacets, each as probable as it looks large from wo: those that rays from there meet.
+
+    Parameters
+    ----------
+    wo : (3, N) floating, unit vectors with z > 0
+    alpha : float, 0.001 to 1
+    u : (2, N) floating in [0, 1)
+
+    Returns
+    -------
+    (3, N) unit vectors wm with z >= 0 and dot(wo, wm) >= 0, of the dtype of wo and u, or NumPy's promotion of the two
+        How u leads to them is free, as long as small steps of u are small steps of wm.
+
+    Task: microfacets.sample_visible_normal. Source: Heitz, "Sampling the GGX distribution of visible normals", 2018.
+    """
+    _check(alpha, wo=(wo, 3, "N"), u=(u, 2, "N"))
+    ### BEGIN SOLUTION
+    # Stretched, the microfacets have the normals of a hemisphere.
+    stretch = np.array([[alpha], [alpha], [1.0]])
+    view = stretch * wo / np.linalg.norm(stretch * wo, axis=0)
+    ring = np.hypot(view[0], view[1])
+    across = np.stack((-view[1], view[0], 0 * ring)) / np.maximum(ring, 1e-30)
+    across[0] += ring < 1e-30
+    # Seen from there it is a half-disk, and a half-ellipse that z has squeezed: the part beyond the top.
+    r, phi, z = np.sqrt(u[0]), 2 * np.pi * u[1].astype(np.float64), view[2]
+    a, b = r * np.cos(phi), r * np.sin(phi)
+    b = (1 - z) / 2 * np.sqrt(1 - a * a) + (1 + z) / 2 * b
+    toward = np.sqrt(np.maximum(1 - a * a - b * b, 0))
+    dome = a * across + b * np.cross(view, across, axis=0) + toward * view
+    wm = stretch * np.maximum(dome, [[-1.0], [-1], [1e-12]])
+    return (wm / np.linalg.norm(wm, axis=0)).astype(np.result_type(wo, u))
+    ### END SOLUTION
+
+
+def visible_normal_pdf(wo, wm, alpha):
+    """The density of sample_visible_normal: G1(wo) max(dot(wo, wm), 0) D(wm) / wo_z.
+
+    Parameters
+    ----------
+    wo, wm : (3, N) floating, unit vectors, wo with z > 0
+    alpha : float, 0.001 to 1
+
+    Returns
+    -------
+    (N,) [1/sr], of the dtype of wo and wm, or NumPy's promotion of the two
+        The directions that the microfacets mirror have this density over 4 dot(wo, wm).
+
+    Task: microfacets.visible_normal_pdf. Source: Heitz, 2018.
+    """
+    _check(alpha, wo=(wo, 3, "N"), wm=(wm, 3, "N"))
+    ### BEGIN SOLUTION
+    dtype, wo, wm = np.result_type(wo, wm), wo.astype(np.float64), wm.astype(np.float64)
+    area = ggx(wm[2], alpha) * np.maximum((wo * wm).sum(axis=0), 0)
+    return (smith_g1(wo[2], alpha) / wo[2] * area).astype(dtype)
+    ### END SOLUTION
+
+
+def fresnel_complex(cos, n, k):
+    """The share of unpolarised light that a smooth surface mirrors, whose index is n + i k times that outside.
+
+    Parameters
+    ----------
+    cos : (N,) floating, of the angle between light and normal; what lies beyond 0 or 1 counts as 0 or 1
+    n, k : (3,) floating >= 0, not both 0, in red, green and blue; k = 0 is glass, with n < 1 seen from its inside
+
+    Returns
+    -------
+    (3, N) in [0, 1], of the dtype of cos
+        The mean of both polarisations.
+
+    Task: microfacets.fresnel_complex. Source: Born and Wolf, "Principles of optics", 14.2.
+    """
+    _check(1, cos=(cos, "N"), n=(n, 3), k=(k, 3))
+    if not (np.minimum(n, k) >= 0).all() or not np.maximum(n, k).all():
+        raise ValueError(f"n and k must be >= 0, and not both 0, got {n} and {k}")
+    ### BEGIN SOLUTION
+    c = np.clip(cos.astype(np.float64), 1e-18, 1)
+    squared = ((np.asarray(n, np.float64) + 1j * np.asarray(k, np.float64)) ** 2)[:, None]
+    inside = np.sqrt(squared - (1 - c) * (1 + c))
+    across, within = (c - inside) / (c + inside), (squared * c - inside) / (squared * c + inside)
+    return ((np.abs(across) ** 2 + np.abs(within) ** 2) / 2).astype(cos.dtype)
+    ### END SOLUTION
+
+
+def brdf(wo, wi, alpha, n, k):
+    """What the microfacets mirror from wi to wo: F(dot(wo, wm)) D(wm) G2 / (4 wo_z wi_z), wm halfway between the two.
+
+    Parameters
+    ----------
+    wo, wi : (3, N) floating, unit vectors
+    alpha : float, 0.001 to 1
+    n, k : (3,) floating, as for `fresnel_complex`
+
+    Returns
+    -------
+    (3, N) [1/sr], of the dtype of wo and wi, or NumPy's promotion of the two; 0 where one of them has z <= 0
+
+    Task: microfacets.brdf. Source: Torrance and Sparrow, 1967; Walter et al., 2007.
+    """
+    _check(alpha, wo=(wo, 3, "N"), wi=(wi, 3, "N"), n=(n, 3), k=(k, 3))
+    ### BEGIN SOLUTION
+    dtype, wo, wi = np.result_type(wo, wi), wo.astype(np.float64), wi.astype(np.float64)
+    above = (wo[2] > 0) & (wi[2] > 0)
+    wm = (wo + wi) / np.maximum(np.linalg.norm(wo + wi, axis=0), 1e-30)
+    share = ggx(wm[2], alpha) * smith_g2(wo[2], wi[2], alpha)
+    share = share / np.where(above, 4 * wo[2] * wi[2], 1)
+    return (share * fresnel_complex((wo * wm).sum(axis=0), n, k)).astype(dtype)
+    ### END SOLUTION
+
+
+def _check(alpha, **arrays):
+    if not 0.001 <= alpha <= 1:
+        raise ValueError(f"alpha must be from 0.001 to 1, got {alpha}")
+    columns = "N"
+    for name, (array, *sizes) in arrays.items():
+        got, sizes = np.shape(array), [columns if size == "N" else size for size in sizes]
+        right = len(got) == len(sizes)
+        if not right or any(a not in ("N", b) for a, b in zip(sizes, got, strict=True)):
+            wanted = ", ".join(map(str, sizes)) + "," * (len(sizes) == 1)
+            raise ValueError(f"{name} must have shape ({wanted}), got {got}")
+        columns = got[-1]

@@ -1,0 +1,19 @@
+"""Masking is missing: along the surface more light comes back than arrives."""
+
+import numpy as np
+
+FUNCTION = "brdf"
+CAUGHT_BY = "values"
+MISTAKE = "brdf-not-masked"
+SAYS = "Masking is missing: along the surface more light comes back than arrives."
+
+
+def brdf(wo, wi, alpha, n, k):
+    """With a mistake."""
+    _check(alpha, wo=(wo, 3, "N"), wi=(wi, 3, "N"), n=(n, 3), k=(k, 3))
+    dtype, wo, wi = np.result_type(wo, wi), wo.astype(np.float64), wi.astype(np.float64)
+    above = (wo[2] > 0) & (wi[2] > 0)
+    wm = (wo + wi) / np.maximum(np.linalg.norm(wo + wi, axis=0), 1e-30)
+    share = np.where(above, ggx(wm[2], alpha), 0)
+    share = share / np.where(above, 4 * wo[2] * wi[2], 1)
+    return (share * fresnel_complex((wo * wm).sum(axis=0), n, k)).astype(dtype)

@@ -1,0 +1,16 @@
+"""You did not divide by the cosine of the view."""
+
+import numpy as np
+
+FUNCTION = "visible_normal_pdf"
+CAUGHT_BY = "values"
+MISTAKE = "cosine-left-out"
+SAYS = "You did not divide by the cosine of the view."
+
+
+def visible_normal_pdf(wo, wm, alpha):
+    """With a mistake."""
+    _check(alpha, wo=(wo, 3, "N"), wm=(wm, 3, "N"))
+    dtype, wo, wm = np.result_type(wo, wm), wo.astype(np.float64), wm.astype(np.float64)
+    area = ggx(wm[2], alpha) * np.maximum((wo * wm).sum(axis=0), 0)
+    return (smith_g1(wo[2], alpha) * area).astype(dtype)

@@ -1,0 +1,16 @@
+"""Normals that look away from the viewer are never drawn: the size of the dot product does not tell."""
+
+import numpy as np
+
+FUNCTION = "visible_normal_pdf"
+CAUGHT_BY = "hidden"
+MISTAKE = "looks-away"
+SAYS = "Normals that look away from the viewer are never drawn: the size of the dot product does not tell."
+
+
+def visible_normal_pdf(wo, wm, alpha):
+    """With a mistake."""
+    _check(alpha, wo=(wo, 3, "N"), wm=(wm, 3, "N"))
+    dtype, wo, wm = np.result_type(wo, wm), wo.astype(np.float64), wm.astype(np.float64)
+    area = ggx(wm[2], alpha) * np.abs((wo * wm).sum(axis=0))
+    return (smith_g1(wo[2], alpha) / wo[2] * area).astype(dtype)
