@@ -4,8 +4,7 @@ import numpy as np
 
 FUNCTION = "ggx"
 CAUGHT_BY = "sharp"
-MISTAKE = "digits-lost"
-SAYS = "Next to cos = 1 a small difference of two large numbers is left: it has no digits."
+MISTAKE = None
 
 
 def ggx(cos, alpha):
