@@ -119,6 +119,8 @@ def test_the_product_of_two_g1_in_place_of_g2_returns_less(
     mine.mkdir()
     text = (PROJECT / "solutions" / "microfacets.py").read_text(encoding="utf-8")
     wrong = PROJECT / "solutions" / "wrong" / "microfacets" / "g2_product.py"
+    for file in (PROJECT / "solutions").glob("*.py"):
+        (mine / file.name).write_bytes(file.read_bytes())
     (mine / "microfacets.py").write_text(text + wrong.read_text(encoding="utf-8"), "utf-8")
     scene = sheet(make_scene, metal(1.0))
     found = estimates(load_variant(scene.path, None, mine))

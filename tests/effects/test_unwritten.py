@@ -18,6 +18,8 @@ lights/0 -> {type: sphere, center: [0, 3, 0], radius: 1, intensity: 9} | soft_sh
 materials/grey -> {mirror: 1, gloss: {lobe: plane, roughness: 0.1}} | glossy.jitter_on_plane: materials.grey.gloss
 materials/grey -> {dielectric: {roughness: 0.1}} |
     blurred_transparency.jitter_refraction: materials.grey.dielectric.roughness
+materials/grey -> {dielectric: {roughness: 0.1, distribution: ggx}} |
+    microfacets.sample_visible_normal: materials.grey.dielectric.roughness
 acceleration -> {type: hierarchy} | bounding_volumes.build: acceleration.type
 environment -> {type: constant, radiance: 1, lights: true, sampling: cosine} |
     importance_sampling.cosine_hemisphere: environment.sampling

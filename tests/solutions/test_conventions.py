@@ -136,6 +136,7 @@ RANGES = {
     **dict.fromkeys(("open", "close"), "finite and open <= close"),
     "radius": "finite and >= 0",
     "glossiness": ">= 0 and < 1",
+    "alpha": "from 0.001 to 1",
     "eta": "from 0.1 to 10",
     "leaf_size": "an integer >= 1",
     "base": "an integer >= 2",

@@ -46,6 +46,15 @@ def keep_above(direction, normal):
     return np.where(dot(direction, normal) < 0, reflect(direction, normal), direction)
 """,
     ),
+    "microfacets.fresnel_complex": Answer(
+        "course/extras/conductors.py",
+        ("conductor_reflectance",),
+        """
+def fresnel_complex(cos, n, k):
+    index = (np.asarray(part, float)[:, None] for part in (n, k))
+    return conductor_reflectance(cos.astype(float), *index).astype(cos.dtype)
+""",
+    ),
     "blurred_transparency.refract": Answer(
         "course/core/fresnel_refraction.py",
         ("fresnel_and_cos_t", "refract"),
