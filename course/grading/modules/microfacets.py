@@ -417,11 +417,11 @@ VISIBLE_NORMAL_PDF = function(
 # ---------------------------------------------------------------- fresnel_complex
 
 N = Made(
-    lambda d: d.uniform(0.1, 4, 3),
+    lambda d: d.number(0.05, 6) * d.uniform(0.2, 1, 3),
     (np.array([1.5, -1, 1]), np.array([1.5, nan, 1])),
 )
 K = Made(
-    lambda d: d.uniform(0.5, 6, 3),
+    lambda d: d.number(0.1, 20) * d.uniform(0.2, 1, 3),
     (np.array([1, -1, 1.0]), {"n": np.array([1, 0, 1.0]), "k": np.array([1, 0, 0.0])}),
 )
 

@@ -39,7 +39,7 @@ def _rose(visible: bool) -> np.ndarray:
 
 def normals() -> Figure:
     """The landscape, all its normals, and those that are seen."""
-    land = Canvas(230, 150, (-1.15, 1.15, -0.55, 0.95), 4)
+    land = Canvas(172, 150, (-1.15, 1.15, -0.55, 1.0), 4)
     corners = _profile()
     x, z = _view()
     land.path(corners, "ink")
@@ -48,7 +48,7 @@ def normals() -> Figure:
         if -step[1] * x + step[0] * z > 0:
             land.line(a, b, "accent thick")
     land.arrow((0.1, 0.12), (0.1 + 0.9 * x, 0.12 + 0.9 * z), "ink")
-    land.label((0.1 + 0.9 * x, 0.12 + 0.9 * z), "$omega_o$", "n", 6)
+    land.label((0.1 + 0.75 * x, 0.12 + 0.75 * z), "view", "n", 8)
     panels = [
         Panel(
             land,
@@ -65,7 +65,7 @@ def normals() -> Figure:
             "A lobe that leans to the viewer and has nothing that looks away.",
         ),
     ):
-        rose = Canvas(150, 150, (-0.72, 0.72, -0.12, 1.2), 4)
+        rose = Canvas(172, 150, (-0.72, 0.72, -0.12, 1.2), 4)
         rose.path(_rose(visible), "wash accent", closed=True)
         rose.line((-0.7, 0), (0.7, 0))
         rose.arrow((0, 0), _view(0.75))
