@@ -16,7 +16,7 @@ import numpy as np
 from course.core.hits import Hits
 from course.core.rays import Draws
 from course.core.scatter import Boundary
-from course.core.types import Floats32, Floats64, Functions, Indices, Materials
+from course.core.types import Floats32, Floats64, Functions, Indices, Mask, Materials
 from course.core.vectors import dot, reflect
 from course.extras.hemisphere import turned
 
@@ -56,7 +56,7 @@ class Microfacets:
         np.maximum(wo[2], FLATTEST, out=wo[2])
         return turned(ns, *self.functions.sample_visible_normal(wo, self.alpha, u))
 
-    def reflectance(self, cos: Floats32, entering: Floats32) -> Floats32:
+    def reflectance(self, cos: Floats32, entering: Mask) -> Floats32:
         """Fresnel reflectance (3, n) of microfacets; of glass from either side."""
         if self.k is not None:
             metal: Floats32 = self.functions.fresnel_complex(cos, self.n, self.k)
@@ -144,7 +144,7 @@ def weights(
         w = way.take(some, axis=1)
         side = np.float32(-1 if through else 1)
         cos_o, cos_i = np.maximum(-dot(direction, ns), FLATTEST), side * dot(w, ns)
-        share = np.float32(1)
+        share: Floats32 | np.float32 = np.float32(1)
         if through:
             assert boundary is not None
             wm = direction * boundary.eta.take(some) - w

@@ -117,8 +117,7 @@ class FullScatter(Scatter):
         if isinstance(boundary, RoughBoundary):
             arrays = hits.material.take(which), boundary.rough_direction, ng, path
             rough_glass.scatter(self.rough, self.keeps, *arrays, depth, draws, direction=way)
-        arrays = self.microfacets, hits, which, path
-        microfacets.scatter(*arrays, depth, draws, way, boundary.eta)
+        microfacets.scatter(self.microfacets, hits, which, path, depth, draws, way, boundary.eta)
         return way
 
     def weights(

@@ -6,7 +6,7 @@ from sitebuild.diagrams.canvas import Canvas
 from sitebuild.diagrams.figure import Figure, Panel
 from solutions import microfacets
 
-ALPHA = 0.45
+ALPHA = 0.7
 VIEW = np.radians(68)
 """Angle of the view to the normal."""
 
@@ -17,11 +17,11 @@ def _view(size: float = 1.0) -> tuple[float, float]:
 
 def _profile() -> np.ndarray:
     """Corners (2, n) of a landscape whose slopes are those of GGX, roughly."""
-    u = np.random.default_rng(11).random(17)
-    slope = ALPHA * np.sqrt(u / (1 - u)) * np.resize((1.0, -1.0), 17)
-    step = 2 / 17
+    u = np.random.default_rng(11).random(13)
+    slope = ALPHA * np.sqrt(u / (1 - u)) * np.resize((1.0, -1.0), 13)
+    step = 2 / 13
     height = np.concatenate(([0], np.cumsum(np.clip(slope, -1.6, 1.6) * step)))
-    x = np.linspace(-1, 1, 18)
+    x = np.linspace(-1, 1, 14)
     return np.stack((x, height - height.mean() - (height[-1] - height[0]) * x / 2))
 
 
@@ -34,7 +34,7 @@ def _rose(visible: bool) -> np.ndarray:
     size = microfacets.ggx(wm[2], ALPHA) * wm[2]
     if visible:
         size = microfacets.visible_normal_pdf(wo, wm, ALPHA)
-    return wm[[0, 2]] * size / 1.75
+    return wm[[0, 2]] * size / 0.75
 
 
 def normals() -> Figure:
@@ -71,7 +71,7 @@ def normals() -> Figure:
         rose.arrow((0, 0), _view(0.75))
         panels.append(Panel(rose, word, about, word))
     return Figure(
-        "GGX normals of alpha 0.45, and a view at 68 degrees: the density of all normals by the area that they cover, "
+        "GGX normals of alpha 0.7, and a view at 68 degrees: the density of all normals by the area that they cover, "
         "and of those that the viewer sees, to one scale.",
         tuple(panels),
     )
