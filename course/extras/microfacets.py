@@ -110,11 +110,11 @@ def scatter(
 
 
 def _refract(direction: Floats32, wm: Floats32, eta: Floats32) -> Floats32:
-    """Refracted directions (3, n); mirrored ones where reflection is total."""
+    """Refracted directions (3, n); the way back, which counts 0, where reflection is total."""
     cos_i = -dot(direction, wm)
     squared = 1 - eta * eta * (1 - cos_i) * (1 + cos_i)
     bent = eta * direction + (eta * cos_i - np.sqrt(np.maximum(squared, 0))) * wm
-    result: Floats32 = np.where(squared > 0, bent, reflect(direction, wm))
+    result: Floats32 = np.where(squared > 0, bent, -direction)
     return result
 
 

@@ -71,6 +71,15 @@ def test_rough_glass_shares_the_light_out_alike_by_both_integrators(
     assert 0.7 < one.mean() < 0.99
 
 
+def test_from_the_inside_rough_glass_refracts_what_is_not_totally_reflected(
+    make_scene: MakeScene,
+) -> None:
+    """At 60 degrees the smooth surface reflects all; the mean is that of four million microfacets, by NumPy alone."""
+    scene = sheet(make_scene, glass(0.5))
+    below = load_variant(scene.path, {("camera", "eye", 1): -(3.0**0.5)})
+    check_mean(estimates(below), 0.6519, 2e-3)
+
+
 def test_compiled_stages_draw_the_same_microfacets(make_scene: MakeScene) -> None:
     for material in (metal(0.3), glass(0.3)):
         scene = sheet(make_scene, material)
