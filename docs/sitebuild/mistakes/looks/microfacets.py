@@ -30,6 +30,13 @@ def _distribution(axes: Axes, made: ModuleType, right: ModuleType) -> None:
     label(axes, "angle of the microfacet, degrees")
 
 
+def _sharp(axes: Axes, made: ModuleType, right: ModuleType) -> None:
+    angle = np.linspace(0, 0.008, 300)
+    cos = np.cos(angle).astype(np.float32)
+    curves(axes, 1000 * angle, *(m.ggx(cos, 0.002) for m in (made, right)))
+    label(axes, "angle of the microfacet, thousandths")
+
+
 def _masking(axes: Axes, made: ModuleType, right: ModuleType) -> None:
     curves(axes, np.degrees(ANGLE), *(m.smith_g1(np.cos(ANGLE), 0.8) for m in (made, right)))
     label(axes, "angle of the view, degrees")
@@ -73,7 +80,14 @@ def _value(axes: Axes, made: ModuleType, right: ModuleType) -> None:
 
 
 LOOKS = {
-    "ggx": (Look("D over the angle", plot(_distribution, curve=True)),),
+    "ggx": (
+        Look("D over the angle", plot(_distribution, curve=True)),
+        Look(
+            "D of alpha 0.002, in single precision",
+            plot(_sharp, curve=True),
+            ("ggx_loses_digits",),
+        ),
+    ),
     "smith_g1": (Look("What is seen over the angle of the view", plot(_masking, curve=True)),),
     "smith_g2": (Look("What both ends see, the view being flat", plot(_both, curve=True)),),
     "sample_visible_normal": (Look("Normals from above; the large dot is the view", plot(_drawn)),),
