@@ -47,6 +47,7 @@ html_css_files = [
     "mistakes.css",
     "slides.css",
     "live.css",
+    "quiz.css",
     "cards.css",
     ("print.css", {"media": "print"}),
 ]

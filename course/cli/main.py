@@ -35,6 +35,7 @@ COMMANDS = (
     "release",
     "calibrate",
     "references",
+    "quiz",
     "grade",
     "regrade",
     "bundle",

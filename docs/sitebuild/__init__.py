@@ -4,15 +4,19 @@ A page asks for a generated part by a comment on a line of its own, ``<!-- site:
 is right as a file of the repository too; see ``sitebuild.parts``.
 """
 
-from typing import Any
+from __future__ import annotations
 
-from sphinx.application import Sphinx
+from typing import TYPE_CHECKING, Any
 
-from sitebuild import captions, docstrings, mathematics, numbers, page_heads, parts
+if TYPE_CHECKING:
+    from sphinx.application import Sphinx
 
 
 def setup(app: Sphinx) -> dict[str, Any]:
     """Connect the parts to Sphinx's events."""
+    # Here, for whoever only draws figures needs no Sphinx.
+    from sitebuild import captions, docstrings, mathematics, numbers, page_heads, parts
+
     captions.connect(app)
     docstrings.connect(app)
     mathematics.connect(app)

@@ -2,7 +2,7 @@
 
 A part is asked for by ``<!-- site: KIND NAME WORDS -->`` on a line of its own; `PARTS` has the kinds. Unasked, a
 module's objectives stand before "The phenomenon", which begins with the pair of its two scenes' pictures if it has two
-that differ.
+that differ, and its quiz stands before "Exercises".
 """
 
 import re
@@ -33,6 +33,7 @@ from sitebuild.pattern_explorer import pattern_explorer
 from sitebuild.peer_times import peer_times
 from sitebuild.place import Place
 from sitebuild.plans import minutes_table, plan
+from sitebuild.quiz.part import HEADING, quiz
 from sitebuild.radiosity_pictures import radiosity_flight, radiosity_steps
 from sitebuild.radiosity_scrubber import radiosity_scrubber
 from sitebuild.rays import rays
@@ -67,6 +68,7 @@ PARTS: dict[str, Part] = {
     "peer_times": peer_times,
     "picture": picture,
     "plan": plan,
+    "quiz": quiz,
     "radiosity_flight": radiosity_flight,
     "radiosity_scrubber": radiosity_scrubber,
     "radiosity_shot": radiosity_shot,
@@ -142,6 +144,8 @@ class Site:
             if module not in INSTEAD and pictures.scene_path(f"before/{module}").is_file():
                 heading += f"\n<!-- site: before_after {module} -->\n"
             text = text.replace("\n## The phenomenon\n", heading, 1)
+            asked = f"\n## {HEADING}\n\n<!-- site: quiz {module} -->\n\n## Exercises\n"
+            text = text.replace("\n## Exercises\n", asked, 1)
         if page == "glossary":
             text = directives(text)
         place = Place(

@@ -154,15 +154,16 @@ def write_folder(contents: Mapping[str, bytes], out: Path) -> int:
 
 
 def solution_lines(folder: Path) -> set[str]:
-    """Every telling line between the markers of the solutions, and of answers and exams, without indentation."""
+    """Every telling line between the markers of the solutions, of answers, exams and quizzes, without indentation."""
     lines: set[str] = set()
     for path in sorted(folder.glob("*.py")):
         text = path.read_text(encoding="utf-8")
         rows = text.splitlines()
         for region in find_regions(text, str(path)):
             lines |= {row.strip() for row in rows[region.begin : region.end - 1]}
-    for path in (*folder.glob("answers/*.md"), *folder.glob("exams/*.md")):
-        lines |= {row.strip() for row in path.read_text(encoding="utf-8").splitlines()}
+    for kind in ("answers/*.md", "exams/*.md", "quizzes/*.yaml"):
+        for path in folder.glob(kind):
+            lines |= {row.strip() for row in path.read_text(encoding="utf-8").splitlines()}
     return {line for line in lines if len(line) >= TELLING and not line.startswith(TELLS_NOTHING)}
 
 

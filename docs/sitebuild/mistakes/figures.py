@@ -18,16 +18,17 @@ from PIL import Image, ImageDraw
 
 from course.atomic import replacing
 from course.benchmarking.references import engine_hash
-from course.effects import PROJECT
+from course.effects import PACKAGE, PROJECT
 from course.errors import CourseError
 from sitebuild import webp
 from sitebuild.mistakes.catalog import look
 from sitebuild.mistakes.look import SIZE
+from sitebuild.mistakes.numbers import other_numbers
 from sitebuild.mistakes.submissions import functions, solution, submission
 
 KEPT = PROJECT / "out" / "docs" / "mistakes"
 HERE = Path(__file__).parent
-GRADING = PROJECT / "course" / "grading"
+GRADING = PACKAGE / "grading"
 
 PATIENCE = 120.0
 """Seconds after which a function is taken never to end."""
@@ -46,11 +47,13 @@ class Figure:
     function : MODULE.FUNCTION
     name : of the wrong submission, or empty for the right function
     seen : number of the look, of those that the function has
+    trial : 0 for the usual random numbers; others show what is noise
     """
 
     function: str
     name: str
     seen: int
+    trial: int = 0
 
     @property
     def file(self) -> str:
@@ -63,7 +66,7 @@ class Figure:
         module = self.function.partition(".")[0]
         known = submission(self.function, self.name).source if self.name else ""
         chosen = look(self.function, self.seen)
-        parts = [self.function, str(self.seen), known, solution(module), _sources(module)]
+        parts = [self.function, str(self.seen), str(self.trial), known, solution(module), _sources(module)]
         parts += [sha256(path.read_bytes()).hexdigest() for path in chosen.files]
         if chosen.renders:
             parts.append(engine_hash(PROJECT / "solutions"))
@@ -73,7 +76,7 @@ class Figure:
 @lru_cache
 def _sources(module: str) -> str:
     """All that draws the figures of a module."""
-    names = ("figures", "look", "plots", "rendered", "submissions", "swatches")
+    names = ("figures", "look", "numbers", "plots", "rendered", "submissions", "swatches")
     files = [*(HERE / f"{name}.py" for name in names), HERE / "looks" / f"{module}.py"]
     files += [
         GRADING / f"{name}.py"
@@ -86,7 +89,7 @@ def _sources(module: str) -> str:
 def draw(figure: Figure) -> Image.Image:
     """Draw it, in this process; whatever the function raises is raised."""
     module = figure.function.partition(".")[0]
-    with np.errstate(all="ignore"), warnings.catch_warnings():
+    with np.errstate(all="ignore"), warnings.catch_warnings(), other_numbers(figure.trial):
         warnings.simplefilter("ignore")
         return look(figure.function, figure.seen).draw(
             functions(module, figure.name), functions(module)

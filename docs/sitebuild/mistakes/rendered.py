@@ -12,6 +12,7 @@ from course.grading.checks.check import Figure
 from course.grading.pictures.rendered import MakeScene, loaded, rendered
 from course.grading.reports.drawing import draw_pictures
 from sitebuild.mistakes.look import SIZE, Draw
+from sitebuild.mistakes.numbers import scene_numbers, trial
 from sitebuild.mistakes.submissions import functions
 
 Scene = dict[str, Any]
@@ -41,10 +42,11 @@ def _rendered(path: str, make: MakeScene, made: ModuleType, right: ModuleType) -
         whose = made if f"{module}.{name}" == path else functions(module)
         return getattr(whose, name)  # type: ignore[no-any-return]
 
-    rng = np.random.default_rng(SEED)
+    rng = scene_numbers(SEED)
     description = make(rng)
     film = description.get("film", {}) | {"width": SIZE[0], "height": SIZE[1]}
-    return shown(rendered(loaded(description | {"film": film}, find, rng)))
+    seeded = {"seed": trial()} if trial() else {}
+    return shown(rendered(loaded(description | {"film": film}, find, rng), **seeded))
 
 
 def shown(picture: np.ndarray[Any, Any]) -> Image.Image:

@@ -1,0 +1,1 @@
+"""Questions about known mistakes, and files of them that learning platforms read."""

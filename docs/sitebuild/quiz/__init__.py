@@ -1,0 +1,1 @@
+"""Questions about known mistakes, from their pictures; `course quiz` and the modules' pages show them."""
