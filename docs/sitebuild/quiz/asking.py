@@ -170,29 +170,29 @@ def alternative(plan: Plan, name: str, title: str, images: Images) -> str:
 def _which(plan: Plan) -> tuple[tuple[str, ...], str]:
     asked = plan.asked
     asks = (
-        f"{plan.shows}, by `{asked.path}`: as it should be, and with a mistake.",
+        f"`{asked.path}` as it should be, and with a mistake. {plan.shows}.",
         "Which mistake made the second picture?",
     )
-    return asks, _explained(asked)
+    return asks, _checked(asked, asked.declared.mistake) or _mistake(asked, asked.declared.mistake)
 
 
 def _predict(plan: Plan) -> tuple[tuple[str, ...], str]:
     asked = plan.asked
     asks = (
         f"Somebody has written `{asked.path}` with this mistake: {_mistake(asked, asked.declared.mistake)}",
-        f"Predict what comes of it before you look. Then choose the picture. ({plan.shows}.)",
+        f"Predict what comes of it before you look, and choose the picture. {plan.shows}.",
     )
     render = (
         f"Make the mistake in your own function and see it: "
         f"`course check {asked.module} --only {asked.declared.function} --html report.html`"
     )
-    return asks, f"{_explained(asked)} {render}."
+    return asks, f"{_checked(asked, asked.declared.mistake)} {render}.".strip()
 
 
 def _unseen(plan: Plan) -> tuple[tuple[str, ...], str]:
     asked = plan.asked
     asks = (
-        f"{plan.shows}, by `{asked.path}` as it should be.",
+        f"`{asked.path}` as it should be. {plan.shows}.",
         "One of these mistakes leaves the picture as it is, but for noise. Which one, and why?",
     )
     return asks, f"{_mistake(asked, asked.declared.mistake)} {asked.declared.why}"
@@ -205,10 +205,10 @@ def _mistake(asked: Asked, name: str) -> str:
     return asked.wrong[name].about
 
 
-def _explained(asked: Asked) -> str:
-    """Which mistake it is, and what the student would be told."""
-    name = asked.declared.mistake
-    return f"{_mistake(asked, name)} {asked.says[name]}".strip()
+def _checked(asked: Asked, name: str) -> str:
+    """What the student is told who makes that mistake; empty if nothing is meant for it."""
+    says = asked.says[name]
+    return f'`course check` tells whoever makes it: "{says}"' if says else ""
 
 
 def _told(asked: Asked, name: str) -> str:
@@ -218,7 +218,9 @@ def _told(asked: Asked, name: str) -> str:
         return "This picture is the right one."
     if asked.declared.ask == "predict":
         return f"This picture is of another mistake: {_mistake(asked, name)}"
-    return f"That mistake would show. {asked.says[name]}".strip()
+    if asked.declared.ask == "unseen":
+        return f"That mistake would show. {_checked(asked, name)}".strip()
+    return f"That mistake makes another picture. {_checked(asked, name)}".strip()
 
 
 def _png(image: Image.Image) -> bytes:

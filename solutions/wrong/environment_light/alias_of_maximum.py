@@ -1,4 +1,4 @@
-"""Your columns are as high as the largest weight: a column is as high as the mean."""
+"""Columns as high as the largest weight."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""You took the other column's whole weight off, in place of what it lacks."""
+"""The other column's whole weight is taken off, in place of what it lacks."""
 
 import numpy as np
 

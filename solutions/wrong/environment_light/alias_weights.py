@@ -1,4 +1,4 @@
-"""Your probabilities are the weights over their sum: a column is as high as the mean weight."""
+"""The weights over their sum for the probabilities."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Your sums end before each row: the first is 0, and the last never 1."""
+"""Sums that end before each row: the first is 0, and the last never 1."""
 
 import numpy as np
 

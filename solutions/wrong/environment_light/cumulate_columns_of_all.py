@@ -1,4 +1,4 @@
-"""Your columns are shares of the whole picture: each row has a distribution of its own."""
+"""Columns are shares of the whole picture, not of their row."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Your sums aren't divided by the last one: they are no shares."""
+"""The sums aren't divided by the last one."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""You took one distribution of columns for all rows."""
+"""One distribution of columns for all rows."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""You looked up the picture mirrored: columns go on to +x on the right of -z."""
+"""The picture is looked up mirrored."""
 
 import numpy as np
 

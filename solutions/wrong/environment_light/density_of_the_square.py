@@ -1,4 +1,4 @@
-"""Your density is that over the picture's square: it is to be one over directions, in 1/sr."""
+"""The density over the picture's square: it is to be one over directions, in 1/sr."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""You looked up the picture upside down: row 0 is next to +y."""
+"""The picture is looked up upside down."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""You returned the texel's share: a density is that over the solid angle."""
+"""The texel's share: a density is that over the solid angle."""
 
 import numpy as np
 

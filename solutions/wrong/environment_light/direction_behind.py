@@ -1,4 +1,4 @@
-"""Your picture is turned by half a turn: its middle looks along -z."""
+"""The picture is turned by half a turn about +y."""
 
 import numpy as np
 

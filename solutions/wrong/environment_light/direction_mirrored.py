@@ -1,4 +1,4 @@
-"""Your picture is mirrored: columns go on to +x on the right of -z."""
+"""The picture is mirrored."""
 
 import numpy as np
 

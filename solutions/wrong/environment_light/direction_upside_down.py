@@ -1,4 +1,4 @@
-"""Your picture stands upside down: row 0 is next to +y."""
+"""The picture stands upside down."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Your top is +z: the picture's is +y."""
+"""The top is +z: the picture's is +y."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""You take the alias below the probability, and the outcome above."""
+"""The alias below the probability, and the outcome above."""
 
 import numpy as np
 

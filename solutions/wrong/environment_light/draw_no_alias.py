@@ -1,4 +1,4 @@
-"""You never take the alias: each column gives its own outcome."""
+"""The alias is never taken: each column gives its own outcome."""
 
 import numpy as np
 

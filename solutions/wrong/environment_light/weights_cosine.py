@@ -1,4 +1,4 @@
-"""You took the cosine of the angle from +y: rows at the horizon get none."""
+"""The cosine of the angle from +y: rows at the horizon get none."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Your rows end at the horizon: the picture goes from +y down to -y."""
+"""Rows end at the horizon: the picture goes from +y down to -y."""
 
 import numpy as np
 

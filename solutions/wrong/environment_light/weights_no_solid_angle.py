@@ -1,4 +1,4 @@
-"""Your weights are the radiance alone: texels next to the poles are small."""
+"""The radiance alone: texels next to the poles are small."""
 
 import numpy as np
 

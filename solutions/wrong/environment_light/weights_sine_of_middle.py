@@ -1,4 +1,4 @@
-"""You took the sine at the row's middle: that is right for thin rows only."""
+"""The sine at the row's middle: that is right for thin rows only."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""You took the sine at the row's upper edge: the first row covers nothing then."""
+"""The sine at the row's upper edge: the first row covers nothing then."""
 
 import numpy as np
 
