@@ -38,6 +38,7 @@ FLOORS = {
     "render_scene": 10,
     "benchmarking": 11,
     "grading": 11,
+    "quizzes": 12,
     "studio": 12,
     "cli": 13,
     # The front door: `from course import render`, and `python -m course`.
@@ -50,6 +51,7 @@ STRANGERS = {
     frozenset({"cluster", "recording"}),
     frozenset({"radiosity", "recording"}),
     frozenset({"benchmarking", "grading"}),
+    frozenset({"quizzes", "studio"}),
 }
 """Neighbours on one floor that know nothing of each other."""
 

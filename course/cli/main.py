@@ -38,6 +38,7 @@ COMMANDS = (
     "quiz",
     "grade",
     "regrade",
+    "viva",
     "bundle",
 )
 """Each is the command of that name in the module of that name beside this file."""

@@ -51,4 +51,6 @@ def quiz(out: Path, modules: tuple[str, ...], held_back: bool) -> None:
             kept = Path(stack.enter_context(tempfile.TemporaryDirectory()))
         asked, files = contents(modules, held_back=held_back, kept=kept)
     write_folder(files, out)
-    click.echo(f"{out}: {count(asked, 'question')}, with answers: not for students. See README.md there.")
+    click.echo(
+        f"{out}: {count(asked, 'question')}, with answers: not for students. See README.md there."
+    )

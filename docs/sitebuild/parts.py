@@ -33,7 +33,7 @@ from sitebuild.pattern_explorer import pattern_explorer
 from sitebuild.peer_times import peer_times
 from sitebuild.place import Place
 from sitebuild.plans import minutes_table, plan
-from sitebuild.quiz.part import HEADING, quiz
+from sitebuild.quiz.part import HEADING, has_questions, quiz
 from sitebuild.radiosity_pictures import radiosity_flight, radiosity_steps
 from sitebuild.radiosity_scrubber import radiosity_scrubber
 from sitebuild.rays import rays
@@ -144,8 +144,9 @@ class Site:
             if module not in INSTEAD and pictures.scene_path(f"before/{module}").is_file():
                 heading += f"\n<!-- site: before_after {module} -->\n"
             text = text.replace("\n## The phenomenon\n", heading, 1)
-            asked = f"\n## {HEADING}\n\n<!-- site: quiz {module} -->\n\n## Exercises\n"
-            text = text.replace("\n## Exercises\n", asked, 1)
+            if has_questions(module):
+                asked = f"\n## {HEADING}\n\n<!-- site: quiz {module} -->\n\n## Exercises\n"
+                text = text.replace("\n## Exercises\n", asked, 1)
         if page == "glossary":
             text = directives(text)
         place = Place(

@@ -66,7 +66,14 @@ class Figure:
         module = self.function.partition(".")[0]
         known = submission(self.function, self.name).source if self.name else ""
         chosen = look(self.function, self.seen)
-        parts = [self.function, str(self.seen), str(self.trial), known, solution(module), _sources(module)]
+        parts = [
+            self.function,
+            str(self.seen),
+            str(self.trial),
+            known,
+            solution(module),
+            _sources(module),
+        ]
         parts += [sha256(path.read_bytes()).hexdigest() for path in chosen.files]
         if chosen.renders:
             parts.append(engine_hash(PROJECT / "solutions"))

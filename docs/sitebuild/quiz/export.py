@@ -11,7 +11,9 @@ from course.quizzes.packing import canvas, moodle, prairielearn, qti21, readme
 from sitebuild.quiz.asking import check, drawn, planned, question
 
 
-def contents(modules: Sequence[str], *, held_back: bool, kept: Path) -> tuple[int, dict[str, bytes]]:
+def contents(
+    modules: Sequence[str], *, held_back: bool, kept: Path
+) -> tuple[int, dict[str, bytes]]:
     """How many questions there are, and path -> content of all files.
 
     Parameters

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from PIL import Image
 
+from course.effects import PROJECT
 from course.quizzes.declared import asked
 from course.quizzes.packing import marked
 from course.quizzes.question import LETTERS, Question
@@ -17,6 +18,11 @@ from sitebuild.place import Place
 from sitebuild.quiz.asking import Plan, planned, question, titles
 
 HEADING = "Quiz"
+
+
+def has_questions(module: str) -> bool:
+    """True if somebody has declared questions of a module."""
+    return (PROJECT / "solutions" / "quizzes" / f"{module}.yaml").is_file()
 
 
 def quiz(place: Place, name: str, words: str = "") -> str:  # noqa: ARG001
@@ -38,8 +44,7 @@ def quiz(place: Place, name: str, words: str = "") -> str:  # noqa: ARG001
         f"{len(plans)} questions about mistakes that others have made. Decide first, then open your answer.\n",
         '<ol class="quiz">',
     ]
-    for plan in plans:
-        parts.append(_asked(plan, question(plan, images), place, files))
+    parts += [_asked(plan, question(plan, images), place, files) for plan in plans]
     return "\n".join([*parts, "</ol>\n"])
 
 

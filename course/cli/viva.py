@@ -1,0 +1,84 @@
+"""`course viva`: questions to a student about his or her own code."""
+
+from pathlib import Path
+
+import click
+
+from course.atomic import write_text
+from course.cli.classes import trust_option
+from course.cli.options import modules_from
+from course.cli.outputs import check_outputs
+from course.cli.tables import count
+from course.effects import PROJECT
+from course.errors import CourseError
+
+QUESTIONS = 3
+
+
+@click.command()
+@click.argument("folder", type=click.Path(path_type=Path, exists=True, file_okay=False))
+@click.option(
+    "--html",
+    type=click.Path(path_type=Path, dir_okay=False),
+    help="Write a page with the pictures before and after.",
+)
+@click.option(
+    "--modules",
+    multiple=True,
+    metavar="MODULE[,...]",
+    callback=modules_from,
+    help="Ask about these modules only.  [default: all that are there]",
+)
+@click.option("--seed", type=click.IntRange(0), default=0, help="Choose other questions.")
+@trust_option
+def viva(
+    folder: Path, html: Path | None, modules: tuple[str, ...], seed: int, trusted: bool
+) -> None:
+    """Ask three questions about the code in FOLDER, one student's modules.
+
+    Each changes one place in a function that is right, makes the change, and says what comes of it. The answers are
+    for the instructor. The student's code runs as in `course grade`.
+    """
+    from course.grading.references import references
+    from course.grading.reports.formats import clean
+    from course.grading.submissions import find_modules, read_found
+    from course.grading.viva.asking import viva as questions
+    from course.grading.worker.sandbox import protected, sandbox
+
+    solutions = PROJECT / "solutions"
+    if not solutions.is_dir():
+        raise CourseError("questions need the solutions to compare with, and this copy has none")
+    check_outputs(files=[("--html", html)])
+    sources = read_found(folder, find_modules(folder, modules))
+    if not sources:
+        raise CourseError(f"{folder}: holds none of {', '.join(f'{one}.py' for one in modules)}")
+    shut_in = sandbox(secrets=(folder,)) if trusted else protected((folder,))
+    asked = []
+    for one in questions(
+        sources,
+        solutions,
+        references(),
+        shut_in,
+        questions=QUESTIONS,
+        seed=seed,
+        each=lambda name: click.echo(f"changing {name}", err=True),
+    ):
+        asked.append(one)
+        click.echo(f"\n{len(asked)}. {one.module}.{one.change.function}: {one.asks}")
+        click.echo(f"     {clean(one.change.before)}\n  -> {clean(one.change.after)}")
+        for said in one.told:
+            click.echo(f"   {clean(said)}")
+    if not asked:
+        raise CourseError(
+            f"{folder}: no function is right, written by the student and changed to any effect; "
+            "`course check` says what is wrong"
+        )
+    if len(asked) < QUESTIONS:
+        click.echo(f"\nonly {count(len(asked), 'question')}: too few functions are right", err=True)
+    if html is not None:
+        from course.grading.report import Report
+        from course.grading.reports.viva import viva_page
+
+        unprotected = Report("", (), protections=shut_in.protections).unprotected
+        write_text(html, viva_page(folder.resolve().name, asked, unprotected))
+        click.echo(f"\n{html} written: with answers, not for the student")
