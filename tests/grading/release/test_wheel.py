@@ -139,3 +139,10 @@ def test_links_of_the_folder_lead_somewhere(course: Course, tmp_path: Path) -> N
         for target in re.findall(r"\]\(([^)#\s]+)", page.read_text(encoding="utf-8")):
             if "://" not in target:
                 assert (page.parent / target).exists(), (page, target)
+
+
+def test_questions_are_written_from_the_wheel(course, tmp_path: Path) -> None:
+    written = course("quiz", "out", "--modules", "motion_blur", "--held-back")
+    assert written.returncode == 0, written.stderr
+    assert "1 question" in written.stdout
+    assert (tmp_path / "out" / "canvas.zip").is_file()
