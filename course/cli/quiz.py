@@ -43,7 +43,8 @@ def quiz(out: Path, modules: tuple[str, ...], held_back: bool) -> None:
         raise CourseError("questions are made from the solutions, and this copy has none")
     check_folder(out)
     # The figures are drawn by the site's own program, which is a package beside the pages.
-    sys.path.append(str(DRAWN_BY))
+    if str(DRAWN_BY) not in sys.path:
+        sys.path.append(str(DRAWN_BY))
     contents = import_module("sitebuild.quiz.export").contents
     with ExitStack() as stack:
         kept = PROJECT / "out" / "docs" / "quiz"

@@ -53,6 +53,7 @@ SHORTER: dict[str, list[str]] = {
     "bundle": FEW,
     "grade": FEW,
     "calibrate": ["--seeds", "1"],
+    "quiz": ["--modules", "film"],
 }
 """Options added to a command to make it short; of two equal options the last one holds."""
 
