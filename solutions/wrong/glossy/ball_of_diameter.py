@@ -1,4 +1,4 @@
-"""Glossiness as the ball"s diameter."""
+"""Glossiness as the ball's diameter."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Gram and Schmidt"s way from +x alone."""
+"""Gram and Schmidt's way from +x alone."""
 
 import numpy as np
 

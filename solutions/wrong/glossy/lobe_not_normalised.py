@@ -1,4 +1,4 @@
-"""The cosine"s sine forgotten."""
+"""The cosine's sine forgotten."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""The cosine"s size, whatever its sign."""
+"""The cosine's size, whatever its sign."""
 
 import numpy as np
 

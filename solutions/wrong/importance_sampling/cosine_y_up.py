@@ -1,4 +1,4 @@
-"""The cosine"s hemisphere about +y."""
+"""The cosine's hemisphere about +y."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""The integrand"s size, whatever its sign."""
+"""The integrand's size, whatever its sign."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Points of the sphere, turned to the normal"s side where they are below."""
+"""Points of the sphere, turned to the normal's side where they are below."""
 
 import numpy as np
 
