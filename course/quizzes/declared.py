@@ -66,14 +66,16 @@ class Asked:
 
 
 def asked(module: str, folder: Path = PROJECT / "solutions") -> list[Asked]:
-    """The questions of a module.
+    """The questions of a module; none where nobody has declared any.
 
     Raises
     ------
     CourseError
-        There is no file of them, it is not as it should be, or names a submission that isn't there.
+        The file of them can't be read, is not as it should be, or names a submission that isn't there.
     """
     path = folder / "quizzes" / f"{module}.yaml"
+    if not path.is_file():
+        return []
     try:
         listed = msgspec.yaml.decode(path.read_bytes(), type=list[Declared])
     except OSError as error:

@@ -7,13 +7,21 @@ import pytest
 from course.effects import PROJECT
 from course.errors import CourseError
 from course.grading.release.archive import PAGES, SCENES, project_files, solution_lines
-from course.modules import COURSE
+from course.modules import COURSE, MODULES
 from course.quizzes.declared import asked
 
 SOLUTIONS = PROJECT / "solutions"
 
 
-@pytest.mark.parametrize("module", COURSE)
+ASKED = [module for module in COURSE if asked(module)]
+
+
+def test_the_core_modules_have_questions_and_most_of_the_others() -> None:
+    assert set(MODULES) <= set(ASKED)
+    assert len(ASKED) >= 17
+
+
+@pytest.mark.parametrize("module", ASKED)
 def test_each_module_asks_on_its_page_and_holds_some_back(module: str) -> None:
     found = asked(module)
     assert sum(not each.declared.held_back for each in found) >= 4

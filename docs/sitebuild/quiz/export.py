@@ -6,6 +6,7 @@ from io import BytesIO, StringIO
 from pathlib import Path
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
+from course.errors import CourseError
 from course.quizzes.declared import asked
 from course.quizzes.packing import canvas, moodle, prairielearn, qti21, readme
 from sitebuild.quiz.asking import check, drawn, planned, question
@@ -24,7 +25,7 @@ def contents(
     Raises
     ------
     CourseError
-        A question is not as it should be, or has answers that can't be told apart.
+        There is no question, one is not as it should be, or has answers that can't be told apart.
     """
     plans = [
         planned(each)
@@ -32,6 +33,8 @@ def contents(
         for each in asked(module)
         if each.declared.held_back or not held_back
     ]
+    if not plans:
+        raise CourseError(f"nobody has declared questions of {', '.join(modules)}")
     images = drawn([figure for plan in plans for figure in plan.figures], kept)
     rows = StringIO()
     table = csv.writer(rows, lineterminator="\n")

@@ -6,7 +6,6 @@ from pathlib import Path
 
 from PIL import Image
 
-from course.effects import PROJECT
 from course.quizzes.declared import asked
 from course.quizzes.packing import marked
 from course.quizzes.question import LETTERS, Question
@@ -22,7 +21,7 @@ HEADING = "Quiz"
 
 def has_questions(module: str) -> bool:
     """True if somebody has declared questions of a module."""
-    return (PROJECT / "solutions" / "quizzes" / f"{module}.yaml").is_file()
+    return bool(asked(module))
 
 
 def quiz(place: Place, name: str, words: str = "") -> str:  # noqa: ARG001
