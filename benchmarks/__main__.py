@@ -23,6 +23,7 @@ from benchmarks.figures import Figure, table, write_ratios
 from benchmarks.grading import measure_grading
 from benchmarks.importance_sampling import measure_importance_sampling
 from benchmarks.microfacets import measure_microfacets
+from benchmarks.multiple_importance import measure_multiple_importance
 from benchmarks.path_tracing import measure_path_tracing
 from benchmarks.process import measure_processes
 from benchmarks.quasi_monte_carlo import measure_quasi_monte_carlo
@@ -55,6 +56,7 @@ MEASURES = {
     "sampling": measure_sampling,
     "adaptive_sampling": measure_adaptive_sampling,
     "importance_sampling": measure_importance_sampling,
+    "multiple_importance": measure_multiple_importance,
     "environment_light": measure_environment_light,
     "microfacets": measure_microfacets,
     "quasi_monte_carlo": measure_quasi_monte_carlo,

@@ -52,6 +52,9 @@ CONTRACTS = {
     "importance_sampling.cosine_hemisphere_pdf": "cos: N -> the density: N",
     "importance_sampling.phong_lobe_pdf": "cos: N, exponent -> the density: N",
     "importance_sampling.power_heuristic": "a: N, b: N -> the weights: N",
+    "multiple_importance.area_density": "area, distance: N, cos: N -> the density: N",
+    "multiple_importance.cone_density": "radius, distance: N -> the density: N",
+    "multiple_importance.heuristic_weights": "counts: S, densities: S N, exponent -> the weights: S N",
     "environment_light.texel_weights": "image: H W 3 -> the weights: H W",
     "environment_light.cumulate": "weights: H W -> rows: float64 H, columns: float64 H W",
     "environment_light.sample_direction": "rows: H, columns: H W, u: 2 N -> the directions: unit 3 N",
@@ -62,8 +65,7 @@ CONTRACTS = {
     "microfacets.smith_g2": "cos_o: N, cos_i: N, alpha -> the shares: N",
     "microfacets.sample_visible_normal": "wo: 3 N, alpha, u: 2 N -> the normals: unit 3 N",
     "microfacets.fresnel_complex": "cos: N, n: 3, k: 3 -> the reflectance: 3 N",
-    "blurred_transparency.refract": "direction: 3 N, normal: 3 N, eta: N"
-    " -> directions: unit 3 N, total: bool N",
+    "blurred_transparency.refract": "direction: 3 N, normal: 3 N, eta: N -> directions: unit 3 N, total: bool N",
     "blurred_transparency.jitter_refraction": "direction: 3 N, normal: 3 N, roughness, u: 2 N"
     " -> the directions: unit 3 N",
     "blurred_transparency.fresnel": "cos_i: N, eta: N -> the reflectance: N",
@@ -84,8 +86,7 @@ CONTRACTS = {
     "path_tracing.throughput": "beta: 3 N, albedo: 3 N -> the throughput: 3 N",
     "path_tracing.russian_roulette": "beta: 3 N, u: N -> survives: bool N, the throughput: 3 N",
     "radiosity.hemicube_form_factors": "k -> top: float32 k k, side: float32 k/2 k",
-    "radiosity.gather": "radiosity: 3 P, emission: 3 P, reflectance: 3 P, form_factors: P P"
-    " -> the radiosity: 3 P",
+    "radiosity.gather": "radiosity: 3 P, emission: 3 P, reflectance: 3 P, form_factors: P P -> the radiosity: 3 P",
     "radiosity.shoot": "radiosity: 3 P, unshot: 3 P, reflectance: 3 P, areas: P, form_factors: P, shooter"
     " -> the radiosity: 3 P, the unshot radiosity: 3 P",
     "radiosity.needs_split": "patch_radiosity: 3 K N, threshold -> the decisions: bool N",

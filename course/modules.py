@@ -22,6 +22,7 @@ FURTHER = _named(
         "sampling": "disk_by_rejection disk_by_polar ball_by_rejection ball_by_polar sphere_by_polar xorshift32",
         "importance_sampling": "uniform_hemisphere cosine_hemisphere cosine_hemisphere_pdf phong_lobe_pdf estimate"
         " power_heuristic",
+        "multiple_importance": "area_density cone_density heuristic_weights delta_weights multi_sample one_sample",
         "environment_light": "texel_weights cumulate sample_direction density alias_table draw_alias",
         "microfacets": "ggx smith_g1 smith_g2 sample_visible_normal visible_normal_pdf fresnel_complex brdf",
         "blurred_transparency": "refract jitter_refraction fresnel",

@@ -48,6 +48,13 @@ def _everywhere(cosines: Array, *_: Any) -> Array:
     return np.full_like(cosines, 1 / (2 * np.pi))
 
 
+def _evenly_shared(densities: Array) -> Array:
+    """Weights (S, N), the same for each strategy that can draw a sample."""
+    able = densities > 0
+    shared: Array = able / np.maximum(able.sum(axis=0), 1).astype(densities.dtype)
+    return shared
+
+
 _CENTRE = "samples lie in the pixel's centre, so edges are jagged"
 _POINT = "the lamp is a point, so shadows are hard"
 _MIRROR = "what is glossy is a mirror"
@@ -122,6 +129,18 @@ STAND_INS: dict[str, tuple[Callable[..., Any], str]] = {
     "importance_sampling.power_heuristic": (
         lambda a, _b: np.full_like(a, 0.5),
         "both ways of sampling count alike",
+    ),
+    "multiple_importance.area_density": (
+        lambda _area, distance, _cos: np.zeros_like(distance),
+        "glossy surfaces find lamps by their lobes alone",
+    ),
+    "multiple_importance.cone_density": (
+        lambda _radius, distance: np.zeros_like(distance),
+        "glossy surfaces find lamps by their lobes alone",
+    ),
+    "multiple_importance.heuristic_weights": (
+        lambda _counts, densities, _exponent: _evenly_shared(densities),
+        "points on lamps and rays of lobes count alike",
     ),
     "environment_light.texel_weights": (lambda image: np.ones_like(image[..., 0]), _SKY),
     "environment_light.cumulate": (

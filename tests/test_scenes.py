@@ -36,6 +36,7 @@ MAY_DIFFER = {
     "cube_map": r"environment\.(type|cross|radiance\.[012])",
     "sampling": r"(camera\.lens|lights\.[012])\.samples|sampler\.type",
     "importance_sampling": r"environment\.sampling",
+    "multiple_importance": r"integrator\.gloss_sampling",
     "environment_light": r"environment\.sampling",
     "microfacets": r"materials\.[^.]+\.(conductor\.roughness|dielectric\.(roughness|distribution))",
     "blurred_transparency": r"materials\.(pane|amber)\.dielectric\.roughness",
@@ -51,6 +52,7 @@ MAY_DIFFER = {
 CALLS = {
     "sampling": "ball_by_polar ball_by_rejection disk_by_polar sphere_by_polar xorshift32",
     "importance_sampling": "cosine_hemisphere cosine_hemisphere_pdf",
+    "multiple_importance": "cone_density heuristic_weights",
     "environment_light": "cumulate density sample_direction texel_weights",
     "microfacets": "fresnel_complex sample_visible_normal smith_g1 smith_g2",
     "blurred_transparency": "fresnel jitter_refraction refract",

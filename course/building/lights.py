@@ -56,13 +56,14 @@ def compile_lights(
 
     A light that is sampled as a grid becomes a point light for each cell.
     """
+    by_lobes = loaded.description.integrator.gloss_sampling != "lobe"
     lights: list[Light] = []
     skipped: dict[str, str] = {}
     for number, light in enumerate(loaded.description.lights):
         name = f"light {number}"
         if isinstance(light, d.AmbientLight):
             continue
-        reason = why_dark(light, materials)
+        reason = why_dark(light, materials, by_lobes)
         if reason:
             skipped[name] = reason
             continue

@@ -14,6 +14,7 @@ from course.building.gloss import (
     compile_rough_glass,
     reflecting,
 )
+from course.building.lamps_and_lobes import compile_combining
 from course.building.lights import Lit, compile_choice, compile_lights, emitter_parts
 from course.building.materials import check_growth, compile_materials, material_columns
 from course.building.motion import check_sweeps, compile_motion, shutter_of
@@ -155,8 +156,11 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
         backdrop=scene.environment.seen_by == "camera",
         keeps=scene.integrator.into_surface == "keep",
         lifted=scene.integrator.surface_offset > 0,
-        choice=compile_choice(loaded, lights),
         microfacets=compile_microfacets(named, bound, scene.integrator),
+        choice=(choice := compile_choice(loaded, lights)),
+        combining=compile_combining(
+            scene, bound, materials, lobes, lights if choice is None else ()
+        ),
     )
     check_growth(loaded, columns.names, world)
     if small is not None:

@@ -16,6 +16,7 @@ from course.core.samplers import Block, Sampler
 from course.core.tracer import Tracer
 from course.core.types import Floats32, Indices
 from course.extras.environment_sampling import ProductSampling
+from course.extras.lamps_and_lobes import CombiningIntegrator
 from course.extras.path_tracing import PathIntegrator
 from course.extras.plan import same_fields
 from course.extras.samplers.sobol import SobolSampler
@@ -46,8 +47,13 @@ def compiled(tracer: Tracer) -> Tracer:
         known = {"surface": surface, "scatter": changed.get("scatter")}
         changed["bounce"] = CompiledPathBounce(**same_fields(integrator.bounce) | known)
         cls: type[Integrator] = CompiledPathIntegrator
+    elif isinstance(integrator, CombiningIntegrator):
+        cls = CompiledCombiningIntegrator
     else:
         cls = CompiledIntegrator
+    both = getattr(integrator, "lamps_and_lobes", None)
+    if both is not None:
+        changed["lamps_and_lobes"] = both.seen_by(surface, changed["scatter"])
     integrator = cls(**same_fields(integrator) | changed)
     return replace(tracer, integrator=integrator, sampler=_sampler(tracer.sampler))
 
@@ -126,6 +132,10 @@ class _Adding(Integrator):
 
 class CompiledIntegrator(_Adding):
     """Follows rays."""
+
+
+class CompiledCombiningIntegrator(_Adding, CombiningIntegrator):
+    """Follows rays, and looks for lamps in glossy surfaces in both ways."""
 
 
 class CompiledPathIntegrator(_Adding, PathIntegrator):

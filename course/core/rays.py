@@ -64,7 +64,7 @@ class Rays:
         arrays = [getattr(self, field.name) for field in fields(self)]
         # A shared origin has one column.
         whole = [array is None or array.shape[-1] != self.size for array in arrays]
-        return Rays(
+        return type(self)(
             *(a if keep else a[..., columns] for a, keep in zip(arrays, whole, strict=True))
         )
 
@@ -76,7 +76,7 @@ def join_rays(batches: Sequence[Rays]) -> Rays:
         arrays = [getattr(rays, name) for rays in batches]
         return None if arrays[0] is None else np.concatenate(arrays, axis=-1)
 
-    return Rays(*(columns(field.name) for field in fields(Rays)))
+    return type(batches[0])(*(columns(field.name) for field in fields(batches[0])))
 
 
 class Dimensions:

@@ -15,6 +15,7 @@ from course.core.hits import Hits
 from course.core.integrator import CancelledError, Integrator
 from course.core.rays import RAYS, Draws, Rays
 from course.core.types import Floats32, Indices, Mask
+from course.extras.lamps_and_lobes import LampsAndLobes
 from course.extras.path_bounce import PathBounce
 from course.extras.path_pieces import Piece, Pieces
 
@@ -31,8 +32,17 @@ class Glow:
         self._radiance = radiance
         self._glows = radiance.any(axis=0)
 
-    def added(self, radiance: Floats32 | None, hits: Hits, seen: Mask | None) -> Floats32 | None:
-        """Radiance (3, n) or None for 0, with what surfaces add that glow, where they are seen or at all hits."""
+    def added(
+        self,
+        radiance: Floats32 | None,
+        hits: Hits,
+        seen: Mask | None,
+        share: Floats32 | None = None,
+    ) -> Floats32 | None:
+        """Radiance (3, n) or None for 0, with what surfaces add that glow, where they are seen or at all hits.
+
+        ``share`` : (n,) of the light that counts; None for all of it
+        """
         glows = self._glows.take(hits.material)
         if seen is not None:
             glows &= seen
@@ -41,7 +51,8 @@ class Glow:
             return radiance
         if radiance is None:
             radiance = np.zeros((3, hits.size), np.float32)
-        radiance[:, which] += self._radiance.take(hits.material.take(which), axis=1)
+        light = self._radiance.take(hits.material.take(which), axis=1)
+        radiance[:, which] += light if share is None else light * share.take(which)
         return radiance
 
 
@@ -56,6 +67,7 @@ class PathIntegrator(Integrator):
     unsought : emission that shadow rays don't sample: it counts whenever a path hits it; None if there is none
     reflected : reflected ambient light, treated as emission
     lamps, objects : emission that shadow rays sample, from the fronts of lights and from both sides of objects
+    lamps_and_lobes : looks for lamps in glossy surfaces by points on them, too; None where rays alone do
     """
 
     bounce: PathBounce
@@ -64,6 +76,7 @@ class PathIntegrator(Integrator):
     reflected: Glow | None
     lamps: Glow | None
     objects: Glow | None
+    lamps_and_lobes: LampsAndLobes | None = None
 
     def radiance(self, camera_rays: Rays, draws: Draws) -> Floats32:
         """Radiance (3, paths) of the paths; see ``Integrator``."""
@@ -111,13 +124,22 @@ class PathIntegrator(Integrator):
         if hits.size == 0:
             return None
         inside = self.insides(hits)
-        radiance = self._light(hits, adds_lights, inside, path, depth, draws)
+        both, share = self.lamps_and_lobes, None
+        if both is not None:
+            share = both.share(rays, hits)
+        radiance = self._light(hits, adds_lights, share, inside, path, depth, draws)
         if radiance is not None:
             self.add_radiance(path_radiance, path, radiance, throughput)
+        if both is not None and depth < self.max_depth:
+            reflected = both.light(hits, throughput, path, depth, draws)
+            if reflected is not None:
+                self.add_radiance(path_radiance, path, reflected, throughput)
         counters.lap("shade")
         if depth == self.max_depth:
             return None
         following = self.bounce(hits, throughput, path, medium, inside, depth, draws)
+        if both is not None and following is not None:
+            following = both.carried(hits, path, following[0]), following[1]
         counters.lap("bounce")
         return following
 
@@ -125,6 +147,7 @@ class PathIntegrator(Integrator):
         self,
         hits: Hits,
         adds_lights: Mask | None,
+        share: Floats32 | None,
         inside: Indices,
         path: Indices | None,
         depth: int,
@@ -149,7 +172,7 @@ class PathIntegrator(Integrator):
                 change *= outside
             radiance = change if radiance is None else np.add(radiance, change, out=radiance)
         if self.lamps is not None and adds_lights is not None:
-            radiance = self.lamps.added(radiance, hits, adds_lights & hits.entering)
+            radiance = self.lamps.added(radiance, hits, adds_lights & hits.entering, share)
         if self.objects is not None and adds_lights is not None:
             radiance = self.objects.added(radiance, hits, adds_lights)
         return radiance

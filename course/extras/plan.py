@@ -21,6 +21,7 @@ from course.core.scene import (
 from course.extras.absorption import Absorption
 from course.extras.conductors import Conductors
 from course.extras.direct import FullDirectLight
+from course.extras.lamps_and_lobes import CombiningIntegrator, plan_lamps_and_lobes
 from course.extras.light_choice import WHERE, WHICH
 from course.extras.materials import FullMaterials
 from course.extras.microfacets import NUMBERS as MICROFACET
@@ -71,6 +72,12 @@ def plan(
     if paths is not None:
         further += [BOUNCE, CHOICE] if diffuses and max_depth > 0 else [CHOICE]
         integrator = _path_integrator(integrator, world.materials, paths, sampler)
+    if world.combining is not None and scatter is not None:
+        both = plan_lamps_and_lobes(world.combining, world.surface, scatter, world.motion)
+        if isinstance(integrator, PathIntegrator):
+            integrator = replace(integrator, lamps_and_lobes=both)
+        else:
+            integrator = CombiningIntegrator(**same_fields(integrator), lamps_and_lobes=both)
     # Of a choice among lights the numbers are its own, and no light's.
     drawing = world if world.choice is None else replace(world, lights=())
     return integrator, plan_dimensions(drawing, camera, rough, further)

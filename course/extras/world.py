@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from course.core.camera import Lens
 from course.core.scene import World
 from course.core.types import Functions, Mask
+from course.extras.lamps_and_lobes import Combining
 from course.extras.light_choice import LightChoice
 from course.extras.microfacets import Microfacets
 from course.extras.rough_glass import RoughGlass
@@ -47,6 +48,7 @@ class FullWorld(World):
     keeps : true if directions that point into the surface are kept
     lifted : true if rays start so far above surfaces that lights are sampled for the surface itself
     choice : chooses one light for each hit; None if all lights send light to all hits
+    combining : lamps and lobes that are sampled together; None where there are none
     """
 
     skipped_lights: dict[str, str] = field(default_factory=dict)
@@ -59,3 +61,4 @@ class FullWorld(World):
     lifted: bool = False
     choice: LightChoice | None = None
     microfacets: tuple[Microfacets, ...] = ()
+    combining: Combining | None = None

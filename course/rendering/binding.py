@@ -134,6 +134,7 @@ _REASONS = {
     "textures": "no surface shows a texture",
     "bounding_volumes": "Embree answers the rays",
     "environment_light": "no directions towards an environment are chosen by its picture",
+    "multiple_importance": "no lamp and no lobe are sampled together",
     "importance_sampling": "no directions towards an environment are chosen by its functions",
     "film": "the film asks for no exposure, gamut, tone mapping or dithering",
 }

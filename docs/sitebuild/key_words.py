@@ -13,7 +13,7 @@ WORDS: dict[tuple[str, str], str] = {
     ("SceneDescription", "title"): NOTHING,
     **{
         ("IntegratorDescription", key): "It changes the noise and the time, not what is shown."
-        for key in ("light_sampling", "roulette")
+        for key in ("light_sampling", "gloss_sampling", "roulette")
     },
     (
         "MeshFile",

@@ -22,6 +22,7 @@ WORDS = {
     "sixteen": 16,
     "seventeen": 17,
     "eighteen": 18,
+    "nineteen": 19,
     "twenty": 20,
 }
 """Numbers that pages write as words."""

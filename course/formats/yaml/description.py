@@ -866,6 +866,14 @@ class IntegratorDescription(Map, frozen=True, kw_only=True):
             f" {MANY_LIGHTS} lights, or one of more."
         ),
     ] = "automatic"
+    gloss_sampling: Annotated[
+        Literal["lobe", "lamp", "balance", "power"],
+        about(
+            "How glossy surfaces find lamps with a size: by directions of the `lobe`, by points on the `lamp`, or by"
+            " both, weighted by the `balance` or the `power` heuristic of the module multiple_importance. For Phong's"
+            " lobes, and for rectangles and `visible` spheres with a radiance; all others are found by the lobe."
+        ),
+    ] = "lobe"
     into_surface: Annotated[
         Literal["mirror", "keep"],
         about(

@@ -1,0 +1,206 @@
+"""multiple_importance - one integral by several strategies of sampling, each where it is good.
+
+A small lamp is met best by points on the lamp, a sharp lobe by directions of the lobe. Samples of both are combined by
+weights that add up to 1 and look at the densities of all strategies, in the same measure: solid angle.
+"""
+
+import numpy as np
+
+
+def area_density(area, distance, cos):
+    """Density over directions of points that are uniform over a flat lamp: distance^2 / (area cos).
+
+    Parameters
+    ----------
+    area : float > 0 [m^2]
+    distance : (N,) floating > 0 [m], from the shading point to the point on the lamp
+    cos : (N,) floating in [-1, 1], between the lamp's normal and the direction from the lamp to the shading point
+
+    Returns
+    -------
+    (N,) [1/sr], of the dtype of distance and cos, or NumPy's promotion of the two
+        0 where cos <= 0: the lamp's back sends nothing.
+
+    Raises
+    ------
+    ValueError
+        An argument has another shape, or area is not > 0.
+
+    Task: multiple_importance.area_density. Source: Shirley, Wang and Zimmerman, "Monte Carlo techniques for direct
+    lighting calculations", 1996.
+    """
+    _check_positive("area", area)
+    _check_batch("distance", distance, 1)
+    _check_batch("cos", cos, 1, np.shape(distance)[0])
+    # TODO multiple_importance.area_density: write your solution here
+    raise NotImplementedError("multiple_importance.area_density: not written yet")
+
+
+def cone_density(radius, distance):
+    """Density of directions that are uniform over the cone that a spherical lamp fills: 1 / (2 pi (1 - cos)).
+
+    The sine of the angle between the cone's axis and its rim is radius / distance, and cos its cosine. For a small lamp
+    far away cos is rounded to 1.
+
+    Parameters
+    ----------
+    radius : float > 0 [m]
+    distance : (N,) floating >= 0 [m], from the shading point to the lamp's centre
+
+    Returns
+    -------
+    (N,) [1/sr], of the dtype of distance
+        0 where distance <= radius: the lamp shines outwards.
+
+    Raises
+    ------
+    ValueError
+        distance has another shape, or radius is not > 0.
+
+    Task: multiple_importance.cone_density. Source: Shirley, Wang and Zimmerman, 1996.
+    """
+    _check_positive("radius", radius)
+    _check_batch("distance", distance, 1)
+    # TODO multiple_importance.cone_density: write your solution here
+    raise NotImplementedError("multiple_importance.cone_density: not written yet")
+
+
+def heuristic_weights(counts, densities, exponent):
+    """Weights of each strategy for each sample: (n_s p_s)^exponent / sum_k (n_k p_k)^exponent.
+
+    Exponent 1 is the balance heuristic. With 2, the power heuristic, the densest strategy gets more.
+
+    Parameters
+    ----------
+    counts : (S,) whole >= 0, samples that each of S strategies takes
+    densities : (S, N) floating >= 0, of each strategy, at each of N samples, whichever strategy has drawn it
+    exponent : float >= 1
+
+    Returns
+    -------
+    (S, N) in [0, 1], of the dtype of densities
+        Of any exponent and of densities of any size. 0 where no strategy draws a sample.
+
+    Raises
+    ------
+    ValueError
+        An argument has another shape, or is negative, or exponent is not >= 1.
+
+    Task: multiple_importance.heuristic_weights. Source: Veach and Guibas, "Optimally combining sampling techniques for
+    Monte Carlo rendering", 1995.
+    """
+    _check_strategies(counts, densities)
+    if not exponent >= 1:
+        raise ValueError(f"exponent must be >= 1, got {exponent}")
+    # TODO multiple_importance.heuristic_weights: write your solution here
+    raise NotImplementedError("multiple_importance.heuristic_weights: not written yet")
+
+
+def delta_weights(counts, densities, delta):
+    """Balance weights where some strategies draw a sample with a probability, and not with a density.
+
+    A mirror has one direction, and a point light one place. What they draw, a density meets with probability 0: where
+    any strategy is a delta, deltas share the weight, by counts times probabilities, and densities get 0.
+
+    Parameters
+    ----------
+    counts : (S,) whole >= 0
+    densities : (S, N) floating >= 0, as for heuristic_weights; where delta is true, the probability of the sample
+    delta : (S, N) bool, whether a strategy draws this sample with a probability; if that is 0, or the count, it is none
+
+    Returns
+    -------
+    (S, N) in [0, 1], of the dtype of densities
+        0 where no strategy draws a sample.
+
+    Raises
+    ------
+    ValueError
+        An argument has another shape, or is negative.
+
+    Task: multiple_importance.delta_weights. Source: Veach, "Robust Monte Carlo methods for light transport simulation",
+    1997.
+    """
+    _check_strategies(counts, densities)
+    if np.shape(delta) != np.shape(densities):
+        raise ValueError(f"delta must have shape {np.shape(densities)}, got {np.shape(delta)}")
+    # TODO multiple_importance.delta_weights: write your solution here
+    raise NotImplementedError("multiple_importance.delta_weights: not written yet")
+
+
+def multi_sample(counts, strategy, f, densities, weights):
+    """The multi-sample estimator: the sum over all samples of w f / (n p), of the strategy that has drawn each.
+
+    Parameters
+    ----------
+    counts : (S,) whole > 0, samples of each strategy
+    strategy : (N,) whole from 0 to S - 1, which has drawn each of the N samples
+    f : (3, N) floating, the integrand at each sample
+    densities, weights : (N,) floating >= 0, p and w of the sample's own strategy; with density 0 it counts 0
+
+    Returns
+    -------
+    (3,), of the dtype of f, densities and weights, or NumPy's promotion of them
+
+    Raises
+    ------
+    ValueError
+        An argument has another shape.
+
+    Task: multiple_importance.multi_sample. Source: Veach and Guibas, 1995.
+    """
+    _check_batch("counts", counts, 1)
+    _check_batch("f", f, 2)
+    for name, each in (("strategy", strategy), ("densities", densities), ("weights", weights)):
+        _check_batch(name, each, 1, np.shape(f)[1])
+    # TODO multiple_importance.multi_sample: write your solution here
+    raise NotImplementedError("multiple_importance.multi_sample: not written yet")
+
+
+def one_sample(odds, f, densities):
+    """The one-sample form, by balance weights: f / sum_k (c_k p_k), where chance has chosen the strategy.
+
+    Parameters
+    ----------
+    odds : (S,) floating >= 0, the probability c_k of each strategy
+    f : (3, N) floating, the integrand at each of N samples
+    densities : (S, N) floating >= 0, of each strategy, at each sample, whichever strategy has drawn it
+
+    Returns
+    -------
+    (3, N), of the dtype of f and densities, or NumPy's promotion of the two
+        N estimates, of one sample each; 0 where no strategy draws the sample.
+
+    Raises
+    ------
+    ValueError
+        An argument has another shape, or odds or densities are negative.
+
+    Task: multiple_importance.one_sample. Source: Veach and Guibas, 1995.
+    """
+    _check_strategies(odds, densities)
+    _check_batch("f", f, 2, np.shape(densities)[1])
+    # TODO multiple_importance.one_sample: write your solution here
+    raise NotImplementedError("multiple_importance.one_sample: not written yet")
+
+
+def _check_batch(name, array, axes, columns=None):
+    shape, rows = np.shape(array), "3, " * (axes - 1)
+    if len(shape) != axes or (axes == 2 and shape[0] != 3) or columns not in (None, shape[-1]):
+        expected = f"({rows}{'N' if columns is None else columns})"
+        raise ValueError(f"{name} must have shape {expected}, got {shape}")
+
+
+def _check_strategies(counts, densities):
+    if np.ndim(counts) != 1 or np.ndim(densities) != 2 or len(densities) != len(counts):
+        shapes = f"{np.shape(counts)} and {np.shape(densities)}"
+        raise ValueError(
+            f"a number and a row of densities for each strategy: (S,) and (S, N), got {shapes}"
+        )
+    if not (np.asarray(counts) >= 0).all() or not (np.asarray(densities) >= 0).all():
+        raise ValueError("a strategy's number and its densities must be >= 0")
+
+
+def _check_positive(name, number):
+    if not number > 0:
+        raise ValueError(f"{name} must be > 0, got {number}")

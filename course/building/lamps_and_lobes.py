@@ -1,0 +1,88 @@
+"""Which lamps and lobes of a scene are sampled together."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from course.core.gloss import Lobe
+from course.core.lights.rectangle import RectangleLight
+from course.core.lights.sample import Light
+from course.core.materials import MaterialTable
+from course.core.types import Functions
+from course.effects import Bound
+from course.extras.lamps_and_lobes import Combining, FlatLamp, Lamp, RoundLamp
+from course.extras.visible_sphere import VisibleSphereLight
+from course.formats.yaml import description as d
+
+POWERS = {"lamp": None, "balance": 1.0, "power": 2.0}
+"""Exponent of the heuristic for each value of ``gloss_sampling`` but ``lobe``."""
+
+
+def compile_combining(
+    scene: d.SceneDescription,
+    bound: Bound,
+    materials: MaterialTable,
+    lobes: Sequence[Lobe],
+    lights: Sequence[Light],
+) -> Combining | None:
+    """None where a scene doesn't ask for it, or has no lamp and no lobe that could be sampled together.
+
+    Lobes are Phong's, and not on glass. Lamps stand still, rays can meet them, and their points have a density in
+    closed form. Where rays start far above surfaces all is left to the lobes; so it is where the distribution ray
+    tracer divides rays at glass.
+    """
+    integrator = scene.integrator
+    if integrator.gloss_sampling == "lobe" or integrator.surface_offset > 0:
+        return None
+    if integrator.type != "path" and materials.refracts.any():
+        return None
+    exponents = np.full(len(materials.exponent), -1, np.float32)
+    for lobe in lobes:
+        if type(lobe) is Lobe and lobe.kind == "phong" and not materials.refracts[lobe.material]:
+            exponents[lobe.material] = lobe.parameter
+    surfaces = _surfaces(scene, materials)
+    known = {light.name: light for light in lights if light.velocity is None}
+    found = [(light, surfaces[name]) for name, light in known.items() if name in surfaces]
+    found = [pair for pair in found if _has_density(pair[0])]
+    if not found or not (exponents >= 0).any():
+        return None
+    names = [] if integrator.gloss_sampling == "lamp" else ["heuristic_weights"]
+    if any(isinstance(light, RectangleLight) for light, _ in found):
+        names.append("area_density")
+    if any(isinstance(light, VisibleSphereLight) for light, _ in found):
+        names.append("cone_density")
+    asked_by = ("integrator", "gloss_sampling")
+    functions = bound.functions("multiple_importance", *names, asked_by=asked_by)
+    lamps = tuple(_lamp(light, surface, functions) for light, surface in found)
+    return Combining(lamps, exponents, POWERS[integrator.gloss_sampling], functions)
+
+
+def _surfaces(scene: d.SceneDescription, materials: MaterialTable) -> dict[str, int]:
+    """The materials of the surfaces of lights, by the lights' names."""
+    if materials.lamps is None:
+        return {}
+    columns = np.flatnonzero(materials.lamps).tolist()
+    names = [
+        f"light {number}"
+        for number, light in enumerate(scene.lights)
+        if (isinstance(light, d.SphereLight) and light.radiance is not None)
+        or (isinstance(light, d.RectangleLight) and light.radiance is not None and light.visible)
+    ]
+    return dict(zip(names, columns, strict=True))
+
+
+def _has_density(light: Light) -> bool:
+    if isinstance(light, RectangleLight):
+        return light.normal is not None and light.visible and not light.two_sided
+    return isinstance(light, VisibleSphereLight)
+
+
+def _lamp(light: Light, surface: int, functions: Functions) -> Lamp:
+    if isinstance(light, VisibleSphereLight):
+        area = 4 * np.pi * light.radius**2
+        return RoundLamp(light, surface, area, functions, light.center, light.radius)
+    assert isinstance(light, RectangleLight)
+    assert light.normal is not None
+    sides = light.edge_u.astype(np.float64), light.edge_v.astype(np.float64)
+    area = float(np.linalg.norm(np.cross(*sides)))
+    return FlatLamp(light, surface, area, functions, light.normal)

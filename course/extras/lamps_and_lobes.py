@@ -1,0 +1,348 @@
+"""Lamps that glossy surfaces reflect, looked for in two ways at once: by points on the lamp, and by rays of the lobe.
+
+A small lamp is seldom met by directions of a wide lobe, and a narrow lobe seldom shows a point of a large lamp. So both
+are tried, and each counts by its weight (Veach and Guibas, "Optimally combining sampling techniques for Monte Carlo
+rendering", 1995). A ray of a lobe carries the density of its direction; where it meets a lamp, the lamp's light counts
+with the lobe's weight. The lamp's weight goes with a shadow ray from where the lobe is.
+
+What only one strategy finds is left to it: mirrors, point lights, and lobes and lamps of other kinds.
+"""
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from course.core.direct import Candidates, DirectLight
+from course.core.hits import Hits, Surface
+from course.core.integrator import Integrator
+from course.core.lights.sample import Light, Sample
+from course.core.materials import Lookup
+from course.core.motion import Motion
+from course.core.rays import Draws, Rays
+from course.core.scatter import Scatter, kept_above
+from course.core.types import Floats32, Functions, Indices, Materials
+from course.core.vectors import dot, reflect
+from course.extras.light_choice import some_of
+
+ONCE = np.array([1, 1])
+"""Samples of each strategy at a hit: one point on a lamp, one direction of the lobe."""
+
+DELTA = np.float32(np.inf)
+"""Density of directions that lamps can't be sampled for: what they meet counts in full."""
+
+
+@dataclass(frozen=True)
+class LobeRays(Rays):
+    """Rays that know how dense the lobe is that they come from.
+
+    ``density`` : (n,) float32 [1/sr], DELTA where only the lobe finds lamps
+    """
+
+    density: Floats32 | None = None
+
+
+@dataclass(frozen=True)
+class Lamp(ABC):
+    """A lamp with a size.
+
+    Attributes
+    ----------
+    light : samples points on it
+    material : of its surface
+    area : of it, in the unit of the compiled scene squared
+    functions : of the module multiple_importance
+    """
+
+    light: Light
+    material: int
+    area: float
+    functions: Functions
+
+    @abstractmethod
+    def density(self, points: Floats32, to_light: Floats32) -> Floats32:
+        """How dense the lamp's points are over directions (n,) [1/sr], for vectors (3, n) from shading points to it."""
+
+
+@dataclass(frozen=True)
+class FlatLamp(Lamp):
+    """A parallelogram, sampled uniformly by area; ``normal`` (3,) float32 is on the side that emits."""
+
+    normal: Floats32
+
+    def density(self, points: Floats32, to_light: Floats32) -> Floats32:
+        """See ``Lamp``."""
+        distance = np.sqrt(dot(to_light, to_light))
+        cosine = -dot(self.normal[:, None], to_light) / np.maximum(distance, np.float32(1e-30))
+        found: Floats32 = self.functions.area_density(self.area, distance, cosine)
+        return found
+
+
+@dataclass(frozen=True)
+class RoundLamp(Lamp):
+    """A sphere, sampled uniformly over the cone that it fills; ``center`` (3,) float32."""
+
+    center: Floats32
+    radius: float
+
+    def density(self, points: Floats32, to_light: Floats32) -> Floats32:
+        """See ``Lamp``."""
+        axis = self.center[:, None] - points
+        found: Floats32 = self.functions.cone_density(self.radius, np.sqrt(dot(axis, axis)))
+        return found
+
+
+@dataclass(frozen=True)
+class Combining:
+    """What is combined in a scene, and how.
+
+    Attributes
+    ----------
+    lamps : those that are looked for in both ways
+    exponents : (M,) float32 of the lobes, -1 for materials whose lamps the lobe finds alone
+    power : exponent of the heuristic; None where lamps are looked for by their points alone
+    functions : of the module multiple_importance
+    """
+
+    lamps: tuple[Lamp, ...]
+    exponents: Floats32
+    power: float | None
+    functions: Functions
+
+    def lobe_density(
+        self, material: Materials, incoming: Floats32, ns: Floats32, ng: Floats32, way: Floats32
+    ) -> Floats32:
+        """How dense a Phong lobe's directions are (n,) [1/sr], those mirrored that fell below the surface included.
+
+        Parameters
+        ----------
+        material : (n,) of the lobes
+        incoming, ns, ng : (3, n), as in ``Hits``
+        way : (3, n) unit vectors
+        """
+        axis = kept_above(reflect(incoming, ns), ng)
+        exponent = self.exponents.take(material)
+        off = way - axis
+        height = dot(way, ng)
+        # 1 - cos, without its cancellation: a narrow lobe hangs on the last digits.
+        above = dot(off, off) / 2
+        below = above + 2 * height * dot(axis, ng)
+        dense = np.zeros(len(material), np.float32)
+        for sunk in (above, below):
+            cosine = np.log1p(-np.minimum(sunk, np.float32(1 - 1e-7)))
+            dense += np.where(sunk < 1, np.exp(exponent * cosine), np.float32(0))
+        dense *= (exponent + 1) / np.float32(2 * np.pi)
+        dense *= height > 0
+        return dense
+
+    def weights(self, lamp: Floats32, lobe: Floats32) -> Floats32:
+        """Weights (2, n) of points on the lamp and of directions of the lobe, by their densities (n,)."""
+        if self.power is None:
+            return np.stack((lamp > 0, lamp <= 0)).astype(np.float32)
+        densities = np.stack((lamp, lobe))
+        found: Floats32 = self.functions.heuristic_weights(ONCE, densities, self.power)
+        return found
+
+
+@dataclass(frozen=True)
+class LobeLight(DirectLight):
+    """What a lobe reflects of the points of one lamp, before the surface's reflectance.
+
+    Attributes
+    ----------
+    lamp : the only one among the lights
+    combining : weighs its points
+    """
+
+    lamp: Lamp | None = None
+    combining: Combining | None = None
+
+    def _candidates(self, hits: Hits, sample: Sample) -> Candidates | None:
+        found = super()._candidates(hits, sample)
+        if found is None:
+            return None
+        assert self.lamp is not None
+        assert self.combining is not None
+        of, way = found.of, found.to_light * found.inverse_length
+        lamp = self.lamp.density(found.origin, found.to_light)
+        arrays = of(hits.material), of(hits.direction), of(hits.ns), of(hits.ng)
+        lobe = self.combining.lobe_density(*arrays, way)
+        # The light's colour is its radiance times its area over pi.
+        sent = np.float32(np.pi / self.lamp.area) * lobe * self.combining.weights(lamp, lobe)[0]
+        sent *= (found.irradiance > 0) & (lamp > 0)
+        sent /= np.where(lamp > 0, lamp, np.float32(1))
+        # Outside of the lobe no shadow ray is needed.
+        kept = np.flatnonzero(sent)
+        if len(kept) == 0:
+            return None
+        which = found.hit(kept)
+        return Candidates(
+            index=which,
+            columns=which,
+            mask=None,
+            irradiance=sent.take(kept),
+            cosine=found.cosine.take(kept),
+            origin=found.origin.take(kept, axis=1),
+            to_light=found.to_light.take(kept, axis=1),
+            inverse_length=found.inverse_length.take(kept),
+        )
+
+    def incident(
+        self, hits: Hits, path: Indices | None, depth: int, draws: Draws
+    ) -> Floats32 | None:
+        """Radiance (3, n), or None for 0."""
+        return self._from_lights(hits, path, depth, draws)[0]
+
+
+@dataclass(frozen=True)
+class LampsAndLobes:
+    """The stage: light that lobes reflect from points on lamps, and the weights of what rays of lobes meet.
+
+    Attributes
+    ----------
+    combining : what is combined
+    scatter : casts the rays of the lobes
+    by_points : a stage for each lamp
+    """
+
+    combining: Combining
+    scatter: Scatter
+    by_points: tuple[LobeLight, ...]
+
+    def seen_by(self, surface: Surface, scatter: Scatter) -> "LampsAndLobes":
+        """The same with another surface to trace, and another way to scatter."""
+        stages = tuple(replace(stage, surface=surface) for stage in self.by_points)
+        return replace(self, scatter=scatter, by_points=stages)
+
+    def light(
+        self, hits: Hits, beta: Floats32 | None, path: Indices | None, depth: int, draws: Draws
+    ) -> Floats32 | None:
+        """Radiance (3, n) that lobes reflect from points on lamps, or None for 0.
+
+        Parameters
+        ----------
+        beta : (3, n) throughput of the rays that hit, or None for 1: where no ray follows, no point is looked for
+        """
+        glossy = np.flatnonzero(self.combining.exponents.take(hits.material) >= 0)
+        reflectance = self.scatter.reflectance(hits, glossy)
+        arriving = reflectance if beta is None else reflectance * beta.take(glossy, axis=1)
+        worth = arriving.max(axis=0, initial=0) > self.scatter.cutoff
+        glossy, reflectance = glossy.compress(worth), reflectance.compress(worth, axis=1)
+        if len(glossy) == 0:
+            return None
+        some, of = some_of(hits, glossy), glossy if path is None else path.take(glossy)
+        total = None
+        for stage in self.by_points:
+            found = stage.incident(some, of, depth, draws)
+            if found is not None:
+                total = found if total is None else np.add(total, found, out=total)
+        if total is None:
+            return None
+        radiance = np.zeros((3, hits.size), np.float32)
+        radiance[:, glossy] = total * reflectance
+        return radiance
+
+    def carried(self, hits: Hits, path: Indices | None, rays: Rays) -> LobeRays:
+        """The rays that leave hits of paths (n,), each path at most once, with the densities of their lobes."""
+        which = rays.path
+        assert which is not None
+        if path is not None and len(path):
+            place = np.empty(path.max() + 1, np.intp)
+            place[path] = np.arange(len(path))
+            which = place.take(which)
+        density = np.full(rays.size, DELTA)
+        mine = np.flatnonzero(self.combining.exponents.take(hits.material.take(which)) >= 0)
+        at = which.take(mine)
+        ns, ng = hits.ns.take(at, axis=1), hits.ng.take(at, axis=1)
+        way = rays.direction.take(mine, axis=1)
+        arrays = hits.material.take(at), hits.direction.take(at, axis=1), ns, ng, way
+        # Points on lamps are looked for above the shading normal's horizon alone.
+        density[mine] = np.where(dot(way, ns) > 0, self.combining.lobe_density(*arrays), DELTA)
+        known: dict[str, Any] = vars(rays)
+        return LobeRays(**known, density=density)
+
+    def share(self, rays: Rays, hits: Hits) -> Floats32 | None:
+        """Weights (n,) of the light that rays meet at hits; None where all of it counts."""
+        if not isinstance(rays, LobeRays) or rays.density is None:
+            return None
+        density = rays.density if hits.ray is None else rays.density.take(hits.ray)
+        share = np.ones(hits.size, np.float32)
+        for lamp in self.combining.lamps:
+            met = (hits.material == lamp.material) & (density < DELTA) & hits.entering
+            which = np.flatnonzero(met)
+            if len(which) == 0:
+                continue
+            ray = which if hits.ray is None else hits.ray.take(which)
+            origin = rays.origin.take(ray, axis=1)
+            of_lamp = lamp.density(origin, hits.p.take(which, axis=1) - origin)
+            share[which] = self.combining.weights(of_lamp, density.take(which))[1]
+        return share
+
+
+@dataclass(frozen=True)
+class CombiningIntegrator(Integrator):
+    """The distribution ray tracer, where lamps in glossy surfaces are looked for in both ways.
+
+    ``lamps_and_lobes`` : the stage; None never stands in a plan
+    """
+
+    lamps_and_lobes: LampsAndLobes | None = None
+
+    def _follow(self, rays: Rays, depth: int, path_radiance: Floats32, draws: Draws) -> Rays | None:
+        stage, counters = self.lamps_and_lobes, draws.counters
+        assert stage is not None
+        hits, throughput, path, medium = self._intersect(rays, True, depth, path_radiance, draws)
+        if hits.size == 0:
+            return None
+        parts = [self._shade(hits, path, depth, draws)]
+        if self.emission is not None:
+            seen, share = self.emission(hits.material) * hits.entering, stage.share(rays, hits)
+            parts.append(seen if share is None else seen * share)
+        if depth < self.max_depth:
+            parts.append(stage.light(hits, throughput, path, depth, draws))
+        for radiance in parts:
+            if radiance is not None:
+                self.add_radiance(path_radiance, path, radiance, throughput)
+        counters.lap("shade")
+        if self.scatter is None or depth == self.max_depth:
+            return None
+        following = self.scatter(hits, throughput, path, medium, depth, draws)
+        counters.lap("bounce")
+        return None if following is None else stage.carried(hits, path, following)
+
+    def _shade(self, hits: Hits, path: Indices | None, depth: int, draws: Draws) -> Floats32 | None:
+        """See ``Integrator``; what lamps emit comes by itself."""
+        radiance = None
+        if self.direct is not None:
+            radiance = self.direct(hits, path, depth, draws)
+        for term in (
+            None if self.ambient is None else self._ambient_light(hits, self.ambient),
+            None if self.glow is None else self.glow(hits.material),
+        ):
+            if term is not None:
+                radiance = term + (
+                    np.zeros((3, hits.size), np.float32) if radiance is None else radiance
+                )
+        return radiance
+
+
+def plan_lamps_and_lobes(
+    combining: Combining, surface: Surface, scatter: Scatter, motion: Motion | None
+) -> LampsAndLobes:
+    """The stage of a scene."""
+    stages = tuple(
+        LobeLight(
+            surface,
+            (lamp.light,),
+            motion,
+            shaded=None,
+            diffuse=Lookup(np.ones((3, 1), np.float32)),
+            specular=None,
+            exponent=Lookup(np.zeros(1, np.float32)),
+            lamp=lamp,
+            combining=combining,
+        )
+        for lamp in combining.lamps
+    )
+    return LampsAndLobes(combining, scatter, stages)

@@ -1,0 +1,21 @@
+"""One delta counts for all samples."""
+
+import numpy as np
+
+FUNCTION = "delta_weights"
+CAUGHT_BY = "values"
+MISTAKE = "a-delta-for-all-samples"
+SAYS = "You look whether a strategy is a delta anywhere; ask for each sample."
+
+
+def delta_weights(counts, densities, delta):
+    """With a mistake."""
+    _check_strategies(counts, densities)
+    if np.shape(delta) != np.shape(densities):
+        raise ValueError(f"delta must have shape {np.shape(densities)}, got {np.shape(delta)}")
+    delta = np.asarray(delta, bool)
+    drawn = np.asarray(counts, np.float64)[:, None] * densities
+    certain = delta & (drawn > 0)
+    drawn = np.where(certain.any() & ~certain, 0, drawn)
+    total = drawn.sum(axis=0)
+    return (drawn / np.where(total > 0, total, 1)).astype(densities.dtype)

@@ -1,0 +1,18 @@
+"""Deltas as if they were densities."""
+
+import numpy as np
+
+FUNCTION = "delta_weights"
+CAUGHT_BY = "mirror"
+MISTAKE = "delta-as-density"
+SAYS = "You compare a probability with densities: the two have other units."
+
+
+def delta_weights(counts, densities, delta):
+    """With a mistake."""
+    _check_strategies(counts, densities)
+    if np.shape(delta) != np.shape(densities):
+        raise ValueError(f"delta must have shape {np.shape(densities)}, got {np.shape(delta)}")
+    drawn = np.asarray(counts, np.float64)[:, None] * densities
+    total = drawn.sum(axis=0)
+    return (drawn / np.where(total > 0, total, 1)).astype(densities.dtype)

@@ -1,0 +1,20 @@
+"""The sum of two strategies."""
+
+import numpy as np
+
+FUNCTION = "heuristic_weights"
+CAUGHT_BY = "values"
+MISTAKE = "two-strategies-only"
+SAYS = "You compare with the first two strategies alone: the sum runs over all."
+
+
+def heuristic_weights(counts, densities, exponent):
+    """With a mistake."""
+    _check_strategies(counts, densities)
+    if not exponent >= 1:
+        raise ValueError(f"exponent must be >= 1, got {exponent}")
+    drawn = np.asarray(counts, np.float64)[:, None] * densities
+    largest = drawn.max(axis=0)
+    power = (drawn / np.where(largest > 0, largest, 1)) ** float(exponent)
+    total = power[:2].sum(axis=0)
+    return (power / np.where(total > 0, total, 1)).astype(densities.dtype)

@@ -1,0 +1,197 @@
+"""Lamps in glossy surfaces by points on the lamp, by directions of the lobe, and by both: means, noise, what is called.
+
+Means of 256 pixels lie within 5 standard errors with a false-fail rate of 1e-6 each (``tests/estimates.py``); some
+thirty are tested, with fixed seeds.
+"""
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from course import Scene, load_scene, render
+from course.effects import PROJECT
+from course.scene.scene import load_variant
+from tests.conftest import MakeScene
+from tests.estimates import estimate
+
+WAYS = ("lobe", "lamp", "balance", "power")
+EXPONENT, MIRROR, RADIANCE = 20, 0.8, 3.0
+BALL = {
+    "type": "sphere",
+    "center": [-2, 2, 0],
+    "radius": 0.5,
+    "radiance": RADIANCE,
+    "samples": "visible",
+}
+# Turned towards the origin, at right angles to the mirrored direction.
+SHEET = {
+    "type": "rectangle",
+    "corner": [-2.4, 1.6, -0.5],
+    "edge_u": [0.8, 0.8, 0],
+    "edge_v": [0, 0, 1],
+    "radiance": RADIANCE,
+}
+
+
+def plate(make_scene: MakeScene, way: str, lamp: dict[str, Any], **parts: Any) -> Scene:
+    """One point of a glossy plate, seen at 45 degrees; the lamp lies in the mirrored direction."""
+    return make_scene(
+        **{
+            "camera": {"eye": [4, 4, 0], "look_at": [0, 0, 0], "vertical_fov": 1e-4},
+            "film": {"width": 16, "height": 16},
+            "sampler": {"type": "random", "samples": 64},
+            "materials": {
+                "glossy": {
+                    "color": 0,
+                    "mirror": MIRROR,
+                    "gloss": {"lobe": "phong", "exponent": EXPONENT},
+                }
+            },
+            "objects": [{"shape": "quad", "material": "glossy", "width": 2, "depth": 2}],
+            "lights": [lamp],
+            "integrator": {"max_depth": 1, "gloss_sampling": way},
+        }
+        | parts
+    )
+
+
+def expected(lamp: dict[str, Any]) -> float:
+    """The share of the lobe that the lamp fills: of a cone in closed form, of a sheet by midpoints."""
+    if lamp["type"] == "sphere":
+        sine = lamp["radius"] / math.hypot(*lamp["center"])
+        return MIRROR * RADIANCE * float(1 - (1 - sine**2) ** ((EXPONENT + 1) / 2))
+    s, t = np.meshgrid(*[(np.arange(1000) + 0.5) / 1000] * 2)
+    corner, u, v = (
+        np.array(lamp[key], float)[:, None, None] for key in ("corner", "edge_u", "edge_v")
+    )
+    p = corner + s * u + t * v
+    d = np.sqrt((p * p).sum(axis=0))
+    cosine = (p[1] - p[0]) / d / math.sqrt(2)
+    area = float(np.linalg.norm(np.cross(u.ravel(), v.ravel())))
+    # The lamp's normal is the lobe's axis, reversed.
+    density = (EXPONENT + 1) / (2 * math.pi) * cosine**EXPONENT
+    return MIRROR * RADIANCE * area * float((density * cosine / d**2).mean())
+
+
+@pytest.mark.parametrize("kind", ["distribution", "path"])
+@pytest.mark.parametrize("lamp", [BALL, SHEET], ids=["ball", "sheet"])
+@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.usefixtures("each_form")
+def test_the_mean_is_the_lobe_s_share_of_the_lamp(
+    make_scene: MakeScene, way: str, lamp: dict[str, Any], kind: str
+) -> None:
+    scene = plate(
+        make_scene, way, lamp, integrator={"type": kind, "max_depth": 1, "gloss_sampling": way}
+    )
+    found, spread = estimate(scene)
+    assert np.abs(found - expected(lamp)).max() <= spread.max() + 2e-3 * expected(lamp)
+
+
+@pytest.mark.parametrize("kind", ["distribution", "path"])
+def test_matt_and_glossy_light_add_up_beside_other_lamps_too(
+    make_scene: MakeScene, kind: str
+) -> None:
+    """What is reflected in a round about way, and lamps that the lobe alone finds, have the same mean by all ways."""
+    shiny = {"color": 0.5, "mirror": 0.4, "gloss": {"lobe": "phong", "exponent": EXPONENT}}
+    point = {"type": "point", "position": [1, 2, 1], "intensity": 4}
+    ball = BALL | {"center": [-1, 2, 1], "samples": "sphere"}
+    wall = {"shape": "quad", "material": "glossy", "width": 3, "depth": 3} | {
+        "transform": [{"rotate": {"axis": [0, 0, 1], "degrees": -70}}, {"translate": [-1.5, 1, 0]}]
+    }
+    floor = {"shape": "quad", "material": "glossy", "width": 2, "depth": 2}
+    means, spreads = [], []
+    for way in WAYS:
+        scene = plate(
+            make_scene,
+            way,
+            BALL,
+            lights=[BALL, point, SHEET, ball],
+            materials={"glossy": shiny},
+            objects=[floor, wall],
+            integrator={"type": kind, "max_depth": 3, "gloss_sampling": way},
+        )
+        mean, spread = estimate(scene, 256)
+        means.append(mean)
+        spreads.append(spread)
+    for mean, spread in zip(means[1:], spreads[1:], strict=True):
+        assert np.abs(mean - means[0]).max() <= np.hypot(spread, spreads[0]).max()
+
+
+def test_both_are_quiet_where_either_is_loud(make_scene: MakeScene) -> None:
+    """A small ball in a wide lobe, and a large one in a narrow lobe: both have less than a fifth of the worse error."""
+    for radius, exponent, worse in ((0.02, 5, "lobe"), (1.2, 4000, "lamp")):
+        gloss = {"lobe": "phong", "exponent": exponent}
+        noise = {}
+        for way in (worse, "power"):
+            scene = plate(
+                make_scene,
+                way,
+                BALL | {"radius": radius},
+                materials={"glossy": {"color": 0, "mirror": MIRROR, "gloss": gloss}},
+            )
+            noise[way] = float(render(scene, compiled=False).linear[..., 0].std())
+        assert noise["power"] < noise[worse] / 5
+
+
+@pytest.mark.parametrize(
+    ("way", "lamp", "calls"),
+    [
+        ("lobe", BALL, set()),
+        ("lamp", BALL, {"cone_density"}),
+        ("power", BALL, {"cone_density", "heuristic_weights"}),
+        ("balance", SHEET, {"area_density", "heuristic_weights"}),
+        # What only one strategy finds.
+        ("power", BALL | {"samples": "sphere"}, set()),
+        ("power", {"type": "point", "position": [0, 2, 0], "intensity": 3}, set()),
+        ("power", SHEET | {"visible": False}, set()),
+    ],
+)
+def test_only_what_is_combined_is_called(
+    make_scene: MakeScene, way: str, lamp: dict[str, Any], calls: set[str]
+) -> None:
+    scene = plate(make_scene, way, lamp)
+    needed = {need.function for need in scene.compiled.needs}
+    assert {name for name in needed if name.startswith("multiple")} == {
+        f"multiple_importance.{name}" for name in calls
+    }
+    assert (scene.compiled.world.combining is None) == (not calls)
+
+
+@pytest.mark.parametrize(
+    "gloss", [None, {"lobe": "ball", "glossiness": 0.2}, {"lobe": "plane", "roughness": 0.2}]
+)
+def test_lobes_without_a_density_keep_their_bits(make_scene: MakeScene, gloss: Any) -> None:
+    material = {"color": 0.3, "mirror": MIRROR} | ({} if gloss is None else {"gloss": gloss})
+    pictures = [
+        render(plate(make_scene, way, BALL, materials={"glossy": material})).linear
+        for way in ("lobe", "power")
+    ]
+    assert np.array_equal(*pictures)
+
+
+def test_a_student_s_weights_are_used(make_scene: MakeScene, tmp_path: Path) -> None:
+    """With weights of 1 for both, the lamp is twice as bright."""
+    folder = tmp_path / "mine"
+    folder.mkdir()
+    for file in (PROJECT / "solutions").glob("*.py"):
+        (folder / file.name).write_bytes(file.read_bytes())
+    with (folder / "multiple_importance.py").open("a", encoding="utf-8") as file:
+        file.write("\n\ndef heuristic_weights(c, p, e):\n    return np.ones_like(p)\n")
+    path = plate(make_scene, "power", BALL).path
+    found, spread = estimate(load_scene(path, folder), compiled=False)
+    assert np.abs(found - 2 * expected(BALL)).max() <= spread.max() + 4e-3 * expected(BALL)
+
+
+def test_both_forms_of_the_scene_make_the_same_picture() -> None:
+    scene = load_variant(
+        PROJECT / "scenes" / "multiple_importance.yaml", {("sampler", "type"): "sobol"}
+    )
+    plain, fast = (
+        render(scene, size=(60, 40), spp=4, compiled=form).linear for form in (False, True)
+    )
+    same = np.isclose(plain, fast, rtol=1e-3, atol=1e-4).all(axis=2)
+    # Packets may find the other triangle at a common edge.
+    assert same.mean() > 0.99
