@@ -98,12 +98,8 @@ CONTRACTS = {
 }
 """Every function that the renderer calls, "module.function", and its contract."""
 
-DTYPES: dict[str, Any] = {
-    "whole": "int",
-    "floating": "floating",
-    "bool": np.bool_,
-    **{name: getattr(np, name) for name in ("float32", "float64", "int32", "uint32")},
-}
+DTYPES: dict[str, Any] = {"whole": "int", "floating": "floating", "bool": np.bool_}
+DTYPES |= {name: getattr(np, name) for name in ("float32", "float64", "int32", "uint32")}
 """Numbers of a result: a dtype, or a kind of which any dtype will do."""
 
 _KINDS = {np.bool_: "bool", "int": "whole", np.int32: "whole", np.uint32: "whole"}
