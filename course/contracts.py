@@ -82,6 +82,10 @@ CONTRACTS = {
     "quasi_monte_carlo.halton": "i: N, dims -> the points: float32 dims N",
     "quasi_monte_carlo.hammersley": "n, dims -> the points: float32 dims n",
     "quasi_monte_carlo.chain": "patterns: *, ids: N, rng -> the samples: * D N",
+    "many_lights.power_choice": "power: L, u: N -> lamp: whole N, probability: N",
+    "many_lights.light_tree": "lo: 3 L, hi: 3 L, axis: 3 L, angle: L, power: L"
+    " -> lo: 3 M, hi: 3 M, axis: unit 3 M, angle: M, power: M, order: whole L",
+    "many_lights.tree_choice": "tree, p: 3 N, n: 3 N, u: N -> lamp: whole N, probability: N",
     "path_tracing.diffuse_bounce": "normal: 3 N, u: 2 N -> the directions: unit 3 N",
     "path_tracing.throughput": "beta: 3 N, albedo: 3 N -> the throughput: 3 N",
     "path_tracing.russian_roulette": "beta: 3 N, u: N -> survives: bool N, the throughput: 3 N",

@@ -55,6 +55,19 @@ def _evenly_shared(densities: Array) -> Array:
     return shared
 
 
+def _any_lamp(lamps: Array, u: Array) -> tuple[Array, Array]:
+    """Lamps (n,) that are all as probable."""
+    chosen = np.minimum((u * len(lamps)).astype(int), len(lamps) - 1)
+    return chosen, np.full_like(u, 1 / len(lamps))
+
+
+def _unsorted(*lamps: Array) -> tuple[Array, ...]:
+    """Nodes that bound nothing, and lamps in their order."""
+    count = len(lamps[-1])
+    nodes = [part[..., :1].repeat(2 * count - 1, axis=-1) for part in lamps]
+    return (*nodes, np.arange(count))
+
+
 _CENTRE = "samples lie in the pixel's centre, so edges are jagged"
 _POINT = "the lamp is a point, so shadows are hard"
 _MIRROR = "what is glossy is a mirror"
@@ -66,6 +79,7 @@ _CLEAR = "glass is clear, and what is behind it isn't bent"
 _OPEN = "no microfacet hides another"
 _SKY = "the environment lights from straight above"
 _WHOLE = "no cell is divided"
+_ALIKE = "each lamp is as probable, so the picture is noisy"
 _PATHS = "paths go on along the normal, and lose half their light"
 
 STAND_INS: dict[str, tuple[Callable[..., Any], str]] = {
@@ -203,6 +217,9 @@ STAND_INS: dict[str, tuple[Callable[..., Any], str]] = {
         lambda patterns, ids, _rng: [p[:, ids % p.shape[1]] for p in patterns],
         "patterns are chained without a permutation",
     ),
+    "many_lights.power_choice": (_any_lamp, _ALIKE),
+    "many_lights.light_tree": (_unsorted, _ALIKE),
+    "many_lights.tree_choice": (lambda tree, _p, _n, u: _any_lamp(tree[5], u), _ALIKE),
     "path_tracing.diffuse_bounce": (lambda normal, _u: normal.copy(), _PATHS),
     "path_tracing.throughput": (lambda beta, _albedo: beta / 2, _PATHS),
     "path_tracing.russian_roulette": (

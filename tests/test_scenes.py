@@ -44,6 +44,7 @@ MAY_DIFFER = {
     "textures": r"materials\.(floor|globe|vase)\.(color|texture)\..*",
     "bounding_volumes": r"acceleration\..*",
     "quasi_monte_carlo": r"sampler\.type",
+    "many_lights": r"integrator\.light_sampling",
     "film": r"film\.(tone\..*|gamut|dither)",
     "path_tracing": r"integrator\.type",
 }
@@ -61,6 +62,7 @@ CALLS = {
     "bounding_volumes": "build traverse",
     "quasi_monte_carlo": "chain hammersley",
     "film": "convert_gamut encode_srgb photographic quantize",
+    "many_lights": "light_tree power_choice tree_choice",
     "path_tracing": "diffuse_bounce russian_roulette throughput",
 }
 

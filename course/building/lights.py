@@ -20,7 +20,8 @@ from course.core.triangles import Mesh, Triangles
 from course.core.types import Floats32, Floats64, Functions
 from course.effects import Bound
 from course.errors import FunctionError
-from course.extras.light_choice import LightChoice, PowerChoice
+from course.extras.light_choice import UNIFORM, LightChoice, PowerChoice
+from course.extras.light_tree import functions_for, tree_choice
 from course.extras.mesh_light import MeshLight, areas, shares
 from course.extras.sampled import SampledSphereLight
 from course.extras.surface import FullPart
@@ -75,14 +76,22 @@ def compile_lights(
     return tuple(lights), skipped
 
 
-def compile_choice(loaded: Loaded, lights: Sequence[Light]) -> LightChoice | None:
+def compile_choice(loaded: Loaded, lights: Sequence[Light], bound: Bound) -> LightChoice | None:
     """What chooses one of the lights for each hit; None if all of them are asked."""
     asked = loaded.description.integrator.light_sampling
     # The cells of a grid are one light of the file.
     many = len({light.name for light in lights}) > d.MANY_LIGHTS
     if len(lights) < 2 or asked == "all" or (asked == "automatic" and not many):
         return None
-    return PowerChoice(tuple(lights))
+    if asked != "tree":
+        return PowerChoice(tuple(lights), uniform=1.0 if asked == "uniform" else UNIFORM)
+    key = ("integrator", "light_sampling")
+    functions = bound.functions("many_lights", *functions_for(lights), asked_by=key)
+    try:
+        return tree_choice(tuple(lights), functions)
+    except FunctionError as error:
+        # It is called before there is a render that would say so.
+        raise error.asked_by(loaded.document.where(key), key) from error.__cause__
 
 
 @dataclass(frozen=True)

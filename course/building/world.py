@@ -157,7 +157,7 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
         keeps=scene.integrator.into_surface == "keep",
         lifted=scene.integrator.surface_offset > 0,
         microfacets=compile_microfacets(named, bound, scene.integrator),
-        choice=(choice := compile_choice(loaded, lights)),
+        choice=(choice := compile_choice(loaded, lights, bound)),
         combining=compile_combining(
             scene, bound, materials, lobes, lights if choice is None else ()
         ),

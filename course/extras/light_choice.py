@@ -124,13 +124,20 @@ def _kind(light: Light, hue: Floats32) -> Any:
 
 @dataclass(frozen=True)
 class PowerChoice(LightChoice):
-    """Chooses by power, whatever the hit."""
+    """Chooses by power, whatever the hit.
+
+    Attributes
+    ----------
+    uniform : share of the choices that doesn't look at the power, 1 for all
+    """
+
+    uniform: float = UNIFORM
 
     @cached_property
     def _ends(self) -> Floats32:
         """Ends (L,) of the lights' shares of [0, 1)."""
         power = np.array([power_of(light) for light in self.lights])
-        share = (1 - UNIFORM) * power / (power.sum() or 1) + UNIFORM / len(power)
+        share = (1 - self.uniform) * power / (power.sum() or 1) + self.uniform / len(power)
         ends = np.cumsum(share)
         # In float32, as the numbers are that they are compared with.
         return np.asarray(ends / ends[-1], np.float32)

@@ -136,6 +136,7 @@ _REASONS = {
     "environment_light": "no directions towards an environment are chosen by its picture",
     "multiple_importance": "no lamp and no lobe are sampled together",
     "importance_sampling": "no directions towards an environment are chosen by its functions",
+    "many_lights": "no light is chosen by a tree",
     "film": "the film asks for no exposure, gamut, tone mapping or dithering",
 }
 

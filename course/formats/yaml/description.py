@@ -859,11 +859,12 @@ class IntegratorDescription(Map, frozen=True, kw_only=True):
         about("Bounces that a path makes before Russian roulette may end it; null for never."),
     ] = 1
     light_sampling: Annotated[
-        Literal["automatic", "all", "power"],
+        Literal["automatic", "all", "uniform", "power", "tree"],
         about(
-            "Which lights a hit asks for their light: `all`; or one that is chosen at random, in proportion to the"
-            " `power` that lights send out, so that many lights cost as little as one; `automatic`: all of up to"
-            f" {MANY_LIGHTS} lights, or one of more."
+            "Which lights a hit asks for their light: `all`; or one that is chosen at random, so that many lights cost"
+            " as little as one: each as probable (`uniform`), in proportion to the `power` that lights send out, or by"
+            " a light `tree` of the module many_lights, which knows where the hit is; `automatic`: all of up to"
+            f" {MANY_LIGHTS} lights, or one of more, by power."
         ),
     ] = "automatic"
     gloss_sampling: Annotated[
