@@ -49,7 +49,8 @@ class AdaptiveFilm:
         self.order = INDEPENDENT
         """Order of convergence, as measured in the last round."""
         self._sums = np.zeros((pixels, 4))
-        self._differences: dict[int, tuple[float, float, float]] = {}
+        self._halves = np.zeros(pixels, np.float32)
+        self._quarters = np.zeros(pixels, np.float32)
         self._begun = False
         self._spread = 1.0
         self.correction = 1.0
@@ -86,8 +87,8 @@ class AdaptiveFilm:
             return
         compared = _Compared(mean, weight, n)
         stretch = compared.stretch
-        self._differences[group.number] = compared.sums()
-
+        self._halves[which] = compared.of_halves
+        self._quarters[which] = compared.of_quarters
         earlier = self._sums.take(which, axis=0)
         before = int(self.samples.reshape(-1)[which[0]])
         estimates = _Estimates(samples, self.order)
@@ -168,14 +169,14 @@ class AdaptiveFilm:
         tuple of array
             Variances and costs (H, W) of pixels that learn from their neighbours (``smoothing``).
         """
-        # In the order of the groups, so the sums don't depend on which thread was first.
-        sums = [self._differences[number] for number in sorted(self._differences)]
-        self._differences.clear()
-        of_halves, of_quarters, squares = map(sum, zip(*sums, strict=True))
         order = INDEPENDENT
         if self._net:
-            pixels = of_quarters**2 / (squares or 1.0)
-            order = measured_order(of_halves, of_quarters, pixels)
+            # Of all pixels in their order, so that the sums don't depend on how they were divided into groups.
+            of_halves = float(self._halves.sum(dtype=np.float64))
+            quarters = self._quarters.astype(np.float64)
+            of_quarters, squares = float(quarters.sum()), float((quarters * quarters).sum())
+            order = measured_order(of_halves, of_quarters, of_quarters**2 / (squares or 1.0))
+        self._halves[:] = self._quarters[:] = 0
         if not self._begun:
             # The first estimates were made with the order of independent samples. With order a the quarters and the
             # halves both say V = D r^2 / (4 (1 - r)), r = 2^-2a, D the squared difference of the quarters.
@@ -211,11 +212,6 @@ class _Compared:
         self.of_quarters += _apart(parts[:, :, 2], parts[:, :, 3])
         self.of_quarters *= np.float32(0.5)
         self.of_halves = _apart(halves[:, :, 0], halves[:, :, 1])
-
-    def sums(self) -> tuple[float, float, float]:
-        """Sums of both squared differences, and of the squares of those of the quarters."""
-        quarters = self.of_quarters.astype(np.float64)
-        return float(self.of_halves.sum()), float(quarters.sum()), float((quarters**2).sum())
 
 
 class _Estimates:

@@ -50,9 +50,9 @@ FEWEST = 8
 """Pixels of such a part at least: each look at them is one more chance to stop too early. Where light is rare a few
 dozen pixels have most of the error, and with 64 of them in a part the target was missed by a fifth."""
 
-SMALLEST, LARGEST = RAYS, 2 * RAYS
-"""Camera rays in a group of pixels, as far as pixels have so many samples to go: more than in a tile, for the hard
-pixels of a picture lose many of their rays on the way."""
+LARGEST = 2 * RAYS
+"""Camera rays in a group of pixels at most: more than in a tile, for the hard pixels of a picture lose many of their
+rays on the way."""
 
 SHARES = 8
 """Of what is left of a round a group is one part in so many: large ones first, and small ones at the end, so that no
@@ -266,10 +266,13 @@ class Groups:
     width : of the picture
     batches : of rays that a group should have where there are so many
     threads : that render
+    smallest : camera rays that a group has at least, as far as pixels have so many samples to go
     """
 
-    def __init__(self, width: int, batches: int = 1, threads: int = 1) -> None:
-        self._width = width
+    def __init__(
+        self, width: int, batches: int = 1, threads: int = 1, smallest: int = RAYS
+    ) -> None:
+        self._width, self._smallest = width, smallest
         self.next_number = 0
         """Of the groups that were made so far, each of which has a number of its own."""
         self._batches, self._threads = batches, threads
@@ -304,5 +307,5 @@ class Groups:
         """Camera rays of a group, where so many are left of the round."""
         if self._batches == 1:
             # It may make a difference which pixels go together; so it doesn't matter how many threads there are.
-            return min(max(left // SHARES, SMALLEST), LARGEST)
-        return min(max(fair_share(left, self._threads), SMALLEST), self._batches * RAYS)
+            return min(max(left // SHARES, self._smallest), LARGEST)
+        return min(max(fair_share(left, self._threads), self._smallest), self._batches * RAYS)

@@ -39,7 +39,7 @@ class AdaptiveSchedule(Schedule):
                 return False
         budget = settings.samples * settings.width * settings.height
         batches = executor.batches(self._tracer.batches)
-        groups = Groups(settings.width, batches, executor.threads)
+        groups = Groups(settings.width, batches, executor.threads, self._tracer.smallest)
         first = first_samples(settings.sampler)
         return render_adaptively(self._film, self._target, budget, groups, run, first)
 

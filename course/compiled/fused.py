@@ -57,6 +57,9 @@ _NOWHERE, _NO_BOXES = np.zeros(3, np.float32), np.empty((0, 3), np.float32)
 DEEPEST = 64
 """Most bounces: the loop keeps room for the rays of each depth."""
 
+SMALLEST = 16384
+"""Camera rays in a tile, at least: beside so many, its memory and its place in the film take little time."""
+
 _SPHERES = {
     "sphere": (lamp_kernels.SPHERE, "point_on_sphere"),
     "ball": (lamp_kernels.BALL, "point_in_ball"),
@@ -162,7 +165,7 @@ def fused(tracer: Tracer) -> "FusedTracer":
     integrator, surface = tracer.integrator, tracer.integrator.surface
     packets = in_packets(surface.accelerator, surface.triangles.parts)
     integrator = replace(integrator, surface=replace(surface, accelerator=packets))
-    return FusedTracer(**same_fields(tracer) | {"integrator": integrator})
+    return FusedTracer(**same_fields(tracer) | {"integrator": integrator, "smallest": SMALLEST})
 
 
 @dataclass(frozen=True)

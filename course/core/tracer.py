@@ -7,7 +7,7 @@ from typing import Any
 from course.core.counters import Counters
 from course.core.film import Reconstruction
 from course.core.integrator import Integrator
-from course.core.rays import Dimensions, Draws
+from course.core.rays import RAYS, Dimensions, Draws
 from course.core.samplers import Block, Sampler
 from course.core.scene import Settings
 from course.core.tiles import Area
@@ -18,6 +18,7 @@ from course.core.types import Floats32
 class Tracer:
     """Renders tiles of at most ``batches`` batches of camera rays. All threads share it.
 
+    ``smallest`` is the number of camera rays from which on a tile costs little more for each than a larger one.
     ``costs(n)`` creates the costs of n new paths (``course.adaptive.costs``); None without adaptive sampling.
     """
 
@@ -28,6 +29,7 @@ class Tracer:
     reconstruction: Reconstruction
     batches: int = 1
     costs: Callable[[int], Any] | None = None
+    smallest: int = RAYS
 
     def render_tile(
         self,
