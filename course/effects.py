@@ -55,10 +55,17 @@ class Effects:
         the assignments, with the solution's function in the place of each that is not written; where there are no
         solutions, with a stand-in that switches its effect off. None means ``mine`` in a folder made by `course start`
         and in a student's copy, else the solutions.
+    filled : whether what another folder hasn't written is replaced, as ``mine`` has it
     trusted : whether what the functions return is taken as it is; None means the project's own solutions, and no others
     """
 
-    def __init__(self, folder: str | Path | None = None, trusted: bool | None = None) -> None:
+    def __init__(
+        self,
+        folder: str | Path | None = None,
+        trusted: bool | None = None,
+        *,
+        filled: bool = False,
+    ) -> None:
         if folder is None and not CHECKOUT and Path("assignments").is_dir():
             # In a folder made by `course start`.
             folder = "mine"
@@ -69,7 +76,8 @@ class Effects:
         self._rest: Effects | None = None
         self._stands_in = False
         if str(folder) == "mine" and not path.is_dir():
-            folder, path = "assignments", Path("assignments")
+            folder, path, filled = "assignments", Path("assignments"), True
+        if filled:
             if (PROJECT / "solutions").is_dir():
                 self._rest = Effects("solutions")
             else:

@@ -25,6 +25,7 @@ COMMANDS = (
     "studio",
     "view",
     "status",
+    "portfolio",
     "radiosity",
     "info",
     "convert",

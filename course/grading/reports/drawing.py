@@ -393,6 +393,22 @@ def draw_histogram(figure: Figure) -> Drawing:
     return Drawing(figure.title, (panel,), tuple(notes))
 
 
+def draw_curve(points: tuple[tuple[int, float], ...]) -> str:
+    """Errors [radiance] over samples a pixel as SVG, both axes logarithmic, beside n^-1/2 from the first one on."""
+    canvas, axes = _axes((3.6, 2.4))
+    counts, errors = zip(*points, strict=True)
+    if min(errors) > 0:
+        axes.set_yscale("log")
+    axes.set_xscale("log")
+    axes.plot(counts, [errors[0] * (n / counts[0]) ** -0.5 for n in counts], ":", color=_INK)
+    axes.plot(counts, errors, "o-", color="#2f7fd0")
+    axes.set_xticks(counts, map(str, counts))
+    axes.minorticks_off()
+    axes.set_xlabel("samples a pixel")
+    axes.set_ylabel("error [radiance]")
+    return _svg(canvas)
+
+
 def _axes(inches: tuple[float, float]) -> tuple[Any, Any]:
     canvas = Canvas(figsize=inches)
     canvas.patch.set_visible(False)

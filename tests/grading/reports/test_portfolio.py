@@ -1,0 +1,111 @@
+"""`course portfolio`: pictures by one's own functions, what they have changed, and the noise that they leave."""
+
+import re
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from course.effects import PROJECT, Effects
+from course.grading.progress import Progress
+from course.grading.reports import portfolio as made
+from course.grading.reports.portfolio import Shown, portfolio
+
+SCENE = """\
+film: {width: 24, height: 16, filter: box}
+camera: {eye: [0, 1, 4], look_at: [0, 0.5, 0], vertical_fov: 40}
+materials: {grey: {color: 0.6}}
+objects:
+  - {shape: quad, material: grey, width: 8, depth: 8}
+  - {shape: box, material: grey, size: [1, 1, 1], transform: [{translate: [0, 0.5, 0]}]}
+"""
+SPHERE = "lights: [{type: sphere, center: [3, 4, 1], radius: 1, intensity: [40, 40, 40]}]\n"
+POINT = "lights: [{type: point, position: [3, 4, 1], intensity: [40, 40, 40]}]\n"
+
+
+def progress(module: str, name: str, state: str) -> Progress:
+    return Progress(module, name, state, 10.0, 10.0, "", "", "", "", f"{module}.py", 1)
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    """Soft shadows written, thin_lens not, and a small scene of the former with its before."""
+    shutil.copy(PROJECT / "solutions" / "soft_shadows.py", tmp_path)
+    shutil.copy(PROJECT / "assignments" / "thin_lens.py", tmp_path)
+    (tmp_path / "before").mkdir()
+    (tmp_path / "soft_shadows.yaml").write_text(SCENE + SPHERE)
+    (tmp_path / "before" / "soft_shadows.yaml").write_text(SCENE + POINT)
+    return tmp_path
+
+
+FOUND = [
+    [progress("soft_shadows", "point_on_sphere", "right")],
+    [progress("thin_lens", "lens_rays", "to do")],
+]
+
+
+def test_only_what_is_begun_is_shown_with_both_pictures_a_curve_and_whose_functions_it_called(
+    folder: Path,
+) -> None:
+    page = portfolio(FOUND, Effects(folder, filled=True), folder, seconds=4)
+    pictures = re.findall(r'src="(data:image/webp;base64,[^"]+)"', page)
+    assert len(pictures) == 2
+    assert pictures[0] != pictures[1]
+    assert "With <code>soft_shadows.point_on_sphere</code>" in page
+    assert '<h2 id="thin_lens">' not in page
+    assert "Not begun: thin_lens." in page
+    assert "<svg" in page
+    assert "://" not in page.replace("http://www.w3.org", "")
+
+
+def test_a_function_that_fails_is_told_and_the_others_go_on(folder: Path) -> None:
+    source = (folder / "soft_shadows.py").read_text(encoding="utf-8")
+    broken = source.replace("### BEGIN SOLUTION", "raise ValueError('not a <lamp>')")
+    (folder / "soft_shadows.py").write_text(broken, encoding="utf-8")
+    shutil.copy(folder / "before" / "soft_shadows.yaml", folder / "thin_lens.yaml")
+    found = [FOUND[0], [progress("thin_lens", "lens_rays", "wrong")]]
+    page = portfolio(found, Effects(folder, filled=True), folder, seconds=4)
+    assert "not a &lt;lamp&gt;" in page
+    assert page.count("data:image/webp") == 1
+    assert "None of one's own functions is called here" in page
+
+
+@pytest.mark.parametrize("noise", [0.5, 2.0])
+def test_half_of_the_squared_difference_of_two_pictures_is_the_squared_error(
+    monkeypatch: pytest.MonkeyPatch, folder: Path, noise: float
+) -> None:
+    """80,000 numbers with deviation noise / sqrt(n): their root mean square is within 2% in all but 1e-14 of cases."""
+
+    class Noisy:
+        def __init__(self, samples: int, seed: int) -> None:
+            rng = np.random.default_rng((samples, seed))
+            self.linear = 3 + noise / samples**0.5 * rng.standard_normal((200, 400))
+
+    monkeypatch.setattr(made, "render", lambda _, spp, size, seed: Noisy(spp, seed))  # noqa: ARG005
+    scene = made.load_scene(folder / "soft_shadows.yaml", Effects(folder, filled=True))
+    points = tuple(made._errors(scene, made.monotonic() + 60))
+    assert [n for n, _ in points] == list(made.COUNTS)
+    for n, error in points:
+        assert error == pytest.approx(noise / n**0.5, rel=0.02)
+    assert made._slope(points) == pytest.approx(0.5, abs=0.01)
+
+
+def test_modules_share_what_is_left_of_the_time(
+    monkeypatch: pytest.MonkeyPatch, folder: Path
+) -> None:
+    shares: list[float] = []
+    now = [0.0]
+
+    def rendered(
+        module: str, functions: tuple[Progress, ...], _e: object, _s: object, t: float
+    ) -> Shown:
+        shares.append(t)
+        now[0] += 10
+        return Shown(module, (), "", "", (0, 0), "", None, (), "none", functions)
+
+    monkeypatch.setattr(made, "monotonic", lambda: now[0])
+    monkeypatch.setattr(made, "_rendered", rendered)
+    found = [[progress("soft_shadows", "a", "right")]] * 3
+    portfolio(found, Effects(folder, filled=True), folder, seconds=60)
+    assert shares == [20, 25, 40]
