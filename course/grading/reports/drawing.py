@@ -14,6 +14,7 @@ from io import BytesIO, StringIO
 from typing import Any, NamedTuple
 
 import numpy as np
+from markupsafe import Markup
 from matplotlib.figure import Figure as Canvas
 from numpy.typing import NDArray
 from PIL import Image
@@ -80,19 +81,22 @@ class Panel:
     svg: str = ""
     scale: Scale | None = None
 
-    def data_uri(self, factor: int = 1) -> str:
-        """The picture or plot as a ``data:`` address; a picture's pixels become squares of ``factor`` pixels."""
+    def data_uri(self, factor: int = 1) -> Markup:
+        """The picture or plot as a ``data:`` address, which templates print whole, however long it is.
+
+        A picture's pixels become squares of ``factor`` pixels.
+        """
         if self.pixels is None:
             start = (
                 '<svg xmlns="http://www.w3.org/2000/svg" '
                 'xmlns:xlink="http://www.w3.org/1999/xlink" style="color:#222"'
             )
             svg = self.svg.replace("<svg", start, 1)
-            return "data:image/svg+xml;base64," + b64encode(svg.encode()).decode("ascii")
+            return data_uri("svg+xml", svg.encode())
         buffer = BytesIO()
         pixels = self.pixels.repeat(factor, axis=0).repeat(factor, axis=1)
         Image.fromarray(pixels).save(buffer, "png", optimize=True)
-        return "data:image/png;base64," + b64encode(buffer.getvalue()).decode("ascii")
+        return data_uri("png", buffer.getvalue())
 
     @property
     def size(self) -> tuple[int, int]:
@@ -101,6 +105,11 @@ class Panel:
             found = re.search(r'viewBox="0 0 ([\d.]+) ([\d.]+)"', self.svg)
             return (round(float(found[1])), round(float(found[2]))) if found else (0, 0)
         return self.pixels.shape[1], self.pixels.shape[0]
+
+
+def data_uri(kind: str, content: bytes) -> Markup:
+    """A file of a kind of picture, such as "png", as an address; base64 needs no escaping."""
+    return Markup(f"data:image/{kind};base64,{b64encode(content).decode('ascii')}")
 
 
 @dataclass(frozen=True)
@@ -395,7 +404,7 @@ def draw_histogram(figure: Figure) -> Drawing:
 
 def draw_curve(points: tuple[tuple[int, float], ...]) -> str:
     """Errors [radiance] over samples a pixel as SVG, both axes logarithmic, beside n^-1/2 from the first one on."""
-    canvas, axes = _axes((3.6, 2.4))
+    canvas, axes = _axes((3.6, 3.0))
     counts, errors = zip(*points, strict=True)
     if min(errors) > 0:
         axes.set_yscale("log")

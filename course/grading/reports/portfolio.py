@@ -6,7 +6,6 @@ error of each, without a converged picture.
 """
 
 import math
-from base64 import b64encode
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from io import BytesIO
@@ -22,7 +21,7 @@ from course.adaptive.rounds import ADAPTABLE
 from course.effects import Effects
 from course.errors import CourseError
 from course.grading.progress import Progress
-from course.grading.reports.drawing import draw_curve, with_own_ids
+from course.grading.reports.drawing import data_uri, draw_curve, with_own_ids
 from course.grading.reports.page import render as fill
 from course.jobs.picture import Picture
 from course.render_scene import render
@@ -213,8 +212,8 @@ def _within(scene: Scene, width: int) -> tuple[int, int]:
     return columns, max(round(settings.height * columns / settings.width), 1)
 
 
-def _webp(picture: Picture) -> str:
+def _webp(picture: Picture) -> Markup:
     buffer = BytesIO()
     codes = picture.settings.display.codes(picture.film.linear)
     Image.fromarray(codes).save(buffer, "webp", quality=QUALITY)
-    return "data:image/webp;base64," + b64encode(buffer.getvalue()).decode("ascii")
+    return data_uri("webp", buffer.getvalue())

@@ -2,14 +2,19 @@
 
 import re
 import shutil
+from base64 import b64decode
+from io import BytesIO
 from pathlib import Path
 
 import numpy as np
 import pytest
+from PIL import Image
 
 from course.effects import PROJECT, Effects
 from course.grading.progress import Progress
 from course.grading.reports import portfolio as made
+from course.grading.reports.drawing import Panel
+from course.grading.reports.page import render as fill
 from course.grading.reports.portfolio import Shown, portfolio
 
 SCENE = """\
@@ -69,6 +74,22 @@ def test_a_function_that_fails_is_told_and_the_others_go_on(folder: Path) -> Non
     assert "not a &lt;lamp&gt;" in page
     assert page.count("data:image/webp") == 1
     assert "None of one's own functions is called here" in page
+
+
+def test_addresses_of_large_pictures_are_printed_whole() -> None:
+    """Texts of students are cut in their middle; a picture of 90,000 random pixels is longer than any of those."""
+    pixels = np.random.default_rng(1).integers(0, 256, (300, 300, 3)).astype(np.uint8)
+    address = Panel("", "", pixels=pixels).data_uri()
+    page = fill("portfolio.html.jinja", **EMPTY, modules=[shown(address)])
+    content = b64decode(page.split("data:image/png;base64,", 1)[1].split('"', 1)[0])
+    assert (np.asarray(Image.open(BytesIO(content))) == pixels).all()
+
+
+def shown(address: str) -> Shown:
+    return Shown("thin_lens", (), "", address, (300, 300), "", None, (), "", ())
+
+
+EMPTY = {"right": 0, "points": 0, "of": 0, "functions": 0, "left": [], "plot": str}
 
 
 @pytest.mark.parametrize("noise", [0.5, 2.0])
