@@ -118,9 +118,8 @@ def settle(studio: Studio) -> None:
     while quiet < 10:
         sides = studio.sides
         idle = all(side.reached and not side.goal for side in sides)
-        quiet = quiet + 1 if idle and studio.mine.spare is not None else 0
+        quiet = quiet + 1 if idle and studio.mine.spare_ready else 0
         sleep(0.1)
-    sleep(2)
 
 
 if __name__ == "__main__":

@@ -206,6 +206,8 @@ def _receipt(
         skipped["refraction"] = "no material refracts, or the depth is 0"
     if rays.environment_depth < 0:
         skipped["environment"] = "it is black"
+    if not hasattr(rays, "recorder"):
+        skipped["recorder"] = "a picture has none; course pixel renders a pixel once more"
     tests = {"boxes": counters.embree.box_tests, "triangles": counters.embree.triangle_tests}
     samples = float(film.samples.mean())
     called, effects = [need.function for need in bound.needs], job.scene.effects

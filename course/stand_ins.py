@@ -68,6 +68,44 @@ def _unsorted(*lamps: Array) -> tuple[Array, ...]:
     return (*nodes, np.arange(count))
 
 
+def _one_box(lo: Array, hi: Array, _leaf_size: int) -> tuple[Array, ...]:
+    boxes = lo.min(axis=1, keepdims=True), hi.max(axis=1, keepdims=True)
+    return *boxes, np.zeros(1, np.int64), np.array([lo.shape[1]]), np.arange(lo.shape[1])
+
+
+_LAST: list[tuple[Array, Any]] = []
+"""Triangles' first corners, and the accelerator of these triangles: all rays of a picture ask for the same."""
+
+
+def _asked_caster(
+    _hierarchy: Any, p0: Array, p1: Array, p2: Array, origins: Array, directions: Array
+) -> tuple[Array, ...]:
+    """What the ray caster finds; no box is tested, and no triangle."""
+    from course.casters.choice import static_accelerator
+    from course.core.accelerator import QueryStats
+
+    known = next((each for each in _LAST if each[0] is p0), None)
+    if known is None:
+        corners = np.concatenate((p0, p1, p2), axis=1).T
+        numbers = np.arange(len(corners), dtype=np.int32).reshape(3, -1).T
+        known = p0, static_accelerator(corners, numbers)
+        _LAST[:] = [known]
+    rays = origins.astype(np.float32), directions.astype(np.float32)
+    found = known[1].intersect(*rays, QueryStats())
+    t = np.where(found.triangle < 0, np.inf, found.t).astype(np.result_type(origins, directions))
+    none = np.zeros(len(t), np.int32)
+    return found.triangle.astype(np.int32), t, none, none
+
+
+def _kept_light(
+    radiosity: Array, unshot: Array, _reflectance: Array, _areas: Array, _f: Array, shooter: int
+) -> tuple[Array, Array]:
+    """What is shot arrives nowhere."""
+    rest = unshot.copy()
+    rest[:, shooter] = 0
+    return radiosity.copy(), rest
+
+
 _CENTRE = "samples lie in the pixel's centre, so edges are jagged"
 _POINT = "the lamp is a point, so shadows are hard"
 _MIRROR = "what is glossy is a mirror"
@@ -80,6 +118,7 @@ _OPEN = "no microfacet hides another"
 _SKY = "the environment lights from straight above"
 _WHOLE = "no cell is divided"
 _ALIKE = "each lamp is as probable, so the picture is noisy"
+_DARK = "surfaces pass no light on, so only lamps are bright"
 _PATHS = "paths go on along the normal, and lose half their light"
 
 STAND_INS: dict[str, tuple[Callable[..., Any], str]] = {
@@ -226,6 +265,20 @@ STAND_INS: dict[str, tuple[Callable[..., Any], str]] = {
         lambda beta, u: (np.ones(len(u), bool), beta.copy()),
         "all paths go on to the greatest depth",
     ),
+    "bounding_volumes.build": (_one_box, "all triangles lie in one box, so rays take long"),
+    "bounding_volumes.traverse": (_asked_caster, "Embree answers the rays, without your boxes"),
+    "radiosity.hemicube_form_factors": (
+        lambda k: tuple(
+            np.full(shape, 1 / (3 * k * k), np.float32) for shape in ((k, k), (k // 2, k))
+        ),
+        "light leaves a patch evenly through all of its hemicube",
+    ),
+    "radiosity.gather": (lambda _radiosity, emission, *_: emission.copy(), _DARK),
+    "radiosity.shoot": (_kept_light, _DARK),
+    "radiosity.needs_split": (
+        lambda patch_radiosity, _threshold: np.zeros(patch_radiosity.shape[2], bool),
+        "no patch is divided",
+    ),
     "film.expose": (_still, "the exposure is left out"),
     "film.photographic": (_still, "what is brighter than white is cut off"),
     "film.convert_gamut": (_still, "colours of a wide gamut look pale"),
@@ -235,7 +288,4 @@ STAND_INS: dict[str, tuple[Callable[..., Any], str]] = {
         "codes are not dithered, so that smooth shades have steps",
     ),
 }
-"""By "module.function": what stands in for it, and what a picture then looks like.
-
-The modules bounding_volumes and radiosity have none: what they make can't be had without them.
-"""
+"""By "module.function": what stands in for it, and what a picture then looks like."""

@@ -15,6 +15,7 @@ from course.cli.metu import check_not_metu
 from course.cli.outputs import check_outputs
 from course.cli.progress import progress_bar
 from course.errors import CourseError
+from course.modules import COURSE
 
 if TYPE_CHECKING:
     from course.radiosity.viewing import Solution, View
@@ -152,6 +153,9 @@ def _solution(scene: Path, effects: str | None, given: dict[str, Any]) -> Soluti
         else "how far from convergence is not known"
     )
     click.echo(f"{len(solution.triangles)} patches, {int(solution.steps[0])} steps, {near}")
+    said = [loaded.effects.stand_in("radiosity", name) for name in COURSE["radiosity"]]
+    for each in dict.fromkeys(filter(None, said)):
+        click.echo(f"not written yet: {each}")
     return solution
 
 

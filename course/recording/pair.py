@@ -1,7 +1,7 @@
 """A student's rays beside the right ones, of the same samples: what the view shows, and what it says in words."""
 
 from collections import defaultdict
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -9,7 +9,10 @@ import numpy as np
 from course.core.types import Floats64
 from course.recording.scenery import rounded
 from course.recording.story import Story
-from course.recording.view import KINDS, MOST_PATHS, view_data
+from course.recording.view import KINDS, MOST_PATHS, rays_data, view_data
+
+ALIKE = 1e-3
+"""Difference of results in the compiled scene, which is 2 wide, from which on they are told as others."""
 
 MOST_FUNCTIONS = 4
 """Whose results are told."""
@@ -33,6 +36,33 @@ def pair_data(yours: Story, right: Data, function: str, most: int = MOST_PATHS) 
     data["marked"] = marked = _worst(data, right, function)
     data["asked"] = _asked(yours, data["samples"][marked]["number"], function)
     return data
+
+
+def departing(yours: Story, right: Data, functions: Sequence[str]) -> str | None:
+    """The first of these functions, in the order of their calls, whose rays are others; None if all are the same.
+
+    A function that comes later is asked for what the first one has made, so its results differ, too.
+    """
+    data = rays_data(yours)
+    own, others = _results(data), _results(right)
+    for function in functions:
+        if not _alike(own.get(function, {}), others.get(function, {})):
+            return function
+    pairs = zip(data["samples"], right["samples"], strict=False)
+    same = data["color"] == right["color"] and all(a == b for a, b in pairs)
+    return None if same or not functions else functions[0]
+
+
+def _alike(own: Mapping[int, list[Floats64]], others: Mapping[int, list[Floats64]]) -> bool:
+    """Whether a function returned the same for all samples, but for rounding."""
+    return own.keys() == others.keys() and all(
+        len(own[sample]) == len(others[sample])
+        and all(
+            a.shape == b.shape and np.allclose(a, b, rtol=ALIKE, atol=ALIKE, equal_nan=True)
+            for a, b in zip(own[sample], others[sample], strict=True)
+        )
+        for sample in own
+    )
 
 
 def _asked(yours: Story, sample: int, function: str) -> dict[str, Any]:
@@ -73,25 +103,30 @@ def _results(data: Data) -> dict[str, dict[int, list[Floats64]]]:
     return found
 
 
-def told(data: Data) -> list[str]:
-    """Sentences about both: their light, what blocks the shadow rays, and what the functions returned."""
+def told(data: Data, other: str = "right is") -> list[str]:
+    """Sentences about both: their light, what blocks the shadow rays, and what the functions returned.
+
+    Parameters
+    ----------
+    other : how what the right functions made is told
+    """
     right, marked = data["right"], data["marked"]
-    lines = [f"The pixel is {_numbered(data['color'])}; right is {_numbered(right['color'])}."]
+    lines = [f"The pixel is {_numbered(data['color'])}; {other} {_numbered(right['color'])}."]
     if (light := _light(data)) != (should := _light(right)):
-        lines.append(f"The samples shown bring {light} on average; right is {should}.")
+        lines.append(f"The samples shown bring {light} on average; {other} {should}.")
     if (weights := _weights(data)) != (should := _weights(right)):
-        lines.append(f"The filter weighs them {weights}; right is {should}.")
+        lines.append(f"The filter weighs them {weights}; {other} {should}.")
     elif light == _light(right) and data["color"] != right["color"]:
         plain, mean = light, _light(data, weighted=True)
         if plain != mean:
             lines.append(f"The samples' plain mean is {plain}, their weighted mean {mean}.")
     if (blocked := _blocked(data)) != (should := _blocked(right)):
-        lines.append(f"{blocked} shadow rays are blocked; right is {should}.")
+        lines.append(f"{blocked} shadow rays are blocked; {other} {should}.")
     own, others = _results(data), _results(right)
     for name in list(own | others)[:MOST_FUNCTIONS]:
         mine, theirs = (_spread(each.get(name, {})) for each in (own, others))
         if mine != theirs:
-            lines.append(f"{name} returned {mine}; right is {theirs}.")
+            lines.append(f"{name} returned {mine}; {other} {theirs}.")
         a, b = (each.get(name, {}).get(marked, []) for each in (own, others))
         if a and b and not np.array_equal(a[0], b[0]):
             number = data["samples"][marked]["number"]
@@ -99,7 +134,7 @@ def told(data: Data) -> list[str]:
             given = ", ".join(f"{key} = {_argument(value)}" for key, value in asked.items())
             call = f"{name}({given})" if given else name
             lines.append(
-                f"For sample {number} {call} returned {_list(a[0])}; right is {_list(b[0])}."
+                f"For sample {number} {call} returned {_list(a[0])}; {other} {_list(b[0])}."
             )
     return lines
 

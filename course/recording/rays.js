@@ -40,13 +40,14 @@ penumbra.rays = function (root, data) {
     const heights = places.map((p) => dot(normal, sub(p, corner))), least = 1e-3 * extent;
     return heights.every((h) => h > -least) ? 1 : heights.every((h) => h < least) ? -1 : 0;
   };
-  const triangles = [];
+  const triangles = [], BEHIND = 1e6 * extent;
   for (const object of data.objects) {
     const wide = Math.max(...spans(object.triangles.flatMap((t) => [t.slice(0, 3), t.slice(3, 6), t.slice(6)]))) > 0.7 * reach;
     for (const t of object.triangles) {
       const corners = [t.slice(0, 3), t.slice(3, 6), t.slice(6, 9)];
       const normal = unit(cross(sub(corners[1], corners[0]), sub(corners[2], corners[0])));
-      triangles.push({ corners, normal, side: wide ? side(corners[0], normal) : 0, color: object.color, lamp: object.lamp });
+      const longest = Math.max(...corners.map((corner, k) => Math.hypot(...sub(corner, corners[(k + 1) % 3]))));
+      triangles.push({ corners, normal, longest, side: wide ? side(corners[0], normal) : 0, color: object.color, lamp: object.lamp });
     }
   }
 
@@ -277,9 +278,10 @@ penumbra.rays = function (root, data) {
     for (const t of triangles) {
       const p = t.corners.map(seen);
       if (p.some((each) => each === null)) continue;
-      const z = (p[0][2] + p[1][2] + p[2][2]) / 3;
-      // The near walls of a room would hide what is in it.
-      const fades = t.side * dot(t.normal, sub(eye, t.corners[0])) < 0;
+      // The near walls of a room would hide what is in it. The far ones and the floor are behind all else: they come
+      // first, the longest before those that lie on them.
+      const facing = t.side * dot(t.normal, sub(eye, t.corners[0])), fades = facing < 0;
+      const z = facing > 0 ? BEHIND + t.longest : (p[0][2] + p[1][2] + p[2][2]) / 3;
       const alpha = shown.surfaces * (fades ? 0.12 : 1);
       if (alpha < 0.01) continue;
       const shade = t.lamp ? 1 : 0.45 + 0.55 * Math.abs(dot(t.normal, unit(sub(eye, t.corners[0]))));

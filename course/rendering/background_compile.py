@@ -10,13 +10,14 @@ import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
+from functools import partial
 from threading import Event, Thread
 from typing import Any
 
 from course.core.counters import Counters
 from course.core.tiles import Tile, pass_size
 from course.core.tracer import Tracer
-from course.effects import PACKAGE
+from course.effects import PACKAGE, PROJECT, Effects, NothingWritten
 from course.errors import CourseError
 from course.rendering.threads import Pool
 from course.scene.scene import Scene, Settings, load_scene
@@ -76,7 +77,7 @@ class BackgroundCompiler:
         self, pool: Pool, compiled: Callable[[], Tracer], scene: Scene, settings: Settings
     ) -> None:
         self._pool, self._compiled = pool, compiled
-        self._task = scene.path.resolve(), scene.effects.folder.resolve(), settings
+        self._task = scene.path.resolve(), scene.effects.folder.resolve(), settings, False
         self._closed = Event()
         # Once Numba is there, loops are read from disk before the first piece of work is done.
         at_once = "numba" in sys.modules
@@ -111,21 +112,7 @@ class BackgroundCompiler:
 
     def _compile(self) -> bool:
         """Wait for a process that compiles, at most until the picture is there; true if it has compiled all."""
-        path = os.pathsep.join([str(PACKAGE.parent), *filter(None, sys.path)])
-        process = subprocess.Popen(
-            [sys.executable, "-m", MODULE],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-            env={**os.environ, "PYTHONPATH": path},
-            # Ctrl-C ends the picture; what is compiled is for the next one, too. In a session of its own the process
-            # would be no guest: Linux shares processors between sessions first, and only then by niceness.
-            process_group=0,
-        )
-        _COMPILING.append(process)
-        assert process.stdin is not None
-        with process.stdin as pipe:
-            pipe.write(pickle.dumps(self._task))
+        process = _started(self._task)
         while process.poll() is None:
             if self._closed.wait(POLL):
                 return False
@@ -138,6 +125,34 @@ class BackgroundCompiler:
         if self._thread is not None:
             # Not left behind where the program may end.
             self._thread.join()
+
+
+def compile_stages(scene: Scene, settings: Settings) -> None:
+    """Have a process compile the stages that a student's functions are called by; nobody waits for it.
+
+    Settings are those of a small picture, which is rendered for that with the solutions, or with stand-ins for them.
+    """
+    _started((scene.path.resolve(), None, settings, True))
+
+
+def _started(task: tuple[Any, ...]) -> subprocess.Popen[bytes]:
+    """A process that compiles."""
+    path = os.pathsep.join([str(PACKAGE.parent), *filter(None, sys.path)])
+    process = subprocess.Popen(
+        [sys.executable, "-m", MODULE],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        env={**os.environ, "PYTHONPATH": path},
+        # Ctrl-C ends the picture; what is compiled is for the next one, too. In a session of its own the process
+        # would be no guest: Linux shares processors between sessions first, and only then by niceness.
+        process_group=0,
+    )
+    _COMPILING.append(process)
+    assert process.stdin is not None
+    with process.stdin as pipe:
+        pipe.write(pickle.dumps(task))
+    return process
 
 
 def _another_compiles() -> bool:
@@ -153,19 +168,38 @@ def _another_compiles() -> bool:
     return False
 
 
+class Unknown(Effects):
+    """Functions of which the compiler knows no more than of a student's, so that stages call them."""
+
+    def __init__(self) -> None:
+        solved = (PROJECT / "solutions").is_dir()
+        self._source = Effects("solutions") if solved else NothingWritten()
+        vars(self).update(vars(self._source))
+
+    def function(self, module: str, name: str) -> Callable[..., Any]:
+        """See ``Effects``."""
+        return partial(self._source.function(module, name))
+
+
 def main() -> None:
     """Compile the loops of the scene and the settings that come in, and keep them on disk.
 
     It ends with 1 if another process compiles already.
     """
-    path, folder, settings = pickle.load(sys.stdin.buffer)
+    path, folder, settings, stages = pickle.load(sys.stdin.buffer)
     if _another_compiles():
         sys.exit(1)
     if hasattr(os, "nice"):
         os.nice(LAST)
     from course.rendering.binding import bind
 
-    tried(bind(load_scene(path, folder), settings, compiled=True))
+    scene = load_scene(path, Unknown() if stages else folder)
+    tracer = bind(scene, settings, compiled=True)
+    if stages:
+        whole = Tile(0, 0, 0, settings.width, settings.height)
+        tracer.render_tile(whole, 0, settings.samples, Counters())
+    else:
+        tried(tracer)
 
 
 if __name__ == "__main__":

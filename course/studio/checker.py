@@ -26,12 +26,18 @@ class Checker:
     Parameters
     ----------
     folder : of the functions
-    event : called by a thread of its own with each line that ``course.studio.checking`` says, and {"done": True}
+    event : called by a thread of its own with each line that ``course.studio.checking`` says, and {"done": True}; each
+        with the number of the ``run`` that it belongs to
+
+    Attributes
+    ----------
+    run : number of the present one; what is told of earlier ones is out of date
     """
 
     def __init__(self, folder: Path, event: Callable[[dict[str, Any]], None]) -> None:
         self._folder, self._event = folder, event
         self._process: subprocess.Popen[str] | None = None
+        self.run = 0
 
     def check(self, modules: Sequence[str]) -> None:
         """Check these modules, and end what is being checked."""
@@ -50,11 +56,13 @@ class Checker:
         if os.name == "posix":
             with contextlib.suppress(OSError):
                 os.setpriority(os.PRIO_PROCESS, self._process.pid, NICE)
-        threading.Thread(target=self._listen, args=(self._process,), daemon=True).start()
+        arguments = self._process, self.run
+        threading.Thread(target=self._listen, args=arguments, daemon=True).start()
 
     def close(self) -> None:
         """End it with the workers that it has started."""
         process, self._process = self._process, None
+        self.run += 1
         if process is None:
             return
         with contextlib.suppress(psutil.Error):
@@ -64,12 +72,10 @@ class Checker:
         process.kill()
         process.wait()
 
-    def _listen(self, process: subprocess.Popen[str]) -> None:
+    def _listen(self, process: subprocess.Popen[str], run: int) -> None:
         assert process.stdout is not None
         with process.stdout as lines:
             for line in lines:
-                if self._process is process:
-                    with contextlib.suppress(ValueError):
-                        self._event(json.loads(line))
-        if self._process is process:
-            self._event({"done": True})
+                with contextlib.suppress(ValueError):
+                    self._event(json.loads(line) | {"run": run})
+        self._event({"done": True, "run": run})

@@ -20,6 +20,9 @@ DARKEST = 16.0
 LEAST = 1e-3
 """Radiance that nobody sees: smaller differences are none."""
 
+CODES = 1.5
+"""Mean difference over a window, of 255, from which on pictures of the same radiance are shown differently."""
+
 _BRIGHTER, _DARKER, _SAME = (
     np.array(c, np.float64) for c in ((178, 24, 43), (33, 102, 172), (236, 236, 232))
 )
@@ -36,6 +39,7 @@ class Shot:
     samples : a pixel, of complete passes
     seconds : spent on them
     variance : (H, W) float32 of one sample's mean over the channels; None where nothing is known of it
+    codes : (H, W, 3) uint8, as functions of `film` show it; None where the scene asks for none of them
     """
 
     linear: Floats32
@@ -43,6 +47,7 @@ class Shot:
     samples: int
     seconds: float
     variance: Floats32 | None = None
+    codes: NDArray[np.uint8] | None = None
 
 
 def deviations(a: Shot, b: Shot) -> Floats32:
@@ -56,9 +61,16 @@ def deviations(a: Shot, b: Shot) -> Floats32:
     variance = np.max(known, axis=0) if known else np.zeros_like(difference)
     variance = variance * (1 / max(a.samples, 1) + 1 / max(b.samples, 1))
     mean = uniform_filter(difference, WINDOW, mode="nearest")
-    noise = np.sqrt(uniform_filter(variance, WINDOW, mode="nearest")) / WINDOW
+    # Sums that slide over a row may end a little below 0.
+    noise = np.sqrt(np.maximum(uniform_filter(variance, WINDOW, mode="nearest"), 0.0)) / WINDOW
     result = mean / np.maximum(noise, LEAST / CERTAIN)
-    return np.where(a.there & b.there, result, 0.0).astype(np.float32)
+    result = np.where(a.there & b.there, result, 0.0)
+    if a.codes is not None and b.codes is not None and np.allclose(a.linear, b.linear, atol=1e-5):
+        # The same light: what differs is how it is shown, and has no noise.
+        shown = (a.codes.astype(np.float64) - b.codes).mean(axis=2)
+        result = uniform_filter(shown, WINDOW, mode="nearest") * (CERTAIN / CODES)
+    deviation: Floats32 = result.astype(np.float32)
+    return deviation
 
 
 def share_differing(z: Floats32) -> float:

@@ -24,6 +24,7 @@ ABOUT: Mapping[str, tuple[str, ...]] = {
     "path_tracing": ("integrator.max_depth",),
     "importance_sampling": ("materials.*.exponent",),
     "bounding_volumes": ("acceleration.leaf_size",),
+    "film": ("film.exposure", "film.tone.key", "film.tone.burn", "film.tone.saturation"),
     "sampling": ("camera.lens.aperture_radius", "lights.*.radius"),
 }
 """Module -> key paths; * is any key or item. The number of samples has a slider in any case."""
@@ -35,6 +36,10 @@ MOST_SLIDERS = 8
 
 TIMES = 3.0
 """A range without an upper bound ends at so many times the file's value."""
+
+
+STOPS = 5.0
+"""The range of an exposure, on both sides of none."""
 
 
 @dataclass(frozen=True)
@@ -69,8 +74,12 @@ def sliders(loaded: Loaded, modules: typing.Collection[str]) -> list[Slider]:
     """The sliders for what some modules are about, and the number of samples."""
     wanted = ["sampler.samples"]
     wanted += [each for module in modules for each in ABOUT.get(module, ())]
-    if loaded.description.film.filter != "gaussian":
-        wanted = [each for each in wanted if each != "film.sigma"]
+    film, unused = loaded.description.film, set()
+    if film.filter != "gaussian":
+        unused.add("film.sigma")
+    if not (film.exposure or film.gamut != "srgb" or film.tone or film.dither):
+        unused.add("film.exposure")
+    wanted = [each for each in wanted if each not in unused]
     found: dict[KeyPath, Slider] = {}
     for pattern in wanted:
         for path, value, meta in _numbers(loaded.description, tuple(pattern.split("."))):
@@ -114,6 +123,8 @@ def _slider(path: KeyPath, value: float, meta: Any, loaded: Loaded) -> Slider:
         choices = tuple(n * n for n in range(1, 17)) if squares else tuple(1 << n for n in range(9))
         choices = tuple(sorted({*choices, value}))  # type: ignore[arg-type]
         return Slider(path, spell(path), *about, value, 1, choices[-1], 1, choices)
+    if extra.get("x-unit") == "stop":
+        return Slider(path, spell(path), *about, value, min(-STOPS, value), max(STOPS, value), 0.1)
     most = TIMES * value if value > 0 else 1.0
     high = most if high is None else min(high, most)
     if whole:

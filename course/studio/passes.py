@@ -14,7 +14,8 @@ import numpy as np
 
 from course.compiled.library import available
 from course.core.film import Film
-from course.core.tiles import PASS, Tile, Work, tile_picture
+from course.core.rays import RAYS
+from course.core.tiles import PASS, Tile, Work, spread_over_cache, tile_picture
 from course.core.types import Floats32
 from course.effects import Bound
 from course.render_scene import NO_COMPILER, render
@@ -64,22 +65,27 @@ class Progressive:
     Parameters
     ----------
     settings : of the picture; ``samples`` is the most that it can get
+    compiled : whether compiled loops are used from the first pass on; else they are changed over to where functions
+        are the course's own
 
     Attributes
     ----------
     film : of the passes that are complete
     samples : a pixel
     seconds : spent on rendering
+    tracer : of the first pass
     """
 
-    def __init__(self, scene: Scene, settings: Settings) -> None:
+    def __init__(self, scene: Scene, settings: Settings, compiled: bool = False) -> None:
         self._scene, self._settings = scene, replace(settings, error=None)
+        self._compiled = compiled
         self._bound = Bound(scene.effects, scene.compiled.needs)
         with lines_named(scene, self._bound):
-            tracer = bind(scene, self._settings, self._bound)
+            tracer = bind(scene, self._settings, self._bound, compiled)
         self.film: Film = NoisyFilm(settings.width, settings.height)
         self.samples, self.seconds = 0, 0.0
         self.variance: Floats32 | None = None
+        self.tracer = tracer
         self._extensible = tracer.sampler.extensible
         self._pool = Pool(tracer, default_threads())
 
@@ -92,7 +98,7 @@ class Progressive:
                 film = Film(film.width, film.height)
                 settings = replace(self._settings, samples=samples)
                 with lines_named(self._scene, self._bound):
-                    self._pool.tracer = bind(self._scene, settings, self._bound)
+                    self._pool.tracer = bind(self._scene, settings, self._bound, self._compiled)
 
             def tick(_done: int, _first: int, film: Film = film) -> None:
                 tell(film, self.samples, False)
@@ -130,15 +136,16 @@ class Progressive:
 
     def _work(self, first: int, samples: int) -> list[Work]:
         width, height = self._settings.width, self._settings.height
-        return [
-            Work(tile, 0, first, samples, True) for tile in tile_picture(width, height, samples)
-        ]
+        # Patterns hang on their tiles: those that have no passes are those of `course render`.
+        tiles = tile_picture(width, height, samples)
+        if self._extensible:
+            tiles = even_tiles(width, height, samples, default_threads())
+        return [Work(tile, 0, first, samples, True) for tile in tiles]
 
     @contextmanager
     def _changing_over(self) -> Iterator[None]:
         """Compiled loops, where they are ready and functions are the course's own."""
-        ours = self._scene.effects.trusted and available() and not os.environ.get(NO_COMPILER)
-        if not ours:
+        if self._compiled or not self._scene.effects.trusted or not may_compile():
             yield
             return
         from course.rendering.background_compile import BackgroundCompiler
@@ -146,6 +153,23 @@ class Progressive:
         make = partial(bind, self._scene, self._settings, None, True)
         with closing(BackgroundCompiler(self._pool, make, self._scene, self._settings)):
             yield
+
+
+def may_compile() -> bool:
+    """Whether there is what compiled loops need, and nobody has forbidden them."""
+    return available() and not os.environ.get(NO_COMPILER)
+
+
+def even_tiles(width: int, height: int, samples: int, threads: int) -> list[Tile]:
+    """Tiles of whole rows, of about the same size, and equally many for each thread: a pass may be short."""
+    most = 2 * threads * -(-width * height * samples // (2 * threads * RAYS))
+    rows = -(-height // min(most, height))
+    fitting = (
+        n for n in range(rows, max(rows - 4, 0), -1) if spread_over_cache(width * n * samples)
+    )
+    rows = next(fitting, rows)
+    starts = range(0, height, rows)
+    return [Tile(number, 0, y, width, min(rows, height - y)) for number, y in enumerate(starts)]
 
 
 class Whole:
@@ -176,6 +200,8 @@ class Whole:
         tell(self.film, self.samples, True)
 
 
-def picture_of(scene: Scene, settings: Settings) -> Progressive | Whole:
+def picture_of(scene: Scene, settings: Settings, compiled: bool = False) -> Progressive | Whole:
     """A picture without a sample yet."""
-    return (Progressive if settings.subdivision is None else Whole)(scene, settings)
+    if settings.subdivision is not None:
+        return Whole(scene, settings)
+    return Progressive(scene, settings, compiled)

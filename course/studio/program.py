@@ -7,6 +7,8 @@ goes to its standard error. A command that comes while a picture is rendered int
     load     take the functions as they are in their files now
     render   job, upto, most: add passes up to so many samples of the most that there will be; a new job begins again
     pixel    x, y, job: tell what became of the samples of a pixel
+    rays     x, y: tell the same as bare rays, to be put beside somebody else's
+    pair     x, y, rays: tell the last pixel's story once more, beside the course's rays of the same samples
 """
 
 from __future__ import annotations
@@ -23,16 +25,25 @@ from time import monotonic, sleep
 from typing import Any
 
 from course.core.film import Film
-from course.effects import Effects
+from course.effects import Bound, Effects, NothingWritten
 from course.errors import CourseError, CourseWarning
+from course.formats.pictures.display import SRGB, Display
+from course.recording.pair import departing, pair_data, told
 from course.recording.recording import record, recordable
 from course.recording.story import Line, Story
-from course.recording.view import view_data
-from course.rendering.binding import needs_of
-from course.scene.scene import Scene
+from course.recording.view import rays_data, view_data
+from course.rendering.background_compile import (
+    NotCompiledError,
+    compile_stages,
+    compiling_nothing,
+)
+from course.rendering.binding import developed_by, lines_named, needs_of
+from course.rendering.developing import developing
+from course.scene.scene import Scene, Settings
+from course.studio.engine import ENGINE, NO_REFERENCE, EngineEffects, engines_picture
 from course.studio.late import StudioEffects
 from course.studio.messages import Channel, messages
-from course.studio.passes import Progressive, Whole, picture_of
+from course.studio.passes import Progressive, Whole, may_compile, picture_of
 from course.studio.prepared import Values, changed, prepared, settings_of
 
 BEAT = 0.25
@@ -46,6 +57,9 @@ SHOW_FIRST, SHOW = 0.08, 0.5
 
 STORY_SAMPLES = 64
 """The most samples of a pixel that are told."""
+
+
+COMPILING = "preparing the renderer's compiled loops, which takes a minute or two when this machine has none yet"
 
 
 class InterruptedRenderError(Exception):
@@ -65,7 +79,12 @@ class Program:
         self._early: set[str] = set()
         self._picture: Progressive | Whole | None = None
         self._recordable: Scene | None = None
+        self._story: Story | None = None
+        self._told: dict[str, Any] = {}
         self._job = 0
+        self._display = SRGB
+        self._compiled = False
+        self.note = ""
 
     def run(self) -> None:
         """Do what is asked for, until nobody asks any more."""
@@ -93,6 +112,11 @@ class Program:
             self._render(**command)
         elif kind == "pixel":
             self._tell(**command)
+        elif kind == "rays":
+            x, y = command["x"], command["y"]
+            self.channel.send({"rays": rays_data(self._recorded(x, y)), "of": [x, y]})
+        elif kind == "pair":
+            self._tell_both(**command)
 
     # ---------------------------------------------------------------- commands
 
@@ -106,33 +130,54 @@ class Program:
             self._scene = None
         self._values = known
         if self._scene is None:
-            self._scene = self._compiled(Path(file), late)
+            self._compiled = False
+            self._scene = self._built(Path(file), late)
             self._warm(self._scene)
         needs = [need.function for need in needs_of(self._scene, settings_of(self._scene))]
         self.channel.send({"scene": file, "needs": needs, "early": sorted(self._early)})
 
-    def _compiled(self, file: Path, late: bool) -> Scene:
+    def _built(self, file: Path, late: bool) -> Scene:
+        if self._folder == ENGINE:
+            try:
+                return prepared(file, self._values, EngineEffects())
+            except CourseError as error:
+                raise CourseError(NO_REFERENCE) from error
         source = Effects(self._folder)
         if not late:
             return prepared(file, self._values, source)
         if self.effects is None:
             # Until functions are loaded, whatever can be made ready with the course's own is.
-            self.effects = StudioEffects(
-                Effects("solutions" if source.on_solutions else self._folder)
-            )
+            ready = Effects("solutions") if source.on_solutions else NothingWritten()
+            self.effects = StudioEffects(ready)
         self.effects.late.called.clear()
         scene = prepared(file, self._values, self.effects)
         self._early = set(self.effects.late.called)
         return scene
 
     def _warm(self, scene: Scene) -> None:
-        """Render a few pixels, for much is made when the first ray is cast; never with functions of a student."""
+        """Render a few pixels, for much is made when the first ray is cast; never with functions of a student.
+
+        A student's functions are called by compiled stages, too, if those were ready before they were loaded.
+        """
         source = (
             scene.effects.late.source if isinstance(scene.effects, StudioEffects) else scene.effects
         )
-        if source.trusted:
-            little = replace(settings_of(scene), width=24, height=16, samples=4, subdivision=None)
-            Progressive(scene, little).render(2, lambda _film, _samples, _complete: None)
+        if not source.trusted or self._folder == ENGINE:
+            return
+        little = replace(settings_of(scene), width=24, height=16, samples=4, subdivision=None)
+
+        def render(compiled: bool) -> None:
+            Progressive(scene, little, compiled).render(2, lambda *_: None)
+
+        render(compiled=False)
+        # Who waits for a picture doesn't wait for this, too.
+        if scene.effects is not source and may_compile() and self.commands.empty():
+            try:
+                with compiling_nothing():
+                    render(compiled=True)
+                self._compiled = True
+            except NotCompiledError:
+                compile_stages(scene, little)
 
     def _load(self) -> None:
         assert self.effects is not None
@@ -151,9 +196,15 @@ class Program:
     def _render(self, job: int, upto: int, most: int) -> None:
         if self._picture is None or job != self._job:
             settings = replace(settings_of(self.scene), samples=most)
-            self._picture = picture_of(self.scene, settings)
+            self._display = self._developing(settings)
+            if self._folder == ENGINE:
+                self.note = COMPILING
+                self._picture = engines_picture(self.scene, settings)
+                self.note = ""
+            else:
+                self._picture = picture_of(self.scene, settings, self._compiled)
         self._job = job
-        picture = self._picture
+        picture, develop = self._picture, self._display.develop
         last = 0.0
 
         def tell(film: Film, samples: int, complete: bool) -> None:
@@ -161,34 +212,65 @@ class Program:
             now = monotonic()
             if complete or now - last > (SHOW if samples else SHOW_FIRST):
                 last = now
-                arrays: list[Any] = [film.linear, film.samples > 0]
+                more: dict[str, Any] = {}
                 if complete and picture.variance is not None:
-                    arrays.append(picture.variance)
-                told = {"picture": job, "samples": samples, "seconds": picture.seconds}
-                self.channel.send(told | {"complete": complete}, *arrays)
+                    more["variance"] = picture.variance
+                if develop is not None:
+                    more["codes"] = develop(film.linear)
+                told: dict[str, Any] = {
+                    "picture": job,
+                    "samples": samples,
+                    "seconds": picture.seconds,
+                }
+                told |= {"complete": complete, "more": list(more)}
+                self.channel.send(told, film.linear, film.samples > 0, *more.values())
             if not self.commands.empty():
                 raise InterruptedRenderError
 
         picture.render(upto, tell)
         self.channel.send({"rendered": job, "samples": picture.samples})
 
-    def _tell(self, x: int, y: int, job: int) -> None:
-        began = monotonic()
+    def _developing(self, settings: Settings) -> Display:
+        """How the picture is shown, by functions of `film` where the scene asks for them."""
+        if self._folder == ENGINE and developed_by(self.scene):
+            raise CourseError(NO_REFERENCE)
+        bound = Bound(self.scene.effects, self.scene.compiled.needs)
+        with lines_named(self.scene, bound):
+            return developing(self.scene, settings, bound)
+
+    def _recorded(self, x: int, y: int) -> Story:
         if self._recordable is None:
             self._recordable = recordable(self.scene)
         settings = settings_of(self.scene)
         size = settings.width, settings.height
         spp = min(settings.samples, STORY_SAMPLES)
-        story = Story(record(self._recordable, x, y, spp=spp, size=size))
-        told = {
+        return Story(record(self._recordable, x, y, spp=spp, size=size))
+
+    def _tell(self, x: int, y: int, job: int) -> None:
+        began = monotonic()
+        self._story = story = self._recorded(x, y)
+        self._told = {
             "story": [x, y],
             "job": job,
             "title": story.tree.text,
             "reason": story.reason,
             "tree": [_as_data(line) for line in story.tree.below[1:]],
-            "rays": view_data(story),
         }
-        self.channel.send(told | {"seconds": monotonic() - began})
+        rays = {"rays": view_data(story), "seconds": monotonic() - began}
+        self.channel.send(self._told | rays)
+
+    def _tell_both(self, x: int, y: int, rays: dict[str, Any]) -> None:
+        if self._story is None or self._told["story"] != [x, y]:
+            return
+        written = [
+            f for f in self._story.recording.asked if self.scene.effects.written(*f.split("."))
+        ]
+        departs = departing(self._story, rays, written)
+        if departs is None:
+            self.channel.send(self._told | {"rays": view_data(self._story), "beside": []})
+            return
+        data = pair_data(self._story, rays, departs)
+        self.channel.send(self._told | {"rays": data, "beside": told(data, "the course's is")})
 
     @property
     def scene(self) -> Scene:
@@ -206,7 +288,7 @@ def _beat(program: Program) -> None:
     """Tell again and again that the process lives, and which call goes on and on."""
     while True:
         sleep(BEAT)
-        told: dict[str, Any] = {"alive": True}
+        told: dict[str, Any] = {"alive": True, "note": program.note}
         call = program.effects.late.longest() if program.effects is not None else None
         if call is not None and call[1] > LONG:
             told |= {"busy": call[0], "for": call[1], "line": call[2]}

@@ -6,7 +6,9 @@ from dataclasses import dataclass, field
 from time import monotonic
 from typing import Any
 
+from course.rendering.background_compile import LAST
 from course.studio.differing import Shot
+from course.studio.engine import ENGINE
 from course.studio.worker import Event, Worker
 
 SILENT = 2.0
@@ -25,7 +27,8 @@ class Side:
     name : "mine" or "course"
     effects : as `Effects` takes it
     late : whether functions are loaded after the scene
-    worker, spare : the process that renders, and one that is ready to take its place
+    worker, spare : the process that renders, and one that is to take its place
+    spare_knows, spare_ready : the scene that the latter was sent, and whether it has compiled it
     job : number of what it renders; what is told of earlier ones is out of date
     goal : samples that it renders towards; 0 if it doesn't
     reached : samples that the latest picture has
@@ -42,6 +45,7 @@ class Side:
     worker: Worker | None = None
     spare: Worker | None = None
     spare_knows: Any = None
+    spare_ready: bool = False
     job: int = 0
     goal: int = 0
     reached: int = 0
@@ -69,10 +73,12 @@ class Side:
             self.worker.end("closed")
             self.worker = None
         if self.worker is None:
-            self.worker, self.spare = self.spare or Worker(self.event), None
+            # Where the engine's loops have to be compiled, one's own picture comes first.
+            nice = LAST if self.effects == ENGINE else 0
+            self.worker, self.spare = self.spare or Worker(self.event, nice), None
             if self.spare_knows != knows:
                 self.worker.send(do="scene", **self.command(file, values))
-            self.spare_knows = None
+            self.spare_knows, self.spare_ready = None, False
             if self.late:
                 self.worker.send(do="load")
         else:
@@ -88,7 +94,7 @@ class Side:
         if self.spare is None:
             self.spare = Worker(self.event)
         self.spare.send(do="scene", **self.command(file, values))
-        self.spare_knows = knows
+        self.spare_knows, self.spare_ready = knows, False
 
     def render(self, goal: int, most: int) -> None:
         """Go on to so many samples, of the most that there will be."""

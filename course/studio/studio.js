@@ -235,9 +235,7 @@
   }
 
   // ---- the story of a pixel
-  let asked = main;
   function pixel(x, y, side) {
-    asked = side;
     $("x").value = x;
     $("y").value = y;
     put("status", `asking for pixel ${x},${y}`);
@@ -247,6 +245,16 @@
     event.preventDefault();
     pixel(Number($("x").value), Number($("y").value), main);
   });
+  function beside(told) {
+    // Undefined until the course's rays are there; without a line if they are the same.
+    const lines = told.beside;
+    if (!lines) return [];
+    if (!lines.length) return [make("p", { class: "beside" }, "The course's functions send the same rays.")];
+    const lead = told.is_right
+      ? `${told.rays.function} is right by the checks. It turns the same numbers into other rays than the course's function does:`
+      : `Where ${told.rays.function} departs from the course's function, which got the same numbers:`;
+    return [make("div", { class: "beside" }, make("p", {}, lead), make("ul", {}, ...lines.map((line) => make("li", {}, line))))];
+  }
   const tree = (lines) => make("ul", {}, ...lines.map(([text, below]) => make("li", {}, text, ...(below.length ? [tree(below)] : []))));
   function story(told) {
     const root = $("story");
@@ -257,10 +265,9 @@
     }
     const rays = make("div", { class: "rays" });
     const list = make("details", { open: "" }, make("summary", {}, "What the rays met"), tree(told.tree));
-    const whose = asked === "mine" ? "With your functions, " : viewing ? "" : "With the course's functions, ";
-    root.replaceChildren(make("p", { class: "reason" }, `${whose}${told.title}: ${told.reason}.`), rays, list);
+    const whose = told.side === "mine" ? "With your functions, " : viewing ? "" : "With the course's functions, ";
+    root.replaceChildren(make("p", { class: "reason" }, `${whose}${told.title}: ${told.reason}.`), ...beside(told), rays, list);
     penumbra.rays(rays, told.rays);
-
   }
 
   // ---- functions

@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from course.effects import Effects
+from course.effects import PROJECT, Effects
 from course.errors import CourseError
 from course.formats.pictures.display import Display
 from course.formats.yaml.document import KeyPath
@@ -26,6 +26,7 @@ from course.grading.progress import Progress, next_one
 from course.modules import COURSE
 from course.studio.checker import Checker
 from course.studio.differing import Shot, coloured, deviations, rms, share_differing
+from course.studio.engine import ENGINE, NO_RAYS
 from course.studio.keys import Slider, sliders
 from course.studio.late import IMPORTING
 from course.studio.orbit import orbited
@@ -74,6 +75,7 @@ class Studio:
         self._needs: list[str] = []
         self._wanted_pixel: tuple[int, int] | None = None
         self._story: dict[str, Any] | None = None
+        self._beside: dict[str, Any] | None = None
         self._saved = monotonic()
         self._curve: list[tuple[float, int, float]] = []
         self._curve_before: list[tuple[float, int, float]] = []
@@ -95,12 +97,14 @@ class Studio:
         self._thread = threading.Thread(target=self._run, name="studio", daemon=True)
         self._stopped = False
 
-    @staticmethod
-    def _courses() -> str | None:
-        """The course's functions; in a copy without them, one's own."""
-        from course.effects import PROJECT
+    def _courses(self) -> str | None:
+        """The course's functions; in a copy without them, what the compiled loops have instead.
 
-        return "solutions" if (PROJECT / "solutions").is_dir() else None
+        Who only looks around sees what `course render` would show.
+        """
+        if (PROJECT / "solutions").is_dir():
+            return "solutions"
+        return None if self.mine is None else ENGINE
 
     @property
     def sides(self) -> list[Side]:
@@ -148,6 +152,7 @@ class Studio:
         pairs = {"difference": (mine, course), "change": (mine, before)}
         if name in pairs:
             a, b = pairs[name]
+            b = self._alike(a, b)
             if a is None or b is None or a.linear.shape != b.linear.shape:
                 return None
             codes, there = coloured(deviations(a, b)), a.there & b.there
@@ -155,10 +160,19 @@ class Studio:
             shot = {"mine": mine, "course": course}.get(name)
             if shot is None:
                 return None
+            if shot.codes is not None:
+                return np.dstack((shot.codes, np.where(shot.there, 255, 0).astype(np.uint8)))
             film = self.loaded.description.film
             codes, there = Display(film.white, film.encoding).codes(shot.linear), shot.there
         alpha = np.where(there, 255, 0).astype(np.uint8)
         return np.dstack((codes, alpha))
+
+    def _alike(self, mine: Shot | None, other: Shot | None) -> Shot | None:
+        """The course's picture of as many samples, where it matters how the same light is shown; else the other."""
+        if mine is None or other is None or mine.codes is None or other is not self.course.shot:
+            return other
+        same = (shot for shot in self.course.shots if shot.samples == mine.samples)
+        return next(same, other)
 
     # ---------------------------------------------------------------- the thread
 
@@ -244,24 +258,24 @@ class Studio:
         return int(self.values.get(("sampler", "samples"), self.loaded.description.sampler.samples))
 
     def _go(self) -> None:
-        """Have the next thing rendered."""
+        """Have the next thing rendered; nobody waits for a side that is busy with something else."""
         if self._wanted_pixel is not None:
             return
-        stuck = self.mine if self.mine is not None and self.mine.note else None
         goals = self._goals()
-        for side, goal in goals:
-            if side.trouble or side is stuck or side.reached >= goal:
+        for number, (side, goal) in enumerate(goals):
+            if number and self.mine is not None and not self.mine.note:
+                self._prepare_spare()
+            if side.trouble or side.note or side.reached >= goal:
                 continue
             if not side.goal:
                 for other in self.sides:
-                    if other.goal and other.worker is not None and other is not stuck:
+                    if other.goal and other.worker is not None and not other.note:
                         other.worker.send(do="pause")
                 side.render(goal, max(each for other, each in goals if other is side))
             return
-        if self.mine is not None and stuck is None:
-            self._prepare_spare()
 
     def _prepare_spare(self) -> None:
+        """Once one's own picture shows something, a process is made ready for the next save."""
         assert self.mine is not None
         values = [[list(path), value] for path, value in self.values.items()]
         self.mine.keep_spare(str(self.scene), values)
@@ -271,6 +285,7 @@ class Studio:
         if side is None:
             return
         if worker is side.spare:
+            side.spare_ready = side.spare_ready or "scene" in told
             if "ended" in told or "failed" in told:
                 side.spare = side.spare_knows = None
             return
@@ -296,8 +311,13 @@ class Studio:
             side.called, side.ready = told["loaded"], True
         elif "story" in told:
             self._wanted_pixel = None
-            self._story = told
+            self._story = told = told | {"side": side.name, "is_right": self._is_right(told)}
             self._say("story", told)
+            self._put_beside()
+            self._go()
+        elif "rays" in told:
+            self._beside = told
+            self._put_beside()
             self._go()
         elif "failed" in told:
             self._on_failed(side, told)
@@ -315,6 +335,9 @@ class Studio:
     def _on_failed(self, side: Side, told: dict[str, Any]) -> None:
         if told.get("of") == "pixel":
             self._lost_pixel(told["failed"])
+        elif told.get("of") in ("rays", "pair"):
+            # The story has been told without them.
+            self._beside = None
         elif not side.trouble:
             # What follows from the first is no news.
             trace = told.get("trace", "")
@@ -330,7 +353,7 @@ class Studio:
 
     def _on_alive(self, side: Side, told: dict[str, Any]) -> None:
         before = side.note
-        side.note = ""
+        side.note = told["note"]
         if "busy" in told:
             name, seconds, line = told["busy"], told["for"], told["line"]
             side.function = "" if name == IMPORTING else name
@@ -350,13 +373,14 @@ class Studio:
 
     def _on_picture(self, side: Side, told: dict[str, Any], arrays: list[Any]) -> None:
         linear, there, *rest = arrays
+        more = dict(zip(told["more"], rest, strict=True))
         if not np.isfinite(linear).all():
             y, x = np.argwhere(~np.isfinite(linear).all(axis=0))[0]
             side.fail(f"the picture isn't finite at pixel {x},{y}")
             return
         side.note = ""
         side.version += 1
-        side.shot = Shot(linear, there, told["samples"], told["seconds"], rest[0] if rest else None)
+        side.shot = Shot(linear, there, told["samples"], told["seconds"], **more)
         if told["complete"]:
             side.reached = told["samples"]
             side.shots.append(side.shot)
@@ -368,7 +392,8 @@ class Studio:
             return
         mine, course = self.mine.shots[-1], self.course.shots[-1] if self.course.shots else None
         if course is not None:
-            self._differing = share_differing(deviations(mine, course))
+            other = self._alike(mine, course) or course
+            self._differing = share_differing(deviations(mine, other))
             # Of as many samples as the reference has, some are the same.
             self._curve = [
                 (shot.seconds, shot.samples, rms(shot, course))
@@ -448,6 +473,12 @@ class Studio:
         """Have modules checked, before those that wait."""
         for each in modules:
             self._functions.pop(each, None)
+        if self._checker is not None and self._under_check:
+            # It may have read the files as they were.
+            self._checker.close()
+            self._checking = ""
+            modules = [*modules, *(m for m in self._under_check if m not in modules)]
+            self._under_check = []
         self._to_check = [*modules, *(each for each in self._to_check if each not in modules)]
         self._say("functions", self._told_functions())
 
@@ -464,6 +495,8 @@ class Studio:
         self._checker.check(self._under_check)
 
     def _on_check(self, told: dict[str, Any]) -> None:
+        if self._checker is None or told.pop("run") != self._checker.run:
+            return
         if "checking" in told:
             self._checking = told["checking"]
         elif "module" in told:
@@ -559,13 +592,35 @@ class Studio:
         side = self.course if told.get("side") == "course" or self.mine is None else self.mine
         if not (0 <= x < width and 0 <= y < height):
             return
-        if side.worker is None or side.trouble:
-            self._say(
-                "story", {"story": [x, y], "failed": "there is no picture that it could be told of"}
-            )
+        without = "there is no picture that it could be told of"
+        if side.effects == ENGINE:
+            without = NO_RAYS
+        if side.worker is None or side.trouble or side.effects == ENGINE:
+            self._say("story", {"story": [x, y], "failed": without})
             return
-        self._wanted_pixel = x, y
+        self._wanted_pixel, self._beside, self._story = (x, y), None, None
         side.worker.send(do="pixel", x=x, y=y, job=side.job)
+        known = self.course.worker is not None and self.course.effects != ENGINE
+        if side is self.mine and side.called and known:
+            assert self.course.worker is not None
+            self.course.worker.send(do="rays", x=x, y=y)
+
+    def _is_right(self, story: dict[str, Any]) -> bool:
+        """Whether the function whose rays are others than the course's is right by the checks all the same."""
+        module, _, name = story["rays"].get("function", "").partition(".")
+        known = self._functions.get(module, {}).get("functions", ())
+        return any(each["name"] == name and each["state"] == "right" for each in known)
+
+    def _put_beside(self) -> None:
+        """Have one's own story told beside the course's rays, once both are there."""
+        story, course, mine = self._story, self._beside, self.mine
+        if story is None or course is None or mine is None or mine.worker is None:
+            return
+        if course["of"] == story["story"] and story["job"] == mine.job:
+            self._beside = None
+            mine.worker.send(
+                do="pair", x=story["story"][0], y=story["story"][1], rays=course["rays"]
+            )
 
     # ---------------------------------------------------------------- what the page is told
 

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from PIL import Image
 
 from course import EffectError, load_scene, pixel, render
 from course.cli.main import commands
@@ -15,6 +16,7 @@ from course.contracts import CONTRACTS
 from course.core.types import Floats32
 from course.effects import PROJECT, Effects, written_functions
 from course.modules import COURSE
+from course.scene.scene import load_variant
 from course.stand_ins import STAND_INS
 from tests.conftest import MakeScene
 
@@ -138,10 +140,6 @@ def test_a_folder_of_that_name_is_meant_first(
     assert not Effects("mine").mixed
 
 
-WITHOUT = ("bounding_volumes", "radiosity")
-"""Modules whose results can't be had without them."""
-
-
 @pytest.fixture
 def unsolved(mine: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """The folder to work in, where no solutions are."""
@@ -150,8 +148,7 @@ def unsolved(mine: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def test_what_the_renderer_calls_has_a_stand_in() -> None:
-    called = {name for name in CONTRACTS if name.partition(".")[0] not in WITHOUT}
-    assert called == STAND_INS.keys()
+    assert CONTRACTS.keys() == STAND_INS.keys()
 
 
 @pytest.mark.usefixtures("unsolved")
@@ -185,6 +182,52 @@ def test_a_lamp_without_its_function_is_a_point(make_scene: MakeScene) -> None:
 
 
 @pytest.mark.usefixtures("unsolved")
-def test_a_hierarchy_can_be_had_from_its_functions_alone() -> None:
-    with pytest.raises(EffectError, match=r"bounding_volumes\.build"):
-        render(load_scene(PROJECT / "scenes" / "bounding_volumes.yaml", "mine"), **SMALL)
+def test_without_a_hierarchy_of_ones_own_embree_finds_the_same_hits() -> None:
+    file = PROJECT / "scenes" / "bounding_volumes.yaml"
+    picture = render(load_scene(file, "mine"), **SMALL)
+    embrees = load_variant(file, {("acceleration", "type"): "embree"}, "mine")
+    np.testing.assert_allclose(picture.linear, render(embrees, **SMALL).linear, atol=1e-3)
+    told = picture.receipt.to_dict()["effects"]["stand-ins"]
+    assert told["bounding_volumes.traverse"] == "Embree answers the rays, without your boxes"
+
+
+def test_one_box_of_all_triangles_is_a_hierarchy() -> None:
+    build = STAND_INS["bounding_volumes.build"][0]
+    lo = np.random.default_rng(3).random((3, 9))
+    hierarchy = build(lo, lo + 0.25, 4)
+    solved = Effects("solutions").function("bounding_volumes", "traverse")
+    corners = lo, lo + np.array([[0.25], [0], [0]]), lo + np.array([[0], [0.25], [0.25]])
+    origins = np.array([[0.5], [0.5], [-3]]) + np.zeros((3, 9))
+    directions = np.mean(corners, axis=0) - origins
+    asked = STAND_INS["bounding_volumes.traverse"][0]
+    for a, b in zip(
+        solved(hierarchy, *corners, origins, directions)[:2],
+        asked(hierarchy, *corners, origins, directions)[:2],
+        strict=True,
+    ):
+        np.testing.assert_allclose(a, b, rtol=1e-5)
+
+
+@pytest.mark.usefixtures("unsolved")
+@pytest.mark.parametrize("solver", ["gather", "shoot"])
+def test_without_radiosity_only_lamps_are_bright(solver: str) -> None:
+    options = [
+        "--method",
+        solver,
+        "--patches",
+        "200",
+        "--split",
+        ".5",
+        "-o",
+        "light.npz",
+        "-o",
+        "l.png",
+    ]
+    told = CliRunner().invoke(
+        commands, ["radiosity", str(PROJECT / "scenes/radiosity.yaml"), *options]
+    )
+    assert told.exit_code == 0, told.output
+    assert "not written yet: surfaces pass no light on, so only lamps are bright" in told.output
+    codes = np.asarray(Image.open("l.png").convert("L"), int)
+    assert codes.max() > 200
+    assert 0 < (codes > 10).mean() < 0.1

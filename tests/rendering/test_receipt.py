@@ -1,11 +1,14 @@
 """The receipt: every key, true counts, and nothing paid for what a scene doesn't need."""
 
 import json
+import subprocess
+import sys
 from typing import Any
 
 import pytest
 
 from course import Scene, __version__, render
+from course.effects import PROJECT
 from course.extras.samplers import FUNCTIONS
 from tests.cli.stand_in import RECEIPT
 from tests.conftest import MakeScene
@@ -39,6 +42,18 @@ def test_it_has_every_key_and_is_plain_data(every_stage: EveryStage) -> None:
     assert receipt["wall_seconds"] > 0
     assert all(seconds >= 0 for seconds in receipt["seconds"].values())
     assert all(receipt["rays"].values()), "this scene casts rays of every kind"
+
+
+def test_a_picture_is_rendered_without_a_recorder(every_stage: EveryStage) -> None:
+    assert "course pixel" in cost(every_stage(), spp=1)["effects"]["skipped"]["recorder"]
+    # Not even its code is there.
+    scene = PROJECT / "scenes" / "soft_shadows.yaml"
+    program = (
+        "import sys, course\n"
+        f"course.render(course.load_scene({str(scene)!r}), spp=1, size=(8, 8))\n"
+        "assert not [name for name in sys.modules if name.startswith('course.recording')]\n"
+    )
+    subprocess.run([sys.executable, "-c", program], check=True, timeout=280)
 
 
 def test_counts_do_not_depend_on_threads(every_stage: EveryStage) -> None:

@@ -11,15 +11,18 @@ from numpy.typing import NDArray
 
 from course import load_scene, render
 from course.core.film import Film
-from course.effects import PROJECT
+from course.effects import PROJECT, Effects
+from course.errors import CourseError
 from course.formats.yaml.loading import load_description
 from course.modules import COURSE
+from course.render_scene import NO_COMPILER
 from course.studio.differing import Shot, coloured, deviations, share_differing
+from course.studio.engine import EngineEffects, engines_picture
 from course.studio.keys import ABOUT, sliders
 from course.studio.orbit import orbited
-from course.studio.passes import Progressive, picture_of
+from course.studio.passes import Progressive, even_tiles, picture_of
 from course.studio.prepared import PIXELS, changed, fitting, prepared, settings_of
-from tests.studio.conftest import SCENE
+from tests.studio.conftest import RIGHT, SCENE, write
 
 SCENES = PROJECT / "scenes"
 
@@ -77,6 +80,8 @@ def test_every_module_has_sliders_for_what_it_is_about(module: str) -> None:
         ("glossy", "materials.steel.gloss.roughness"),
         ("motion_blur", "camera.shutter.close"),
         ("supersampling", "sampler.samples"),
+        ("film", "film.exposure"),
+        ("film", "film.tone.key"),
     ],
 )
 def test_the_keys_that_a_module_is_about_have_sliders(module: str, key: str) -> None:
@@ -117,6 +122,21 @@ def test_noise_alone_is_no_difference_and_a_patch_is_one() -> None:
     codes = coloured(z).astype(int)
     assert codes[75, 75, 0] > codes[75, 75, 2] + 50
     assert (codes[150, 150] == codes[150, 151]).all()
+
+
+def test_the_same_light_that_is_shown_otherwise_is_a_difference() -> None:
+    linear = np.random.default_rng(3).random((3, 40, 60))
+    codes = (255 * np.moveaxis(linear, 0, -1)).astype(np.uint8) // 2
+    a = replace(shot(linear, 4, 0.01), codes=codes)
+    b = replace(a, codes=codes.copy())
+    assert share_differing(deviations(a, b)) == 0
+    b.codes[:20] += 3
+    z = deviations(a, b)
+    assert share_differing(z) == pytest.approx(0.5, abs=0.1)
+    assert z[5, 5] < 0
+    # Other light has noise, by which alone it is judged.
+    c = replace(b, linear=b.linear + np.float32(0.01))
+    assert share_differing(deviations(a, c)) == 0
 
 
 def test_the_variance_of_a_sample_is_estimated_from_passes(ball: Path) -> None:
@@ -177,6 +197,68 @@ def test_a_pass_that_was_interrupted_leaves_nothing_behind(ball: Path) -> None:
     for each in (picture, other):
         each.render(16, lambda *_: None)
     np.testing.assert_array_equal(picture.film.linear, other.film.linear)
+
+
+def test_tiles_are_equally_large_and_equally_many_for_each_thread() -> None:
+    for samples in (1, 2, 4, 8, 16):
+        tiles = even_tiles(480, 317, samples, 2)
+        assert sum(tile.size for tile in tiles) == 480 * 317
+        covered = np.zeros((317, 480), int)
+        for tile in tiles:
+            covered[tile.rows, tile.columns] += 1
+        assert (covered == 1).all()
+        assert len({tile.number for tile in tiles}) == len(tiles)
+        assert max(tile.size for tile in tiles) * samples <= 65536
+    assert [tile.size for tile in even_tiles(480, 320, 1, 2)] == [480 * 80] * 4
+    assert len(even_tiles(5, 1, 16, 8)) == 1
+
+
+def test_compiled_stages_call_a_students_functions_and_give_the_same_bits(
+    work: Path, ball: Path
+) -> None:
+    pytest.importorskip("numba")
+    write(work, RIGHT)
+    scene = prepared(ball, {}, Effects("mine"))
+    settings = replace(scene.settings, width=48, height=32)
+    pictures = []
+    for compiled in (False, True):
+        picture = Progressive(scene, settings, compiled)
+        picture.render(16, lambda *_: None)
+        pictures.append(picture.film.linear)
+    np.testing.assert_array_equal(*pictures)
+
+
+# ---------------------------------------------------------------- the reference without solutions
+
+
+@pytest.mark.parametrize("name", ["soft_shadows", "supersampling", "thin_lens"])
+def test_compiled_loops_are_the_reference_where_no_solutions_are(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("numba")
+    monkeypatch.delenv(NO_COMPILER, raising=False)
+    effects = EngineEffects()
+    scene = prepared(SCENES / f"{name}.yaml", {}, effects)
+    settings = replace(settings_of(scene), width=48, height=32, samples=16)
+    reference = engines_picture(scene, settings)
+    reference.render(16, lambda *_: None)
+    solved = load_scene(SCENES / f"{name}.yaml", effects="solutions")
+    picture = render(solved, spp=16, size=(48, 32), sampler="sobol")
+    np.testing.assert_allclose(reference.film.linear, picture.film.linear, atol=1e-5)
+    # What the loops don't call can't be called.
+    with pytest.raises(CourseError, match="no solution"):
+        effects.function("soft_shadows", "point_on_sphere")(1, 2, 3)
+
+
+@pytest.mark.parametrize("name", ["path_tracing", "adaptive_sampling", "textures"])
+def test_a_scene_that_the_loops_do_not_know_has_no_reference(name: str) -> None:
+    def reference() -> None:
+        scene = prepared(SCENES / f"{name}.yaml", {}, EngineEffects())
+        engines_picture(scene, settings_of(scene))
+
+    # Of a function that building calls, or of the loops.
+    with pytest.raises(CourseError, match="no solution"):
+        reference()
 
 
 def test_a_camera_that_moves_needs_no_new_world(ball: Path) -> None:

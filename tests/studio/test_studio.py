@@ -173,6 +173,64 @@ def test_a_pixel_tells_its_story_with_ones_own_function(studio: Studio, work: Pa
     until(lambda: whole(studio))
 
 
+def story_of(studio: Studio, x: int, y: int, side: str = "mine") -> dict[str, Any]:
+    """The last that is told of a pixel: beside the course's rays, if it is one's own."""
+    events, before = studio.listen(), studio._story
+    studio.ask("pixel", x=x, y=y, side=side)
+    while True:
+        name, told = events.get(timeout=280)
+        # A page that is opened is told the last one.
+        if (
+            name == "story"
+            and told is not before
+            and (side != "mine" or "beside" in told or "failed" in told)
+        ):
+            studio.forget(events)
+            return dict(told)
+
+
+def test_a_pixel_has_the_courses_rays_beside_ones_own(studio: Studio, work: Path) -> None:
+    write(work, WRONG)
+    until(lambda: mine(studio)["yours"] and whole(studio))
+    story = story_of(studio, 20, 40)
+    rays = story["rays"]
+    assert rays["function"] == "soft_shadows.point_on_sphere"
+    assert len(rays["right"]["samples"]) == len(rays["samples"]) == DONE
+    assert rays["right"]["segments"] != rays["segments"]
+    name = rays["function"]
+    assert any(
+        line.startswith(f"{name} returned x ") and "; the course's is x " in line
+        for line in story["beside"]
+    )
+    # Of the same numbers the lamp's points are ten times as far from its centre.
+    center = np.mean([r for row in rays["right"]["segments"] for _, r in row[9]], axis=0)
+    far = [
+        np.linalg.norm(
+            np.array([r for row in each["segments"] for _, r in row[9]]) - center, axis=1
+        ).mean()
+        for each in (rays, rays["right"])
+    ]
+    assert far[1] / far[0] == pytest.approx(10, rel=0.3)
+    assert not story["is_right"]
+    # A right function may turn the numbers another way.
+    write(work, RIGHT.replace("2 * u[0]", "2 * u[1]").replace("pi * u[1]", "pi * u[0]"))
+    until(lambda: whole(studio) and studio.state()["differing"] == 0)
+    until(lambda: studio._functions.get("soft_shadows"))
+    story = story_of(studio, 20, 40)
+    assert story["rays"]["function"] == name
+    assert story["is_right"]
+    job = mine(studio)["job"]
+    write(work, RIGHT)
+    until(lambda: mine(studio)["job"] > job and whole(studio))
+    story = story_of(studio, 20, 40)
+    assert story["beside"] == []
+    assert "right" not in story["rays"]
+    assert not story["is_right"]
+    # The course's own story has none beside it, and nothing is kept waiting.
+    assert "beside" not in story_of(studio, 20, 40, "course")
+    until(lambda: whole(studio))
+
+
 def test_a_scene_with_a_mistake_is_told_and_a_save_mends_it(studio: Studio, work: Path) -> None:
     until(lambda: mine(studio)["samples"] == DONE)
     file = work / "ball.yaml"
