@@ -112,7 +112,7 @@ def light_tree(lo, hi, axis, angle, power):
     _check("lo", lo, 3, "L")
     lamps = np.shape(lo)[1]
     if lamps == 0:
-        raise ValueError("there must be at least one lamp, got none")
+        raise ValueError(f"lo must have one column or more, got {np.shape(lo)}")
     _check("hi", hi, 3, lamps)
     _check("axis", axis, 3, lamps)
     _check("angle", angle, lamps)

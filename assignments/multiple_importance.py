@@ -30,8 +30,8 @@ def area_density(area, distance, cos):
     lighting calculations", 1996.
     """
     _check_positive("area", area)
-    _check_batch("distance", distance, 1)
-    _check_batch("cos", cos, 1, np.shape(distance)[0])
+    _check("distance", distance, "N")
+    _check("cos", cos, np.shape(distance)[0])
     # TODO multiple_importance.area_density: write your solution here
     raise NotImplementedError("multiple_importance.area_density: not written yet")
 
@@ -60,7 +60,7 @@ def cone_density(radius, distance):
     Task: multiple_importance.cone_density. Source: Shirley, Wang and Zimmerman, 1996.
     """
     _check_positive("radius", radius)
-    _check_batch("distance", distance, 1)
+    _check("distance", distance, "N")
     # TODO multiple_importance.cone_density: write your solution here
     raise NotImplementedError("multiple_importance.cone_density: not written yet")
 
@@ -89,7 +89,7 @@ def heuristic_weights(counts, densities, exponent):
     Task: multiple_importance.heuristic_weights. Source: Veach and Guibas, "Optimally combining sampling techniques for
     Monte Carlo rendering", 1995.
     """
-    _check_strategies(counts, densities)
+    _check_strategies("counts", counts, densities)
     if not exponent >= 1:
         raise ValueError(f"exponent must be >= 1, got {exponent}")
     # TODO multiple_importance.heuristic_weights: write your solution here
@@ -121,9 +121,8 @@ def delta_weights(counts, densities, delta):
     Task: multiple_importance.delta_weights. Source: Veach, "Robust Monte Carlo methods for light transport simulation",
     1997.
     """
-    _check_strategies(counts, densities)
-    if np.shape(delta) != np.shape(densities):
-        raise ValueError(f"delta must have shape {np.shape(densities)}, got {np.shape(delta)}")
+    _check_strategies("counts", counts, densities)
+    _check("delta", delta, *np.shape(densities))
     # TODO multiple_importance.delta_weights: write your solution here
     raise NotImplementedError("multiple_importance.delta_weights: not written yet")
 
@@ -149,10 +148,10 @@ def multi_sample(counts, strategy, f, densities, weights):
 
     Task: multiple_importance.multi_sample. Source: Veach and Guibas, 1995.
     """
-    _check_batch("counts", counts, 1)
-    _check_batch("f", f, 2)
+    _check("counts", counts, "S")
+    _check("f", f, 3, "N")
     for name, each in (("strategy", strategy), ("densities", densities), ("weights", weights)):
-        _check_batch(name, each, 1, np.shape(f)[1])
+        _check(name, each, np.shape(f)[1])
     # TODO multiple_importance.multi_sample: write your solution here
     raise NotImplementedError("multiple_importance.multi_sample: not written yet")
 
@@ -178,27 +177,28 @@ def one_sample(odds, f, densities):
 
     Task: multiple_importance.one_sample. Source: Veach and Guibas, 1995.
     """
-    _check_strategies(odds, densities)
-    _check_batch("f", f, 2, np.shape(densities)[1])
+    _check_strategies("odds", odds, densities)
+    _check("f", f, 3, np.shape(densities)[1])
     # TODO multiple_importance.one_sample: write your solution here
     raise NotImplementedError("multiple_importance.one_sample: not written yet")
 
 
-def _check_batch(name, array, axes, columns=None):
-    shape, rows = np.shape(array), "3, " * (axes - 1)
-    if len(shape) != axes or (axes == 2 and shape[0] != 3) or columns not in (None, shape[-1]):
-        expected = f"({rows}{'N' if columns is None else columns})"
-        raise ValueError(f"{name} must have shape {expected}, got {shape}")
+def _check(name, array, *sizes):
+    """The array has the shape; a letter stands for any size."""
+    shape = np.shape(array)
+    if len(shape) != len(sizes) or any(
+        isinstance(size, int) and own != size for own, size in zip(shape, sizes, strict=False)
+    ):
+        expected = ", ".join(map(str, sizes)) + ("," if len(sizes) == 1 else "")
+        raise ValueError(f"{name} must have shape ({expected}), got {shape}")
 
 
-def _check_strategies(counts, densities):
-    if np.ndim(counts) != 1 or np.ndim(densities) != 2 or len(densities) != len(counts):
-        shapes = f"{np.shape(counts)} and {np.shape(densities)}"
-        raise ValueError(
-            f"a number and a row of densities for each strategy: (S,) and (S, N), got {shapes}"
-        )
-    if not (np.asarray(counts) >= 0).all() or not (np.asarray(densities) >= 0).all():
-        raise ValueError("a strategy's number and its densities must be >= 0")
+def _check_strategies(name, counts, densities):
+    _check("densities", densities, "S", "N")
+    _check(name, counts, np.shape(densities)[0])
+    for each, values in ((name, counts), ("densities", densities)):
+        if not (np.asarray(values) >= 0).all():
+            raise ValueError(f"{each} must be >= 0, got {np.min(values)}")
 
 
 def _check_positive(name, number):

@@ -163,11 +163,10 @@ class Contract:
         """The sizes that the arguments of a call say, by their words."""
         known: dict[str, int] = {}
         for (name, shape), value in zip(self.arguments, values, strict=False):
-            if not shape:
-                if isinstance(value, (int, np.integer)):
-                    known[name] = int(value)
-            elif shape == "*":
+            if shape == "*":
                 known["*"] = len(value)
+            elif not shape and isinstance(value, (int, np.integer)):
+                known[name] = int(value)
             else:
                 for word, size in zip(shape.split(), np.shape(value), strict=False):
                     # A single column stands for as many as there are.
@@ -187,11 +186,10 @@ def parsed(text: str) -> Contract:
     before, _, after = text.partition("->")
     pairs = [part.partition(":") for part in before.split(",")]
     arguments = tuple((name.strip(), shape.strip()) for name, _, shape in pairs)
-    results, several = [], False
+    results, several = [], "*" in after.split()
     for part in after.split(","):
         name, _, rest = part.partition(":")
         words = rest.split()
-        several = words[:1] == ["*"]
         said = {word for word in words if word in DTYPES or word in ("unit", "infinite", "*")}
         results.append(
             Result(
@@ -213,7 +211,6 @@ def _size(word: str) -> Size:
 
 
 def _known(size: Size, known: dict[str, int]) -> int | str:
-    if not isinstance(size, tuple):
-        return known.get(size, size) if isinstance(size, str) else size
-    words, divisor = size
-    return prod(known[word] for word in words) // divisor
+    if isinstance(size, tuple):
+        return prod(known[word] for word in size[0]) // size[1]
+    return known.get(size, size) if isinstance(size, str) else size

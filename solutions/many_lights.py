@@ -137,7 +137,7 @@ def light_tree(lo, hi, axis, angle, power):
     _check("lo", lo, 3, "L")
     lamps = np.shape(lo)[1]
     if lamps == 0:
-        raise ValueError("there must be at least one lamp, got none")
+        raise ValueError(f"lo must have one column or more, got {np.shape(lo)}")
     _check("hi", hi, 3, lamps)
     _check("axis", axis, 3, lamps)
     _check("angle", angle, lamps)
@@ -274,7 +274,8 @@ def tree_choice(tree, p, n, u):
     dtype, order = np.result_type(p, n, u), tree[5]
     inner = len(order) - 1
     node, probability = np.zeros(len(u), int), np.ones(len(u))
-    u = u.astype(np.float64)
+    # Numbers that were rounded to 1 in float32, too.
+    u = np.minimum(u.astype(np.float64), 1 - 2.0**-53)
     for level in reversed(range(inner.bit_length())):
         # Leaves lie on two levels: some walks end a step before the others.
         on = slice(None) if level else np.flatnonzero(node < inner)

@@ -30,8 +30,8 @@ def area_density(area, distance, cos):
     lighting calculations", 1996.
     """
     _check_positive("area", area)
-    _check_batch("distance", distance, 1)
-    _check_batch("cos", cos, 1, np.shape(distance)[0])
+    _check("distance", distance, "N")
+    _check("cos", cos, np.shape(distance)[0])
     ### BEGIN SOLUTION
     faces = cos > 0
     # Divided before it is squared: the square of a distance may overflow, and that of a short one underflow.
@@ -64,7 +64,7 @@ def cone_density(radius, distance):
     Task: multiple_importance.cone_density. Source: Shirley, Wang and Zimmerman, 1996.
     """
     _check_positive("radius", radius)
-    _check_batch("distance", distance, 1)
+    _check("distance", distance, "N")
     ### BEGIN SOLUTION
     outside = distance > radius
     sine = float(radius) / np.where(outside, distance, np.inf).astype(np.float64)
@@ -98,7 +98,7 @@ def heuristic_weights(counts, densities, exponent):
     Task: multiple_importance.heuristic_weights. Source: Veach and Guibas, "Optimally combining sampling techniques for
     Monte Carlo rendering", 1995.
     """
-    _check_strategies(counts, densities)
+    _check_strategies("counts", counts, densities)
     if not exponent >= 1:
         raise ValueError(f"exponent must be >= 1, got {exponent}")
     ### BEGIN SOLUTION
@@ -135,9 +135,8 @@ def delta_weights(counts, densities, delta):
     Task: multiple_importance.delta_weights. Source: Veach, "Robust Monte Carlo methods for light transport simulation",
     1997.
     """
-    _check_strategies(counts, densities)
-    if np.shape(delta) != np.shape(densities):
-        raise ValueError(f"delta must have shape {np.shape(densities)}, got {np.shape(delta)}")
+    _check_strategies("counts", counts, densities)
+    _check("delta", delta, *np.shape(densities))
     ### BEGIN SOLUTION
     drawn = np.asarray(counts, np.float64)[:, None] * densities
     certain = delta & (drawn > 0)
@@ -168,10 +167,10 @@ def multi_sample(counts, strategy, f, densities, weights):
 
     Task: multiple_importance.multi_sample. Source: Veach and Guibas, 1995.
     """
-    _check_batch("counts", counts, 1)
-    _check_batch("f", f, 2)
+    _check("counts", counts, "S")
+    _check("f", f, 3, "N")
     for name, each in (("strategy", strategy), ("densities", densities), ("weights", weights)):
-        _check_batch(name, each, 1, np.shape(f)[1])
+        _check(name, each, np.shape(f)[1])
     ### BEGIN SOLUTION
     drawn = np.asarray(counts)[strategy] * np.asarray(densities, np.float64)
     share = np.where(drawn > 0, weights, 0) / np.where(drawn > 0, drawn, 1)
@@ -200,8 +199,8 @@ def one_sample(odds, f, densities):
 
     Task: multiple_importance.one_sample. Source: Veach and Guibas, 1995.
     """
-    _check_strategies(odds, densities)
-    _check_batch("f", f, 2, np.shape(densities)[1])
+    _check_strategies("odds", odds, densities)
+    _check("f", f, 3, np.shape(densities)[1])
     ### BEGIN SOLUTION
     drawn = np.asarray(odds, np.float64) @ densities
     found = np.where(drawn > 0, f, 0) / np.where(drawn > 0, drawn, 1)
@@ -209,21 +208,22 @@ def one_sample(odds, f, densities):
     ### END SOLUTION
 
 
-def _check_batch(name, array, axes, columns=None):
-    shape, rows = np.shape(array), "3, " * (axes - 1)
-    if len(shape) != axes or (axes == 2 and shape[0] != 3) or columns not in (None, shape[-1]):
-        expected = f"({rows}{'N' if columns is None else columns})"
-        raise ValueError(f"{name} must have shape {expected}, got {shape}")
+def _check(name, array, *sizes):
+    """The array has the shape; a letter stands for any size."""
+    shape = np.shape(array)
+    if len(shape) != len(sizes) or any(
+        isinstance(size, int) and own != size for own, size in zip(shape, sizes, strict=False)
+    ):
+        expected = ", ".join(map(str, sizes)) + ("," if len(sizes) == 1 else "")
+        raise ValueError(f"{name} must have shape ({expected}), got {shape}")
 
 
-def _check_strategies(counts, densities):
-    if np.ndim(counts) != 1 or np.ndim(densities) != 2 or len(densities) != len(counts):
-        shapes = f"{np.shape(counts)} and {np.shape(densities)}"
-        raise ValueError(
-            f"a number and a row of densities for each strategy: (S,) and (S, N), got {shapes}"
-        )
-    if not (np.asarray(counts) >= 0).all() or not (np.asarray(densities) >= 0).all():
-        raise ValueError("a strategy's number and its densities must be >= 0")
+def _check_strategies(name, counts, densities):
+    _check("densities", densities, "S", "N")
+    _check(name, counts, np.shape(densities)[0])
+    for each, values in ((name, counts), ("densities", densities)):
+        if not (np.asarray(values) >= 0).all():
+            raise ValueError(f"{each} must be >= 0, got {np.min(values)}")
 
 
 def _check_positive(name, number):

@@ -16,9 +16,8 @@ from course.core.types import Floats32
 
 @dataclass(frozen=True)
 class Tracer:
-    """Renders tiles of at most ``batches`` batches of camera rays. All threads share it.
+    """Renders tiles of ``smallest`` camera rays to ``batches`` batches of them. All threads share it.
 
-    ``smallest`` is the number of camera rays from which on a tile costs little more for each than a larger one.
     ``costs(n)`` creates the costs of n new paths (``course.adaptive.costs``); None without adaptive sampling.
     """
 
@@ -40,8 +39,7 @@ class Tracer:
         cancelled: Callable[[], bool] = lambda: False,
         parts: int = 1,
     ) -> tuple[Floats32, Floats32 | float]:
-        """Colours (3, n * parts) and weights of a tile's n pixels. With adaptive sampling the colours have a fourth
-        row, costs.
+        """Colours (3, n * parts) and weights of a tile's n pixels; with adaptive sampling a fourth row has the costs.
 
         Each pixel gets ``samples`` samples from number ``first`` on. They are divided into ``parts`` equal groups,
         whose means are adjacent columns of the result. Raises CancelledError soon after ``cancelled()`` becomes true.

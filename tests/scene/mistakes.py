@@ -40,7 +40,7 @@ look_at: -> look_att: | 5: camera.look_att: unknown key; did you mean look_at?
 title: every -> Title: every | 1: Title: unknown key; did you mean title?
 mirror: 0.9 -> colour: 0.9 | 14: materials.mirror.colour: unknown key; did you mean color?
 refraction_index: 1.5 -> bend: 1.5 | 16: materials.glass.dielectric.bend: unknown key; known are refraction_index,
-    absorption, shaded, roughness, surrounded_by
+    absorption, shaded, roughness, distribution, surrounded_by
 width: 10, -> widht: 10, | 24: objects[0].widht: unknown key; did you mean width?
 - scale: -2 -> - move: -2 | 31: objects[1].transform[1].move: unknown key; known are translate, scale, rotate,
     matrix
