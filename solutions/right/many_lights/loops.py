@@ -100,3 +100,86 @@ def light_tree(lo, hi, axis, angle, power):
     parts = [np.stack([node[i] for node in nodes], axis=-1).astype(dtype) for i in range(5)]
     parts[3] = np.minimum(parts[3], dtype.type(math.pi))
     return (*parts, np.array([node[5] for node in nodes[lamps - 1 :]]))
+
+
+def importance(lo, hi, axis, angle, power, p, n):
+    """Node by node, with angles in double precision."""
+    count = len(power) if np.ndim(power) == 1 else -1
+    if {np.shape(x) for x in (lo, hi, axis, p, n)} != {(3, count)} or np.shape(angle) != (count,):
+        raise ValueError("boxes, axes and points must have shape (3, N), the others (N,)")
+    dtype = np.result_type(lo, hi, axis, angle, power, p, n)
+    columns = zip(*(x.T.tolist() for x in (lo, hi, axis, angle, power, p, n)), strict=True)
+    return np.array([_bound(*column) for column in columns], dtype)
+
+
+def _bound(lo, hi, axis, cone, watts, p, n):
+    centre = [(x + y) / 2 for x, y in zip(lo, hi, strict=True)]
+    radius, distance = math.dist(lo, hi) / 2, math.dist(centre, p)
+    corner = [min(max(x, y), z) for x, y, z in zip(lo, p, hi, strict=True)]
+    spread = max(distance, radius) * max(math.dist(corner, p), radius / 20)
+    if spread == 0:
+        return 0.0
+    if distance <= radius:
+        return watts / spread
+    alpha = math.asin(radius / distance)
+    to = [(x - y) / distance for x, y in zip(centre, p, strict=True)]
+    bound = watts / spread
+    for turn, spare in ((n, alpha), ([-x for x in axis], alpha + cone)):
+        off = math.acos(min(max(_times(turn, to), -1), 1))
+        bound *= 0 if off - spare >= math.pi / 2 else math.cos(max(off - spare, 0))
+    return bound
+
+
+def _times(a, b):
+    return sum(x * y for x, y in zip(a, b, strict=True))
+
+
+def _walks(tree, p, n):
+    """For each point a function: the odds of the left child of a node."""
+    *parts, order = tree
+    wrong = [np.shape(part)[-1:] for part in parts] != [(2 * np.size(order) - 1,)] * 5
+    if wrong or np.ndim(p) != 2 or len(p) != 3 or np.shape(p) != np.shape(n):
+        raise ValueError("tree must have shapes (3, M), (M,) and (L,), points (3, N)")
+    nodes = list(zip(*(part.T.tolist() for part in parts), strict=True))
+    for at, normal in zip(p.T.tolist(), n.T.tolist(), strict=True):
+
+        def left(k, at=at, normal=normal):
+            a, b = (_bound(*nodes[2 * k + side], at, normal) for side in (1, 2))
+            return a / (a + b) if a + b > 0 else 0.5
+
+        yield left
+
+
+def tree_choice(tree, p, n, u):
+    """Walk by walk."""
+    walks = list(_walks(tree, p, n))
+    if np.shape(u) != (len(walks),):
+        raise ValueError("u must have shape (N,)")
+    inner, dtype = np.size(tree[5]) - 1, np.result_type(p, n, u)
+    lamp, probability = np.empty(len(walks), int), np.empty(len(walks), dtype)
+    for i, (x, left) in enumerate(zip(u.tolist(), walks, strict=True)):
+        k, odds = 0, 1.0
+        while k < inner:
+            share = left(k)
+            down = share if x < share or share == 1 else 1 - share
+            k = 2 * k + (1 if x < share or share == 1 else 2)
+            x = x / share if k % 2 else (x - share) / down
+            odds *= down
+        lamp[i], probability[i] = tree[5][k - inner], odds
+    return lamp, probability
+
+
+def tree_probability(tree, p, n, lamp):
+    """From the leaf upwards, walk by walk."""
+    walks = list(_walks(tree, p, n))
+    if np.shape(lamp) != (len(walks),):
+        raise ValueError("lamp must have shape (N,)")
+    order = np.asarray(tree[5]).tolist()
+    found = np.ones(len(walks))
+    for i, (chosen, left) in enumerate(zip(lamp.tolist(), walks, strict=True)):
+        k = order.index(chosen) + len(order) - 1
+        while k:
+            above = (k - 1) // 2
+            found[i] *= left(above) if k % 2 else 1 - left(above)
+            k = above
+    return found.astype(np.result_type(p, n))
