@@ -66,11 +66,11 @@ def cone_density(radius, distance):
     _check_positive("radius", radius)
     _check("distance", distance, "N")
     ### BEGIN SOLUTION
-    outside = distance > radius
-    sine = float(radius) / np.where(outside, distance, np.inf).astype(np.float64)
+    beyond = distance > radius
+    sine = float(radius) / np.where(beyond, distance, np.inf).astype(np.float64)
     # 1 - cos is sin^2 / (1 + cos), in which no digits are lost.
-    found = (1 + np.sqrt(1 - sine * sine)) / (2 * np.pi) / np.where(outside, sine, 1) ** 2
-    return np.where(outside, found, 0).astype(distance.dtype)
+    found = (1 + np.sqrt(1 - sine * sine)) / (2 * np.pi) / np.where(beyond, sine, 1) ** 2
+    return np.where(beyond, found, 0).astype(distance.dtype)
     ### END SOLUTION
 
 

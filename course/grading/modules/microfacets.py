@@ -44,8 +44,8 @@ def _above(draw: Draw) -> Array:
 def _turned(z: Array, draw: Draw) -> Array:
     """Unit vectors of those heights, turned anyhow."""
     phi = draw.uniform(0, 2 * pi, len(z))
-    ring = np.sqrt(1 - z * z)
-    return np.stack((ring * np.cos(phi), ring * np.sin(phi), z))
+    radius = np.sqrt(1 - z * z)
+    return np.stack((radius * np.cos(phi), radius * np.sin(phi), z))
 
 
 def _worst_above(dtype: Any) -> Array:

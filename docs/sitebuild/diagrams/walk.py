@@ -78,7 +78,7 @@ def walk(tree: scene.Hierarchy) -> list[Step]:
         else:
             children = (int(first[node]), int(first[node]) + 1)
             asked |= set(children)
-            # The farther child goes onto the stack first, so that the nearer one is taken first.
+            # The nearer child is taken first, so the farther one goes onto the stack before it.
             entered = [k for k in children if meets[k] and enters[k] <= t]
             entered.sort(key=lambda k: -enters[k])
             met |= set(entered)
