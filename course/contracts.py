@@ -165,9 +165,9 @@ class Contract:
         for (name, shape), value in zip(self.arguments, values, strict=False):
             if shape == "*":
                 known["*"] = len(value)
-            elif not shape and isinstance(value, (int, np.integer)):
+            elif isinstance(value, (int, np.integer)):
                 known[name] = int(value)
-            else:
+            elif shape:
                 for word, size in zip(shape.split(), np.shape(value), strict=False):
                     # A single column stands for as many as there are.
                     if known.get(word, 1) == 1:
