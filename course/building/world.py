@@ -137,6 +137,7 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
         if isinstance(light, d.AmbientLight):
             ambient += rgb(light.radiance)
     environment, sky = compile_environment(loaded, bound)
+    choice = compile_choice(loaded, lights, bound)
     named = list(zip(columns.names, used.values(), strict=True))
     mirrors = [(name, reflecting(material)) for name, material in named]
     lobes = compile_lobes(mirrors, bound, scene.integrator)
@@ -157,7 +158,7 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
         keeps=scene.integrator.into_surface == "keep",
         lifted=scene.integrator.surface_offset > 0,
         microfacets=compile_microfacets(named, bound, scene.integrator),
-        choice=(choice := compile_choice(loaded, lights, bound)),
+        choice=choice,
         combining=compile_combining(
             scene, bound, materials, lobes, lights if choice is None else ()
         ),

@@ -8,17 +8,18 @@ Whether a path is mirrored or refracted is decided before a microfacet is drawn,
 surface. What its microfacet reflects is divided by that probability.
 """
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
+from course.core.fresnel_refraction import refract
 from course.core.hits import Hits
 from course.core.rays import Draws
 from course.core.scatter import Boundary
 from course.core.types import Floats32, Floats64, Functions, Indices, Mask, Materials
 from course.core.vectors import dot, reflect
 from course.extras.hemisphere import turned
+from course.extras.hits_on import hits_on
 
 NUMBERS = ("microfacet", 2)
 """Name and width of the numbers that one microfacet takes."""
@@ -68,16 +69,6 @@ class Microfacets:
         return share
 
 
-def hits_on(
-    rough: tuple[Microfacets, ...], material: Materials
-) -> Iterator[tuple[Microfacets, Indices]]:
-    """Each rough material that is hit, and the hits on it."""
-    for one in rough:
-        which = np.flatnonzero(material == one.material)
-        if len(which):
-            yield one, which
-
-
 def chances(rough: tuple[Microfacets, ...], material: Materials, smooth: Boundary) -> None:
     """Leave reflection and refraction at rough glass a chance each, written into the boundary (n,)."""
     for one, which in hits_on(rough, material):
@@ -113,7 +104,7 @@ def _refract(direction: Floats32, wm: Floats32, eta: Floats32) -> Floats32:
     """Refracted directions (3, n); the way back, which counts 0, where reflection is total."""
     cos_i = -dot(direction, wm)
     squared = 1 - eta * eta * (1 - cos_i) * (1 + cos_i)
-    bent = eta * direction + (eta * cos_i - np.sqrt(np.maximum(squared, 0))) * wm
+    bent = refract(direction, wm, cos_i, np.sqrt(np.maximum(squared, 0)), eta)
     result: Floats32 = np.where(squared > 0, bent, -direction)
     return result
 

@@ -8,7 +8,6 @@ the material if it has one, and the rays leave. Rays that are still inside at th
 if reflection is total, so that no light is lost.
 """
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,6 +15,7 @@ import numpy as np
 from course.core.rays import Draws
 from course.core.types import Floats32, Functions, Indices, Mask, Materials
 from course.core.vectors import dot
+from course.extras.hits_on import hits_on
 
 REFRACTION = ("refraction", 2)
 """Name and width of the numbers that one refracted direction takes."""
@@ -79,7 +79,7 @@ def bend(
     share : (n,) of the light that is reflected; the module's Fresnel reflectance is written into it
     """
     bent = None
-    for glass, which in _hits_on(glasses, material):
+    for glass, which in hits_on(glasses, material):
         if bent is None:
             bent = np.zeros((3, len(material)), np.float32)
         arrays = direction.take(which, axis=1), ns.take(which, axis=1)
@@ -115,7 +115,7 @@ def scatter(
     direction : (3, n), into which those of rough glass are written
     glossy : whether rough glass that has gloss is among them
     """
-    for glass, which in _hits_on(glasses, material):
+    for glass, which in hits_on(glasses, material):
         if glass.glossy and not glossy:
             continue
         u = draws("refraction", path.take(which), depth)
@@ -128,13 +128,3 @@ def scatter(
             # An interpolated normal may send a ray to the wrong side; mirror it to the right one.
             through -= 2 * np.maximum(dot(through, normal), 0) * normal
         direction[:, which] = glass.jitter(through, normal, u)
-
-
-def _hits_on(
-    glasses: tuple[RoughGlass, ...], material: Materials
-) -> Iterator[tuple[RoughGlass, Indices]]:
-    """Each rough glass that is hit, and the hits on it."""
-    for glass in glasses:
-        which = np.flatnonzero(material == glass.material)
-        if len(which):
-            yield glass, which
