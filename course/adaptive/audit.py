@@ -26,7 +26,7 @@ from course.adaptive.film import PARTS, AdaptiveFilm
 from course.adaptive.pixel_groups import TwinGroup
 from course.core.rays import RAYS
 from course.core.tiles import Work
-from course.core.types import Floats32, Floats64, Indices, Numbers
+from course.core.types import Floats64, Indices, Numbers
 
 PIXELS = 1024
 """Drawn for an audit at most; the told error is then certain to about 2%, and less so where light is rare."""
@@ -105,24 +105,12 @@ def _pooled(film: AdaptiveFilm) -> Floats64:
     n = film.samples.astype(np.float32)
     own = film.variance * n
     sums = own
-    for axis in range(2):
-        sums = _window_sums(sums, axis)
+    for _ in range(2):
+        # Along one axis, and after turning along the other; those at the edge count for what lies beyond.
+        padded = np.pad(sums, ((POOLED // 2, POOLED // 2), (0, 0)), mode="edge")
+        sums = np.sum([padded[start : start + len(sums)] for start in range(POOLED)], axis=0).T
     pooled = np.float32(0.5) * (own + sums * np.float32(1 / POOLED**2)) / n
     return pooled.reshape(-1).astype(np.float64)
-
-
-def _window_sums(values: Floats32, axis: int) -> Floats32:
-    """Sums over POOLED values next to each other along an axis; those at the edge count for what lies beyond."""
-    widths = [(0, 0), (0, 0)]
-    widths[axis] = (POOLED // 2, POOLED // 2)
-    padded = np.pad(values, widths, mode="edge")
-    count = values.shape[axis]
-    window = [slice(None), slice(None)]
-    sums = np.zeros_like(values)
-    for start in range(POOLED):
-        window[axis] = slice(start, start + count)
-        sums += padded[tuple(window)]
-    return sums
 
 
 def work_for(sample: Sample, film: AdaptiveFilm, number: int, first: int) -> list[Work]:

@@ -89,7 +89,7 @@ class Caster(Protocol):
     """Triangles in a hierarchy: Embree, or what stands in for it (``course.casters``)."""
 
     def nearest(self, origin: Floats32, direction: Floats32, limit: Floats32) -> Intersections:
-        """Nearest hits of N > 0 rays; those beyond ``limit`` (N,) don't count, and t is ``limit`` then."""
+        """Nearest hits of N > 0 rays; t is ``limit`` (N,) where none is nearer. ``limit`` may be overwritten."""
 
     def free(self, origin: Floats32, direction: Floats32, limit: Floats32 | float) -> Mask:
         """(N,) true where nothing lies between origin and origin + limit * direction, or the limit is negative."""
@@ -129,7 +129,7 @@ class StaticAccelerator:
         n = direction.shape[1]
         if len(self.triangles) == 0 or n == 0:
             return no_hits(n)
-        limits = np.full(n, NO_HIT, np.float32) if limit is None else limit
+        limits = np.full(n, NO_HIT, np.float32) if limit is None else limit.copy()
         caster, start = self.caster, perf_counter()
         found = caster.nearest(origin, direction, limits)
         stats.seconds += perf_counter() - start

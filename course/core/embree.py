@@ -28,7 +28,7 @@ class EmbreeCaster:
 
     def nearest(self, origin: Floats32, direction: Floats32, limit: Floats32) -> Intersections:
         """See ``Caster``; embreex overwrites the array of limits with the distances."""
-        found = self._run(origin, direction, limit.copy(), query="INTERSECT", output=True)
+        found = self._run(origin, direction, limit, query="INTERSECT", output=True)
         return Intersections(found["primID"], found["u"], found["v"], found["tfar"])
 
     def free(self, origin: Floats32, direction: Floats32, limit: Floats32 | float) -> Mask:
