@@ -12,14 +12,12 @@ from typing import Any
 import numpy as np
 
 from benchmarks.figures import Figure
-from benchmarks.report import report
+from benchmarks.ways import compare_ways
 from course import render
 from course.atomic import write_text
-from course.benchmarking.estimators import Estimator, Module
 from course.benchmarking.machine import machine
-from course.benchmarking.measuring import Effort, Measured, measure
-from course.benchmarking.plot_data import comparisons
-from course.benchmarking.tables import Table, print_tables, summary_table
+from course.benchmarking.measuring import Effort
+from course.benchmarking.tables import Table, print_tables
 from course.effects import PROJECT
 from course.scene.scene import load_scene, load_variant
 
@@ -37,25 +35,12 @@ SIZE, SAMPLES, SEEDS = (180, 120), 16, 24
 
 def measure_multiple_importance() -> list[Figure]:
     """Measure, print and write the curves and the plates."""
-    measured = curves(CURVES)
-    width, height = measured.size
-    about = f"{width} x {height} pixels, {CURVES.seeds} seeds"
-    report("multiple_importance", about, [summary_table(measured)], comparisons(measured))
+    key = ("integrator", "gloss_sampling")
+    title = "four ways to find lamps in glossy plates, random numbers"
+    ways = {name: way for way, name in WAYS.items()}
+    compare_ways("multiple_importance", "random", key, ways, title, CURVES)
     write_plates()
     return []
-
-
-def curves(effort: Effort, folder: Path = Path("out/references")) -> Measured:
-    """The errors and times of every way; the reference goes into the folder."""
-    estimators = [
-        Estimator(
-            name, "random", "as the scene", ("ways",), {("integrator", "gloss_sampling"): way}
-        )
-        for way, name in WAYS.items()
-    ]
-    groups = {"ways": "four ways to find lamps in glossy plates, random numbers"}
-    module = Module("multiple_importance", SCENE, groups, tuple(estimators))
-    return measure(module, module.estimators, effort, folder=folder)
 
 
 def write_plates(samples: int = SAMPLES, seeds: int = SEEDS, path: Path = PLATES) -> None:
