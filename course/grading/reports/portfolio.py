@@ -12,6 +12,7 @@ from io import BytesIO
 from itertools import count
 from pathlib import Path
 from time import monotonic
+from typing import Any
 
 import numpy as np
 from markupsafe import Markup
@@ -178,7 +179,7 @@ def _errors(scene: Scene, end: float) -> Iterator[tuple[int, float]]:
         return
     for samples in COUNTS:
         began = monotonic()
-        a, b = (render(scene, spp=samples, size=size, seed=seed).linear for seed in (1, 2))
+        a, b = (_whole(scene, spp=samples, size=size, seed=seed).linear for seed in (1, 2))
         yield samples, math.sqrt(float(((a - b) ** 2).mean(dtype=np.float64)) / 2)
         if monotonic() + 4 * (monotonic() - began) > end:
             return
@@ -198,12 +199,20 @@ def _picture(scene: Scene, seconds: float) -> Picture:
     size = _within(scene, WIDTH)
     # Other samplers place all their samples at once, as many as the scene says.
     if scene.settings.sampler not in ADAPTABLE or scene.settings.subdivision is not None:
-        return render(scene, size=size)
+        return _whole(scene, size=size)
     small, began = _within(scene, CURVE_WIDTH), monotonic()
-    render(scene, spp=TRIED, size=small)
+    _whole(scene, spp=TRIED, size=small)
     each = (monotonic() - began) / TRIED * math.prod(size) / math.prod(small)
     fitting = min(max(seconds / each, 1.0), SAMPLES)
-    return render(scene, spp=2 ** int(math.log2(fitting)), size=size)
+    return _whole(scene, spp=2 ** int(math.log2(fitting)), size=size)
+
+
+def _whole(scene: Scene, **settings: Any) -> Picture:
+    """A picture that all of its samples are in; Ctrl-C, which would leave a part of it, ends the page."""
+    picture = render(scene, **settings)
+    if picture.interrupted:
+        raise KeyboardInterrupt
+    return picture
 
 
 def _within(scene: Scene, width: int) -> tuple[int, int]:

@@ -3,6 +3,7 @@
 import re
 import shutil
 from base64 import b64decode
+from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
 
@@ -16,6 +17,7 @@ from course.grading.reports import portfolio as made
 from course.grading.reports.drawing import Panel
 from course.grading.reports.page import render as fill
 from course.grading.reports.portfolio import Shown, portfolio
+from course.scene.scene import load_scene
 
 SCENE = """\
 film: {width: 24, height: 16, filter: box}
@@ -101,15 +103,25 @@ def test_half_of_the_squared_difference_of_two_pictures_is_the_squared_error(
     class Noisy:
         def __init__(self, samples: int, seed: int) -> None:
             rng = np.random.default_rng((samples, seed))
+            self.interrupted = False
             self.linear = 3 + noise / samples**0.5 * rng.standard_normal((200, 400))
 
     monkeypatch.setattr(made, "render", lambda _, spp, size, seed: Noisy(spp, seed))  # noqa: ARG005
-    scene = made.load_scene(folder / "soft_shadows.yaml", Effects(folder, filled=True))
+    scene = load_scene(folder / "soft_shadows.yaml", Effects(folder, filled=True))
     points = tuple(made._errors(scene, made.monotonic() + 60))
     assert [n for n, _ in points] == list(made.COUNTS)
     for n, error in points:
         assert error == pytest.approx(noise / n**0.5, rel=0.02)
     assert made._slope(points) == pytest.approx(0.5, abs=0.01)
+
+
+def test_ctrl_c_ends_the_page_and_not_a_picture_of_it(
+    monkeypatch: pytest.MonkeyPatch, folder: Path
+) -> None:
+    picture = made.render(load_scene(folder / "soft_shadows.yaml", Effects(folder, filled=True)))
+    monkeypatch.setattr(made, "render", lambda *_, **__: replace(picture, interrupted=True))
+    with pytest.raises(KeyboardInterrupt):
+        portfolio(FOUND, Effects(folder, filled=True), folder, seconds=4)
 
 
 def test_modules_share_what_is_left_of_the_time(
