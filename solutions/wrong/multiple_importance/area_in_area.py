@@ -11,6 +11,6 @@ SAYS = "You return the density over the lamp's area: directions need distance^2 
 def area_density(area, distance, cos):
     """With a mistake."""
     _check_positive("area", area)
-    _check_batch("distance", distance, 1)
-    _check_batch("cos", cos, 1, np.shape(distance)[0])
+    _check("distance", distance, "N")
+    _check("cos", cos, np.shape(distance)[0])
     return np.where(cos > 0, np.ones_like(distance) / distance.dtype.type(area), 0 * cos)

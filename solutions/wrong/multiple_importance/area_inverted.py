@@ -11,7 +11,7 @@ SAYS = "You return the solid angle of the lamp: the density is 1 over it."
 def area_density(area, distance, cos):
     """With a mistake."""
     _check_positive("area", area)
-    _check_batch("distance", distance, 1)
-    _check_batch("cos", cos, 1, np.shape(distance)[0])
+    _check("distance", distance, "N")
+    _check("cos", cos, np.shape(distance)[0])
     near = distance / distance.dtype.type(np.sqrt(area))
     return np.maximum(cos, 0) / (near * near)

@@ -11,8 +11,8 @@ SAYS = "Behind the lamp your density is negative."
 def area_density(area, distance, cos):
     """With a mistake."""
     _check_positive("area", area)
-    _check_batch("distance", distance, 1)
-    _check_batch("cos", cos, 1, np.shape(distance)[0])
+    _check("distance", distance, "N")
+    _check("cos", cos, np.shape(distance)[0])
     size = np.where(cos == 0, 1, cos)
     near = distance / distance.dtype.type(np.sqrt(area))
     return near * near / size

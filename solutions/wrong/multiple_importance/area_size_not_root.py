@@ -10,8 +10,8 @@ MISTAKE = None
 def area_density(area, distance, cos):
     """With a mistake."""
     _check_positive("area", area)
-    _check_batch("distance", distance, 1)
-    _check_batch("cos", cos, 1, np.shape(distance)[0])
+    _check("distance", distance, "N")
+    _check("cos", cos, np.shape(distance)[0])
     faces = cos > 0
     near = distance / distance.dtype.type(area)
     return np.where(faces, near * near / np.where(faces, cos, 1), 0)

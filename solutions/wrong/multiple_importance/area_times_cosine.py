@@ -11,6 +11,6 @@ SAYS = "You multiply by the lamp's cosine, and the density is over it."
 def area_density(area, distance, cos):
     """With a mistake."""
     _check_positive("area", area)
-    _check_batch("distance", distance, 1)
-    _check_batch("cos", cos, 1, np.shape(distance)[0])
+    _check("distance", distance, "N")
+    _check("cos", cos, np.shape(distance)[0])
     return np.maximum(cos, 0) * distance * distance / distance.dtype.type(area)

@@ -11,7 +11,7 @@ SAYS = "1 - cos has lost its digits: use sin^2 / (1 + cos) in its place."
 def cone_density(radius, distance):
     """With a mistake."""
     _check_positive("radius", radius)
-    _check_batch("distance", distance, 1)
+    _check("distance", distance, "N")
     outside = distance > radius
     sine = np.where(
         outside, distance.dtype.type(radius) / np.where(outside, distance, 1), 0.5

@@ -10,7 +10,7 @@ MISTAKE = None
 def cone_density(radius, distance):
     """With a mistake."""
     _check_positive("radius", radius)
-    _check_batch("distance", distance, 1)
+    _check("distance", distance, "N")
     outside = distance > radius
     sine = 0.5 * float(radius) / np.where(outside, distance, np.inf).astype(np.float64)
     squared = np.where(outside, sine, 1) ** 2

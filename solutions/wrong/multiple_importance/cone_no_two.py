@@ -11,7 +11,7 @@ SAYS = "A cone's solid angle is 2 pi (1 - cos): a factor of 2 is missing."
 def cone_density(radius, distance):
     """With a mistake."""
     _check_positive("radius", radius)
-    _check_batch("distance", distance, 1)
+    _check("distance", distance, "N")
     outside = distance > radius
     sine = float(radius) / np.where(outside, distance, np.inf).astype(np.float64)
     squared = np.where(outside, sine, 1) ** 2

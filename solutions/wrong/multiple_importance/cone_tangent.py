@@ -11,7 +11,7 @@ SAYS = "The rim of a ball is seen where the ray touches it: there the sine is ra
 def cone_density(radius, distance):
     """With a mistake."""
     _check_positive("radius", radius)
-    _check_batch("distance", distance, 1)
+    _check("distance", distance, "N")
     outside = distance > radius
     tangent = float(radius) / np.where(outside, distance, np.inf).astype(np.float64)
     cos = 1 / np.sqrt(1 + tangent * tangent)

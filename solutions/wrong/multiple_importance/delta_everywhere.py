@@ -10,7 +10,7 @@ SAYS = "You look whether a strategy is a delta anywhere; ask for each sample."
 
 def delta_weights(counts, densities, delta):
     """With a mistake."""
-    _check_strategies(counts, densities)
+    _check_strategies("counts", counts, densities)
     if np.shape(delta) != np.shape(densities):
         raise ValueError(f"delta must have shape {np.shape(densities)}, got {np.shape(delta)}")
     delta = np.asarray(delta, bool)

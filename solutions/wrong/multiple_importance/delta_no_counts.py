@@ -10,7 +10,7 @@ SAYS = "You leave the counts out."
 
 def delta_weights(counts, densities, delta):
     """With a mistake."""
-    _check_strategies(counts, densities)
+    _check_strategies("counts", counts, densities)
     if np.shape(delta) != np.shape(densities):
         raise ValueError(f"delta must have shape {np.shape(densities)}, got {np.shape(delta)}")
     drawn = np.where(np.asarray(counts)[:, None] > 0, densities, 0).astype(np.float64)

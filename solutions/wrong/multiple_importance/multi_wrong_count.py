@@ -10,10 +10,10 @@ SAYS = "You divide by the counts of another strategy."
 
 def multi_sample(counts, strategy, f, densities, weights):
     """With a mistake."""
-    _check_batch("counts", counts, 1)
-    _check_batch("f", f, 2)
+    _check("counts", counts, "S")
+    _check("f", f, 3, "N")
     for name, each in (("strategy", strategy), ("densities", densities), ("weights", weights)):
-        _check_batch(name, each, 1, np.shape(f)[1])
+        _check(name, each, np.shape(f)[1])
     drawn = np.asarray(counts)[::-1][strategy] * np.asarray(densities, np.float64)
     share = np.where(drawn > 0, weights, 0) / np.where(drawn > 0, drawn, 1)
     return (f @ share).astype(np.result_type(f, densities, weights))

@@ -10,8 +10,8 @@ SAYS = "You take the plain mean of the densities: strategies are chosen by their
 
 def one_sample(odds, f, densities):
     """With a mistake."""
-    _check_strategies(odds, densities)
-    _check_batch("f", f, 2, np.shape(densities)[1])
+    _check_strategies("odds", odds, densities)
+    _check("f", f, 3, np.shape(densities)[1])
     drawn = np.mean(densities, axis=0, dtype=np.float64)
     found = np.where(drawn > 0, f, 0) / np.where(drawn > 0, drawn, 1)
     return found.astype(np.result_type(f, densities))

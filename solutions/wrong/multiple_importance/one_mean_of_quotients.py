@@ -12,8 +12,8 @@ SAYS = (
 
 def one_sample(odds, f, densities):
     """With a mistake."""
-    _check_strategies(odds, densities)
-    _check_batch("f", f, 2, np.shape(densities)[1])
+    _check_strategies("odds", odds, densities)
+    _check("f", f, 3, np.shape(densities)[1])
     found = np.zeros(np.shape(f))
     for chance, row in zip(odds, densities, strict=True):
         found += chance * np.where(row > 0, f, 0) / np.where(row > 0, row, 1)

@@ -10,7 +10,7 @@ SAYS = "You sum along the samples: weights of one sample, over all strategies, a
 
 def heuristic_weights(counts, densities, exponent):
     """With a mistake."""
-    _check_strategies(counts, densities)
+    _check_strategies("counts", counts, densities)
     if not exponent >= 1:
         raise ValueError(f"exponent must be >= 1, got {exponent}")
     drawn = np.asarray(counts, np.float64)[:, None] * densities

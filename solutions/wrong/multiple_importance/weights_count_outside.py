@@ -10,7 +10,7 @@ SAYS = "The counts belong within the power: (n p)^exponent."
 
 def heuristic_weights(counts, densities, exponent):
     """With a mistake."""
-    _check_strategies(counts, densities)
+    _check_strategies("counts", counts, densities)
     if not exponent >= 1:
         raise ValueError(f"exponent must be >= 1, got {exponent}")
     counts = np.asarray(counts, np.float64)[:, None]

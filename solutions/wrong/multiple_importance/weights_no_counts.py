@@ -10,7 +10,7 @@ SAYS = "You leave the counts out: who takes more samples has the larger share."
 
 def heuristic_weights(counts, densities, exponent):
     """With a mistake."""
-    _check_strategies(counts, densities)
+    _check_strategies("counts", counts, densities)
     if not exponent >= 1:
         raise ValueError(f"exponent must be >= 1, got {exponent}")
     drawn = np.where(np.asarray(counts)[:, None] > 0, densities, 0).astype(np.float64)
