@@ -17,6 +17,9 @@ from course.modules import COURSE
 WIDTH = max(map(len, COURSE)) + 2
 """Characters of the matrix's column of modules."""
 
+NAME = 36
+"""Characters of its column of submissions."""
+
 
 @dataclass(frozen=True)
 class Verdict:
@@ -163,7 +166,7 @@ def matrix(verdicts: Iterable[Verdict]) -> list[str]:
         kind = "right" if known.right else "wrong"
         mark = "FAULT" if verdict.fault else "ok"
         lines.append(
-            f"{mark:<6}{known.module:<{WIDTH}}{kind:<6}{known.name:<30}{', '.join(verdict.failed) or '-'}"
+            f"{mark:<6}{known.module:<{WIDTH}}{kind:<6}{known.name:<{NAME}}{', '.join(verdict.failed) or '-'}"
         )
         if verdict.told:
             lines.append(f"{indent}told: {verdict.told}")

@@ -8,6 +8,7 @@ Whether a path is mirrored or refracted is decided before a microfacet is drawn,
 surface. What its microfacet reflects is divided by that probability.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -114,14 +115,14 @@ def weights(
     hits: Hits,
     which: Indices,
     way: Floats32,
-    boundary: Boundary | None,
+    smooth: Callable[[Indices], Boundary],
     through: bool,
 ) -> Floats32 | None:
     """What the directions (3, m) count in which rays leave the hits (m,), (3, m); None where no hit is rough.
 
     Parameters
     ----------
-    boundary : of the hits, with the chances of rough glass; None where nothing refracts
+    smooth : the boundary of hits on rough glass, with its chances
     through : whether the rays are refracted
     """
     count = None
@@ -136,16 +137,14 @@ def weights(
         side = np.float32(-1 if through else 1)
         cos_o, cos_i = np.maximum(-dot(direction, ns), FLATTEST), side * dot(w, ns)
         share: Floats32 | np.float32 = np.float32(1)
-        if through:
-            assert boundary is not None
-            wm = direction * boundary.eta.take(some) - w
-        else:
-            wm = w - direction
+        wm = w - direction
+        if one.k is None:
+            boundary = smooth(chosen)
+            share = boundary.refracted if through else boundary.reflected
+            if through:
+                wm = direction * boundary.eta - w
         cos = np.abs(dot(wm, direction)) / np.sqrt(np.maximum(dot(wm, wm), np.float32(1e-20)))
         reflected = one.reflectance(cos.astype(np.float32), hits.entering.take(chosen))
-        if one.k is None:
-            assert boundary is not None
-            share = (boundary.refracted if through else boundary.reflected).take(some)
         g1, g2 = one.functions.smith_g1, one.functions.smith_g2
         if through:
             found = (1 - reflected) * g1(cos_i, one.alpha)

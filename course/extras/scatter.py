@@ -1,6 +1,7 @@
 """Scattering by metals, rough glass and microfacets, and without correcting directions that point into the surface."""
 
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -55,10 +56,7 @@ class FullScatter(Scatter):
 
     def boundary(self, hits: Hits, which: Indices | None, depth: int) -> Boundary:
         """See ``Scatter``."""
-        smooth = super().boundary(hits, which, depth)
-        if self.microfacets:
-            material = hits.material if which is None else hits.material.take(which)
-            microfacets.chances(self.microfacets, material, smooth)
+        smooth = self._smooth(hits, which, depth)
         if not self.rough or self.index is None:
             return smooth
         material, entering, direction, ns = hits.material, hits.entering, hits.direction, hits.ns
@@ -73,6 +71,14 @@ class FullScatter(Scatter):
         glass = self.index(material) > 0
         arrays = share * glass, (1 - share) * glass, cos_i, cos_t, eta
         return Boundary(*arrays) if bent is None else RoughBoundary(*arrays, bent)
+
+    def _smooth(self, hits: Hits, which: Indices | None, depth: int) -> Boundary:
+        """The boundary before rough glass bends its rays, with the chances of microfacets."""
+        smooth = super().boundary(hits, which, depth)
+        if self.microfacets:
+            material = hits.material if which is None else hits.material.take(which)
+            microfacets.chances(self.microfacets, material, smooth)
+        return smooth
 
     def mirrored(
         self, hits: Hits, which: Indices, path: Indices, depth: int, draws: Draws
@@ -126,8 +132,8 @@ class FullScatter(Scatter):
         """What directions count besides their throughput; see ``course.extras.microfacets``."""
         if not self.microfacets:
             return None
-        boundary = None if self.index is None else self.boundary(hits, which, depth)
-        return microfacets.weights(self.microfacets, hits, which, way, boundary, through)
+        smooth = partial(self._smooth, hits, depth=depth)
+        return microfacets.weights(self.microfacets, hits, which, way, smooth, through)
 
     def _leaving(
         self,

@@ -154,7 +154,7 @@ def test_paper_has_what_is_read_and_nothing_to_be_moved(paper: Any) -> None:
         ".skip-to-content",
         "input",
         "button",
-        "details",
+        "details:not(.quiz details)",
     ):
         for each in paper.locator(hidden).all():
             assert not each.is_visible(), hidden

@@ -105,7 +105,7 @@ def test_one_process_compiles_at_a_time(tmp_path: Path) -> None:
     line = [sys.executable, "-c", "import time; time.sleep(60)", name]
     with subprocess.Popen(line) as first:
         try:
-            task = pickle.dumps((tmp_path / "no.yaml", tmp_path, None))
+            task = pickle.dumps((tmp_path / "no.yaml", tmp_path, None, False))
             program = f"import {background_compile.MODULE} as it; it.MODULE = {name!r}; it.main()"
             second = [sys.executable, "-c", program]
             done = subprocess.run(second, input=task, capture_output=True, check=False, timeout=60)

@@ -70,7 +70,7 @@ def planned(asked: Asked) -> Plan:
     if seen is None:
         seen = look_at(asked.path, declared.mistake)
     order = [declared.mistake, *declared.among]
-    Random(asked.name).shuffle(order)
+    Random(f"answers of {asked.name}").shuffle(order)
     return Plan(asked, seen, tuple(order))
 
 
