@@ -115,7 +115,7 @@ def test_other_random_numbers_make_no_difference_but_another_density_does() -> N
 def test_a_difference_is_said_with_its_place() -> None:
     right = Image.new("RGB", SIZE, (100, 100, 100))
     image = right.copy()
-    image.paste((200, 200, 200), (160, 0, 240, 53))
+    image.paste((200, 200, 200), (160, 0, 240, 52))
     assert described(image, right) == (
         "11% of it differs from the right one, most in the upper right part; there it is brighter."
     )

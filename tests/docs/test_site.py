@@ -16,7 +16,7 @@ from course.formats.yaml.schema import json_schema
 from course.modules import COURSE
 
 HEAVIEST = 1_500_000
-"""Bytes of a page, with its styles, scripts and the pictures that aren't loaded only when they are scrolled to."""
+"""Bytes of a page, with its styles, scripts and what isn't loaded only when it is scrolled to."""
 
 RESOURCES = {"img": "src", "script": "src", "link": "href", "source": "src", "iframe": "src"}
 
@@ -112,7 +112,8 @@ def test_no_page_asks_another_host(site: Path, pages: dict[Path, Page]) -> None:
 
 def test_pages_are_light(pages: dict[Path, Page]) -> None:
     for page in pages.values():
-        lazy = {given["src"] for given in page.of("img") if given.get("loading") == "lazy"}
+        shown = page.of("img") + page.of("iframe")
+        lazy = {given["src"] for given in shown if given.get("loading") == "lazy"}
         local = {address for address in page.resources if not urlsplit(address).scheme} - lazy
         files = {(page.path.parent / unquote(urlsplit(each).path)).resolve() for each in local}
         weight = page.path.stat().st_size + sum(file.stat().st_size for file in files)

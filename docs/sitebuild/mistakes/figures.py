@@ -1,5 +1,6 @@
 """Figures drawn once, in processes of their own, and kept under a hash of all that decides them."""
 
+import atexit
 import json
 import warnings
 from collections.abc import Iterable, Mapping
@@ -138,6 +139,7 @@ class Studio:
         """Draw them, up to the first that does not end."""
         if self._pool is None:
             self._pool = get_context("spawn").Pool(PROCESSES)
+            atexit.register(self.close)  # a pool that Python ends while it takes itself apart complains
         waiting = [(f, self._pool.apply_async(_drawn, (f, *paths[f]))) for f in paths]
         for figure, outcome in waiting:
             try:
