@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from course.core.types import Floats32
 from course.effects import Bound
-from course.formats.pictures.display import ROUNDING, Display
+from course.formats.pictures.display import BRIGHTEST, ROUNDING, Display, over_white
 from course.rendering.binding import developed_by, lines_named
 from course.scene.scene import Scene, Settings
 
@@ -66,8 +66,7 @@ class Development:
     def _shown(self, colors: Floats32) -> Floats32:
         """Linear RGB of the screen; white is 1."""
         description, film = self.scene.loaded.description.film, SimpleNamespace(**self.functions)
-        if description.white != 1:
-            colors = (colors / description.white).astype(np.float32)
+        colors = np.clip(over_white(colors, description.white), -BRIGHTEST, BRIGHTEST)
         if "expose" in self.functions:
             colors = film.expose(colors, description.exposure)
         if "convert_gamut" in self.functions:

@@ -45,6 +45,14 @@ def test_what_is_brighter_than_white_is_white() -> None:
     assert (linear_to_srgb8(grey(linear)) == 255).all()
 
 
+@pytest.mark.parametrize("white", [1e-30, 1e30])
+@pytest.mark.parametrize("encoding", ["srgb", "linear"])
+def test_a_white_at_its_ends_has_codes(white: float, encoding: str) -> None:
+    linear = grey(np.array([0, 1e-25, 1, 1e25], np.float32))
+    expected = [0, 255, 255, 255] if white < 1 else [0, 0, 0, 0]
+    assert display.Display(white, encoding).codes(linear)[0, :, 0].tolist() == expected
+
+
 def test_black_is_black() -> None:
     assert (linear_to_srgb8(grey(np.array([0.0, -0.0, 1e-30], np.float32))) == 0).all()
 

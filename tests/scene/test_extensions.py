@@ -84,7 +84,7 @@ camera/image_plane -> {left: -1, right: 1, bottom: -1, top: -2} | .top is -2: ex
 camera/near -> -1 | camera.near is -1: expected a number >= 0
 camera/handedness -> both | camera.handedness is "both": expected left or
 film -> {encoding: gamma} | film.encoding is "gamma": expected linear or srgb
-film -> {white: 0} | film.white is 0: expected a number > 0
+film -> {white: 0} | film.white is 0: expected a number from 1e-30 to 1e+30
 lights/0/two_sided -> true | lights[0].visible: expected false for a two-sided light by radiance
 materials/grey -> {dielectric: {}, conductor: {refraction_index: 1, absorption_index: 1}} |
     materials.grey: both dielectric and conductor are given

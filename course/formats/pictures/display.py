@@ -57,6 +57,10 @@ For means of 1 to 900 equal samples the share is at most 2^-18.2; see tests/scen
 """
 
 
+BRIGHTEST = np.float32(1e19)
+"""Of what is shown, where white is 1: 60 stops more of it are a float32 still, and 60 stops less are white still."""
+
+
 @dataclass(frozen=True)
 class Display:
     """The mapping of radiance to codes of 8 bits.
@@ -81,9 +85,18 @@ class Display:
             return np.ascontiguousarray(
                 np.moveaxis(np.clip(scaled, 0, 255).astype(np.uint8), 0, -1)
             )
-        if self.white != 1:
-            linear = (linear / self.white).astype(np.float32)
-        return linear_to_srgb8(linear)
+        return linear_to_srgb8(over_white(linear, self.white))
+
+
+def over_white(radiance: Floats32, white: float) -> Floats32:
+    """Radiance of any shape, float32, over what is shown as white: at most ``BRIGHTEST``, from either side of 0."""
+    if white == 1:
+        return radiance
+    # In float64: light of 1e30 over the least white that a scene may ask for is no float32.
+    shown: Floats32 = np.clip(radiance / np.float64(white), -BRIGHTEST, BRIGHTEST).astype(
+        np.float32
+    )
+    return shown
 
 
 SRGB = Display()

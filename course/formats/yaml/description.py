@@ -782,7 +782,10 @@ class FilmDescription(Map, frozen=True, kw_only=True):
         ),
     ] = None
     white: Annotated[
-        float, about("What a PNG shows as white, and anything brighter too.", "radiance", gt=0)
+        float,
+        about(
+            "What a PNG shows as white, and anything brighter too.", "radiance", ge=1e-30, le=1e30
+        ),
     ] = 1.0
     encoding: Annotated[
         Literal["srgb", "linear"],

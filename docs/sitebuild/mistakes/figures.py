@@ -139,7 +139,9 @@ class Studio:
         """Draw them, up to the first that does not end."""
         if self._pool is None:
             self._pool = get_context("spawn").Pool(PROCESSES)
-            atexit.register(self.close)  # a pool that Python ends while it takes itself apart complains
+            atexit.register(
+                self.close
+            )  # a pool that Python ends while it takes itself apart complains
         waiting = [(f, self._pool.apply_async(_drawn, (f, *paths[f]))) for f in paths]
         for figure, outcome in waiting:
             try:
