@@ -9,6 +9,7 @@ import numpy as np
 
 from course.core.types import Floats64
 from course.formats.metu.element import Element, Notes
+from course.formats.metu.renderers import Renderer, read_renderer
 from course.formats.metu.transformations import matrix_of, point
 from course.formats.yaml.consistency import sine
 from course.formats.yaml.description import LARGEST_SIDE, MOST_SAMPLES
@@ -27,6 +28,7 @@ class MetuCamera:
     name : its id
     image : name of its picture, .png or .exr, without folders
     camera, film, sampler : of the project's own scene file
+    paths : which light is followed
     """
 
     name: str
@@ -34,6 +36,7 @@ class MetuCamera:
     camera: dict[str, Any]
     film: dict[str, Any]
     sampler: dict[str, Any]
+    paths: Renderer
 
 
 def read_cameras(
@@ -96,7 +99,8 @@ def _camera(element: Element, steps: dict[str, dict[str, Any]], notes: Notes) ->
         "encoding": "linear",
         **_tone(element, notes),
     }
-    return MetuCamera(name, _image_name(element, notes), camera, film, _sampler(element, notes))
+    rest = _sampler(element, notes), read_renderer(element)
+    return MetuCamera(name, _image_name(element, notes), camera, film, *rest)
 
 
 def _tone(element: Element, notes: Notes) -> dict[str, Any]:

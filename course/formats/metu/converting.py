@@ -1,5 +1,6 @@
 """From a METU scene file to scene files of the project's own format, one for each camera."""
 
+import math
 import os
 import re
 from dataclasses import dataclass
@@ -10,9 +11,10 @@ import yaml
 
 from course.atomic import write_text
 from course.errors import SceneError
+from course.formats.metu.brdfs import pi_is_of_surfaces, read_brdfs
 from course.formats.metu.cameras import MetuCamera, read_cameras
 from course.formats.metu.element import Element, Notes
-from course.formats.metu.lights import read_lights
+from course.formats.metu.lights import read_environment, read_images, read_lights
 from course.formats.metu.materials import material_name, read_materials
 from course.formats.metu.meshes import MeshTable, read_vertices
 from course.formats.metu.objects import Objects
@@ -74,8 +76,12 @@ def convert(source: Path, target: Path) -> tuple[list[Converted], list[str]]:
     steps = read_steps(scene)
     cameras = read_cameras(scene, steps, notes)
     eyes = [camera.camera["eye"] for camera in cameras]
-    common = _common(scene, source, target, steps, eyes, notes)
+    meshes = MeshTable(target.parent, f"{target.stem}.meshes", notes)
+    common = _common(scene, source, steps, eyes, notes, meshes)
+    for camera in cameras:
+        camera.paths.check(scene, common, notes)
     notes.add_left_over(scene)
+    meshes.write()
     names = _file_names(cameras, target)
     converted = []
     for camera, name in zip(cameras, names, strict=True):
@@ -85,6 +91,7 @@ def convert(source: Path, target: Path) -> tuple[list[Converted], list[str]]:
             "film": camera.film,
             "sampler": camera.sampler,
             **common,
+            "integrator": common["integrator"] | camera.paths.keys(common["integrator"]),
         }
         path = target.with_name(name)
         text = yaml.dump(parts, Dumper=_Dumper, sort_keys=False, default_flow_style=None, width=110)
@@ -122,25 +129,27 @@ def _with_name(told: str, path: Path) -> str:
 def _common(
     scene: Element,
     source: Path,
-    target: Path,
     steps: dict[str, dict[str, Any]],
     eyes: list[list[float]],
     notes: Notes,
+    meshes: MeshTable,
 ) -> dict[str, Any]:
     """The scene that all cameras see."""
     _pass_over_empty(scene)
     # Hits are found by Embree, which has no tolerance to set.
     scene.number_of("IntersectionTestEpsilon", 0.0)
-    materials = read_materials(scene, notes)
+    of_surfaces = pi_is_of_surfaces(scene)
+    materials = read_materials(scene, notes, read_brdfs(scene), of_surfaces)
     objects = Objects(
         read_vertices(scene),
         materials,
         steps,
         source.parent,
-        MeshTable(target.parent, f"{target.stem}.meshes", notes),
+        meshes,
         notes,
         eyes,
     )
+    things = objects.read(scene)
     return {
         "integrator": {
             "max_depth": _depth(scene, notes),
@@ -153,14 +162,12 @@ def _common(
             "shading_normals": "interpolated",
             "surface_offset": scene.number_of("ShadowRayEpsilon", OFFSET),
         },
-        "environment": {
-            "type": "constant",
-            "radiance": scene.color_of("BackgroundColor"),
-            "seen_by": "camera",
-        },
-        "materials": {material_name(number): keys for number, keys in materials.items()},
-        "lights": read_lights(scene, steps),
-        "objects": objects.read(scene),
+        "environment": read_environment(scene, read_images(scene), meshes.name_of, source.parent),
+        "materials": {material_name(number): keys for number, keys in materials.items()}
+        | objects.lamps,
+        "lights": read_lights(scene, steps, 1.0 if of_surfaces else math.pi)
+        + [{"type": "object", "object": name} for name in objects.lamps],
+        "objects": things,
     }
 
 

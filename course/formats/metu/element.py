@@ -9,6 +9,7 @@ import numpy as np
 
 from course.core.types import Floats64
 from course.errors import SceneError
+from course.formats.metu.refusals import refuse
 from course.formats.yaml.document import show
 from course.formats.yaml.tree import LARGEST, SMALLEST
 
@@ -43,6 +44,10 @@ class Element:
         """An error about its text."""
         text = " ".join(self.text[:200].split())
         return SceneError(f"{self.where}: {self.path} is {show(text)}: expected {expected}")
+
+    def refused(self, why: str) -> SceneError:
+        """An error about something that is known, and can't be converted."""
+        return SceneError(f"{self.where}: {self.path} is refused: {why}")
 
     def attribute(self, name: str) -> str | None:
         """An attribute's value, None where it isn't given."""
@@ -201,7 +206,8 @@ class Notes:
         self._add(element.where, element.path, message)
 
     def add_left_over(self, root: Element) -> None:
-        """Name every part of the file that nobody has asked for."""
+        """Name every part of the file that nobody has asked for; SceneError where one is refused."""
+        refuse(root.left_over())
         for where, path in root.left_over():
             self._add(where, path, "is not known, and was left out")
 

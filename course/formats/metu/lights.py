@@ -1,10 +1,14 @@
-"""`Lights`: ambient, point and area lights.
+"""`Lights`: ambient, point, area and directional lights, and the environment.
 
 The engine's reflected radiance is reflectance times irradiance over pi, a METU scene's is without the pi: its lights
-are pi times as strong here. The ambient term has no pi in either.
+are pi times as strong here, unless the reflectances are (``brdfs.pi_is_of_surfaces``). The ambient term has no pi in
+either.
 """
 
 import math
+import os
+from collections.abc import Callable, Mapping
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -13,35 +17,102 @@ from course.core.types import Floats64
 from course.formats.metu.element import Element
 from course.formats.metu.transformations import matrix_of, point
 from course.formats.metu.transformations import normal as transformed_normal
+from course.formats.yaml.document import show, suggest
 
 
-def read_lights(scene: Element, steps: dict[str, dict[str, Any]]) -> list[dict[str, Any]]:
+def read_lights(
+    scene: Element, steps: dict[str, dict[str, Any]], pi: float = math.pi
+) -> list[dict[str, Any]]:
     """The lights of a scene.
 
-    ``steps``: of `Transformations`, by letter and id.
+    Parameters
+    ----------
+    steps : of `Transformations`, by letter and id
+    pi : what all but the ambient light is multiplied by
     """
     parent = scene.maybe("Lights")
     if parent is None:
         return []
     return [
         *({"type": "ambient", "radiance": list(e.color())} for e in parent.all("AmbientLight")),
-        *(_point(e, matrix_of(e, steps)) for e in parent.all("PointLight")),
-        *(_area(e, matrix_of(e, steps)) for e in parent.all("AreaLight")),
+        *(_point(e, matrix_of(e, steps), pi) for e in parent.all("PointLight")),
+        *(_area(e, matrix_of(e, steps), pi) for e in parent.all("AreaLight")),
+        *(_directional(e, matrix_of(e, steps), pi) for e in parent.all("DirectionalLight")),
     ]
 
 
-def _point(element: Element, matrix: Floats64) -> dict[str, Any]:
+def read_environment(
+    scene: Element, images: Mapping[str, Element], name_of: Callable[[Path], str], folder: Path
+) -> dict[str, Any]:
+    """What rays see that hit nothing: the background, for camera rays only, or the environment, which sends light, too.
+
+    Parameters
+    ----------
+    images : elements that name files, by id
+    name_of : a file's name as seen from the converted scene
+    folder : from which files are named
+    """
+    background = scene.color_of("BackgroundColor")
+    parent = scene.maybe("Lights")
+    element = None if parent is None else parent.maybe("SphericalDirectionalLight")
+    if element is None:
+        return {"type": "constant", "radiance": background, "seen_by": "camera"}
+    element.attribute("id")
+    kind = element.attribute("type") or "latlong"
+    if kind != "latlong":
+        raise element.refused(
+            f"its type is {show(kind)}, and this course has environments of type latlong;"
+            " save the picture as one, or remove it"
+        )
+    number = element.child("ImageId", "the id of an Image")
+    name = " ".join(number.words())
+    if name not in images:
+        raise number.unexpected(f"the id of an Image; {suggest(name, images)}")
+    image = images[name]
+    file = " ".join(image.words())
+    path = folder / file.replace("\\", "/")
+    if path.suffix.lower() not in (".exr", ".hdr"):
+        raise image.unexpected(
+            "a picture of radiance, .exr or .hdr, for a SphericalDirectionalLight"
+        )
+    if not os.path.exists(path):  # noqa: PTH110
+        raise image.error(f"names {show(file)}: no such file in {folder.resolve()}")
+    return {"type": "lat_long", "image": name_of(path), "lights": True}
+
+
+def read_images(scene: Element) -> dict[str, Element]:
+    """The elements `Image` of `Textures/Images` by id."""
+    parent = scene.maybe("Textures")
+    table = None if parent is None else parent.maybe("Images")
+    images: dict[str, Element] = {}
+    for element in () if table is None else table.all("Image"):
+        element.words()
+        images[element.id(images)] = element
+    return images
+
+
+def _directional(element: Element, matrix: Floats64, pi: float) -> dict[str, Any]:
+    element.attribute("id")
+    direction = matrix[:3, :3] @ element.child("Direction", "such as 0 -1 0").direction()
+    return {
+        "type": "directional",
+        "direction": direction.tolist(),
+        "irradiance": _times(pi, element.child("Radiance", "such as 100 100 100")),
+    }
+
+
+def _point(element: Element, matrix: Floats64, pi: float) -> dict[str, Any]:
     element.attribute("id")
     position = np.array(element.child("Position", "such as 0 5 0").vector())
     return {
         "type": "point",
         "position": point(matrix, position).tolist(),
-        "intensity": _times_pi(element.child("Intensity", "such as 1000 1000 1000")),
+        "intensity": _times(pi, element.child("Intensity", "such as 1000 1000 1000")),
         "shadow_rays": "whole",
     }
 
 
-def _area(element: Element, matrix: Floats64) -> dict[str, Any]:
+def _area(element: Element, matrix: Floats64, pi: float) -> dict[str, Any]:
     element.attribute("id")
     position = np.array(element.child("Position", "such as 0 5 0").vector())
     normal = element.child("Normal", "such as 0 -1 0").direction()
@@ -58,7 +129,7 @@ def _area(element: Element, matrix: Floats64) -> dict[str, Any]:
         "corner": (center - (u + v) * (size / 2)).tolist(),
         "edge_u": (u * size).tolist(),
         "edge_v": (v * size).tolist(),
-        "radiance": _times_pi(radiance),
+        "radiance": _times(pi, radiance),
         "two_sided": True,
         "visible": False,
     }
@@ -75,5 +146,5 @@ def tangents(normal: Floats64) -> tuple[Floats64, Floats64]:
     return u, np.cross(n, u)
 
 
-def _times_pi(element: Element) -> list[float]:
-    return [math.pi * value for value in element.color()]
+def _times(factor: float, element: Element) -> list[float]:
+    return [factor * value for value in element.color()]

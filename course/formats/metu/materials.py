@@ -1,7 +1,10 @@
 """`Materials`: Blinn-Phong terms, mirrors, conductors and dielectrics."""
 
+import math
+from collections.abc import Mapping
 from typing import Any
 
+from course.formats.metu.brdfs import Brdf, brdf_of
 from course.formats.metu.element import Element, Notes
 
 TYPES = ("mirror", "conductor", "dielectric")
@@ -14,31 +17,47 @@ COUNTS_WITH = {
 }
 """The types that an element is read for."""
 
+DEGAMMA = 2.2
+"""The power of reflectances that are given as codes of a screen."""
+
 
 def material_name(number: str) -> str:
     """Name of a material in the project's own scene files."""
     return f"material {number}"
 
 
-def read_materials(scene: Element, notes: Notes) -> dict[str, dict[str, Any]]:
-    """The materials of a scene by id."""
+def read_materials(
+    scene: Element, notes: Notes, brdfs: Mapping[str, Brdf | Element], of_surfaces: bool
+) -> dict[str, dict[str, Any]]:
+    """The materials of a scene by id.
+
+    ``of_surfaces``: see ``brdfs.pi_is_of_surfaces``.
+    """
     materials: dict[str, dict[str, Any]] = {}
     for element in scene.child("Materials", "materials for the objects").all("Material"):
         number = element.id(materials)
-        materials[number] = _material(element, notes)
+        materials[number] = _material(element, notes, brdf_of(element, brdfs), of_surfaces)
     return materials
 
 
-def _material(element: Element, notes: Notes) -> dict[str, Any]:
+def _material(element: Element, notes: Notes, brdf: Brdf, of_surfaces: bool) -> dict[str, Any]:
     kind = element.attribute("type")
     if kind and kind not in TYPES:
         raise element.error(f"type is {kind!r}: expected {', '.join(TYPES)} or none")
-    ambient, diffuse = (element.color_of(f"{name}Reflectance") for name in ("Ambient", "Diffuse"))
-    material = _body(ambient, diffuse)
-    specular = element.color_of("SpecularReflectance")
+    linear = DEGAMMA if element.flag("degamma") else 1.0
+    ambient, diffuse, specular = (
+        [value**linear for value in element.color_of(f"{name}Reflectance")]
+        for name in ("Ambient", "Diffuse", "Specular")
+    )
+    # A normalized model divides by pi, as this course does.
+    by = math.pi if of_surfaces and not brdf.normalized else 1.0
+    material = _body(ambient, [by * value for value in diffuse])
     power = element.number_of("PhongExponent", 1.0)
+    power = power if brdf.exponent is None else brdf.exponent
     if any(specular):
-        material |= {"specular": specular, "exponent": power, "highlight": "plain"}
+        by *= brdf.highlight_factor(power)
+        specular = [by * value for value in specular]
+        material |= {"specular": specular, "exponent": power, "highlight": brdf.highlight}
     if kind in ("mirror", "conductor"):
         material["mirror"] = list(
             element.child("MirrorReflectance", "such as 0.9 0.9 0.9").color(1)

@@ -117,7 +117,7 @@ class MeshTable:
 
     def add_file(self, file: Path, faces: Element) -> str:
         """Read a file that an element names, once; its name. One that can't be used is told where it is named."""
-        name = self._name(file)
+        name = self.name_of(file)
         if name not in self._named_by:
             try:
                 # Its normals aren't looked at here, and these are the quicker ones.
@@ -162,7 +162,8 @@ class MeshTable:
         if not np.cross(p1 - p0, p2 - p0).any():
             self.notes.add(source, "has no triangle with an area: nothing of it can be seen")
 
-    def _name(self, path: Path) -> str:
+    def name_of(self, path: Path) -> str:
+        """A file's name as seen from the converted scene."""
         try:
             return Path(os.path.relpath(path.resolve(), self.target.resolve())).as_posix()
         except ValueError:  # on another drive

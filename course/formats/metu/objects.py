@@ -37,6 +37,9 @@ SEGMENTS = ((8, 512), (32, 256), (128, 128))
 
 FEWEST_SEGMENTS = 64
 
+LAMP_SEGMENTS = 128
+"""Flat pieces around a ball that is a light; each of its triangles is one that shadow rays may look for."""
+
 CUBE = np.array(list(product((-1, 1), repeat=3)))
 """Corners of the cube of edge 2 about the origin, (8, 3)."""
 
@@ -57,6 +60,7 @@ class Objects:
     meshes : files of the converted scene
     notes : what there is to say about them
     eyes : where the cameras stand
+    lamps : materials of the objects that are lights, by the objects' names; made as they are read
     """
 
     vertices: Floats64
@@ -66,33 +70,55 @@ class Objects:
     meshes: MeshTable
     notes: Notes
     eyes: list[list[float]]
+    lamps: dict[str, dict[str, Any]] = field(default_factory=dict)
     _bases: dict[str, dict[str, Any]] = field(default_factory=dict)
 
     def read(self, scene: Element) -> list[dict[str, Any]]:
-        """All objects of a scene; what meshes it holds itself are written once there is no mistake in any."""
+        """All objects of a scene; `meshes.write` then writes the meshes that it holds itself."""
         parent = scene.child("Objects", "one object or more")
         things = [self._mesh(element) for element in parent.all("Mesh")]
         things += self._instances(parent.all("MeshInstance"))
         spheres = parent.all("Sphere")
         segments = next((s for most, s in SEGMENTS if len(spheres) <= most), FEWEST_SEGMENTS)
         things += [self._sphere(element, segments) for element in spheres]
+        things += [
+            self._lamp(each, self._faces(each, "light", "")) for each in parent.all("LightMesh")
+        ]
+        things += [
+            self._lamp(each, self._sphere(each, LAMP_SEGMENTS))
+            for each in parent.all("LightSphere")
+        ]
         things += self._triangles(parent.all("Triangle"))
         for thing in things:
             self._set_from_behind(thing)
         things += self._planes(parent.all("Plane"), things)
-        self.meshes.write()
         return [{key: value for key, value in thing.items() if value != []} for thing in things]
 
     def _set_from_behind(self, thing: dict[str, Any]) -> None:
         """Camera rays pass through backs of flat triangles, and find other normals as they are; but for glass."""
-        glass = (
-            material_name(number) for number, keys in self.materials.items() if "dielectric" in keys
-        )
-        if thing["material"] not in glass:
+        named = {material_name(number): keys for number, keys in self.materials.items()}
+        if "dielectric" not in (named | self.lamps)[thing["material"]]:
             thing["from_behind"] = "unseen" if thing.get("shading") == "flat" else "kept"
 
     def _mesh(self, element: Element) -> dict[str, Any]:
         number = element.id(self._bases)
+        thing = self._faces(element, "mesh", f"mesh {number}")
+        self._bases[number] = thing
+        return thing
+
+    def _lamp(self, element: Element, thing: dict[str, Any]) -> dict[str, Any]:
+        """An object that is a light: it has a material of its own, which shines."""
+        name = f"light {len(self.lamps) + 1}"
+        material = self.materials[" ".join(element.child("Material", "an id").words())]
+        emission = list(element.child("Radiance", "such as 30 30 30").color())
+        if not any(emission):
+            raise element.error("Radiance is 0 0 0: expected a light that shines")
+        self.lamps[name] = material | {"emission": emission}
+        return thing | {"name": name, "material": name}
+
+    def _faces(self, element: Element, stem: str, name: str) -> dict[str, Any]:
+        """The keys of a mesh with a name; its file, if the scene holds it itself, has a name of that stem."""
+        element.attribute("id")
         given = element.attribute("shadingMode")
         mode = given or "flat"
         if mode not in ("flat", "smooth"):
@@ -117,17 +143,16 @@ class Objects:
             path = self.meshes.add_file(found, faces)
         else:
             mesh = inline_mesh(faces, self.vertices, mode == "smooth")
-            path = self.meshes.add_own(mesh, f"mesh-{len(self._bases) + 1}", faces)
-        thing = {
+            count = len(self._bases if stem == "mesh" else self.lamps)
+            path = self.meshes.add_own(mesh, f"{stem}-{count + 1}", faces)
+        return {
             "shape": "mesh",
-            "name": f"mesh {number}",
+            "name": name,
             "file": path,
             "shading": mode,
             **normals,
             **self._common(element),
         }
-        self._bases[number] = thing
-        return thing
 
     def _instances(self, elements: list[Element]) -> list[dict[str, Any]]:
         """Instances of meshes and of other instances, whatever their order in the file."""

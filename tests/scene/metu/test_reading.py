@@ -183,18 +183,18 @@ def test_missing_files_and_folders_are_told(tmp_path: Path) -> None:
 def test_what_is_not_known_is_named_once_a_kind(metu: Metu) -> None:
     scene = tree(
         camera={"Tonemap": {"TMO": "ACES", "Gamma": "2.2"}, "_fovAxis": "x"},
-        lights={"AmbientLight": "9 9 9", "SpotLight": [{"_id": "1"}, {"_id": "2"}, {"_id": "3"}]},
-        Textures={"Images": ""},
+        lights={"AmbientLight": "9 9 9", "Candle": [{"_id": "1"}, {"_id": "2"}, {"_id": "3"}]},
+        Shaders={"Shader": ""},
     )
-    scene["Objects"]["Mesh"] |= {"Textures": "1", "_lod": "2"}
+    scene["Objects"]["Mesh"] |= {"Shaders": "1", "_lod": "2"}
     metu.load(scene)
     warnings = "\n".join(metu.warnings)
     for part in (
         "Scene/Cameras/Camera/Tonemap has TMO ACES: only Photographic is known, so it was left out",
         "Scene/Cameras/Camera, attribute fovAxis is not known",
-        "Scene/Lights/SpotLight[1] is not known, and was left out (and 2 more of this kind)",
-        "Scene/Textures is not known",
-        "Scene/Objects/Mesh/Textures is not known",
+        "Scene/Lights/Candle[1] is not known, and was left out (and 2 more of this kind)",
+        "Scene/Shaders is not known",
+        "Scene/Objects/Mesh/Shaders is not known",
         "Scene/Objects/Mesh, attribute lod is not known",
     ):
         assert part in warnings
