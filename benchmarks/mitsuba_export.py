@@ -295,6 +295,8 @@ def _light(light: d.Light) -> dict[str, Any]:
     if not isinstance(light, d.DirectionalLight | d.AmbientLight) and any(light.motion.velocity):
         raise NotExportableError("lights that move are not exported")
     match light:
+        case d.SpotLight():
+            raise NotExportableError("spot lights are not exported: Mitsuba's have another edge")
         case d.PointLight():
             return {"type": "point", "center": light.position, "intensity": _list(light.intensity)}
         case d.DirectionalLight():

@@ -109,6 +109,9 @@ class _Compiler:
         self, light: d.PointLight | d.DirectionalLight | d.RectangleLight | d.SphereLight
     ) -> list[Light]:
         match light:
+            case d.SpotLight():
+                axis = np.array(light.direction) / np.abs(light.direction).max()
+                return [self._spot(light, axis / np.linalg.norm(axis))]
             case d.PointLight():
                 power = rgb(light.intensity) / self.frame.scale / self.frame.scale
                 position = self._position(light.position, light.motion)
@@ -125,6 +128,21 @@ class _Compiler:
                 return self._rectangle(light)
             case d.SphereLight():
                 return [self._sphere(light)]
+
+    def _spot(self, light: d.SpotLight, axis: Floats64) -> Light:
+        # Its module is loaded by scenes that have one alone.
+        from course.extras.spot_light import SpotLight
+
+        return SpotLight(
+            self.name,
+            self._position(light.position, light.motion),
+            self._color(rgb(light.intensity) / self.frame.scale / self.frame.scale),
+            velocity=self._velocity(light),
+            blockable=light.shadow_rays == "whole",
+            axis=_single(axis),
+            inner=math.radians(light.inner_angle),
+            outer=math.radians(light.outer_angle),
+        )
 
     def of_object(self, light: d.ObjectLight, triangles: Triangles, material: int) -> MeshLight:
         """A light of the triangles that have a material."""

@@ -8,6 +8,7 @@ all that it has to have.
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from dataclasses import dataclass, fields
@@ -116,7 +117,8 @@ def _kind(light: Light, hue: Floats32) -> Any:
     """Equal for lights that differ only in where their points lie, and in how bright they are."""
     velocity = None if light.velocity is None else light.velocity.tobytes()
     facing: Any = ()
-    if isinstance(light, PointLight):
+    # Not of a light that sends more to one side, such as a spot light.
+    if type(light) is PointLight:
         facing = None if light.normal is None else light.normal.tobytes(), light.two_sided
     # The brightest channel is 1: seven digits are as many as float32 has.
     return tuple(np.round(hue.astype(np.float64), 7).tolist()), light.limit, velocity, facing
@@ -167,7 +169,9 @@ def power_of(light: Light) -> float:
         case DirectionalLight():
             factor = SCENE
         case PointLight() | RectangleLight():
-            factor = 4.0 if light.normal is None else 1.0 + light.two_sided
+            # A spot light sends its intensity into a part of all directions.
+            whole = getattr(light, "solid_angle", 4 * math.pi) / math.pi
+            factor = whole if light.normal is None else 1.0 + light.two_sided
         case SphereLight():
             factor = 1.0 if light.emitter else 4.0
     return factor * float(light.color.mean())
@@ -199,7 +203,7 @@ class ChosenLight(Light):
         """See ``Light``; the numbers are those of ``places``."""
         choice, n = self.choice, len(self.number)
         first = choice.lights[self.number[0]]
-        if isinstance(first, PointLight):
+        if type(first) is PointLight:
             on_light = choice.positions.take(self.number, axis=1)
             found = towards(on_light, points, first.normal, first.two_sided)
             to_light, lengths, factor = found.to_light, found.inverse_length, found.factor

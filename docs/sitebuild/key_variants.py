@@ -60,6 +60,14 @@ WINDOW = {
     "edge_v": [0, 0, 3],
     "radiance": 6,
 }
+SPOT = {
+    "type": "spot",
+    "position": [-3, 4, 3],
+    "direction": [3, -4, -3],
+    "intensity": 120,
+    "inner_angle": 6,
+    "outer_angle": 12,
+}
 SCREEN = {**WINDOW, "corner": [-0.9, 0.3, -2], "radiance": 3, "visible": False}
 """Between the box and the ball."""
 DARK = {**ALONE, "environment.radiance": 0.02, "sampler.samples": 64}
@@ -381,6 +389,18 @@ VARIANTS: dict[tuple[str, str], list[tuple[str, Changes]]] = {
         )
         for value in (15, 60, [60, 40, 15])
     ],
+    **{
+        ("SpotLight", key): [
+            (f"{key}: {value}", {"lights.1": {**SPOT, key: value}}) for value in values
+        ]
+        for key, values in {
+            "position": ([-3, 4, 3], [3, 3, 2]),
+            "intensity": (60, 200, [200, 130, 40]),
+            "direction": ([3, -4, -3], [2.2, -4, -3.4]),
+            "inner_angle": (0, 6, 12),
+            "outer_angle": (7, 12, 25),
+        }.items()
+    },
     ("DirectionalLight", "direction"): [
         (
             f"direction: {toward}",

@@ -45,7 +45,7 @@ def test_every_file_that_is_named_is_there(path: Path) -> None:
         made = (
             "NAME" in name
             or "vignetting" in name
-            or "spot_light" in name
+            or "reflector_light" in name
             or name in ("scenes/scene.schema.json", "assignments/.course/checked.json")
         )
         if not made:

@@ -197,6 +197,10 @@ def _repaired(description: dict[str, Any]) -> dict[str, Any]:
             elif light.get("two_sided"):
                 light["visible"] = False
     for number, light in enumerate(description["lights"]):
+        if light["type"] == "spot":
+            light["outer_angle"] = max(
+                light.get("outer_angle", 30.0), light.get("inner_angle", 20.0)
+            )
         if light["type"] == "object":
             # Seldom, with more lights than objects, two of them name one, which is refused.
             which = number % len(description["objects"])

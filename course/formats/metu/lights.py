@@ -1,4 +1,4 @@
-"""`Lights`: ambient, point, area and directional lights, and the environment.
+"""`Lights`: ambient, point, area, directional and spot lights, and the environment.
 
 The engine's reflected radiance is reflectance times irradiance over pi, a METU scene's is without the pi: its lights
 are pi times as strong here, unless the reflectances are (``brdfs.pi_is_of_surfaces``). The ambient term has no pi in
@@ -38,6 +38,7 @@ def read_lights(
         *(_point(e, matrix_of(e, steps), pi) for e in parent.all("PointLight")),
         *(_area(e, matrix_of(e, steps), pi) for e in parent.all("AreaLight")),
         *(_directional(e, matrix_of(e, steps), pi) for e in parent.all("DirectionalLight")),
+        *(_spot(e, matrix_of(e, steps), pi) for e in parent.all("SpotLight")),
     ]
 
 
@@ -109,6 +110,23 @@ def _point(element: Element, matrix: Floats64, pi: float) -> dict[str, Any]:
         "position": point(matrix, position).tolist(),
         "intensity": _times(pi, element.child("Intensity", "such as 1000 1000 1000")),
         "shadow_rays": "whole",
+    }
+
+
+def _spot(element: Element, matrix: Floats64, pi: float) -> dict[str, Any]:
+    direction = matrix[:3, :3] @ element.child("Direction", "such as 0 -1 0").direction()
+    coverage = element.child("CoverageAngle", "such as 30 [degree], from edge to edge")
+    falloff = element.child("FalloffAngle", "such as 20 [degree], from edge to edge")
+    outer, inner = coverage.number(0, above=True), falloff.number(0)
+    if outer > 360:
+        raise coverage.unexpected("an angle up to 360 [degree]")
+    if inner > outer:
+        raise falloff.unexpected(f"an angle up to CoverageAngle, {outer:g} [degree]")
+    return _point(element, matrix, pi) | {
+        "type": "spot",
+        "direction": direction.tolist(),
+        "inner_angle": inner / 2,
+        "outer_angle": outer / 2,
     }
 
 

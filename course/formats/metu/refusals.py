@@ -13,7 +13,6 @@ _TEXTURE = "textures are not converted yet"
 REFUSED = {
     "TextureMap": _TEXTURE,
     "Objects/*/Textures": _TEXTURE,
-    "SpotLight": "this course has no spot lights",
     "Transparency": "no material of this course lets light straight through",
 }
 """Elements by their names, or by the ends of their paths, in which * is any name; and why they are refused."""

@@ -65,7 +65,7 @@ class Renderer:
 def _lights(scene: Element) -> list[Element]:
     """The lights without a surface, in the order in which they are converted."""
     parent = scene.maybe("Lights")
-    kinds = ("AmbientLight", "PointLight", "AreaLight", "DirectionalLight")
+    kinds = ("AmbientLight", "PointLight", "AreaLight", "DirectionalLight", "SpotLight")
     return [] if parent is None else [light for kind in kinds for light in parent.all(kind)]
 
 

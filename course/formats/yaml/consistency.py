@@ -112,6 +112,9 @@ def _check_camera(camera: d.CameraDescription, here: Place) -> None:
 def _check_light(light: d.Light, here: Place) -> None:
     if (direction := getattr(light, "direction", None)) is not None:
         _check_not_zero(direction, "direction", here)
+    if isinstance(light, d.SpotLight):
+        expected = f"an angle of at least inner_angle, {light.inner_angle:g} [degree]"
+        here.check(light.inner_angle <= light.outer_angle, "outer_angle", expected)
     if isinstance(light, d.RectangleLight | d.SphereLight):
         given = [light.intensity is not None, light.radiance is not None]
         if all(given):

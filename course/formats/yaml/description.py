@@ -488,6 +488,31 @@ class PointLight(LightDescription, frozen=True, kw_only=True, tag="point"):
     motion: _Motion = MotionDescription()
 
 
+class SpotLight(PointLight, frozen=True, kw_only=True, tag="spot"):
+    """A point light that shines into a cone, with a soft edge."""
+
+    direction: Annotated[Vector, about("Way along the middle of the cone; any length but 0.")]
+    inner_angle: Annotated[
+        float,
+        about(
+            "Angle from the direction up to which it has its whole intensity.",
+            "degree",
+            ge=0,
+            le=180,
+        ),
+    ] = 20.0
+    outer_angle: Annotated[
+        float,
+        about(
+            "Angle from which on it is dark, not less than inner_angle. Between the two it falls off as the fourth"
+            " power of a line in the angle's cosine.",
+            "degree",
+            gt=0,
+            le=180,
+        ),
+    ] = 30.0
+
+
 class DirectionalLight(LightDescription, frozen=True, kw_only=True, tag="directional"):
     """A light infinitely far away."""
 
@@ -560,7 +585,13 @@ class ObjectLight(LightDescription, frozen=True, kw_only=True, tag="object"):
 
 
 Light: TypeAlias = (
-    AmbientLight | PointLight | DirectionalLight | RectangleLight | SphereLight | ObjectLight
+    AmbientLight
+    | PointLight
+    | SpotLight
+    | DirectionalLight
+    | RectangleLight
+    | SphereLight
+    | ObjectLight
 )
 
 

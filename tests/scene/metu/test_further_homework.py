@@ -38,6 +38,28 @@ def test_a_directional_light_turns_with_its_transformations(xml: Metu) -> None:
     np.testing.assert_allclose(xml.pixel(turned), KD * [10, 20, 30], rtol=1e-5)
 
 
+SPOT = {
+    "_id": "1",
+    "Position": "0 0 0",
+    "Direction": "0 0 -2",
+    "Intensity": "160 320 80",
+    "FalloffAngle": "10",
+    "CoverageAngle": "50",
+}
+
+
+@pytest.mark.parametrize("degrees", [0, 4.9, 15, 24, 26])
+def test_a_spot_light_falls_off_between_half_of_its_two_angles(xml: Metu, degrees: float) -> None:
+    """The camera stands with the light, 4 before the wall: E = I cos^3 / 16 times the share."""
+    way = math.tan(math.radians(degrees))
+    camera = NARROW | {"Gaze": f"{way} 0 -1"}
+    pixel = xml.pixel(tree(camera=camera, lights={"SpotLight": SPOT}))
+    cosine, low, high = (math.cos(math.radians(a)) for a in (degrees, 25, 5))
+    share = min(max((cosine - low) / (high - low), 0), 1) ** 4
+    expected = KD * [160, 320, 80] * cosine**3 / 16 * share
+    np.testing.assert_allclose(pixel, expected, rtol=2e-3, atol=1e-6)
+
+
 @pytest.mark.parametrize(
     ("kind", "normalized"),
     [
@@ -187,9 +209,13 @@ REFUSED: dict[str, tuple[Tree, tuple[str, ...]]] = {
         {"Textures": {"TextureMap": [{"_id": "1", "_type": "perlin"}, {"_id": "2"}]}},
         ("Scene/Textures/TextureMap[1] is refused: ", "also: Scene/Textures/TextureMap"),
     ),
-    "spot": (
-        {"lights": BLACK | {"SpotLight": {"_id": "1"}}},
-        ("Scene/Lights/SpotLight is refused: this course has no spot lights",),
+    "narrow": (
+        {"lights": {"SpotLight": SPOT | {"CoverageAngle": "9"}}},
+        ('SpotLight/FalloffAngle is "10": expected an angle up to CoverageAngle, 9 [degree]',),
+    ),
+    "wide": (
+        {"lights": {"SpotLight": SPOT | {"CoverageAngle": "361"}}},
+        ('SpotLight/CoverageAngle is "361": expected an angle up to 360 [degree]',),
     ),
     "phong": (
         {"BRDFs": {"OriginalPhong": {"_id": "1", "Exponent": "3"}}},
