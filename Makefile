@@ -81,7 +81,7 @@ bench: $(STAMP)
 
 stress: $(STAMP)
 	"$(RUN)" -m benchmarks.stress
-	"$(RUN)" -m pytest -q -n auto --timeout=1800 --hypothesis-profile=stress tests/stress
+	"$(RUN)" -m pytest -q -n auto --timeout=1800 --hypothesis-profile=stress tests/stress tests/docs/test_quiz.py
 
 mutants: $(STAMP)
 	"$(RUN)" -m benchmarks.mutants

@@ -1,5 +1,6 @@
 """Pictures that the page computes: both sides are one where the effect is off, and errors fall with the samples."""
 
+import re
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +20,19 @@ CODES = """(figure) => [...figure.querySelectorAll("canvas")].map((canvas) =>
   [...canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data])"""
 
 
+SIZE = "WIDTH = 360, HEIGHT = 270"
+
+
 def opened(page: Any, site: Path, name: str) -> Any:
+    """A page whose pictures have a ninth of the pixels: there may be no graphics card."""
+    script = (site / "_static" / "live.js").read_text(encoding="utf-8")
+    assert SIZE in script
+    page.route(
+        re.compile(r"/live\.js"),
+        lambda route: route.fulfill(
+            body=script.replace(SIZE, "WIDTH = 120, HEIGHT = 90"), content_type="text/javascript"
+        ),
+    )
     page.goto((site / f"{name}.html").as_uri())
     figure = page.locator("figure.computed").first
     figure.evaluate("(figure) => figure.previousElementSibling.scrollIntoView()")

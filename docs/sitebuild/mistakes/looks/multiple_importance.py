@@ -69,15 +69,19 @@ def _nobody(axes: Axes, made: ModuleType, right: ModuleType) -> None:
     label(axes, "direction")
 
 
-def _deltas(axes: Axes, made: ModuleType, right: ModuleType) -> None:
-    densities = DENSITIES.copy()
-    delta = np.zeros(DENSITIES.shape, bool)
-    delta[0] = True
-    densities[0] = np.where(np.abs(X + 0.4) < 0.15, 0.6, 0)
-    delta[2] = np.abs(X + 0.32) < 0.1
-    densities[2] = np.where(delta[2], 0.9, densities[2])
-    curves(axes, X, *(m.delta_weights(COUNTS, densities, delta)[0] for m in (made, right)))
-    label(axes, "direction; deltas in the left third")
+def _deltas(row: int) -> Any:
+    def draw(axes: Axes, made: ModuleType, right: ModuleType) -> None:
+        densities = DENSITIES.copy()
+        delta = np.zeros(DENSITIES.shape, bool)
+        delta[0] = True
+        densities[0] = np.where(np.abs(X + 0.4) < 0.15, 0.6, 0)
+        densities[1] += 0.5
+        delta[2] = np.abs(X + 0.32) < 0.1
+        densities[2] = np.where(delta[2], 0.9, densities[2])
+        curves(axes, X, *(m.delta_weights(COUNTS, densities, delta)[row] for m in (made, right)))
+        label(axes, "direction; deltas in the left third")
+
+    return draw
 
 
 def _drawn(counts: Array) -> tuple[Array, Array, Array]:
@@ -142,7 +146,14 @@ LOOKS = {
             ("weights_not_a_number",),
         ),
     ),
-    "delta_weights": (Look("The weight of a delta", plot(_deltas, curve=True)),),
+    "delta_weights": (
+        Look("The weight of a delta", plot(_deltas(0), curve=True)),
+        Look(
+            "The weight of a density beside deltas",
+            plot(_deltas(1), curve=True),
+            ("delta_always", "delta_everywhere"),
+        ),
+    ),
     "multi_sample": (Look("Integrals by three strategies", plot(_summed, curve=True)),),
     "one_sample": (Look("A hundred estimates", plot(_one_each, curve=True)),),
 }
