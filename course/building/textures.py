@@ -91,6 +91,7 @@ class Painter:
             self._images[texture.image],
             np.array(texture.repeat, np.float32),
             self._bound.function("textures", "texture_lookup", path[:-1]),
+            texture.interpolation == "nearest",
         )
 
     def _read(self, file: str, path: KeyPath) -> Floats32:

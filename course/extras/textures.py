@@ -21,15 +21,22 @@ class Texture:
     image : (H, W, 3) float32, linear
     repeat : (2,) float32, how often along u and v
     lookup : (image, uv) -> (3, N)
+    nearest : true if places are moved to the middles of their pixels first
     """
 
     image: Floats32
     repeat: Floats32
     lookup: Callable[[Floats32, Floats32], Floats32]
+    nearest: bool = False
 
     def __call__(self, uv: Floats32) -> Floats32:
         """Colours (3, N) at places (2, N)."""
-        return self.lookup(self.image, uv * self.repeat[:, None])
+        uv = uv * self.repeat[:, None]
+        if self.nearest:
+            height, width = self.image.shape[:2]
+            size = np.array([[width], [height]], np.float32)
+            uv = (np.floor(uv * size) + np.float32(0.5)) / size
+        return self.lookup(self.image, uv)
 
 
 def on_rectangle(

@@ -16,6 +16,10 @@ WORDS: dict[tuple[str, str], str] = {
         for key in ("light_sampling", "gloss_sampling", "roulette")
     },
     (
+        "TextureDescription",
+        "interpolation",
+    ): "It shows where a pixel of the texture covers several of the picture.",
+    (
         "MeshFile",
         "normals",
     ): "It shows in coarse meshes alone, whose triangles differ much in size.",

@@ -98,6 +98,22 @@ def test_a_quad_has_its_texels_where_they_belong(
     assert np.allclose(seen, color, rtol=0, atol=2e-4)
 
 
+@pytest.mark.parametrize(("u", "v"), [(0.01, 0.99), (0.49, 0.51), (0.51, 0.99), (0.3, 0.2)])
+def test_the_nearest_pixel_is_seen_up_to_its_edges(
+    make_scene: MakeScene, checker: str, u: float, v: float
+) -> None:
+    texture = {"image": checker, "interpolation": "nearest"}
+    place = [2 * u - 1, 0, 1 - 2 * v]
+    seen = looked_at(
+        make_scene,
+        place,
+        (0, 1, 0),
+        {"shape": "quad", "width": 2, "depth": 2},
+        {"color": 1, "texture": texture},
+    )
+    assert np.allclose(seen, CHECKER[int(v < 0.5), int(u > 0.5)], atol=1e-5)
+
+
 def test_a_quad_keeps_its_picture_however_it_is_moved(make_scene: MakeScene, checker: str) -> None:
     # Turned by 90 degrees about z, x becomes y; mirrored in x, and squeezed.
     steps = [

@@ -51,7 +51,8 @@ axis: [0, 1, 0], -> axes: [0, 1, 0], | 32: objects[1].transform[2].rotate.axes: 
 eye: [0, 1, 5] -> | 3: camera: eye is missing: expected 3 numbers [world unit]
 position: [1, 2, 3], -> | 19: lights[1]: position is missing: expected 3 numbers [world unit]
 material: mirror -> | 25: objects[1]: material is missing: expected a text that is not empty
-type: point, -> | 19: lights[1]: type is missing: expected ambient, point, spot, directional, rectangle, sphere or object
+type: point, -> | 19: lights[1]: type is missing: expected ambient, point, spot, directional, rectangle,
+    sphere or object
 type: constant, -> | 11: environment: type is missing: expected constant, cube or lat_long
 shape: disk, -> | 34: objects[3]: shape is missing: expected quad, box, sphere, disk, cylinder, cone, torus,
     torus_knot, displaced_sphere, height_field or mesh
@@ -62,8 +63,8 @@ shape: disk -> shape: 3 | 34: objects[3].shape is 3: expected quad, box, sphere,
     torus_knot, displaced_sphere, height_field or mesh
 shape: disk -> shape: [disk] | 34: objects[3].shape is ["disk"]: expected quad, box, sphere, disk, cylinder, cone,
     torus, torus_knot, displaced_sphere, height_field or mesh
-type: point -> type: pint | 19: lights[1].type is "pint": expected ambient, point, spot, directional, rectangle, sphere or
-    object; did you mean point?
+type: point -> type: pint | 19: lights[1].type is "pint": expected ambient, point, spot, directional, rectangle,
+    sphere or object; did you mean point?
 type: constant -> type: sky | 11: environment.type is "sky": expected constant, cube or lat_long
 type: jittered -> type: faure | 9: sampler.type is "faure": expected chained, halton, hammersley, jittered, random,
     regular, sobol or xorshift

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path, PurePath
 from typing import Any, Final
 
+import numpy as np
 import yaml
 
 from course.atomic import write_text
@@ -19,6 +20,7 @@ from course.formats.metu.materials import material_name, read_materials
 from course.formats.metu.meshes import MeshTable, read_vertices
 from course.formats.metu.objects import Objects
 from course.formats.metu.reading import read_elements
+from course.formats.metu.textures import Textures, read_maps, read_places
 from course.formats.metu.transformations import read_steps
 from course.formats.yaml.description import DEEPEST
 from course.formats.yaml.loading import load_description
@@ -139,7 +141,17 @@ def _common(
     # Hits are found by Embree, which has no tolerance to set.
     scene.number_of("IntersectionTestEpsilon", 0.0)
     of_surfaces = pi_is_of_surfaces(scene)
-    materials = read_materials(scene, notes, read_brdfs(scene), of_surfaces)
+    materials, bodies = read_materials(scene, notes, read_brdfs(scene), of_surfaces)
+    lights = read_lights(scene, steps, 1.0 if of_surfaces else math.pi)
+    ambient = [light["radiance"] for light in lights if light["type"] == "ambient"]
+    images = read_images(scene)
+    textures = Textures(
+        read_maps(scene, images, source.parent),
+        read_places(scene),
+        np.sum([[0.0, 0.0, 0.0], *ambient], axis=0),
+        bodies,
+        meshes,
+    )
     objects = Objects(
         read_vertices(scene),
         materials,
@@ -148,6 +160,7 @@ def _common(
         meshes,
         notes,
         eyes,
+        textures,
     )
     things = objects.read(scene)
     return {
@@ -162,11 +175,11 @@ def _common(
             "shading_normals": "interpolated",
             "surface_offset": scene.number_of("ShadowRayEpsilon", OFFSET),
         },
-        "environment": read_environment(scene, read_images(scene), meshes.name_of, source.parent),
+        "environment": read_environment(scene, images, meshes.name_of, source.parent),
         "materials": {material_name(number): keys for number, keys in materials.items()}
-        | objects.lamps,
-        "lights": read_lights(scene, steps, 1.0 if of_surfaces else math.pi)
-        + [{"type": "object", "object": name} for name in objects.lamps],
+        | objects.lamps
+        | textures.made,
+        "lights": lights + [{"type": "object", "object": name} for name in objects.lamps],
         "objects": things,
     }
 

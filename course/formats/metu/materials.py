@@ -28,19 +28,24 @@ def material_name(number: str) -> str:
 
 def read_materials(
     scene: Element, notes: Notes, brdfs: Mapping[str, Brdf | Element], of_surfaces: bool
-) -> dict[str, dict[str, Any]]:
-    """The materials of a scene by id.
+) -> tuple[dict[str, dict[str, Any]], dict[str, tuple[list[float], float]]]:
+    """The materials of a scene by id; and of each its diffuse reflectance, and what that is multiplied by.
 
     ``of_surfaces``: see ``brdfs.pi_is_of_surfaces``.
     """
     materials: dict[str, dict[str, Any]] = {}
+    bodies: dict[str, tuple[list[float], float]] = {}
     for element in scene.child("Materials", "materials for the objects").all("Material"):
         number = element.id(materials)
-        materials[number] = _material(element, notes, brdf_of(element, brdfs), of_surfaces)
-    return materials
+        brdf = brdf_of(element, brdfs)
+        materials[number], diffuse, by = _material(element, notes, brdf, of_surfaces)
+        bodies[number] = diffuse, by
+    return materials, bodies
 
 
-def _material(element: Element, notes: Notes, brdf: Brdf, of_surfaces: bool) -> dict[str, Any]:
+def _material(
+    element: Element, notes: Notes, brdf: Brdf, of_surfaces: bool
+) -> tuple[dict[str, Any], list[float], float]:
     kind = element.attribute("type")
     if kind and kind not in TYPES:
         raise element.error(f"type is {kind!r}: expected {', '.join(TYPES)} or none")
@@ -51,6 +56,7 @@ def _material(element: Element, notes: Notes, brdf: Brdf, of_surfaces: bool) -> 
     )
     # A normalized model divides by pi, as this course does.
     by = math.pi if of_surfaces and not brdf.normalized else 1.0
+    body = diffuse, by
     material = _body(ambient, [by * value for value in diffuse])
     power = element.number_of("PhongExponent", 1.0)
     power = power if brdf.exponent is None else brdf.exponent
@@ -88,7 +94,7 @@ def _material(element: Element, notes: Notes, brdf: Brdf, of_surfaces: bool) -> 
     elif edge:
         roughness = element.child("Roughness", "a number")
         notes.add(roughness, "counts only with a type, and was left out")
-    return material
+    return material, *body
 
 
 def _body(ambient: list[float], diffuse: list[float]) -> dict[str, Any]:

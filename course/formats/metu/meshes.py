@@ -14,12 +14,13 @@ import numpy as np
 
 from course.atomic import make_folder
 from course.core.triangles import Mesh
-from course.core.types import Floats64, Indices
+from course.core.types import Floats32, Floats64, Indices
 from course.errors import GeometryError, SceneError
 from course.formats.meshes.files import read_mesh, save_ply
 from course.formats.meshes.smooth_normals import area_normals
 from course.formats.metu.element import Element, Notes
 from course.formats.metu.lights import tangents
+from course.formats.pictures.files import write_exr
 from course.formats.yaml.document import show
 from course.inputs import LARGEST_DATA, Bound, opened
 
@@ -40,23 +41,38 @@ def read_vertices(scene: Element) -> Floats64:
     return values.reshape(-1, 3)[:, [axes.index(axis) for axis in "xyz"]]
 
 
-def inline_mesh(faces: Element, vertices: Floats64, smooth: bool) -> Mesh:
-    """The mesh of triples of vertex numbers, with only the vertices that it uses."""
-    offset = vertex_offset(faces)
+def inline_mesh(
+    faces: Element, vertices: Floats64, smooth: bool, places: Floats64 | None = None
+) -> Mesh:
+    """The mesh of triples of vertex numbers, with only the vertices that it uses.
+
+    ``places``: (P, 2) texture coordinates of the scene, if the mesh has a texture.
+    """
+    offset = offset_of(faces, "vertexOffset")
+    aside = offset_of(faces, "textureOffset")
     corners = corners_of(faces, vertices, offset)
     used, triangles = np.unique(corners, return_inverse=True)
     triangles = triangles.reshape(-1, 3)
     own = vertices[used]
-    return Mesh(own, triangles, area_normals(own, triangles) if smooth else None)
+    uv = None
+    if places is not None:
+        number = used - offset + aside
+        if len(number) and not 0 <= number.min() <= number.max() < len(places):
+            raise faces.error(
+                f"has a texture, and refers to texture coordinates {number.min() + 1} to {number.max() + 1}: expected"
+                f" numbers from 1 to {len(places)}, as TexCoordData has"
+            )
+        uv = places[number]
+    return Mesh(own, triangles, area_normals(own, triangles) if smooth else None, uv)
 
 
-def vertex_offset(faces: Element) -> int:
-    """What is added to each vertex number."""
-    given = faces.attribute("vertexOffset") or "0"
+def offset_of(faces: Element, name: str) -> int:
+    """What is added to each number of a vertex, or of its texture coordinates."""
+    given = faces.attribute(name) or "0"
     try:
         return int(given)
     except ValueError:
-        raise faces.error(f"vertexOffset is {given!r}: expected a whole number") from None
+        raise faces.error(f"{name} is {given!r}: expected a whole number") from None
 
 
 def corners_of(element: Element, vertices: Floats64, offset: int = 0) -> Indices:
@@ -114,6 +130,7 @@ class MeshTable:
     vertices: dict[str, Floats64] = field(default_factory=dict)
     _named_by: dict[str, Element] = field(default_factory=dict)
     _own: dict[str, Mesh] = field(default_factory=dict)
+    _pictures: dict[str, Floats32] = field(default_factory=dict)
 
     def add_file(self, file: Path, faces: Element) -> str:
         """Read a file that an element names, once; its name. One that can't be used is told where it is named."""
@@ -136,8 +153,14 @@ class MeshTable:
         self._own[name], self.vertices[name] = mesh, mesh.vertices
         return name
 
+    def add_picture(self, picture: Floats32, stem: str) -> str:
+        """Take a picture (H, W, 3) of a texture; its name, of that stem."""
+        name = f"{self.folder}/{stem}.exr"
+        self._pictures[name] = picture
+        return name
+
     def write(self) -> None:
-        """Write the meshes that the scene holds.
+        """Write the meshes that the scene holds, and the pictures.
 
         Raises
         ------
@@ -156,6 +179,10 @@ class MeshTable:
             path = self.target / name
             make_folder(path.parent)
             save_ply(mesh, path)
+        for name, picture in self._pictures.items():
+            path = self.target / name
+            make_folder(path.parent)
+            write_exr(path, np.moveaxis(picture, -1, 0))
 
     def _check_area(self, mesh: Mesh, source: Element) -> None:
         p0, p1, p2 = (mesh.vertices[mesh.triangles[:, k]] for k in range(3))

@@ -15,6 +15,7 @@ import numpy as np
 
 from course.core.triangles import Mesh
 from course.core.types import Floats64, Indices
+from course.formats.meshes.files import read_mesh
 from course.formats.metu.element import Element, Notes
 from course.formats.metu.materials import material_name
 from course.formats.metu.meshes import (
@@ -24,9 +25,10 @@ from course.formats.metu.meshes import (
     has_normals,
     inline_mesh,
     mesh_file,
+    offset_of,
     plane_mesh,
-    vertex_offset,
 )
+from course.formats.metu.textures import Texture, Textures
 from course.formats.metu.transformations import matrix_of, matrix_of_steps, transform_of
 from course.formats.metu.transformations import normal as transformed_normal
 from course.formats.metu.transformations import point as moved
@@ -60,6 +62,7 @@ class Objects:
     meshes : files of the converted scene
     notes : what there is to say about them
     eyes : where the cameras stand
+    textures : of the scene
     lamps : materials of the objects that are lights, by the objects' names; made as they are read
     """
 
@@ -70,6 +73,7 @@ class Objects:
     meshes: MeshTable
     notes: Notes
     eyes: list[list[float]]
+    textures: Textures
     lamps: dict[str, dict[str, Any]] = field(default_factory=dict)
     _bases: dict[str, dict[str, Any]] = field(default_factory=dict)
 
@@ -97,7 +101,8 @@ class Objects:
     def _set_from_behind(self, thing: dict[str, Any]) -> None:
         """Camera rays pass through backs of flat triangles, and find other normals as they are; but for glass."""
         named = {material_name(number): keys for number, keys in self.materials.items()}
-        if "dielectric" not in (named | self.lamps)[thing["material"]]:
+        named |= self.lamps | self.textures.made
+        if "dielectric" not in named[thing["material"]]:
             thing["from_behind"] = "unseen" if thing.get("shading") == "flat" else "kept"
 
     def _mesh(self, element: Element) -> dict[str, Any]:
@@ -119,6 +124,8 @@ class Objects:
     def _faces(self, element: Element, stem: str, name: str) -> dict[str, Any]:
         """The keys of a mesh with a name; its file, if the scene holds it itself, has a name of that stem."""
         element.attribute("id")
+        texture = self.textures.of(element) if stem == "mesh" else None
+        common = self._common(element, texture=texture)
         given = element.attribute("shadingMode")
         mode = given or "flat"
         if mode not in ("flat", "smooth"):
@@ -129,7 +136,7 @@ class Objects:
         file = faces.attribute("plyFile")
         normals = {}
         if file:
-            offset = vertex_offset(faces)
+            offset = offset_of(faces, "vertexOffset")
             if offset:
                 self.notes.add(
                     faces,
@@ -137,12 +144,18 @@ class Objects:
                     " a PLY file has its own vertices",
                 )
             found = mesh_file(faces, file, self.source)
+            faces.attribute("textureOffset")
             if not given and has_normals(found):
                 mode = "smooth"
             normals = {"normals": "area"} if mode == "smooth" else {}
             path = self.meshes.add_file(found, faces)
+            mesh = None if texture is None else self._with_uv(found, faces)
         else:
-            mesh = inline_mesh(faces, self.vertices, mode == "smooth")
+            places = None if texture is None else self.textures.places
+            mesh = inline_mesh(faces, self.vertices, mode == "smooth", places)
+        if mesh is not None:
+            if texture is not None:
+                mesh = self.textures.placed(texture, mesh)
             count = len(self._bases if stem == "mesh" else self.lamps)
             path = self.meshes.add_own(mesh, f"{stem}-{count + 1}", faces)
         return {
@@ -151,8 +164,18 @@ class Objects:
             "file": path,
             "shading": mode,
             **normals,
-            **self._common(element),
+            **common,
         }
+
+    def _with_uv(self, file: Path, faces: Element) -> Mesh:
+        """A mesh of a file that has texture coordinates; SceneError where it has none."""
+        mesh = read_mesh(file, "area")
+        if mesh.uv is None:
+            raise faces.error(
+                "has a texture, and its plyFile no texture coordinates (s and t, or u and v): save it with some,"
+                " or take Textures away"
+            )
+        return mesh
 
     def _instances(self, elements: list[Element]) -> list[dict[str, Any]]:
         """Instances of meshes and of other instances, whatever their order in the file."""
@@ -195,21 +218,28 @@ class Objects:
         thing |= self._common(element, element.maybe("Material") is None)
         if not element.flag("resetTransform"):
             thing["transform"] = base["transform"] + thing["transform"]
+        if base["material"] in self.textures.made and thing["material"] != base["material"]:
+            self.notes.add(
+                element, "has a Material of its own, and with it none of its mesh's Textures"
+            )
         # Meshes and instances are counted apart in some files; then a mesh keeps its number.
         self._bases.setdefault(number, thing)
         return thing
 
     def _sphere(self, element: Element, segments: int) -> dict[str, Any]:
         element.attribute("id")
+        texture = self.textures.of(element) if element.tag == "Sphere" else None
         center = element.child("Center", "the number of a vertex")
         middle = {"translate": self._vertex(center).tolist()}
+        # METU's pictures begin at -x, on the other side.
+        turned = [] if texture is None else [{"rotate": {"axis": [0, 1, 0], "degrees": 180}}]
         thing = {
             "shape": "sphere",
             "radius": element.child("Radius", "such as 1").number(0, above=True),
             "segments": segments,
-            **self._common(element),
+            **self._common(element, texture=texture),
         }
-        return thing | {"transform": [middle, *thing["transform"]]}
+        return thing | {"transform": [*turned, middle, *thing["transform"]]}
 
     def _triangles(self, elements: list[Element]) -> list[dict[str, Any]]:
         """Single triangles; those that look and move alike make one mesh."""
@@ -272,7 +302,9 @@ class Objects:
         found: Floats64 = self.vertices[int(number[0]) - 1]
         return found
 
-    def _common(self, element: Element, inherits_material: bool = False) -> dict[str, Any]:
+    def _common(
+        self, element: Element, inherits_material: bool = False, texture: Texture | None = None
+    ) -> dict[str, Any]:
         """Material, transform and motion of an object."""
         keys: dict[str, Any] = {}
         if not inherits_material:
@@ -283,6 +315,8 @@ class Objects:
                     f"the id of a material; {suggest(name, sorted(self.materials))}"
                 )
             keys["material"] = material_name(name)
+            if texture is not None:
+                keys["material"] = self.textures.material(texture, name, self.materials[name])
         keys["transform"] = transform_of(element, self.steps)
         blur = element.maybe("MotionBlur")
         if blur is not None and any(velocity := blur.vector()):

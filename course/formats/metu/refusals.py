@@ -8,11 +8,8 @@ from collections.abc import Iterable
 
 from course.errors import SceneError
 
-_TEXTURE = "textures are not converted yet"
-
 REFUSED = {
-    "TextureMap": _TEXTURE,
-    "Objects/*/Textures": _TEXTURE,
+    "Objects/*/Textures": "only a Mesh, a Sphere, and instances by their meshes, have textures",
     "Transparency": "no material of this course lets light straight through",
 }
 """Elements by their names, or by the ends of their paths, in which * is any name; and why they are refused."""

@@ -219,7 +219,7 @@ _Times: TypeAlias = Annotated[float, msgspec.Meta(gt=0, le=1e4)]
 
 
 class TextureDescription(Map, frozen=True, kw_only=True):
-    """A picture on a surface: bilinear between its pixels, and repeated beyond its edges."""
+    """A picture on a surface, repeated beyond its edges."""
 
     image: Annotated[
         str,
@@ -235,6 +235,10 @@ class TextureDescription(Map, frozen=True, kw_only=True):
             " and the texture coordinates of a mesh."
         ),
     ] = (1.0, 1.0)
+    interpolation: Annotated[
+        Literal["bilinear", "nearest"],
+        about("What is seen between the middles of pixels: a mixture, or the nearest pixel."),
+    ] = "bilinear"
 
 
 class MaterialDescription(Map, frozen=True, kw_only=True):

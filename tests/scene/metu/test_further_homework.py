@@ -201,14 +201,6 @@ def refused(metu: Metu, scene: Tree) -> str:
 
 
 REFUSED: dict[str, tuple[Tree, tuple[str, ...]]] = {
-    "textures": (
-        {"Textures": {"TextureMap": {"_id": "1", "_type": "image"}}},
-        ("Scene/Textures/TextureMap is refused: ", "remove it to render without it"),
-    ),
-    "perlin": (
-        {"Textures": {"TextureMap": [{"_id": "1", "_type": "perlin"}, {"_id": "2"}]}},
-        ("Scene/Textures/TextureMap[1] is refused: ", "also: Scene/Textures/TextureMap"),
-    ),
     "narrow": (
         {"lights": {"SpotLight": SPOT | {"CoverageAngle": "9"}}},
         ('SpotLight/FalloffAngle is "10": expected an angle up to CoverageAngle, 9 [degree]',),
@@ -297,9 +289,12 @@ def test_what_is_not_converted_is_refused_by_its_name_and_place(metu: Metu, name
         assert part in message
 
 
-def test_textures_of_an_object_are_refused(metu: Metu) -> None:
-    scene = tree(objects={"Mesh": WALL_MESH | {"Textures": "1"}})
-    assert "Scene/Objects/Mesh/Textures is refused: " in refused(metu, scene)
+def test_textures_of_planes_and_lamps_are_refused(metu: Metu) -> None:
+    plane = {"_id": "1", "Material": "1", "Textures": "1", "Point": "1", "Normal": "0 0 1"}
+    lamp = WALL_MESH | {"Textures": "1", "Radiance": "1 1 1"}
+    message = refused(metu, tree(objects={"Plane": plane, "LightMesh": lamp}))
+    assert "Scene/Objects/Plane/Textures is refused: only a Mesh, a Sphere" in message
+    assert "refused are also: Scene/Objects/LightMesh/Textures" in message
 
 
 def test_a_brdf_that_no_material_has_is_no_loss(metu: Metu) -> None:

@@ -1,0 +1,230 @@
+"""`Textures` and `TexCoordData`: pictures in the place of diffuse reflectances, written as this course has them.
+
+METU's codes are reflectances over a `Normalizer`, without sRGB's curve, so a converted picture is an EXR of those. Its
+texture coordinates go down, and bilinear texels lie on their upper left corners; this course's go up, and texels lie in
+their middles.
+"""
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+
+from course.core.triangles import Mesh
+from course.core.types import Floats64
+from course.errors import SceneError
+from course.formats.metu.element import Element
+from course.formats.metu.meshes import MeshTable
+from course.formats.pictures.display import linear_to_srgb8
+from course.formats.pictures.reading import LINEAR, read_picture
+from course.formats.yaml.document import show, suggest
+
+REFUSED: Final = {
+    "replace_all": "an unlit picture is no reflectance",
+    "replace_ks": "highlights of this course have one colour for each material",
+    "replace_background": "this course has no picture behind the scene that stands still",
+    "replace_normal": "this course has no normal maps",
+    "bump_normal": "this course has no bump maps",
+}
+"""Decal modes that can't be converted, and why."""
+
+
+@dataclass(frozen=True)
+class Texture:
+    """A `TextureMap`.
+
+    Attributes
+    ----------
+    element : itself
+    number : its id
+    file : the picture
+    mode : `DecalMode`
+    nearest : true for `Interpolation` nearest
+    normalizer : what the picture's values are divided by
+    """
+
+    element: Element
+    number: str
+    file: Path
+    mode: str
+    nearest: bool
+    normalizer: float
+
+    def picture(self) -> Floats64:
+        """The values over the normalizer, (H, W, 3)."""
+        try:
+            found = read_picture(self.file)
+        except (SceneError, ValueError) as error:
+            raise self.element.error(f"its picture can't be used: {error}") from None
+        linear = self.file.suffix.lower() in LINEAR
+        codes = found if linear else linear_to_srgb8(np.moveaxis(found, -1, 0))
+        values: Floats64 = codes.astype(np.float64) / self.normalizer
+        if values.max(initial=0) > 1:
+            raise self.element.error(
+                f"{show(self.file.name)} over its Normalizer, {self.normalizer:g}, goes up to {values.max():g}:"
+                " expected reflectances up to 1"
+            )
+        return values
+
+
+@dataclass
+class Textures:
+    """The textures of a scene, and the materials that objects have by them.
+
+    Attributes
+    ----------
+    maps : by id; an element stands for one that can't be converted, which is refused where it is used
+    places : (P, 2) texture coordinates of the scene, as METU has them
+    ambient : (3,) sum of the ambient lights
+    bodies : of each material its diffuse reflectance, and what that is multiplied by
+    files : where pictures are written
+    made : the materials by name
+    """
+
+    maps: dict[str, "Texture | Refused"]
+    places: Floats64
+    ambient: Floats64
+    bodies: dict[str, tuple[list[float], float]]
+    files: MeshTable
+    made: dict[str, dict[str, Any]] = field(default_factory=dict)
+    _sizes: dict[str, tuple[int, int]] = field(default_factory=dict)
+
+    def of(self, thing: Element) -> Texture | None:
+        """The texture of an object; SceneError for one that can't be converted."""
+        element = thing.maybe("Textures")
+        names = [] if element is None else element.words()
+        found = []
+        for name in names:
+            assert element is not None
+            if name not in self.maps:
+                raise element.unexpected(f"ids of a TextureMap; {name}: {suggest(name, self.maps)}")
+            texture = self.maps[name]
+            if isinstance(texture, Refused):
+                raise texture.error(f"; take it from {element.path} to render without it")
+            found.append(texture)
+        if len(found) > 1:
+            assert element is not None
+            raise element.refused("an object of this course has one texture; leave one of them")
+        return found[0] if found else None
+
+    def material(self, texture: Texture, number: str, keys: dict[str, Any]) -> str:
+        """The name of a material with a texture; ``keys`` are those that it has without."""
+        blends = texture.mode == "blend_kd"
+        name = f"material {number} with texture {texture.number}"
+        if name in self.made:
+            return name
+        kd, by = self.bodies[number]
+        picture = texture.picture()
+        self._sizes[texture.number] = picture.shape[1], picture.shape[0]
+        stem = f"texture-{len(self.made) + 1}"
+        if blends:
+            picture = (picture + np.array(kd)) / 2
+            if picture.max() > 1:
+                raise texture.element.error("blended with the DiffuseReflectance it goes above 1")
+        file = self.files.add_picture(picture.astype(np.float32), stem)
+        drawn = {"image": file} | ({"interpolation": "nearest"} if texture.nearest else {})
+        of_ambient = np.array(keys.get("ambient_color", keys["color"])) * keys.get("ambient", 1.0)
+        left = {k: v for k, v in keys.items() if k not in ("ambient_color", "ambient", "diffuse")}
+        # A texture would paint the ambient term, too; as an emission it is the same from place to place.
+        self.made[name] = left | {
+            "color": 1.0,
+            "diffuse": by,
+            "ambient": 0.0,
+            "emission": (of_ambient * self.ambient).tolist(),
+            "texture": drawn,
+        }
+        return name
+
+    def placed(self, texture: Texture, mesh: Mesh) -> Mesh:
+        """A mesh whose uv are METU's, with those of this course; the texture's material has been asked for."""
+        assert mesh.uv is not None
+        u, v = mesh.uv.T
+        width, height = self._sizes[texture.number]
+        half = 0.0 if texture.nearest else 0.5
+        uv = np.stack((u + half / width, 1 - v - half / height), axis=1)
+        return Mesh(mesh.vertices, mesh.triangles, mesh.normals, uv)
+
+
+@dataclass(frozen=True)
+class Refused:
+    """A `TextureMap` that can't be converted, and why."""
+
+    element: Element
+    why: str
+
+    def error(self, remedy: str) -> SceneError:
+        """The error of an object that has it."""
+        return self.element.refused(self.why + remedy)
+
+
+def read_maps(
+    scene: Element, images: dict[str, Element], folder: Path
+) -> dict[str, Texture | Refused]:
+    """All texture maps by id.
+
+    Parameters
+    ----------
+    images : elements that name files, by id
+    folder : from which they are named
+    """
+    parent = scene.maybe("Textures")
+    maps: dict[str, Texture | Refused] = {}
+    for element in () if parent is None else parent.all("TextureMap"):
+        number = element.id(maps)
+        maps[number] = _map(element, number, images, folder)
+        if (
+            isinstance(maps[number], Refused)
+            and _word(element, "DecalMode") == "replace_background"
+        ):
+            raise element.refused(
+                f"{REFUSED['replace_background']}; remove it to render without it"
+            )
+    return maps
+
+
+def _map(
+    element: Element, number: str, images: dict[str, Element], folder: Path
+) -> Texture | Refused:
+    kind, mode = element.attribute("type") or "image", _word(element, "DecalMode") or "replace_kd"
+    between = _word(element, "Interpolation") or "nearest"
+    scale = element.maybe("Normalizer")
+    normalizer = 255.0 if scale is None else scale.number(0, above=True)
+    for tag in ("ImageId", "NoiseScale", "NoiseConversion", "BumpFactor"):
+        _word(element, tag)
+    if kind != "image":
+        return Refused(
+            element, f"its type is {show(kind)}, and textures of this course are pictures"
+        )
+    if mode not in ("replace_kd", "blend_kd"):
+        why = REFUSED.get(mode, "replace_kd and blend_kd can be converted")
+        return Refused(element, f"its DecalMode is {show(mode)}: {why}")
+    if between not in ("nearest", "bilinear"):
+        return Refused(
+            element,
+            f"its Interpolation is {show(between)}: this course has no pyramids of pictures",
+        )
+    image = element.child("ImageId", "the id of an Image")
+    name = " ".join(image.words())
+    if name not in images:
+        raise image.unexpected(f"the id of an Image; {suggest(name, images)}")
+    file = " ".join(images[name].words())
+    path = folder / file.replace("\\", "/")
+    return Texture(element, number, path, mode, between == "nearest", normalizer)
+
+
+def _word(element: Element, tag: str) -> str:
+    child = element.maybe(tag)
+    return "" if child is None else " ".join(child.words())
+
+
+def read_places(scene: Element) -> Floats64:
+    """`TexCoordData`, (P, 2)."""
+    element = scene.maybe("TexCoordData")
+    if element is None or not element.text.strip():
+        return np.zeros((0, 2))
+    element.attribute("type")
+    values = element.many("u and v of each vertex")
+    if len(values) % 2:
+        raise element.error(f"has {len(values)} numbers: expected two for each vertex")
+    return values.reshape(-1, 2)

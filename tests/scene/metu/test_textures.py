@@ -1,0 +1,208 @@
+"""METU's textures: which reflectance each place has, by METU's own formulas for u and v and its texels."""
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from course.core.triangles import Mesh
+from course.errors import SceneError
+from course.formats.meshes.files import save_ply
+from tests.scene.metu.conftest import WALL, Metu, Tree, tree
+
+CODES = np.random.default_rng(7).integers(0, 256, (4, 6, 3), np.uint8)
+"""A picture of 4 rows and 6 columns."""
+
+MATT = {"_id": "1", "AmbientReflectance": "0.1 0.2 0.3", "DiffuseReflectance": "0.5 0.25 0"}
+SUN = {
+    "AmbientLight": "10 10 10",
+    "DirectionalLight": {"_id": "1", "Direction": "0 0 -1", "Radiance": "100 100 100"},
+}
+AMBIENT = np.array([1.0, 2.0, 3.0])
+"""What the ambient light adds, whatever the texture."""
+
+CORNERS = "0 1  1 1  1 0  0 0"
+"""Texture coordinates of the wall's corners: v goes down."""
+
+
+def textured(
+    folder: Path, *, mode: str = "replace_kd", between: str = "nearest", **more: Any
+) -> Tree:
+    """The wall, 18 x 18 at z = -4, with the picture."""
+    Image.fromarray(CODES).save(folder / "picture.png")
+    picture = {"_id": "1", "_type": "image", "ImageId": "5", "DecalMode": mode}
+    picture |= {"Interpolation": between, "Normalizer": "255"}
+    wall = {"_id": "1", "Material": "1", "Textures": "1", "Faces": "1 2 3 1 3 4"}
+    known: dict[str, Any] = {
+        "Textures": {
+            "Images": {"Image": {"_id": "5", "_data": "picture.png"}},
+            "TextureMap": picture,
+        },
+        "TexCoordData": CORNERS,
+        "objects": {"Mesh": wall},
+        "materials": [MATT],
+        "lights": SUN,
+    }
+    return tree(**(known | more))
+
+
+def look(u: float, v: float, **more: Any) -> Tree:
+    """A camera that sees the wall at u and v alone."""
+    gaze = f"{18 * u - 9} {9 - 18 * v} -4"
+    return {"Gaze": gaze, "NearPlane": "-1e-4 1e-4 -1e-4 1e-4", **more}
+
+
+def nearest(u: float, v: float) -> Any:
+    """METU's: the texel in column floor(u nx) and row floor(v ny)."""
+    return CODES[int(v * 4) % 4, int(u * 6) % 6] / 255
+
+
+def bilinear(u: float, v: float) -> Any:
+    """METU's: texels lie on whole numbers of u nx and v ny."""
+    i, j = u * 6, v * 4
+    p, q = math.floor(i), math.floor(j)
+    a, b = i - p, j - q
+    t = CODES / 255
+    return (
+        t[q % 4, p % 6] * (1 - a) * (1 - b)
+        + t[q % 4, (p + 1) % 6] * a * (1 - b)
+        + t[(q + 1) % 4, p % 6] * (1 - a) * b
+        + t[(q + 1) % 4, (p + 1) % 6] * a * b
+    )
+
+
+PLACES = [(0.1, 0.1), (0.45, 0.3), (0.7, 0.9), (0.97, 0.55)]
+
+
+@pytest.mark.parametrize(("between", "found"), [("nearest", nearest), ("bilinear", bilinear)])
+@pytest.mark.parametrize("place", PLACES)
+def test_a_place_has_the_reflectance_of_its_texels(
+    xml: Metu, between: str, found: Any, place: tuple[float, float]
+) -> None:
+    pixel = xml.pixel(textured(xml.folder, between=between, camera=look(*place)))
+    np.testing.assert_allclose(pixel, AMBIENT + 100 * found(*place), rtol=1e-3, atol=0.05)
+
+
+def test_blending_is_the_mean_with_the_material(metu: Metu) -> None:
+    scene = textured(metu.folder, mode="blend_kd", camera=look(*PLACES[1]))
+    expected = (np.array([0.5, 0.25, 0]) + nearest(*PLACES[1])) / 2
+    np.testing.assert_allclose(metu.pixel(scene), AMBIENT + 100 * expected, rtol=1e-4, atol=0.01)
+
+
+def test_offsets_count_from_where_they_say(xml: Metu) -> None:
+    faces = {"_vertexOffset": "1", "_textureOffset": "2", "_data": "1 2 3 1 3 4"}
+    wall = {"_id": "1", "Material": "1", "Textures": "1", "Faces": faces}
+    scene = textured(
+        xml.folder,
+        vertices=f"5 5 5 {WALL}",
+        TexCoordData=f"9 9 8 8 {CORNERS}",
+        objects={"Mesh": wall},
+        camera=look(*PLACES[2]),
+    )
+    np.testing.assert_allclose(
+        xml.pixel(scene), AMBIENT + 100 * nearest(*PLACES[2]), rtol=1e-4, atol=0.01
+    )
+
+
+def test_a_file_has_its_own_places(xml: Metu) -> None:
+    vertices = np.array(WALL.split(), float).reshape(-1, 3)
+    uv = np.array(CORNERS.split(), float).reshape(-1, 2)
+    triangles = np.array([[0, 1, 2], [0, 2, 3]], np.int32)
+    save_ply(Mesh(vertices, triangles, None, uv), xml.folder / "wall.ply")
+    wall = {"_id": "1", "Material": "1", "Textures": "1", "Faces": {"_plyFile": "wall.ply"}}
+    scene = textured(xml.folder, objects={"Mesh": wall}, camera=look(*PLACES[3]))
+    np.testing.assert_allclose(
+        xml.pixel(scene), AMBIENT + 100 * nearest(*PLACES[3]), rtol=1e-4, atol=0.01
+    )
+    save_ply(Mesh(vertices, triangles, None, None), xml.folder / "wall.ply")
+    with pytest.raises(SceneError, match="its plyFile no texture coordinates"):
+        xml.load(scene)
+
+
+@pytest.mark.parametrize("way", [(0.3, 0.2, 0.9), (-0.5, 0.1, 0.6), (0.6, -0.4, 0.5)])
+def test_a_ball_has_metus_longitude_and_latitude(
+    xml: Metu, way: tuple[float, float, float]
+) -> None:
+    """From +z, by phi = atan2(z, x) and theta = acos(y): u = (pi - phi) / 2 pi, v = theta / pi."""
+    x, y, z = np.array(way) / np.linalg.norm(way)
+    u, v = (math.pi - math.atan2(z, x)) / (2 * math.pi), math.acos(y) / math.pi
+    ball = {"_id": "1", "Material": "1", "Textures": "1", "Center": "1", "Radius": "2"}
+    eye = np.array([0, 0, 6])
+    gaze = " ".join(map(str, 2 * np.array([x, y, z]) - eye))
+    camera = {"Position": "0 0 6", "Gaze": gaze, "NearPlane": "-1e-4 1e-4 -1e-4 1e-4"}
+    scene = textured(
+        xml.folder,
+        objects={"Sphere": ball},
+        vertices="0 0 0",
+        camera=camera,
+        lights={"AmbientLight": "0 0 0", "DirectionalLight": SUN["DirectionalLight"]},
+    )
+    np.testing.assert_allclose(xml.pixel(scene), 100 * z * nearest(u, v), rtol=5e-3)
+
+
+@pytest.mark.parametrize(
+    ("changed", "told"),
+    [
+        ({"mode": "replace_all"}, 'its DecalMode is "replace_all": an unlit picture'),
+        ({"mode": "replace_ks"}, 'its DecalMode is "replace_ks": highlights'),
+        (
+            {"mode": "replace_normal"},
+            'its DecalMode is "replace_normal": this course has no normal',
+        ),
+        ({"mode": "bump_normal"}, 'its DecalMode is "bump_normal": this course has no bump maps'),
+        ({"mode": "replace_background"}, "this course has no picture behind the scene"),
+        ({"between": "trilinear"}, 'its Interpolation is "trilinear": this course has no pyramids'),
+        ({"perlin": "1"}, 'its type is "perlin", and textures of this course are pictures'),
+        (
+            {"TexCoordData": "0 0 1 1"},
+            "refers to texture coordinates 1 to 4: expected numbers from",
+        ),
+        ({"TexCoordData": "0 0 1"}, "TexCoordData: has 3 numbers: expected two"),
+        ({"Normalizer": "100"}, "over its Normalizer, 100, goes up to 2.5"),
+        ({"ImageId": "4"}, 'ImageId is "4": expected the id of an Image'),
+        ({"chosen": "2"}, 'Textures is "2": expected ids of a TextureMap'),
+        ({"chosen": "1 1"}, "Textures is refused: an object of this course has one texture"),
+        ({"file": "none.png"}, "its picture can't be used: .*none.png"),
+    ],
+)
+def test_what_is_not_converted_is_refused_by_its_name(
+    xml: Metu, changed: dict[str, str], told: str
+) -> None:
+    keys = {key: changed[key] for key in ("mode", "between", "TexCoordData") if key in changed}
+    scene = textured(xml.folder, **keys)
+    table = scene["Textures"]
+    for key in ("Normalizer", "ImageId"):
+        table["TextureMap"] |= {key: changed[key]} if key in changed else {}
+    if "perlin" in changed:
+        table["TextureMap"] = {"_id": "1", "_type": "perlin", "NoiseScale": "3"}
+    if "file" in changed:
+        table["Images"]["Image"]["_data"] = changed["file"]
+    scene["Objects"]["Mesh"]["Textures"] = changed.get("chosen", "1")
+    with pytest.raises(SceneError, match=rf"scene\.xml:\d+: Scene/.*{told}"):
+        xml.load(scene)
+
+
+def test_an_instance_with_a_material_of_its_own_has_no_texture_and_a_warning(xml: Metu) -> None:
+    scene = textured(xml.folder)
+    scene["Objects"]["MeshInstance"] = [
+        {"_id": "8", "_baseMeshId": "1"},
+        {"_id": "9", "_baseMeshId": "1", "Material": "1"},
+    ]
+    things = xml.load(scene).loaded.description.objects
+    assert [thing.material for thing in things] == [
+        "material 1 with texture 1",
+        "material 1 with texture 1",
+        "material 1",
+    ]
+    assert len(xml.warnings) == 1
+    assert "MeshInstance[2] has a Material of its own" in xml.warnings[0]
+
+
+def test_a_texture_that_nothing_has_is_no_loss(metu: Metu) -> None:
+    scene = textured(metu.folder, mode="replace_normal")
+    del scene["Objects"]["Mesh"]["Textures"]
+    metu.load(scene)
+    assert metu.warnings == []
