@@ -25,7 +25,7 @@ from course.rendering.developing import developing
 from course.rendering.memory import keep_freed_memory
 from course.rendering.threads import Pool, ThreadedExecutor, default_threads
 from course.rendering.uniform import TIMED, UNIFORM
-from course.scene.scene import Scene, Settings
+from course.scene.scene import Denoising, Scene, Settings
 
 WORTH_COMPILED = 8_000_000
 """Camera rays from which on compiled loops save more than the second that Numba takes to get ready."""
@@ -49,6 +49,7 @@ def render(
     start: Picture | None = None,
     compiled: bool | None = None,
     address: str | None = None,
+    denoise: bool = False,
 ) -> Picture:
     """Render a scene; what isn't given is as the scene file says.
 
@@ -76,6 +77,7 @@ def render(
     start : a picture of the same scene and settings with fewer samples, to be continued
     address : of the scheduler of a Dask cluster, such as tcp://127.0.0.1:8786, whose workers render (``pip install
         .[dask]``) and decide how many threads; None means this machine
+    denoise : a PNG shows means over neighbours, as `film: {denoise: {}}` has it: a preview, whose means are biased
 
     Raises
     ------
@@ -96,6 +98,7 @@ def render(
         sampler=sampler,
         seed=seed,
         error=error,
+        denoise=(scene.settings.denoise or Denoising()) if denoise else None,
     )
     job = Job(scene, settings, time_limit, start)
     mode = _mode(settings, time_limit)
@@ -143,6 +146,10 @@ def render(
 
 def _mode(settings: Settings, time_limit: float | None) -> Mode:
     """The mode that settings ask for; its module is imported then."""
+    if settings.denoise is not None:
+        from course.rendering.denoised import DENOISED
+
+        return DENOISED
     if settings.subdivision is not None:
         from course.adaptive.subdivision import SUBDIVISION
 

@@ -16,7 +16,7 @@ from course.cli.progress import progress_bar
 from course.cli.tables import print_sections, receipt_sections
 from course.cli.watching import again_and_again
 from course.effects import Effects
-from course.errors import CourseError
+from course.errors import CourseError, OutputError
 from course.formats.metu.suffixes import is_metu
 
 SAMPLERS = ("sobol", "random", "jittered", "regular", "halton", "hammersley", "chained", "xorshift")
@@ -51,6 +51,11 @@ SAMPLERS = ("sobol", "random", "jittered", "regular", "halton", "hammersley", "c
 )
 @click.option("--address", metavar="tcp://HOST:PORT", help="Of the dask scheduler.")
 @options.effects_option
+@click.option(
+    "--denoise",
+    is_flag=True,
+    help="Show means over neighbours that Welch's test doesn't separate: a preview, whose means are biased.",
+)
 @click.option(
     "--time-limit",
     metavar="S",
@@ -124,6 +129,7 @@ def _render_all(
         out = Path(f"{scene.stem}.png") if out is None else out
         pictures, files = [("-o", out), ("--heat-map", heat_map)], [("--receipt", receipt_path)]
         check_outputs(pictures, files, scene)
+        _check_preview(out, choices)
         _render_one(scene, scene, out, effects, choices, heat_map, receipt_path)
         return
     with converted(scene, camera) as chosen:
@@ -141,6 +147,8 @@ def _render_all(
             for one in chosen
         ]
         check_outputs([*outs, ("--heat-map", heat_map)], [("--receipt", receipt_path)], scene)
+        for _, picture in outs:
+            _check_preview(picture, choices)
         for one, (_, picture) in zip(chosen, outs, strict=True):
             _render_one(scene, one.path, picture, effects, choices, heat_map, receipt_path)
 
@@ -199,6 +207,14 @@ def _check_error(scene: Path, sampler: str, samples: int, choices: dict[str, Any
         f"{scene}: --error adds samples where the error is, but NumSamples of a METU scene places them all at once"
         f" ({sampler}): say --sampler sobol{more}, too"
     )
+
+
+def _check_preview(out: Path, choices: dict[str, Any]) -> None:
+    if choices["denoise"] and out.suffix.lower() == ".exr":
+        raise OutputError(
+            f"{out}: an .exr holds the picture as it was rendered, and --denoise is for previews: write a .png, or"
+            " leave --denoise out"
+        )
 
 
 def _check_engine(engine: str, address: str | None, threads: int | None) -> None:

@@ -71,6 +71,7 @@ def receipt_sections(receipt: Mapping[str, Any]) -> list[Section]:
         ("rays", [*_counts(rays), *_total(rays, wall)]),
         ("samples", _samples(receipt)),
         ("subdivision", _corners(receipt)),
+        ("denoising", _denoising(receipt)),
         ("tests", _tests(receipt)),
         ("numbers", _counts(receipt["numbers"])),
         (
@@ -110,6 +111,17 @@ def _corners(receipt: Mapping[str, Any]) -> list[tuple[str, str]]:
             f"{divided['corners']:,} of {divided['lattice']:,}, {divided['saved']:.0%} saved",
         ),
         ("shared", f"{divided['shared']:,} times"),
+    ]
+
+
+def _denoising(receipt: Mapping[str, Any]) -> list[tuple[str, str]]:
+    found = receipt.get("denoising")
+    if found is None:
+        return []
+    return [
+        ("biased", f"a preview: each pixel a mean with {found['neighbours']:.1f} neighbours"),
+        ("noise", f"{found['noise']:.3g} before, {found['left']:.3g} after, by its own estimate"),
+        ("bias", f"{found['bias']:.3g}, by its own estimate"),
     ]
 
 

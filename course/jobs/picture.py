@@ -37,6 +37,12 @@ class Picture:
         """(H, W, 3) float32 linear RGB radiance, row 0 the top row."""
         return np.moveaxis(self.film.linear, 0, 2)
 
+    @property
+    def shown(self) -> Floats32:
+        """(3, H, W) float32 linear RGB that a PNG shows: the denoised preview if there is one, else the picture."""
+        preview: Floats32 | None = getattr(self.film, "preview", None)
+        return self.film.linear if preview is None else preview
+
     def save(self, path: str | Path) -> None:
         """Write the picture: ``.png`` (8 bit, sRGB unless the scene's film says otherwise) or ``.exr`` (linear).
 
@@ -44,7 +50,8 @@ class Picture:
         """
         from course.formats.pictures.files import save
 
-        save(Path(path), self.film.linear, self.settings.display)
+        exact = Path(path).suffix.lower() == ".exr"
+        save(Path(path), self.film.linear if exact else self.shown, self.settings.display)
 
     def save_heat_map(self, path: str | Path) -> None:
         """Write where the samples went: black the fewest, white the most, logarithmic between; see ``save``."""
@@ -64,4 +71,4 @@ class Picture:
     def _repr_png_(self) -> bytes:
         from course.formats.pictures.files import encode_png
 
-        return encode_png(self.film.linear, self.settings.display)
+        return encode_png(self.shown, self.settings.display)

@@ -29,6 +29,8 @@ class Receipt:
     seed, version : what to repeat it with
     subdivision : where pixels are divided by contrast: "corners" that got rays, corners of cells that were "shared",
         corners of the smallest cells ("lattice"), and the part of those that was "saved"; else None
+    denoising : where the PNG is a biased preview: the "neighbours" a pixel is averaged with, and estimates of the
+        root-mean-square "noise" before, of what is "left" of it, and of the "bias" [radiance]; else None
     tests : where a hierarchy takes the place of Embree: "boxes" and "triangles" that rays were tested with; else None
     """
 
@@ -47,11 +49,12 @@ class Receipt:
     error: dict[str, float] | None = None
     subdivision: dict[str, float] | None = None
     tests: dict[str, int] | None = None
+    denoising: dict[str, float] | None = None
 
     def to_dict(self) -> dict[str, Any]:
         """Plain data, as written by ``course render --receipt``; without what there was none of."""
         told = asdict(self)
-        for part in ("subdivision", "tests"):
+        for part in ("subdivision", "tests", "denoising"):
             if told[part] is None:
                 del told[part]
         return told

@@ -97,6 +97,10 @@ def needs_of(scene: Scene, settings: Settings) -> tuple[Need, ...]:
         from course.adaptive import subdivision
 
         subdivision.Functions(bound, settings.subdivision)
+    if settings.denoise is not None:
+        from course.extras import denoising
+
+        denoising.functions(bound)
     for name, key in developed_by(scene).items():
         bound.function("film", name, ("film", key))
     return bound.needs
@@ -137,6 +141,7 @@ _REASONS = {
     "multiple_importance": "no lamp and no lobe are sampled together",
     "importance_sampling": "no directions towards an environment are chosen by its functions",
     "many_lights": "no light is chosen by a tree",
+    "denoising": "the film asks for no denoised preview",
     "film": "the film asks for no exposure, gamut, tone mapping or dithering",
 }
 

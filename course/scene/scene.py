@@ -7,12 +7,16 @@ from course.building.world import Compiled, compile_scene
 from course.core import scene as core
 from course.effects import Effects
 from course.formats.pictures.display import SRGB, Display
-from course.formats.yaml.description import SubdivisionDescription
+from course.formats.yaml.description import DenoiseDescription, SubdivisionDescription
 from course.formats.yaml.loading import Loaded, load_description
 from course.formats.yaml.overriding import Overrides
 
 Subdivision = SubdivisionDescription
 """The file's settings for dividing pixels."""
+
+
+Denoising = DenoiseDescription
+"""The file's settings for a denoised preview."""
 
 
 @dataclass(frozen=True)
@@ -24,11 +28,13 @@ class Settings(core.Settings):
     error : the root-mean-square error [radiance] at which sampling ends; None samples all pixels alike
     display : how a PNG shows the picture
     subdivision : rays through the corners of cells, which are divided by contrast; None takes samples in pixels
+    denoise : a PNG shows means over neighbours; None shows the picture as rendered
     """
 
     error: float | None = None
     display: Display = SRGB
     subdivision: Subdivision | None = None
+    denoise: Denoising | None = None
 
 
 @dataclass(frozen=True)
@@ -71,6 +77,7 @@ class Scene:
             error=scene.film.error,
             display=Display(scene.film.white, scene.film.encoding),
             subdivision=scene.film.subdivision,
+            denoise=scene.film.denoise,
         )
 
 

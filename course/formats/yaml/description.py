@@ -793,6 +793,23 @@ class ToneDescription(Map, frozen=True, kw_only=True):
     ] = None
 
 
+class DenoiseDescription(Map, frozen=True, kw_only=True):
+    """A preview for PNGs: means over neighbours that Welch's test doesn't separate (Sakai et al., 2024)."""
+
+    level: Annotated[
+        float, about("Probability that a channel separates two equal pixels.", gt=1e-6, lt=1)
+    ] = 0.05
+    sigma: Annotated[
+        float,
+        about(
+            "Deviation of the Gaussian over the neighbours, which are within two of it.",
+            "pixel",
+            ge=0.5,
+            le=10,
+        ),
+    ] = 2.0
+
+
 class FilmDescription(Map, frozen=True, kw_only=True):
     """Size of the picture and its reconstruction filter."""
 
@@ -814,6 +831,12 @@ class FilmDescription(Map, frozen=True, kw_only=True):
         about(
             "Rays through the corners of pixels instead of samples within them, and more where corners differ."
             " sampler.samples is the number of rays through each corner."
+        ),
+    ] = None
+    denoise: Annotated[
+        DenoiseDescription | None,
+        about(
+            "A PNG shows means over neighbours, which are biased: for previews. Other files hold the picture as rendered."
         ),
     ] = None
     white: Annotated[

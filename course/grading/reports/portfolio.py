@@ -223,6 +223,6 @@ def _within(scene: Scene, width: int) -> tuple[int, int]:
 
 def _webp(picture: Picture) -> Markup:
     buffer = BytesIO()
-    codes = picture.settings.display.codes(picture.film.linear)
+    codes = picture.settings.display.codes(picture.shown)
     Image.fromarray(codes).save(buffer, "webp", quality=QUALITY)
     return data_uri("webp", buffer.getvalue())
