@@ -81,9 +81,7 @@ def degrees_of_freedom(variance_a, count_a, variance_b, count_b):
     a, b = variance_a / count_a, variance_b / count_b
     squares = a**2 / (count_a - 1) + b**2 / (count_b - 1)
     unknown = squares == 0
-    degrees = np.where(
-        unknown, count_a + count_b - 2, (a + b) ** 2 / np.where(unknown, 1, squares)
-    )
+    degrees = np.where(unknown, count_a + count_b - 2, (a + b) ** 2 / np.where(unknown, 1, squares))
     return degrees.astype(_dtype(variance_a, count_a, variance_b, count_b))
     ### END SOLUTION
 

@@ -1,0 +1,21 @@
+"""You cut off at 0, so that the mean over pixels is too large."""
+
+import numpy as np
+
+FUNCTION = "squared_bias"
+CAUGHT_BY = "negative"
+MISTAKE = "cut-off-at-0"
+SAYS = "You cut off at 0, so that the mean over pixels is too large."
+
+
+def squared_bias(filtered, filtered_variance, mean, variance, share):
+    """With a mistake."""
+    _check("filtered", filtered, 3, "N")
+    pixels = np.shape(filtered)[1]
+    _check("filtered_variance", filtered_variance, 3, pixels)
+    _check("mean", mean, 3, pixels)
+    _check("variance", variance, 3, pixels)
+    _check("share", share, pixels)
+    explained = filtered_variance + (1 - 2 * share) * variance
+    dtype = _dtype(filtered, filtered_variance, mean, variance, share)
+    return np.maximum((filtered - mean) ** 2 - explained, 0).astype(dtype)

@@ -1,0 +1,21 @@
+"""You don't subtract what noise explains."""
+
+import numpy as np
+
+FUNCTION = "squared_bias"
+CAUGHT_BY = "values"
+MISTAKE = "noise-left-in"
+SAYS = "You don't subtract what noise explains."
+
+
+def squared_bias(filtered, filtered_variance, mean, variance, share):
+    """With a mistake."""
+    _check("filtered", filtered, 3, "N")
+    pixels = np.shape(filtered)[1]
+    _check("filtered_variance", filtered_variance, 3, pixels)
+    _check("mean", mean, 3, pixels)
+    _check("variance", variance, 3, pixels)
+    _check("share", share, pixels)
+    explained = 0 * variance
+    dtype = _dtype(filtered, filtered_variance, mean, variance, share)
+    return ((filtered - mean) ** 2 - explained).astype(dtype)

@@ -1,0 +1,21 @@
+"""One channel that agrees is enough for you; all three have to."""
+
+import numpy as np
+
+FUNCTION = "pair_weights"
+CAUGHT_BY = "channel"
+MISTAKE = "one-channel-joins"
+SAYS = "One channel that agrees is enough for you; all three have to."
+
+
+def pair_weights(t, critical, distance, sigma):
+    """With a mistake."""
+    _check("t", t, 3, "N")
+    pixels = np.shape(t)[1]
+    _check("critical", critical, 3, pixels)
+    _check("distance", distance, pixels)
+    if not 0 < sigma < np.inf:
+        raise ValueError(f"sigma must be over 0 and finite, got {sigma}")
+    joined = (np.abs(t) <= critical).any(axis=0)
+    weights = joined * np.exp(-0.5 * (distance / sigma) ** 2)
+    return weights.astype(_dtype(t, critical, distance))
