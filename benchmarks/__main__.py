@@ -17,6 +17,7 @@ from benchmarks.adaptive_sampling import measure_adaptive_sampling
 from benchmarks.allocation_oracle import measure_oracle
 from benchmarks.bounding_volumes import measure_bounding_volumes
 from benchmarks.convergence import measure_convergence
+from benchmarks.denoising import measure_denoising
 from benchmarks.engine import measure_degenerate, measure_dragons, measure_effects, measure_engine
 from benchmarks.environment_light import measure_environment_light
 from benchmarks.figures import Figure, table, write_ratios
@@ -61,6 +62,7 @@ MEASURES = {
     "environment_light": measure_environment_light,
     "microfacets": measure_microfacets,
     "many_lights": measure_many_lights,
+    "denoising": measure_denoising,
     "quasi_monte_carlo": measure_quasi_monte_carlo,
 }
 

@@ -86,14 +86,6 @@ CONTRACTS = {
     "many_lights.light_tree": "lo: 3 L, hi: 3 L, axis: 3 L, angle: L, power: L"
     " -> lo: 3 M, hi: 3 M, axis: unit 3 M, angle: M, power: M, order: whole L",
     "many_lights.tree_choice": "tree, p: 3 N, n: 3 N, u: N -> lamp: whole N, probability: N",
-    "denoising.welch_t": "mean_a: 3 N, variance_a: 3 N, count_a: N, mean_b: 3 N, variance_b: 3 N, count_b: N"
-    " -> the statistics: infinite 3 N",
-    "denoising.degrees_of_freedom": "variance_a: 3 N, count_a: N, variance_b: 3 N, count_b: N -> the degrees: 3 N",
-    "denoising.critical_value": "degrees: N, level -> the critical values: N",
-    "denoising.pair_weights": "t: 3 N, critical: 3 N, distance: N, sigma -> the weights: N",
-    "denoising.weighted_mean": "means: 3 N k, variances: 3 N k, weights: N k -> mean: 3 N, variance: 3 N",
-    "denoising.squared_bias": "filtered: 3 N, filtered_variance: 3 N, mean: 3 N, variance: 3 N, share: N"
-    " -> the squared bias: 3 N",
     "path_tracing.diffuse_bounce": "normal: 3 N, u: 2 N -> the directions: unit 3 N",
     "path_tracing.throughput": "beta: 3 N, albedo: 3 N -> the throughput: 3 N",
     "path_tracing.russian_roulette": "beta: 3 N, u: N -> survives: bool N, the throughput: 3 N",
@@ -102,6 +94,14 @@ CONTRACTS = {
     "radiosity.shoot": "radiosity: 3 P, unshot: 3 P, reflectance: 3 P, areas: P, form_factors: P, shooter"
     " -> the radiosity: 3 P, the unshot radiosity: 3 P",
     "radiosity.needs_split": "patch_radiosity: 3 K N, threshold -> the decisions: bool N",
+    "denoising.welch_t": "mean_a: 3 N, variance_a: 3 N, count_a: N, mean_b: 3 N, variance_b: 3 N, count_b: N"
+    " -> the statistics: infinite 3 N",
+    "denoising.degrees_of_freedom": "variance_a: 3 N, count_a: N, variance_b: 3 N, count_b: N -> the degrees: 3 N",
+    "denoising.critical_value": "degrees: N, level -> the critical values: N",
+    "denoising.pair_weights": "t: 3 N, critical: 3 N, distance: N, sigma -> the weights: N",
+    "denoising.weighted_mean": "means: 3 N k, variances: 3 N k, weights: N k -> mean: 3 N, variance: 3 N",
+    "denoising.squared_bias": "filtered: 3 N, filtered_variance: 3 N, mean: 3 N, variance: 3 N, share: N"
+    " -> the squared bias: 3 N",
     "film.expose": "radiance: 3 N, stops -> the radiance: 3 N",
     "film.photographic": "radiance: 3 N, key, burn, saturation -> the colours: 3 N",
     "film.encode_srgb": "linear: 3 N -> the encoded colours: 3 N",

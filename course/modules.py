@@ -31,9 +31,9 @@ FURTHER = _named(
         "bounding_volumes": "slab_test build traverse",
         "quasi_monte_carlo": "radical_inverse halton hammersley chain",
         "many_lights": "power_choice merge_cones light_tree importance tree_choice tree_probability",
-        "denoising": "welch_t degrees_of_freedom critical_value pair_weights weighted_mean squared_bias",
         "path_tracing": "diffuse_bounce throughput russian_roulette",
         "radiosity": "hemicube_form_factors gather shoot needs_split",
+        "denoising": "welch_t degrees_of_freedom critical_value pair_weights weighted_mean squared_bias",
         "film": "expose luminance photographic encode_srgb convert_gamut quantize",
     }
 )

@@ -49,7 +49,7 @@ def render(
     start: Picture | None = None,
     compiled: bool | None = None,
     address: str | None = None,
-    denoise: bool = False,
+    denoise: bool | None = None,
 ) -> Picture:
     """Render a scene; what isn't given is as the scene file says.
 
@@ -77,7 +77,7 @@ def render(
     start : a picture of the same scene and settings with fewer samples, to be continued
     address : of the scheduler of a Dask cluster, such as tcp://127.0.0.1:8786, whose workers render (``pip install
         .[dask]``) and decide how many threads; None means this machine
-    denoise : a PNG shows means over neighbours, as `film: {denoise: {}}` has it: a preview, whose means are biased
+    denoise : whether a PNG shows means over neighbours, a preview whose means are biased; None means as the scene says
 
     Raises
     ------
@@ -98,8 +98,10 @@ def render(
         sampler=sampler,
         seed=seed,
         error=error,
-        denoise=(scene.settings.denoise or Denoising()) if denoise else None,
     )
+    if denoise is not None:
+        rule = (settings.denoise or Denoising()) if denoise else None
+        settings = replace(settings, denoise=rule)
     job = Job(scene, settings, time_limit, start)
     mode = _mode(settings, time_limit)
     mode.check(job)

@@ -119,6 +119,7 @@ _SKY = "the environment lights from straight above"
 _WHOLE = "no cell is divided"
 _ALIKE = "each lamp is as probable, so the picture is noisy"
 _DARK = "surfaces pass no light on, so only lamps are bright"
+_UNTESTED = "all neighbours are averaged, whatever their difference"
 _PATHS = "paths go on along the normal, and lose half their light"
 
 STAND_INS: dict[str, tuple[Callable[..., Any], str]] = {
@@ -278,6 +279,21 @@ STAND_INS: dict[str, tuple[Callable[..., Any], str]] = {
     "radiosity.needs_split": (
         lambda patch_radiosity, _threshold: np.zeros(patch_radiosity.shape[2], bool),
         "no patch is divided",
+    ),
+    "denoising.welch_t": (lambda mean_a, *_: np.zeros_like(mean_a), _UNTESTED),
+    "denoising.degrees_of_freedom": (lambda variance_a, *_: np.full_like(variance_a, 2), _UNTESTED),
+    "denoising.critical_value": (lambda degrees, _level: np.full_like(degrees, 2), _UNTESTED),
+    "denoising.pair_weights": (
+        lambda _t, _critical, distance, _sigma: (distance == 0).astype(distance.dtype),
+        "the preview is as noisy as the picture",
+    ),
+    "denoising.weighted_mean": (
+        lambda means, variances, _weights: (means[..., 0].copy(), variances[..., 0].copy()),
+        "the preview is as noisy as the picture",
+    ),
+    "denoising.squared_bias": (
+        lambda filtered, *_: np.zeros_like(filtered),
+        "no bias is estimated",
     ),
     "film.expose": (_still, "the exposure is left out"),
     "film.photographic": (_still, "what is brighter than white is cut off"),

@@ -45,6 +45,7 @@ MAY_DIFFER = {
     "bounding_volumes": r"acceleration\..*",
     "quasi_monte_carlo": r"sampler\.type",
     "many_lights": r"integrator\.light_sampling",
+    "denoising": r"film\.denoise\..*",
     "film": r"film\.(tone\..*|gamut|dither)",
     "path_tracing": r"integrator\.type",
 }
@@ -61,6 +62,7 @@ CALLS = {
     "textures": "rectangle_uv sphere_uv texture_lookup triangle_uv",
     "bounding_volumes": "build traverse",
     "quasi_monte_carlo": "chain hammersley",
+    "denoising": "critical_value degrees_of_freedom pair_weights squared_bias weighted_mean welch_t",
     "film": "convert_gamut encode_srgb photographic quantize",
     "many_lights": "light_tree power_choice tree_choice",
     "path_tracing": "diffuse_bounce russian_roulette throughput",

@@ -54,6 +54,7 @@ SAMPLERS = ("sobol", "random", "jittered", "regular", "halton", "hammersley", "c
 @click.option(
     "--denoise",
     is_flag=True,
+    default=None,
     help="Show means over neighbours that Welch's test doesn't separate: a preview, whose means are biased.",
 )
 @click.option(

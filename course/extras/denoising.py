@@ -16,7 +16,6 @@ from course.core.types import Floats32, Floats64, Functions
 from course.effects import Bound
 from course.modules import COURSE
 
-
 REACH = 2.0
 """Radius of the disk in standard deviations of its Gaussian."""
 
@@ -38,12 +37,13 @@ class MomentsFilm(Film):
     Attributes
     ----------
     preview : (3, H, W) float32 linear radiance that a PNG shows; None before it is made
+    mean : (3, H, W) of all samples so far
     """
 
     def __init__(self, width: int, height: int) -> None:
         super().__init__(width, height)
         self.preview: Floats32 | None = None
-        self._mean = np.zeros((3, height, width))
+        self.mean = np.zeros((3, height, width))
         self._squares = np.zeros((3, height, width))
 
     def add(
@@ -55,8 +55,8 @@ class MomentsFilm(Film):
         own = each.mean(axis=3)
         super().add(tile, own.reshape(3, -1).astype(np.float32), float(added), samples, summed)
         # Two groups of samples together: Chan, Golub and LeVeque, 1983.
-        apart = own - self._mean[place]
-        self._mean[place] += apart * (added / samples)
+        apart = own - self.mean[place]
+        self.mean[place] += apart * (added / samples)
         self._squares[place] += ((each - own[..., None]) ** 2).sum(axis=3)
         self._squares[place] += apart**2 * ((samples - added) * added / samples)
 
@@ -80,7 +80,7 @@ class MomentsFilm(Film):
             picture before, "left" after, and "bias" [radiance].
         """
         pictures = _Moments(
-            self._mean.reshape(3, -1).astype(np.float32),
+            self.mean.reshape(3, -1).astype(np.float32),
             self.variance.reshape(3, -1).astype(np.float32),
             np.maximum(self.samples, 2).ravel().astype(np.float32),
             (self.samples >= 2).ravel(),

@@ -33,6 +33,7 @@ def test_what_options_leave_open_is_left_to_the_scene(run: Run, engine: Engine) 
         "error",
         "progress",
         "address",
+        "denoise",
     }
     assert set(options.values()) == {None}
 
@@ -56,6 +57,7 @@ def test_options_reach_the_renderer(run: Run, engine: Engine, tmp_path: Path) ->
             "error": 0.25,
             "progress": None,
             "address": None,
+            "denoise": None,
         }
     ]
     assert files(tmp_path) == {"a.EXR"}

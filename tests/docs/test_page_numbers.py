@@ -551,6 +551,34 @@ def test_glass_straight_on_and_at_brewster_s_angle() -> None:
     assert told(angle, math.degrees(math.atan(1.5)))
 
 
+# ---------------------------------------------------------------- denoising
+
+
+@pytest.mark.parametrize(
+    ("heading", "names"),
+    [
+        ("all light, as in the scene |", ("scene",) * 3),
+        ("direct light alone |", ("direct",) * 3 + ("floor",) * 2),
+        ("equal pixels that are separated", ("separated",) * 2),
+    ],
+)
+def test_errors_and_levels_of_denoising(heading: str, names: tuple[str, ...]) -> None:
+    measured = plots("denoising")
+    rows = table("denoising", heading)
+    assert len(rows) == len(names)
+    for k, row in enumerate(rows):
+        label = row[0].removeprefix("the tiles, ")
+        for sampler, cells in (("random", row[1:5]), ("Sobol", row[5:])):
+            (line,) = [
+                line for line in measured[names[k]].series if line.name == f"{sampler}, {label}"
+            ]
+            share = 100 if names[k] == "separated" else 1
+            kept = dict(zip(line.x["samples"], line.y, strict=True))
+            for cell, samples in zip(cells, (4, 16, 64, 256), strict=True):
+                # What is 0 has no place on logarithmic axes, and is left out of the data.
+                assert told(cell, share * kept.get(samples, 0.0)), (row[0], sampler, samples)
+
+
 # ---------------------------------------------------------------- grading
 
 

@@ -28,6 +28,7 @@ environment -> {type: constant, radiance: 1, lights: true, sampling: alias} |
 lights/0 -> {type: sphere, center: [0, 3, 0], radius: 1, intensity: 9, samples: ball by polar} |
     sampling.ball_by_polar: lights.0
 film/subdivision -> {threshold: 0.1} | adaptive_sampling.needs_subdivision: film.subdivision
+film/denoise -> {level: 0.1} | denoising.critical_value: film.denoise
 integrator -> {type: path} | path_tracing.diffuse_bounce: integrator.type
 sampler -> {type: halton, samples: 4} | quasi_monte_carlo.halton: sampler.type
 """)

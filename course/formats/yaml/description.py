@@ -836,7 +836,7 @@ class FilmDescription(Map, frozen=True, kw_only=True):
     denoise: Annotated[
         DenoiseDescription | None,
         about(
-            "A PNG shows means over neighbours, which are biased: for previews. Other files hold the picture as rendered."
+            "A PNG shows means over neighbours, which are biased: a preview. Other files hold the picture as rendered."
         ),
     ] = None
     white: Annotated[

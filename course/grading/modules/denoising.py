@@ -55,7 +55,7 @@ def _one_sure(draw: Draw) -> Mapping[str, Any]:
     return {**_pair(draw), "variance_a": np.zeros((3, draw.n))}
 
 
-def _without_means(draw: Draw, made: Mapping[str, Any]) -> dict[str, Any]:
+def _without_means(made: Mapping[str, Any]) -> dict[str, Any]:
     return {name: value for name, value in made.items() if not name.startswith("mean")}
 
 
@@ -138,7 +138,7 @@ DEGREES_OF_FREEDOM = function(
             "As in Student's test for equal variances.",
             what="degrees of freedom:",
             case=lambda d: {
-                **(made := _without_means(d, _pair(d))),
+                **(made := _without_means(_pair(d))),
                 "variance_b": made["variance_a"],
                 "count_b": made["count_a"],
             },
@@ -149,7 +149,7 @@ DEGREES_OF_FREEDOM = function(
             lambda a, r: (r, np.broadcast_to(a.count_b - 1, r.shape)),
             "The other pixel adds nothing to numerator and denominator.",
             what="degrees of freedom:",
-            case=lambda d: _without_means(d, _one_sure(d)),
+            case=lambda d: _without_means(_one_sure(d)),
         ),
         close(
             "certain",
@@ -157,7 +157,7 @@ DEGREES_OF_FREEDOM = function(
             _degrees,
             "0 / 0 is no number, and has to be looked at.",
             what="of two variances of 0, degrees of freedom:",
-            case=lambda d: _without_means(d, _sure(d)),
+            case=lambda d: _without_means(_sure(d)),
         ),
         close(
             "values",
@@ -170,7 +170,7 @@ DEGREES_OF_FREEDOM = function(
             whole=True,
         ),
     ),
-    case=lambda d: _without_means(d, _pair(d)),
+    case=lambda d: _without_means(_pair(d)),
     scales=SCALES,
 )
 
@@ -477,7 +477,11 @@ SQUARED_BIAS = function(
             lambda a, r: (r, -a.filtered_variance - (1 - 2 * a.share) * a.variance, a.variance),
             "Cut off at 0, the mean over pixels would be too large.",
             what="of a pixel that was not moved, a squared bias of",
-            case=lambda d: {**(made := _moved(d)), "filtered": made["mean"], "share": np.zeros(d.n)},
+            case=lambda d: {
+                **(made := _moved(d)),
+                "filtered": made["mean"],
+                "share": np.zeros(d.n),
+            },
         ),
         close(
             "values",
