@@ -101,7 +101,7 @@ def critical_value(degrees, level):
     """
     _check("degrees", degrees, "N")
     if not 0 < level < 1:
-        raise ValueError(f"level must be over 0 and below 1, got {level}")
+        raise ValueError(f"level must be > 0 and < 1, got {level}")
     # TODO denoising.critical_value: write your solution here
     raise NotImplementedError("denoising.critical_value: not written yet")
 
@@ -135,8 +135,8 @@ def pair_weights(t, critical, distance, sigma):
     pixels = np.shape(t)[1]
     _check("critical", critical, 3, pixels)
     _check("distance", distance, pixels)
-    if not 0 < sigma < np.inf:
-        raise ValueError(f"sigma must be over 0 and finite, got {sigma}")
+    if not sigma > 0:
+        raise ValueError(f"sigma must be > 0, got {sigma}")
     # TODO denoising.pair_weights: write your solution here
     raise NotImplementedError("denoising.pair_weights: not written yet")
 

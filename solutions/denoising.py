@@ -111,7 +111,7 @@ def critical_value(degrees, level):
     """
     _check("degrees", degrees, "N")
     if not 0 < level < 1:
-        raise ValueError(f"level must be over 0 and below 1, got {level}")
+        raise ValueError(f"level must be > 0 and < 1, got {level}")
     ### BEGIN SOLUTION
     # Over 1 / degrees the value is smooth, from the normal distribution at 0 to Cauchy's at 1: a table is enough. The
     # density is summed over w with t = sinh(w), which reaches far into the tails.
@@ -156,8 +156,8 @@ def pair_weights(t, critical, distance, sigma):
     pixels = np.shape(t)[1]
     _check("critical", critical, 3, pixels)
     _check("distance", distance, pixels)
-    if not 0 < sigma < np.inf:
-        raise ValueError(f"sigma must be over 0 and finite, got {sigma}")
+    if not sigma > 0:
+        raise ValueError(f"sigma must be > 0, got {sigma}")
     ### BEGIN SOLUTION
     joined = (np.abs(t) <= critical).all(axis=0)
     weights = joined * np.exp(-0.5 * (distance / sigma) ** 2)

@@ -138,6 +138,7 @@ RANGES = {
     "area": "> 0",
     "cone_density-radius": "> 0",
     "heuristic_weights-exponent": ">= 1",
+    "level": "> 0 and < 1",
     "glossiness": ">= 0 and < 1",
     "alpha": "from 0.001 to 1",
     "eta": "from 0.1 to 10",

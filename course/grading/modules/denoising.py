@@ -294,7 +294,7 @@ def _at_the_end(draw: Draw) -> Mapping[str, Any]:
 
 PAIR_WEIGHTS = function(
     "denoising.pair_weights",
-    {"sigma": Made(wrong=(0.0, -1.0, nan, inf))},
+    {"sigma": Made(wrong=(0.0, -1.0, nan))},
     (
         close(
             "own",

@@ -14,7 +14,7 @@ def critical_value(degrees, level):
     """With a mistake."""
     _check("degrees", degrees, "N")
     if not 0 < level < 1:
-        raise ValueError(f"level must be over 0 and below 1, got {level}")
+        raise ValueError(f"level must be > 0 and < 1, got {level}")
     inverse = np.linspace(0, 1, 129)[1:, None]
     w = np.linspace(0, 24, 3001)
     t = np.sinh(w)

@@ -14,8 +14,8 @@ def pair_weights(t, critical, distance, sigma):
     pixels = np.shape(t)[1]
     _check("critical", critical, 3, pixels)
     _check("distance", distance, pixels)
-    if not 0 < sigma < np.inf:
-        raise ValueError(f"sigma must be over 0 and finite, got {sigma}")
+    if not sigma > 0:
+        raise ValueError(f"sigma must be > 0, got {sigma}")
     joined = (np.abs(t) <= critical).all(axis=0)
     weights = joined * np.exp(-((distance / sigma) ** 2))
     return weights.astype(_dtype(t, critical, distance))
