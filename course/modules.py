@@ -30,6 +30,7 @@ FURTHER = _named(
         "textures": "rectangle_uv sphere_uv triangle_uv texture_lookup",
         "bounding_volumes": "slab_test build traverse",
         "quasi_monte_carlo": "radical_inverse halton hammersley chain",
+        "blue_noise": "z_order shuffled_z_order void_and_cluster dithered_points radial_spectrum perceptual_rmse",
         "many_lights": "power_choice merge_cones light_tree importance tree_choice tree_probability",
         "path_tracing": "diffuse_bounce throughput russian_roulette",
         "radiosity": "hemicube_form_factors gather shoot needs_split",

@@ -62,7 +62,8 @@ def render(
     ----------
     spp : samples a pixel
     size : (width, height) [pixels]
-    sampler : "sobol", "random", "jittered", "regular", "halton", "hammersley", "chained" or "xorshift"
+    sampler : "sobol", "random", "jittered", "regular", "halton", "hammersley", "chained", "xorshift",
+        "blue_noise" or "dithered"
     seed : chooses the random numbers
     threads : how many; the picture doesn't depend on it
     time_limit : seconds; the best picture in that time, with as many samples as fit (at most ``spp`` if that is given);

@@ -19,7 +19,10 @@ from course.effects import Effects
 from course.errors import CourseError, OutputError
 from course.formats.metu.suffixes import is_metu
 
-SAMPLERS = ("sobol", "random", "jittered", "regular", "halton", "hammersley", "chained", "xorshift")
+SAMPLERS = (
+    *("sobol", "random", "jittered", "regular", "halton", "hammersley", "chained", "xorshift"),
+    *("blue_noise", "dithered"),
+)
 
 
 @click.command()

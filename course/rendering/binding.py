@@ -36,7 +36,8 @@ def bind(
     functions = [
         bound.function(*function, ("sampler", "type")) for function in FUNCTIONS[settings.sampler]
     ]
-    sampler = make_sampler(settings.sampler, settings.seed, *functions)
+    size = settings.width, settings.height
+    sampler = make_sampler(settings.sampler, settings.seed, *functions, size=size)
     if settings.subdivision is not None:
         from course.adaptive.corners import CornerSampler
 
@@ -140,6 +141,7 @@ _REASONS = {
     "environment_light": "no directions towards an environment are chosen by its picture",
     "multiple_importance": "no lamp and no lobe are sampled together",
     "importance_sampling": "no directions towards an environment are chosen by its functions",
+    "blue_noise": "samples of neighbouring pixels know nothing of each other",
     "many_lights": "no light is chosen by a tree",
     "denoising": "the film asks for no denoised preview",
     "film": "the film asks for no exposure, gamut, tone mapping or dithering",

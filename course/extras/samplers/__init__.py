@@ -30,16 +30,21 @@ FUNCTIONS: dict[str, tuple[tuple[str, str], ...]] = {
     "hammersley": (("quasi_monte_carlo", "hammersley"),),
     "chained": (("quasi_monte_carlo", "hammersley"), ("quasi_monte_carlo", "chain")),
     "xorshift": (("sampling", "xorshift32"),),
+    "blue_noise": (("blue_noise", "shuffled_z_order"),),
+    "dithered": (("blue_noise", "void_and_cluster"), ("blue_noise", "dithered_points")),
 }
 """Every sampler, and the module and name of each function that its numbers come from."""
 
 
-def make_sampler(name: str, seed: int, *functions: Callable[..., Any]) -> Sampler:
+def make_sampler(
+    name: str, seed: int, *functions: Callable[..., Any], size: tuple[int, int] = (1, 1)
+) -> Sampler:
     """The sampler of that name.
 
     Parameters
     ----------
     functions : those that FUNCTIONS has for it, in that order
+    size : width and height of the picture, for samplers whose pixels know their neighbours
     """
     if not functions:
         return SobolSampler(seed)
@@ -53,4 +58,9 @@ def make_sampler(name: str, seed: int, *functions: Callable[..., Any]) -> Sample
         "xorshift": XorshiftSampler,
     }
     names = (function for _, function in FUNCTIONS[name])
-    return kinds[name](seed, Functions(**dict(zip(names, functions, strict=True))))
+    own = Functions(**dict(zip(names, functions, strict=True)))
+    if FUNCTIONS[name][0][0] == "blue_noise":
+        from course.extras.samplers import blue_noise
+
+        return blue_noise.SAMPLERS[name](seed, own, size)
+    return kinds[name](seed, own)

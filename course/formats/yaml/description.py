@@ -878,9 +878,18 @@ class SamplerDescription(Map, frozen=True, kw_only=True):
 
     type: Annotated[
         Literal[
-            "sobol", "random", "jittered", "regular", "halton", "hammersley", "chained", "xorshift"
+            "sobol",
+            "random",
+            "jittered",
+            "regular",
+            "halton",
+            "hammersley",
+            "chained",
+            "xorshift",
+            "blue_noise",
+            "dithered",
         ],
-        about("Pattern of the samples."),
+        about("Pattern of the samples; `blue_noise` and `dithered` spread the error."),
     ] = "sobol"
     samples: Annotated[int, about("Samples a pixel.", "1/pixel", ge=1, le=MOST_SAMPLES)] = 16
 

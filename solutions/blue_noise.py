@@ -1,0 +1,337 @@
+"""blue_noise - where the error of a picture goes, at one to sixteen samples a pixel.
+
+Neighbouring pixels that take their samples without knowing of each other have errors that are white noise: every
+frequency has the same power. The eye averages over neighbours. If their samples complement each other, errors are as
+large as before, but they alternate, and the eye averages them out: the power has moved to high frequencies, as in blue
+noise. Here are two ways to get there, a curve through all pixels and a mask, and two ways to measure it.
+"""
+
+import numpy as np
+
+
+def z_order(x, y):
+    """Number of each pixel along Morton's curve, which goes through a square quadrant by quadrant.
+
+    Parameters
+    ----------
+    x, y : (N,) integer in [0, 2^16)
+        Column and row of each pixel.
+
+    Returns
+    -------
+    (N,) integer in [0, 2^32)
+        Bit k of x is bit 2k, and bit k of y is bit 2k + 1.
+
+    Raises
+    ------
+    ValueError
+        x or y has another shape, is not integer or is out of range.
+
+    Task: blue_noise.z_order. Source: Morton, "A computer oriented geodetic data base", 1966.
+    """
+    _check_pixels(x, y, 1 << 16)
+    ### BEGIN SOLUTION
+    return _interleaved(x, y)
+    ### END SOLUTION
+
+
+def shuffled_z_order(x, y, levels, seed):
+    """Number of each pixel along a curve whose quadrants are shuffled: all four parts of each, on every level.
+
+    A Z-order has a digit from 0 to 3 for each level, the highest for the largest quadrants. Here each digit is replaced
+    by its image under a permutation of the four. Which one is hashed from the seed, the level and the digits of the
+    Z-order above: all pixels in a quadrant have the same for its parts, those of two quadrants are independent, and
+    each of the 24 is equally probable. ``chosen`` makes
+    numbers for that; any other good hash does, too.
+
+    Parameters
+    ----------
+    x, y : (N,) integer in [0, 2^levels)
+        Column and row of each pixel.
+    levels : int from 0 to 15
+        The square has 2^levels pixels a side.
+    seed : int in [0, 2^32)
+
+    Returns
+    -------
+    (N,) integer in [0, 4^levels)
+
+    Raises
+    ------
+    ValueError
+        levels or seed is out of range, or x or y has another shape, is not integer or is out of range.
+
+    Task: blue_noise.shuffled_z_order. Source: Ahmed and Wonka, "Screen-space blue-noise diffusion of Monte Carlo
+    sampling error via hierarchical ordering of pixels", 2020.
+    """
+    if not 0 <= levels <= 15 or levels != int(levels):
+        raise ValueError(f"levels must be an integer from 0 to 15, got {levels}")
+    if not 0 <= seed < 1 << 32:
+        raise ValueError(f"seed must be in [0, 2^32), got {seed}")
+    _check_pixels(x, y, 1 << levels)
+
+    def chosen(level, above):
+        """A number from 0 to 23 (N,) for each quadrant: its level, and its digits above that level as a number (N,)."""
+        return _hashed(above, 32 * seed + level) % 24
+
+    ### BEGIN SOLUTION
+    z = _interleaved(x, y)
+    order = np.zeros_like(z)
+    for level in range(levels):
+        digit = z >> 2 * level & 3
+        above = z >> 2 * level + 2
+        order |= _PERMUTATIONS[chosen(level, above), digit] << 2 * level
+    return order
+    ### END SOLUTION
+
+
+def void_and_cluster(u, sigma):
+    """Ranks of a mask: for every n, the pixels with ranks below n are spread evenly, the mask's edges joined.
+
+    How crowded a place is tells the sum of exp(-d^2 / (2 sigma^2)) over all points, the one at the place itself among
+    them; d^2 = dx^2 + dy^2, and dx and dy are the shortest distances on the torus, where column 0 is the right
+    neighbour of the last one, and row 0 that of the last row below. The tightest cluster is the point at the most
+    crowded place, the largest void the least crowded place without a point.
+
+    1. The max(1, H W // 10) pixels with the smallest u have a point. Move the point of the tightest cluster to the
+       largest void, which may be the place that it has just left; stop when it is no less crowded than that place.
+    2. Take the point of the tightest cluster away, again and again: the last of all gets rank 0.
+    3. From the pattern of step 1 on, fill the largest void, again and again: the last one gets rank H W - 1.
+
+    Parameters
+    ----------
+    u : (H, W) floating
+        Of two equal ones either is smaller.
+    sigma : float > 0
+        Width of a point [pixels]; 1.5 to 1.9 for masks.
+
+    Returns
+    -------
+    (H, W) integer, each from 0 to H W - 1 once
+        Of two places that are equally crowded either may be taken.
+
+    Raises
+    ------
+    ValueError
+        u has another shape or is empty, or sigma is out of range.
+
+    Task: blue_noise.void_and_cluster. Source: Ulichney, "The void-and-cluster method for dither array generation",
+    1993.
+    """
+    _check_picture("u", u)
+    _check_sigma(sigma)
+    ### BEGIN SOLUTION
+    height, width = u.shape
+    count = max(1, u.size // 10)
+    kernel = _gaussian(height, width, sigma)
+    # Four kernels side by side: each shift of the torus is a view.
+    tiled = np.tile(kernel, (2, 2))
+    points = np.zeros(u.size, bool)
+    points[np.argsort(u, axis=None)[:count]] = True
+    crowd = np.zeros(u.shape)
+
+    def change(place, sign):
+        row, column = divmod(place, width)
+        crowd[:] += sign * tiled[height - row :, width - column :][:height, :width]
+        points[place] = sign > 0
+
+    def tightest():
+        return int(np.where(points, crowd.ravel(), -np.inf).argmax())
+
+    def largest():
+        return int(np.where(points, np.inf, crowd.ravel()).argmin())
+
+    for place in np.flatnonzero(points):
+        change(place, 1)
+    while True:
+        cluster = tightest()
+        change(cluster, -1)
+        void = largest()
+        if not crowd.flat[void] < crowd.flat[cluster] - 1e-9:
+            change(cluster, 1)
+            break
+        change(void, 1)
+    ranks = np.empty(u.size, np.int64)
+    first, sums = points.copy(), crowd.copy()
+    for rank in reversed(range(count)):
+        place = tightest()
+        change(place, -1)
+        ranks[place] = rank
+    points[:], crowd[:] = first, sums
+    for rank in range(count, u.size):
+        place = largest()
+        change(place, 1)
+        ranks[place] = rank
+    return ranks.reshape(u.shape)
+    ### END SOLUTION
+
+
+def dithered_points(points, masks, x, y):
+    """One pattern of points for all pixels, moved by what a mask has for the pixel, modulo 1.
+
+    Parameters
+    ----------
+    points : (D, s) floating in [0, 1)
+        A pattern of s samples in D dimensions.
+    masks : (D, H, W) integer, each of 0 to H W - 1 once
+        Ranks for each dimension; the mask is repeated over the picture, beside itself and below.
+    x, y : (N,) integer >= 0
+        Column and row of each pixel.
+
+    Returns
+    -------
+    (D, N, s), of the dtype of points
+        Rank r moves a coordinate by (r + 1/2) / (H W): the middle of the part of [0, 1) that it stands for.
+
+    Raises
+    ------
+    ValueError
+        points or masks has another shape, or x or y has another shape, is not integer or is negative.
+
+    Task: blue_noise.dithered_points. Source: Georgiev and Fajardo, "Blue-noise dithered sampling", 2016; moving by
+    Cranley and Patterson, "Randomization of number theoretic methods for multiple integration", 1976.
+    """
+    if np.ndim(points) != 2:
+        raise ValueError(f"points must have shape (D, s), got {np.shape(points)}")
+    if np.ndim(masks) != 3 or len(masks) != len(points) or not np.size(masks[0]):
+        raise ValueError(f"masks must have shape ({len(points)}, H, W), got {np.shape(masks)}")
+    _check_pixels(x, y, 1 << 62)
+    ### BEGIN SOLUTION
+    height, width = masks.shape[1:]
+    shift = (masks[:, y % height, x % width] + 0.5) / (height * width)
+    moved = (points[:, None, :] + shift[:, :, None]) % 1
+    return moved.astype(points.dtype)
+    ### END SOLUTION
+
+
+def radial_spectrum(error, bins):
+    """Power of an error over its frequency, averaged over all directions.
+
+    The power of a frequency is |F|^2 / (H W), F being the discrete Fourier transform of the error. Its two coordinates
+    are in cycles per pixel, from -1/2 to 1/2; its distance from 0 says in which bin it falls. Bin k has those above
+    k / (2 bins) up to (k + 1) / (2 bins), the latter included. So the mean of the error, at 0, is in none, and neither
+    are the corners beyond 1/2.
+
+    Parameters
+    ----------
+    error : (H, W) floating
+        Difference of a picture and a better one.
+    bins : int from 1 to min(H, W) // 2
+
+    Returns
+    -------
+    (bins,), of the dtype of error
+        Means of the power. White noise of variance v has v in each.
+
+    Raises
+    ------
+    ValueError
+        error has another shape or is empty, or bins is out of range.
+
+    Task: blue_noise.radial_spectrum. Source: Ulichney, "Dithering with blue noise", 1988.
+    """
+    _check_picture("error", error)
+    if not 1 <= bins <= min(np.shape(error)) // 2 or bins != int(bins):
+        raise ValueError(f"bins must be from 1 to {min(np.shape(error)) // 2}, got {bins}")
+    ### BEGIN SOLUTION
+    height, width = error.shape
+    power = np.abs(np.fft.fft2(error.astype(np.float64))) ** 2 / error.size
+    frequency = np.hypot(np.fft.fftfreq(height)[:, None], np.fft.fftfreq(width))
+    place = np.ceil(frequency * 2 * bins).astype(np.intp).ravel()
+    inside = (place > 0) & (place <= bins)
+    sums = np.bincount(place[inside] - 1, power.ravel()[inside], bins)
+    return (sums / np.bincount(place[inside] - 1, minlength=bins)).astype(error.dtype)
+    ### END SOLUTION
+
+
+def perceptual_rmse(error, sigma):
+    """Root of the mean square of an error as it is seen from afar: blurred by a Gaussian before it is squared.
+
+    Parameters
+    ----------
+    error : (H, W) floating
+        Difference of a picture and a better one.
+    sigma : float > 0
+        Width of the blur [pixels]. A neighbour counts exp(-d^2 / (2 sigma^2)), d^2 = dx^2 + dy^2, over the sum of all
+        weights; dx and dy are the shortest distances on the torus, on which the picture's edges are joined.
+
+    Returns
+    -------
+    float
+
+    Raises
+    ------
+    ValueError
+        error has another shape or is empty, or sigma is out of range.
+
+    Task: blue_noise.perceptual_rmse. Source: Chizhov, Georgiev, Myszkowski and Singh, "Perceptual error optimization
+    for Monte Carlo rendering", 2022.
+    """
+    _check_picture("error", error)
+    _check_sigma(sigma)
+    ### BEGIN SOLUTION
+    weights = _gaussian(*error.shape, sigma)
+    blur = np.fft.fft2(weights / weights.sum())
+    seen = np.fft.ifft2(np.fft.fft2(error.astype(np.float64)) * blur).real
+    return float(np.sqrt((seen**2).mean()))
+    ### END SOLUTION
+
+
+def _hashed(keys, seed):
+    """Words (N,), int64 in [0, 2^31), that look random. They depend on keys (N,) and seed alone, all of them >= 0."""
+    word = np.asarray(keys).astype(np.uint64) ^ np.uint64(seed * 0xD1342543DE82EF95 % 2**64)
+    for shift in (32, 29, 31):
+        word = (word ^ (word >> np.uint64(shift))) * np.uint64(0xD6E8FEB86659FD93)
+    return (word >> np.uint64(33)).astype(np.int64)
+
+
+### BEGIN SOLUTION
+_PERMUTATIONS = np.array(
+    [
+        (a, b, c, 6 - a - b - c)
+        for a in range(4)
+        for b in range(4)
+        for c in range(4)
+        if len({a, b, c}) == 3
+    ]
+)
+
+
+def _interleaved(x, y):
+    """Bits of both, in turn."""
+    z = np.zeros(x.shape, np.int64)
+    for bit in range(16):
+        z |= (x.astype(np.int64) >> bit & 1) << 2 * bit
+        z |= (y.astype(np.int64) >> bit & 1) << 2 * bit + 1
+    return z
+
+
+def _gaussian(height, width, sigma):
+    """Weights (H, W) of all places, seen from the first one."""
+    down, right = (np.minimum(np.arange(n), n - np.arange(n)) for n in (height, width))
+    return np.exp(-(down[:, None] ** 2 + right**2) / (2 * sigma**2))
+
+
+### END SOLUTION
+
+
+def _check_pixels(x, y, end):
+    for name, array in (("x", x), ("y", y)):
+        if np.ndim(array) != 1 or np.shape(array) != np.shape(x):
+            raise ValueError(
+                f"{name} must have shape {np.shape(x) if name == 'y' else '(N,)'}, got {np.shape(array)}"
+            )
+        if getattr(array, "dtype", np.dtype(object)).kind not in "iu":
+            raise ValueError(f"{name} must be an array of integers")
+        if not ((array >= 0) & (array < end)).all():
+            raise ValueError(f"{name} must be in [0, {end}), got {array.min()} to {array.max()}")
+
+
+def _check_picture(name, array):
+    if np.ndim(array) != 2 or not np.size(array):
+        raise ValueError(f"{name} must have shape (H, W), got {np.shape(array)}")
+
+
+def _check_sigma(sigma):
+    if not 0 < sigma < np.inf:
+        raise ValueError(f"sigma must be > 0, got {sigma}")

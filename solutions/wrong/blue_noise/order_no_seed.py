@@ -1,0 +1,29 @@
+"""Your order is the same for all seeds."""
+
+import numpy as np
+
+FUNCTION = "shuffled_z_order"
+CAUGHT_BY = "shuffled"
+MISTAKE = "seed-not-hashed"
+SAYS = "Your order is the same for all seeds."
+
+
+def shuffled_z_order(x, y, levels, seed):
+    """With a mistake."""
+    if not 0 <= levels <= 15 or levels != int(levels):
+        raise ValueError(f"levels must be an integer from 0 to 15, got {levels}")
+    if not 0 <= seed < 1 << 32:
+        raise ValueError(f"seed must be in [0, 2^32), got {seed}")
+    _check_pixels(x, y, 1 << levels)
+
+    def chosen(level, above):
+        """A number from 0 to 23 (N,) for each quadrant: its level, and its digits above that level as a number (N,)."""
+        return _hashed(above, level) % 24
+
+    z = _interleaved(x, y)
+    order = np.zeros_like(z)
+    for level in range(levels):
+        digit = z >> 2 * level & 3
+        above = z >> 2 * level + 2
+        order |= _PERMUTATIONS[chosen(level, above), digit] << 2 * level
+    return order

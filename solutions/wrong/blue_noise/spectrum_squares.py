@@ -1,0 +1,22 @@
+"""Your rings are squares: the distance from 0 is not the larger of two coordinates."""
+
+import numpy as np
+
+FUNCTION = "radial_spectrum"
+CAUGHT_BY = "values"
+MISTAKE = "squares-instead-of-rings"
+SAYS = "Your rings are squares: the distance from 0 is not the larger of two coordinates."
+
+
+def radial_spectrum(error, bins):
+    """With a mistake."""
+    _check_picture("error", error)
+    if not 1 <= bins <= min(np.shape(error)) // 2 or bins != int(bins):
+        raise ValueError(f"bins must be from 1 to {min(np.shape(error)) // 2}, got {bins}")
+    height, width = error.shape
+    power = np.abs(np.fft.fft2(error.astype(np.float64))) ** 2 / error.size
+    frequency = np.maximum(np.abs(np.fft.fftfreq(height)[:, None]), np.abs(np.fft.fftfreq(width)))
+    place = np.ceil(frequency * 2 * bins).astype(np.intp).ravel()
+    inside = (place > 0) & (place <= bins)
+    sums = np.bincount(place[inside] - 1, power.ravel()[inside], bins)
+    return (sums / np.bincount(place[inside] - 1, minlength=bins)).astype(error.dtype)
