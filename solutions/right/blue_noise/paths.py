@@ -26,7 +26,7 @@ def shuffled_z_order(x, y, levels, seed):
     number = np.zeros(len(x), np.int64)
     for level in range(levels):
         quadrants, which = np.unique(along // 4 ** (level + 1), return_inverse=True)
-        images = np.array([_shuffle(seed, level, int(q)) for q in quadrants]).reshape(-1, 4)
+        images = np.array([_shuffle(seed, level, int(q)) for q in quadrants], int).reshape(-1, 4)
         number += 4**level * images[which, along // 4**level % 4]
     return number
 

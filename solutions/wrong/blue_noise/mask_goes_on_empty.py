@@ -42,7 +42,7 @@ def void_and_cluster(u, sigma):
             change(cluster, 1)
             break
         change(void, 1)
-    ranks = np.empty(u.size, np.int64)
+    ranks = np.zeros(u.size, np.int64)
     first, sums = points.copy(), crowd.copy()
     for rank in reversed(range(count)):
         place = tightest()
