@@ -15,6 +15,7 @@ import click
 from benchmarks.adaptive import measure_adaptive
 from benchmarks.adaptive_sampling import measure_adaptive_sampling
 from benchmarks.allocation_oracle import measure_oracle
+from benchmarks.blue_noise import measure_blue_noise
 from benchmarks.bounding_volumes import measure_bounding_volumes
 from benchmarks.convergence import measure_convergence
 from benchmarks.denoising import measure_denoising
@@ -64,6 +65,7 @@ MEASURES = {
     "many_lights": measure_many_lights,
     "denoising": measure_denoising,
     "quasi_monte_carlo": measure_quasi_monte_carlo,
+    "blue_noise": measure_blue_noise,
 }
 
 

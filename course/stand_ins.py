@@ -117,6 +117,7 @@ _CLEAR = "glass is clear, and what is behind it isn't bent"
 _OPEN = "no microfacet hides another"
 _SKY = "the environment lights from straight above"
 _WHOLE = "no cell is divided"
+_ROWS = "pixels take their samples row by row, so the error is hardly spread"
 _ALIKE = "each lamp is as probable, so the picture is noisy"
 _DARK = "surfaces pass no light on, so only lamps are bright"
 _UNTESTED = "all neighbours are averaged, whatever their difference"
@@ -256,6 +257,18 @@ STAND_INS: dict[str, tuple[Callable[..., Any], str]] = {
     "quasi_monte_carlo.chain": (
         lambda patterns, ids, _rng: [p[:, ids % p.shape[1]] for p in patterns],
         "patterns are chained without a permutation",
+    ),
+    "blue_noise.shuffled_z_order": (
+        lambda x, y, levels, _seed: np.bitwise_left_shift(y, levels) + x,
+        _ROWS,
+    ),
+    "blue_noise.void_and_cluster": (
+        lambda u, _sigma: np.arange(u.size).reshape(u.shape),
+        "the mask is a ramp, row by row",
+    ),
+    "blue_noise.dithered_points": (
+        lambda points, _masks, x, _y: np.repeat(points[:, None], len(x), axis=1),
+        "all pixels have the same points",
     ),
     "many_lights.power_choice": (_any_lamp, _ALIKE),
     "many_lights.light_tree": (_unsorted, _ALIKE),

@@ -243,6 +243,8 @@ VARIANTS: dict[tuple[str, str], list[tuple[str, Changes]]] = {
         "hammersley",
         "chained",
         "xorshift",
+        "blue_noise",
+        "dithered",
         on={"sampler.samples": 4, "lights.1.radius": 1.2},
     ),
     ("SamplerDescription", "samples"): _values(

@@ -14,7 +14,8 @@ EFFECTS = Effects("solutions")
 
 
 def sampler(name: str, seed: int = 0) -> Sampler:
-    return make_sampler(name, seed, *(EFFECTS.function(*function) for function in FUNCTIONS[name]))
+    functions = (EFFECTS.function(*function) for function in FUNCTIONS[name])
+    return make_sampler(name, seed, *functions, size=(128, 128))
 
 
 def block(pixels: int = 64, samples: int = 16, first: int = 0, part: int = 0) -> Block:
@@ -61,7 +62,8 @@ def test_drawing_is_repeatable_and_depends_on_the_seed(name: str) -> None:
         assert not np.array_equal(a, sampler(name, 4).draw(block(), 2, 2))
 
 
-@pytest.mark.parametrize("name", [name for name in NAMES if name != "regular"])
+# Neighbours are to go against each other where the error is spread.
+@pytest.mark.parametrize("name", sorted(set(NAMES) - {"regular", "blue_noise", "dithered"}))
 def test_pixels_and_dimensions_are_uncorrelated(name: str) -> None:
     n = 4096
     one = sampler(name)

@@ -74,7 +74,7 @@ def measures(
     """For all pairs of dimensions: the measure of the module's head, and the correlation's mean over the pixels."""
     effects = Effects()
     sampler = make_sampler(
-        name, seed, *(effects.function(*function) for function in FUNCTIONS[name])
+        name, seed, *(effects.function(*each) for each in FUNCTIONS[name]), size=(PIXELS, 1)
     )
     block = Block(np.arange(PIXELS, dtype=np.uint32), 0, samples, 0)
     u = np.concatenate([sampler.draw(block, *numbers) for numbers in drawn]).astype(np.float64)
@@ -87,7 +87,9 @@ def measures(
 
 
 @pytest.mark.parametrize("samples", [16, 64])
-@pytest.mark.parametrize("name", ["sobol", "jittered", "random", "chained", "xorshift"])
+@pytest.mark.parametrize(
+    "name", ["sobol", "jittered", "random", "chained", "xorshift", "blue_noise"]
+)
 def test_no_two_dimensions_of_a_path_go_together_within_a_pixel(
     drawn: list[tuple[int, int]], name: str, samples: int
 ) -> None:
@@ -96,7 +98,9 @@ def test_no_two_dimensions_of_a_path_go_together_within_a_pixel(
 
 
 @pytest.mark.parametrize("samples", [16, 64])
-@pytest.mark.parametrize("name", ["sobol", "jittered", "random", "chained", "xorshift"])
+@pytest.mark.parametrize(
+    "name", ["sobol", "jittered", "random", "chained", "xorshift", "blue_noise"]
+)
 def test_no_two_dimensions_of_a_path_go_together_over_the_picture(
     drawn: list[tuple[int, int]], name: str, samples: int
 ) -> None:

@@ -31,6 +31,7 @@ film/subdivision -> {threshold: 0.1} | adaptive_sampling.needs_subdivision: film
 film/denoise -> {level: 0.1} | denoising.critical_value: film.denoise
 integrator -> {type: path} | path_tracing.diffuse_bounce: integrator.type
 sampler -> {type: halton, samples: 4} | quasi_monte_carlo.halton: sampler.type
+sampler -> {type: blue_noise, samples: 4} | blue_noise.shuffled_z_order: sampler.type
 """)
 
 

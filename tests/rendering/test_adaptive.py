@@ -798,7 +798,9 @@ def test_an_error_that_cannot_be_is_refused(make_scene: MakeScene, error: float)
         render(make_scene(), error=error, spp=64)
 
 
-@pytest.mark.parametrize("sampler", ["jittered", "regular", "hammersley", "chained"])
+@pytest.mark.parametrize(
+    "sampler", ["jittered", "regular", "hammersley", "chained", "blue_noise", "dithered"]
+)
 def test_points_that_are_placed_all_at_once_cannot_go_on(
     make_scene: MakeScene, sampler: str
 ) -> None:

@@ -1,8 +1,8 @@
-"""Scenes whose numbers the modules `quasi_monte_carlo` and `sampling` draw: the right picture, and another each seed.
+"""Scenes whose numbers `quasi_monte_carlo`, `sampling` and `blue_noise` draw: the right picture, another each seed.
 
 The mean picture of S seeds is compared with Sobol's of as many: the mean of each channel over the whole picture, as a
 difference over its own standard error, which the spread over the seeds tells. With 2 S - 2 = 30 degrees of freedom a
-difference of 7 standard errors comes by chance once in 1e7 (Student's t); 24 are looked at, with fixed seeds.
+difference of 7 standard errors comes by chance once in 1e7 (Student's t); 36 are looked at, with fixed seeds.
 """
 
 import re
@@ -17,7 +17,7 @@ from course.errors import CourseError, SceneError
 from course.extras.samplers import FUNCTIONS
 from tests.conftest import MakeScene
 
-NEW = ("halton", "hammersley", "chained", "xorshift")
+NEW = ("halton", "hammersley", "chained", "xorshift", "blue_noise", "dithered")
 SEEDS = 16
 
 PLATE = {"shape": "quad", "width": 40, "depth": 40}

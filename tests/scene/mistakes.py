@@ -66,8 +66,8 @@ shape: disk -> shape: [disk] | 34: objects[3].shape is ["disk"]: expected quad, 
 type: point -> type: pint | 19: lights[1].type is "pint": expected ambient, point, spot, directional, rectangle,
     sphere or object; did you mean point?
 type: constant -> type: sky | 11: environment.type is "sky": expected constant, cube or lat_long
-type: jittered -> type: faure | 9: sampler.type is "faure": expected chained, halton, hammersley, jittered, random,
-    regular, sobol or xorshift
+type: jittered -> type: faure | 9: sampler.type is "faure": expected blue_noise, chained, dithered, halton,
+    hammersley, jittered, random, regular, sobol or xorshift
 - scale: -2 -> - 3 | 31: objects[1].transform[1] is 3: expected a map with one key, translate, scale, rotate or matrix
 - scale: -2 -> - {scale: 2, <step>: 3} | 31: objects[1].transform[1]["<step>"]: unknown key; known are translate,
     scale, rotate, matrix

@@ -56,7 +56,8 @@ class _Pairwise(Sampler):
         shape = (2, *[1] * index.ndim)
         words = owen_scrambled(sobol_words(index), np.array(seeds, np.uint32).reshape(shape))
         # 24 bits, so that no number rounds up to 1.
-        return np.multiply(words >> np.uint32(8), TO_UNIT, dtype=np.float32)
+        u: Floats32 = np.multiply(words >> np.uint32(8), TO_UNIT, dtype=np.float32)
+        return u
 
 
 class BlueNoiseSampler(_Pairwise):
@@ -77,8 +78,10 @@ class BlueNoiseSampler(_Pairwise):
         order = self._blue_noise.shuffled_z_order(x, y, self._levels, seed)
         first = np.asarray(order).astype(np.uint64) * np.uint64(samples)
         # Within a pixel at random, for sample number i of one pair must not say where that of another lies.
-        keys = (first.astype(np.uint32)[:, None] + np.arange(samples, dtype=np.uint32)).ravel()
-        chance = hash_words(keys, self._salt(_PAIRING, pair)).reshape(len(first), samples)
+        keys = first[:, None] + np.arange(samples, dtype=np.uint64)
+        chance = hash_words(keys.ravel().astype(np.uint32), self._salt(_PAIRING, pair)).reshape(
+            len(first), samples
+        )
         place = np.argsort(chance, axis=1, kind="stable").astype(np.uint64)
         index = (first[:, None] + place) & np.uint64(_MASK32)
         return self._scrambled(index.astype(np.uint32), pair)
@@ -111,7 +114,8 @@ class DitheredSampler(_Pairwise):
         chance = hash_words(np.arange(samples, dtype=np.uint32), self._salt(_PAIRING, pair))[0]
         points = self._scrambled(np.argsort(chance, kind="stable").astype(np.uint32), pair)
         moved = self._blue_noise.dithered_points(points, self._masks(pair), x, y)
-        return np.minimum(moved, 1 - TO_UNIT, dtype=np.float32)
+        u: Floats32 = np.minimum(moved, 1 - TO_UNIT, dtype=np.float32)
+        return u
 
 
 SAMPLERS = {sampler.name: sampler for sampler in (BlueNoiseSampler, DitheredSampler)}

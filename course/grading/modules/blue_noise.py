@@ -276,8 +276,9 @@ def _start(draw: Draw) -> Mapping[str, Any]:
     return {"u": u, "sigma": 1.5 if draw.simple else float(draw.rng.uniform(1, 2))}
 
 
-def _pairs(height: int, width: int, sigma: float) -> Array:
-    """(H W, H W) of how much each place crowds each other."""
+def _crowding(shape: tuple[int, ...], sigma: float) -> Array:
+    """(H W, H W): how much each place crowds each other."""
+    height, width = shape
     place = np.arange(height * width)
     rows, columns = (np.abs(k[:, None] - k) for k in np.divmod(place, width))
     rows, columns = np.minimum(rows, height - rows), np.minimum(columns, width - columns)
@@ -301,7 +302,7 @@ def _check_ranks(a: Arguments, r: Array) -> None:
 def _check_voids(a: Arguments, r: Array) -> None:
     """From the first pattern on each rank fills the largest void."""
     _check_ranks(a, r)
-    pairs, places = _pairs(*a.u.shape, a.sigma), np.argsort(r, axis=None)
+    pairs, places = _crowding(a.u.shape, a.sigma), np.argsort(r, axis=None)
     crowd = pairs[places[: _firsts(a)]].sum(axis=0)
     for rank in range(_firsts(a), a.u.size):
         least = crowd[places[rank:]].min()
@@ -313,7 +314,7 @@ def _check_voids(a: Arguments, r: Array) -> None:
 def _check_clusters(a: Arguments, r: Array) -> None:
     """Below, each rank is the tightest cluster of what is left."""
     _check_ranks(a, r)
-    pairs, places = _pairs(*a.u.shape, a.sigma), np.argsort(r, axis=None)
+    pairs, places = _crowding(a.u.shape, a.sigma), np.argsort(r, axis=None)
     crowd = pairs[places[: _firsts(a)]].sum(axis=0)
     for rank in reversed(range(_firsts(a))):
         most = crowd[places[: rank + 1]].max()
@@ -334,7 +335,7 @@ def _step(a: Arguments, rank: int, place: int, crowd: Array, asked: float, which
 
 def _settled(a: Arguments) -> Array | None:
     """The pattern (H W,) at the end of step 1; None if it hangs on a choice between equals."""
-    pairs = _pairs(*a.u.shape, a.sigma)
+    pairs = _crowding(a.u.shape, a.sigma)
     points = np.argsort(np.argsort(a.u, axis=None)) < _firsts(a)
     while True:
         crowd = pairs @ points
@@ -601,8 +602,7 @@ def _spike(draw: Draw) -> Mapping[str, Any]:
 
 
 def _blurred(a: Arguments, r: Array) -> tuple[Any, ...]:
-    height, width = a.error.shape
-    weights = _pairs(height, width, a.sigma)
+    weights = _crowding(a.error.shape, a.sigma)
     seen = weights @ np.ravel(a.error) / weights[0].sum()
     # What cancels leaves rounding in the scale of the error itself.
     return r, np.sqrt((seen**2).mean()), np.abs(a.error).max()
