@@ -40,8 +40,8 @@ def order() -> Figure:
             )
         )
     return Figure(
-        "Two curves through 8 by 8 pixels, drawn in four pieces of 16 pixels; the first piece is coloured, and begins at "
-        "the dot. Both visit a quadrant as a whole, and within it each smaller one.",
+        "Two curves through 8 by 8 pixels, drawn in four pieces of 16 pixels; the first piece is coloured, and "
+        "begins at the dot. Both visit a quadrant as a whole, and within it each smaller one.",
         tuple(panels),
     )
 

@@ -72,6 +72,15 @@ def _mask(count: int) -> Plot:
     return draw
 
 
+def _power(axes: Axes, made: ModuleType, right: ModuleType) -> None:
+    """Power of a mask's numbers, white ones have a twelfth."""
+    u = np.random.default_rng(3).random((32, 48))
+    masks = (np.asarray(m.void_and_cluster(u, 1.5), float) / u.size for m in (made, right))
+    x = (np.arange(12) + 0.5) / 24
+    curves(axes, x, *(np.asarray(right.radial_spectrum(mask, 12)) for mask in masks))
+    label(axes, "cycles per pixel")
+
+
 def _moved(axes: Axes, made: ModuleType, right: ModuleType) -> None:
     """Two points in two dimensions, moved for the pixels of a small mask and beyond it."""
     rng = np.random.default_rng(2)
@@ -126,6 +135,7 @@ LOOKS = {
             plot(_mask(19)),
             ("mask_clusters_upwards",),
         ),
+        Look("Power of a mask", plot(_power, curve=True), ("mask_white", "mask_sigma")),
     ),
     "dithered_points": (Look("Two points, moved for six pixels", plot(_moved)),),
     "radial_spectrum": (Look("The spectrum of noise and a wave", plot(_spectrum, curve=True)),),
