@@ -101,7 +101,7 @@ def _spectrum(axes: Axes, made: ModuleType, right: ModuleType) -> None:
     error += (np.add.outer(np.arange(32), np.arange(64)) % 2 - 0.5) * 0.8
     x = (np.arange(16) + 0.5) / 32
     found = (np.asarray(m.radial_spectrum(error, 16), float) for m in (made, right))
-    curves(axes, x, *found, drawstyle="steps-mid")
+    curves(axes, x, *found)
     label(axes, "cycles per pixel")
 
 
