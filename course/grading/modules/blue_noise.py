@@ -409,7 +409,7 @@ VOID_AND_CLUSTER = function(
 def _pattern(draw: Draw) -> Mapping[str, Any]:
     """Points, masks of any size, and pixels beyond them."""
     d, s = (1, 1) if draw.simple else draw.rng.integers(1, 5, 2)
-    height, width = (2, 2) if draw.simple else draw.rng.integers(2, 9, 2)
+    height, width = (2, 2) if draw.simple else draw.rng.integers(1, 14, 2)
     masks = [draw.rng.permutation(height * width).reshape(height, width) for _ in range(d)]
     return {
         "points": draw.units(int(d), int(s)),
