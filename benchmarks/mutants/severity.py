@@ -77,8 +77,10 @@ def _columns(wrong: list[Array], right: list[Array]) -> float:
             return 1.0
         finite = np.abs(theirs[np.isfinite(theirs)])
         typical = float(np.median(finite)) if finite.size else 1.0
+        # Codes and numbers of things are right or wrong.
+        part = 0.0 if (finite == np.floor(finite)).all() else NEAR
         with np.errstate(invalid="ignore"):
-            near = np.abs(ours - theirs) <= NEAR * np.maximum(np.abs(theirs), typical)
+            near = np.abs(ours - theirs) <= part * np.maximum(np.abs(theirs), typical)
         # Beside infinity everything would be near.
         off = ~(np.where(np.isfinite(theirs), near, False) | (ours == theirs))
         off = off.reshape(-1, off.shape[-1]).any(axis=0) if off.ndim else off.reshape(1)

@@ -262,7 +262,7 @@ ENCODE_SRGB = function(
     "film.encode_srgb",
     {
         "linear": Made(
-            lambda d: d.uniform(0, 1, 3, d.n),
+            lambda d: d.uniform(0.0035, 1, 3, d.n),
             corners=lambda t: np.array([[0, 1, -1e30, 1e30, 0.0031308]] * 3, t),
         )
     },
