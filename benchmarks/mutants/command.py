@@ -1,6 +1,7 @@
 """`make mutants`: the kill matrix of all known submissions, each graded in a worker as a student's would be.
 
-Exit code 1 when a wrong submission gets past the check meant for it, or a right one loses a point. ``--record`` writes
+Exit code 1 when a wrong submission gets past the check meant for it, a right one loses a point, or points aren't fair:
+what is of no use earns a quarter at most, what is wrong in a corner only four fifths at least. ``--record`` writes
 status, mistake and points of every check of every submission, and for the grader which checks a mistake explains;
 ``--compare`` names all that has changed since, and ends with 1 where something has: the referee of changes that are to
 change no score. ``--varied`` prints what the checks' arguments have been, and what is never varied;
@@ -14,13 +15,23 @@ import sys
 import tempfile
 from collections.abc import Callable, Sequence
 from concurrent.futures import ProcessPoolExecutor
+from dataclasses import replace
 from multiprocessing import get_context
 from pathlib import Path
 
 import click
 
 from benchmarks.mutants.habits import HABITS, lost_by
-from benchmarks.mutants.judging import Verdict, changes, explaining, judge, marks, matrix, recorded
+from benchmarks.mutants.judging import (
+    Verdict,
+    changes,
+    explaining,
+    judge,
+    marks,
+    matrix,
+    recorded,
+    unfair,
+)
 from benchmarks.mutants.variants import variants
 from benchmarks.mutants.varied import gaps
 from benchmarks.mutants.varied import varied as varied_by_checks
@@ -130,7 +141,10 @@ def _judged(submission: Known, seed: int, file: Path) -> Verdict:
     with Worker(
         submission.module, submission.source.encode(), Limits(call_seconds=60, cpu_seconds=600)
     ) as worker:
-        return judge(submission, worker, arrays, seed)
+        verdict = judge(submission, worker, arrays, seed)
+    if submission.right or verdict.fault:
+        return verdict
+    return replace(verdict, fault=unfair(verdict))
 
 
 def _by_function(submission: Known, seed: int, file: Path) -> Verdict:

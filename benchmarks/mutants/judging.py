@@ -93,6 +93,20 @@ def marks(verdict: Verdict) -> Marks:
     )
 
 
+MOST, LEAST = 0.25, 0.8
+"""Shares of its points that a function of no use may earn at most, and one that is wrong in a corner earns at least."""
+
+
+def unfair(verdict: Verdict) -> str:
+    """What is wrong with the points of a submission all of whose checks were run; nothing if they are fair."""
+    found = marks(verdict)
+    if found.useless and found.share > MOST:
+        return f"is of no use, but earns {found.share:.0%} of its points"
+    if found.right_elsewhere and found.share < LEAST:
+        return f"is wrong in a corner only, but earns {found.share:.0%} of its points"
+    return ""
+
+
 Record = dict[str, dict[str, dict[str, list[str | float]]]]
 """module -> submission -> check that it doesn't pass -> status, mistake, points earned; under "points" what every check
 is worth."""

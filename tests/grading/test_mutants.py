@@ -9,9 +9,10 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from benchmarks.mutants.judging import Verdict, judge, matrix
+from benchmarks.mutants.judging import Verdict, judge, matrix, unfair
 from course.grading.calibration import trusted
 from course.grading.checks.check import Check, References
+from course.grading.checks.result import Result, Status
 from course.grading.known import Known, known
 from course.grading.references import reference
 from course.modules import COURSE
@@ -75,6 +76,22 @@ def test_a_grader_that_lets_everything_pass_is_found_out(usual_references: Refer
     wrong = next(submission for submission in ALL if not submission.right)
     verdict = judge(wrong, reference(wrong.module), usual_references, 0, quick)
     assert "meant for it" in verdict.fault
+
+
+@pytest.mark.parametrize(
+    ("name", "earned", "says"),
+    [
+        ("one_added", 0, "is wrong in a corner only, but earns 0% of its points"),
+        ("one_added", 1, ""),
+        ("one_squared", 1, "is of no use, but earns 100% of its points"),
+        ("one_squared", 0, ""),
+    ],
+)
+def test_points_that_are_not_fair_are_found_out(name: str, earned: int, says: str) -> None:
+    wrong = next(one for one in known("multiple_importance") if one.name == name)
+    status = Status.PASSED if earned else Status.FAILED
+    result = Result(wrong.module, wrong.function, "values", "", "whole", status, earned, 1)
+    assert unfair(Verdict(wrong, (), "", "", (result,))) == says
 
 
 def test_a_grader_that_fails_the_right_is_found_out(usual_references: References) -> None:
