@@ -266,7 +266,11 @@ def _with_pieces(part: FullPart, at: Floats64, parent: Indices) -> FullPart:
     if paint is not None:
         corners = carried(paint.corners[parent]).reshape(-1, 3, 3)
         paint = Paint(np.concatenate((paint.corners[whole], corners)), paint.color_at)
-    return replace(part, mesh=pieces, paint=paint)
+    relief = part.relief
+    if relief is not None:
+        corners = carried(relief.corners[parent]).reshape(-1, 3, 3)
+        relief = replace(relief, corners=np.concatenate((relief.corners[whole], corners)))
+    return replace(part, mesh=pieces, paint=paint, relief=relief)
 
 
 def _barycentrics(p: Floats64, at: Floats64) -> Floats64:

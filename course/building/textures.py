@@ -1,5 +1,8 @@
 """From texture descriptions to what paints the objects."""
 
+from pathlib import Path
+from typing import Any
+
 import msgspec
 import numpy as np
 
@@ -9,7 +12,9 @@ from course.core.triangles import Mesh
 from course.core.types import Floats32, Floats64
 from course.effects import Bound
 from course.extras.painting import Paint
-from course.extras.textures import Texture, on_mesh, on_rectangle, on_sphere
+from course.extras.textures import Texture, on_mesh, on_rectangle, on_sphere, places_on
+from course.formats.pictures.display import linear_to_srgb8
+from course.formats.pictures.reading import LINEAR
 from course.formats.yaml import description as d
 from course.formats.yaml.description import TextureDescription
 from course.formats.yaml.document import KeyPath
@@ -59,22 +64,66 @@ class Painter:
         asked_by = ("materials", thing.material, "texture")
         places = self._bound.function("textures", name, asked_by)
         if name == "triangle_uv":
-            if mesh.uv is None:
-                raise self._loaded.document.error(
-                    ("objects", number),
-                    f'material "{thing.material}" has a texture, but the mesh has no texture coordinates;'
-                    " save it with some (vt in an OBJ file), or give it another material",
-                )
-            corners = np.zeros((len(mesh.triangles), 3, 3))
-            corners[:, :, :2] = mesh.uv[mesh.triangles]
+            corners = self._corners(number, mesh, "texture")
             return Paint(corners, on_mesh(texture, places))
         local = self._own_coordinates(thing, number)
-        corners = local[mesh.triangles]
+        placed = local[mesh.triangles]
         if name == "sphere_uv":
-            return Paint(corners, on_sphere(texture, places))
+            return Paint(placed, on_sphere(texture, places))
         # The quad's corners in their order around it: u goes from the first to the second, v to the fourth.
         p1, p2, _, p3 = local.astype(np.float32)
-        return Paint(corners, on_rectangle(texture, p1, p2, p3, places))
+        return Paint(placed, on_rectangle(texture, p1, p2, p3, places))
+
+    def relief(self, number: int, mesh: Mesh) -> Paint | None:
+        """The normal map of an object; None where it has none.
+
+        Raises SceneError: the picture is missing or can't be read, or the mesh has no texture coordinates; names the
+        key that asks for it.
+        ``mesh``: as in ``paint``.
+        """
+        thing = self._loaded.description.objects[number]
+        described = self._loaded.description.materials[thing.material].normal_map
+        if described is None:
+            return None
+        from course.extras.normal_maps import NormalMap
+
+        asked_by = ("materials", thing.material, "normal_map")
+        colors = self._normals(described.image, (*asked_by, "image"))
+        lookup = self._bound.function("textures", "texture_lookup", asked_by)
+        texture = Texture(colors, np.array(described.repeat, np.float32), lookup)
+        name = places_function(thing)
+        places = self._bound.function("textures", name, asked_by)
+        corners = self._corners(number, mesh, "normal map")
+        local = None if name == "triangle_uv" else self._own_coordinates(thing, number)
+        known: Any = NormalMap(texture, places_on(name, places, local), wraps=name == "sphere_uv")
+        return Paint(corners, known)
+
+    def _normals(self, file: str, path: KeyPath) -> Floats32:
+        """Colours of a picture of normals; those of PNG and JPEG are codes, without sRGB's curve."""
+        key = f"normals of {file}"
+        if key not in self._images:
+            image = read_named_picture(file, path, self._loaded)
+            if Path(file).suffix.lower() not in LINEAR:
+                codes = linear_to_srgb8(np.moveaxis(image, -1, 0))
+                image = codes.astype(np.float32) / np.float32(255)
+            self._images[key] = np.ascontiguousarray(image, np.float32)
+        return self._images[key]
+
+    def _corners(self, number: int, mesh: Mesh, what: str) -> Floats64:
+        """What the corners of an object's triangles carry, (T, 3, 3): u and v, or its own coordinates."""
+        thing = self._loaded.description.objects[number]
+        if places_function(thing) != "triangle_uv":
+            found: Floats64 = self._own_coordinates(thing, number)[mesh.triangles]
+            return found
+        if mesh.uv is None:
+            raise self._loaded.document.error(
+                ("objects", number),
+                f'material "{thing.material}" has a {what}, but the mesh has no texture coordinates;'
+                " save it with some (vt in an OBJ file), or give it another material",
+            )
+        corners = np.zeros((len(mesh.triangles), 3, 3))
+        corners[:, :, :2] = mesh.uv[mesh.triangles]
+        return corners
 
     def _own_coordinates(self, thing: d.Object, number: int) -> Floats64:
         """Vertices (V, 3) of a shape before it is transformed, its longest extent 2."""

@@ -98,6 +98,7 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
             shutter.velocity(thing.motion, frame),
             isinstance(thing, CONVEX),
             None if painter is None else painter.paint(number, mesh),
+            None if painter is None else painter.relief(number, mesh),
             thing.from_behind,
         )
         for number, (mesh, thing) in enumerate(zip(meshes, scene.objects, strict=True))
@@ -182,7 +183,7 @@ def _painter(
     used: dict[str, d.MaterialDescription], loaded: Loaded, bound: Bound, files: dict[str, Mesh]
 ) -> Painter | None:
     """What paints the objects; None where no surface shows a texture."""
-    if not any(shows_texture(material) for material in used.values()):
+    if not any(shows_texture(material) or material.normal_map for material in used.values()):
         return None
     return Painter(loaded, bound, files)
 

@@ -27,9 +27,12 @@ from course.extras.tables import (
 
 @dataclass(frozen=True)
 class FullPart(Part):
-    """One object's mesh with its texture, and how camera rays see it from behind (``course.extras.behind``)."""
+    """One object's mesh with its texture and its normal map, and how camera rays see it from behind
+    (``course.extras.behind``).
+    """
 
     paint: Paint | None = None
+    relief: Paint | None = None
     behind: Behind = "turned"
 
 
@@ -40,12 +43,14 @@ class FullSurface(Surface):
     Attributes
     ----------
     painting : the textures; None if there are none
+    relief : the normal maps; None if there are none
     turned : (M,) bool, materials whose shading normals are turned to the viewer (``turn_to_viewer``); None for all
     kept : (T,) bool, triangles whose normals are not turned where camera rays hit their backs; None if there are none
     through : accelerator for camera rays that pass through backs; None if they hit the same triangles as other rays
     """
 
     painting: Painting | None = None
+    relief: Any = None
     turned: Mask | None = None
     kept: Mask | None = None
     through: SeenThrough | None = None
@@ -93,6 +98,10 @@ class FullSurface(Surface):
     ) -> Hits:
         """See ``Surface``."""
         hits = super().hits(found, direction, time, of_camera)
+        if self.relief is not None:
+            hits = replace(hits, ns=self.relief.normals(hits, self.triangles))
+            if self.turned is None and hits.ns is not hits.ng:
+                turn_to_viewer(hits.ns, hits.direction)
         if self.turned is not None and hits.ns is not hits.ng:
             some = np.flatnonzero(self.turned.take(hits.material))
             normals = hits.ns.take(some, axis=1)
@@ -146,18 +155,27 @@ def build_surface(
         triangles=triangles,
         accelerator=accelerator,
         painting=make_painting([(len(table.triangles), _paint(table)) for table in tables]),
+        relief=_relief(tables),
         turned=turned,
         kept=_seen(tables, "kept"),
         through=through,
     )
 
 
-def _paint(table: Tables) -> Paint | None:
-    """The paint of the triangles that have an area."""
-    if not isinstance(table.part, FullPart) or table.part.paint is None:
+def _paint(table: Tables, key: str = "paint") -> Paint | None:
+    """The paint of the triangles that have an area, or their normal map by its key."""
+    paint: Paint | None = getattr(table.part, key, None)
+    return None if paint is None else Paint(paint.corners[table.kept], paint.color_at)
+
+
+def _relief(tables: Sequence[Tables]) -> Any:
+    """The normal maps of all triangles, None where there are none; their module is loaded with them alone."""
+    maps = make_painting([(len(table.triangles), _paint(table, "relief")) for table in tables])
+    if maps is None:
         return None
-    paint = table.part.paint
-    return Paint(paint.corners[table.kept], paint.color_at)
+    from course.extras.normal_maps import Relief
+
+    return Relief(maps)
 
 
 def _behind(table: Tables) -> Behind:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from course.core.types import Floats32
+from course.core.types import Floats32, Floats64
 from course.extras.painting import ColorAt
 
 Places = Callable[..., Floats32]
@@ -60,6 +60,20 @@ def on_sphere(texture: Texture, sphere_uv: Places) -> ColorAt:
 def on_mesh(texture: Texture, triangle_uv: Places) -> ColorAt:
     """Colours of triangles whose corners carry u and v."""
     return lambda barycentric, corners: texture(triangle_uv(barycentric, *corners[:, :2]))
+
+
+def places_on(name: str, function: Places, local: Floats64 | None) -> Places:
+    """(barycentrics, what the corners carry) -> places, by the function of that name.
+
+    ``local``: (V, 3) vertices of a sphere or a rectangle in its own coordinates.
+    """
+    if name == "triangle_uv" or local is None:
+        return lambda weights, corners: function(weights, *corners[:, :2])
+    if name == "sphere_uv":
+        center = np.zeros(3, np.float32)
+        return lambda weights, corners: function(_points(weights, corners), center)
+    p1, p2, _, p3 = local.astype(np.float32)
+    return lambda weights, corners: function(_points(weights, corners), p1, p2, p3)
 
 
 def _points(barycentric: Floats32, corners: Floats32) -> Floats32:

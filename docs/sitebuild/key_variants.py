@@ -376,6 +376,18 @@ VARIANTS: dict[tuple[str, str], list[tuple[str, Changes]]] = {
         )
         for name in ("globe", "weave")
     ],
+    ("NormalMapDescription", "repeat"): [
+        (
+            f"repeat: {times}",
+            {
+                "materials.ball.normal_map": {
+                    "image": "textures/bricks.png",
+                    "repeat": times,
+                }
+            },
+        )
+        for times in ([4, 2], [8, 4])
+    ],
     ("TextureDescription", "repeat"): _values(
         "materials.floor.texture.repeat", [4, 4], [16, 16], [16, 4]
     ),

@@ -215,6 +215,10 @@ def _repaired(description: dict[str, Any]) -> dict[str, Any]:
         if material.get("dielectric") is not None and material.get("conductor") is not None:
             material.pop("conductor")
     for thing in description["objects"]:
+        if thing["shape"] == "mesh":
+            # Those that are drawn have no texture coordinates.
+            materials[thing.get("material", MATERIALS[0])].pop("normal_map", None)
+    for thing in description["objects"]:
         for step in thing.get("transform", []):
             if "matrix" in step:
                 step["matrix"][3] = [0.0, 0.0, 0.0, 1.0]

@@ -6,6 +6,7 @@ mesh file, which is read once.
 
 import json
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from itertools import product
 from pathlib import Path
@@ -124,8 +125,8 @@ class Objects:
     def _faces(self, element: Element, stem: str, name: str) -> dict[str, Any]:
         """The keys of a mesh with a name; its file, if the scene holds it itself, has a name of that stem."""
         element.attribute("id")
-        texture = self.textures.of(element) if stem == "mesh" else None
-        common = self._common(element, texture=texture)
+        textures = self.textures.of(element) if stem == "mesh" else []
+        common = self._common(element, textures=textures)
         given = element.attribute("shadingMode")
         mode = given or "flat"
         if mode not in ("flat", "smooth"):
@@ -149,13 +150,13 @@ class Objects:
                 mode = "smooth"
             normals = {"normals": "area"} if mode == "smooth" else {}
             path = self.meshes.add_file(found, faces)
-            mesh = None if texture is None else self._with_uv(found, faces)
+            mesh = self._with_uv(found, faces) if textures else None
         else:
-            places = None if texture is None else self.textures.places
+            places = self.textures.places if textures else None
             mesh = inline_mesh(faces, self.vertices, mode == "smooth", places)
         if mesh is not None:
-            if texture is not None:
-                mesh = self.textures.placed(texture, mesh)
+            if textures:
+                mesh = self.textures.placed(textures[0], mesh)
             count = len(self._bases if stem == "mesh" else self.lamps)
             path = self.meshes.add_own(mesh, f"{stem}-{count + 1}", faces)
         return {
@@ -228,16 +229,16 @@ class Objects:
 
     def _sphere(self, element: Element, segments: int) -> dict[str, Any]:
         element.attribute("id")
-        texture = self.textures.of(element) if element.tag == "Sphere" else None
+        textures = self.textures.of(element) if element.tag == "Sphere" else []
         center = element.child("Center", "the number of a vertex")
         middle = {"translate": self._vertex(center).tolist()}
         # METU's pictures begin at -x, on the other side.
-        turned = [] if texture is None else [{"rotate": {"axis": [0, 1, 0], "degrees": 180}}]
+        turned = [{"rotate": {"axis": [0, 1, 0], "degrees": 180}}] if textures else []
         thing = {
             "shape": "sphere",
             "radius": element.child("Radius", "such as 1").number(0, above=True),
             "segments": segments,
-            **self._common(element, texture=texture),
+            **self._common(element, textures=textures),
         }
         return thing | {"transform": [*turned, middle, *thing["transform"]]}
 
@@ -303,7 +304,7 @@ class Objects:
         return found
 
     def _common(
-        self, element: Element, inherits_material: bool = False, texture: Texture | None = None
+        self, element: Element, inherits_material: bool = False, textures: Sequence[Texture] = ()
     ) -> dict[str, Any]:
         """Material, transform and motion of an object."""
         keys: dict[str, Any] = {}
@@ -315,8 +316,9 @@ class Objects:
                     f"the id of a material; {suggest(name, sorted(self.materials))}"
                 )
             keys["material"] = material_name(name)
-            if texture is not None:
-                keys["material"] = self.textures.material(texture, name, self.materials[name])
+            if textures:
+                named = self.textures.material(list(textures), name, self.materials[name])
+                keys["material"] = named
         keys["transform"] = transform_of(element, self.steps)
         blur = element.maybe("MotionBlur")
         if blur is not None and any(velocity := blur.vector()):

@@ -24,7 +24,6 @@ REFUSED: Final = {
     "replace_all": "an unlit picture is no reflectance",
     "replace_ks": "highlights of this course have one colour for each material",
     "replace_background": "this course has no picture behind the scene that stands still",
-    "replace_normal": "this course has no normal maps",
     "bump_normal": "this course has no bump maps",
 }
 """Decal modes that can't be converted, and why."""
@@ -51,8 +50,13 @@ class Texture:
     nearest: bool
     normalizer: float
 
+    @property
+    def of_normals(self) -> bool:
+        """True for a normal map."""
+        return self.mode == "replace_normal"
+
     def picture(self) -> Floats64:
-        """The values over the normalizer, (H, W, 3)."""
+        """The values over the normalizer, or the colours of a normal map, (H, W, 3)."""
         try:
             found = read_picture(self.file)
         except (SceneError, ValueError) as error:
@@ -60,6 +64,10 @@ class Texture:
         linear = self.file.suffix.lower() in LINEAR
         codes = found if linear else linear_to_srgb8(np.moveaxis(found, -1, 0))
         values: Floats64 = codes.astype(np.float64) / self.normalizer
+        if self.of_normals:
+            values = codes.astype(np.float64) / (1.0 if linear else 255.0)
+            # Green is along v, which goes down there, and up here.
+            values[..., 1] = 1 - values[..., 1]
         if values.max(initial=0) > 1:
             raise self.element.error(
                 f"{show(self.file.name)} over its Normalizer, {self.normalizer:g}, goes up to {values.max():g}:"
@@ -90,8 +98,8 @@ class Textures:
     made: dict[str, dict[str, Any]] = field(default_factory=dict)
     _sizes: dict[str, tuple[int, int]] = field(default_factory=dict)
 
-    def of(self, thing: Element) -> Texture | None:
-        """The texture of an object; SceneError for one that can't be converted."""
+    def of(self, thing: Element) -> list[Texture]:
+        """The textures of an object, of each kind at most one; SceneError for one that can't be converted."""
         element = thing.maybe("Textures")
         names = [] if element is None else element.words()
         found = []
@@ -103,22 +111,32 @@ class Textures:
             if isinstance(texture, Refused):
                 raise texture.error(f"; take it from {element.path} to render without it")
             found.append(texture)
-        if len(found) > 1:
+        if len({texture.of_normals for texture in found}) < len(found):
             assert element is not None
-            raise element.refused("an object of this course has one texture; leave one of them")
-        return found[0] if found else None
+            raise element.refused(
+                "an object of this course has one texture and one normal map; leave one of each"
+            )
+        return sorted(found, key=lambda texture: texture.of_normals)
 
-    def material(self, texture: Texture, number: str, keys: dict[str, Any]) -> str:
-        """The name of a material with a texture; ``keys`` are those that it has without."""
-        blends = texture.mode == "blend_kd"
-        name = f"material {number} with texture {texture.number}"
-        if name in self.made:
-            return name
+    def material(self, textures: list[Texture], number: str, keys: dict[str, Any]) -> str:
+        """The name of a material with textures; ``keys`` are those that it has without."""
+        numbers = " and ".join(texture.number for texture in textures)
+        name = f"material {number} with texture {numbers}"
+        if name not in self.made:
+            for texture in textures:
+                keys = self._with(texture, number, keys)
+            self.made[name] = keys
+        return name
+
+    def _with(self, texture: Texture, number: str, keys: dict[str, Any]) -> dict[str, Any]:
         kd, by = self.bodies[number]
         picture = texture.picture()
         self._sizes[texture.number] = picture.shape[1], picture.shape[0]
         stem = f"texture-{len(self.made) + 1}"
-        if blends:
+        if texture.of_normals:
+            file = self.files.add_picture(picture.astype(np.float32), f"{stem}-normals")
+            return keys | {"normal_map": {"image": file}}
+        if texture.mode == "blend_kd":
             picture = (picture + np.array(kd)) / 2
             if picture.max() > 1:
                 raise texture.element.error("blended with the DiffuseReflectance it goes above 1")
@@ -127,21 +145,23 @@ class Textures:
         of_ambient = np.array(keys.get("ambient_color", keys["color"])) * keys.get("ambient", 1.0)
         left = {k: v for k, v in keys.items() if k not in ("ambient_color", "ambient", "diffuse")}
         # A texture would paint the ambient term, too; as an emission it is the same from place to place.
-        self.made[name] = left | {
+        return left | {
             "color": 1.0,
             "diffuse": by,
             "ambient": 0.0,
             "emission": (of_ambient * self.ambient).tolist(),
             "texture": drawn,
         }
-        return name
 
     def placed(self, texture: Texture, mesh: Mesh) -> Mesh:
-        """A mesh whose uv are METU's, with those of this course; the texture's material has been asked for."""
+        """A mesh whose uv are METU's, with those of this course; the texture's material has been asked for.
+
+        ``texture``: the one by whose texels they are moved.
+        """
         assert mesh.uv is not None
         u, v = mesh.uv.T
         width, height = self._sizes[texture.number]
-        half = 0.0 if texture.nearest else 0.5
+        half = 0.0 if texture.nearest and not texture.of_normals else 0.5
         uv = np.stack((u + half / width, 1 - v - half / height), axis=1)
         return Mesh(mesh.vertices, mesh.triangles, mesh.normals, uv)
 
@@ -196,8 +216,8 @@ def _map(
         return Refused(
             element, f"its type is {show(kind)}, and textures of this course are pictures"
         )
-    if mode not in ("replace_kd", "blend_kd"):
-        why = REFUSED.get(mode, "replace_kd and blend_kd can be converted")
+    if mode not in ("replace_kd", "blend_kd", "replace_normal"):
+        why = REFUSED.get(mode, "replace_kd, blend_kd and replace_normal can be converted")
         return Refused(element, f"its DecalMode is {show(mode)}: {why}")
     if between not in ("nearest", "bilinear"):
         return Refused(

@@ -241,6 +241,23 @@ class TextureDescription(Map, frozen=True, kw_only=True):
     ] = "bilinear"
 
 
+class NormalMapDescription(Map, frozen=True, kw_only=True):
+    """A picture of shading normals: red along u, green along v, blue along the normal, each from -1 to 1."""
+
+    image: Annotated[
+        str,
+        about(
+            "File of the picture, relative to the scene file. Codes of PNG and JPEG are taken as they are, without"
+            " sRGB's curve; (0.5, 0.5, 1) is the normal itself.",
+            min_length=1,
+        ),
+    ]
+    repeat: Annotated[
+        tuple[_Times, _Times],
+        about("How often the picture repeats along u and v, as of a texture."),
+    ] = (1.0, 1.0)
+
+
 class MaterialDescription(Map, frozen=True, kw_only=True):
     """Blinn-Phong reflection, with a mirror, a metal or a dielectric on top."""
 
@@ -297,6 +314,10 @@ class MaterialDescription(Map, frozen=True, kw_only=True):
             "A picture that multiplies color and ambient_color from place to place; with one, color left out is all"
             " that the mirror leaves."
         ),
+    ] = None
+    normal_map: Annotated[
+        NormalMapDescription | None,
+        about("A picture that turns the shading normals from place to place; null for none."),
     ] = None
 
 

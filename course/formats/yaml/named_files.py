@@ -1,4 +1,4 @@
-"""The files that a scene names: meshes, and the pictures of its environment and of its objects' textures."""
+"""The files that a scene names: meshes, and pictures of its environment and of its objects' textures and normals."""
 
 from collections.abc import Callable
 
@@ -18,6 +18,9 @@ def with_files(scene: d.SceneDescription, change: Callable[[str], str]) -> d.Sce
         if (texture := materials[name].texture) is not None:
             texture = replace(texture, image=change(texture.image))
             materials[name] = replace(materials[name], texture=texture)
+        if (normals := materials[name].normal_map) is not None:
+            normals = replace(normals, image=change(normals.image))
+            materials[name] = replace(materials[name], normal_map=normals)
     environment = scene.environment
     match environment:
         case d.LatLongEnvironment():

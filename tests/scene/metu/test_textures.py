@@ -143,15 +143,30 @@ def test_a_ball_has_metus_longitude_and_latitude(
     np.testing.assert_allclose(xml.pixel(scene), 100 * z * nearest(u, v), rtol=5e-3)
 
 
+@pytest.mark.parametrize("also_a_picture", [False, True])
+def test_a_normal_map_turns_the_normal_along_metus_u_and_v(xml: Metu, also_a_picture: bool) -> None:
+    """The wall's u is x, its v is -y; light comes along y and z."""
+    code = np.array([150, 60, 210], np.uint8)
+    Image.fromarray(np.tile(code, (4, 6, 1))).save(xml.folder / "normals.png")
+    lights = {"DirectionalLight": SUN["DirectionalLight"] | {"Direction": "0 -1 -1"}}
+    scene = textured(xml.folder, lights=lights, camera=look(*PLACES[0]))
+    table = scene["Textures"]
+    table["Images"]["Image"] = [table["Images"]["Image"], {"_id": "6", "_data": "normals.png"}]
+    normals = {"_id": "2", "_type": "image", "ImageId": "6", "DecalMode": "replace_normal"}
+    table["TextureMap"] = [table["TextureMap"], normals]
+    scene["Objects"]["Mesh"]["Textures"] = "2 1" if also_a_picture else "2"
+    n = code / 255 - 0.5
+    n = n / np.linalg.norm(n) * [1, -1, 1]
+    kd = nearest(*PLACES[0]) if also_a_picture else np.array([0.5, 0.25, 0])
+    expected = 100 * kd * (n @ [0, 1, 1]) / math.sqrt(2)
+    np.testing.assert_allclose(xml.pixel(scene), expected, rtol=1e-3, atol=1e-3)
+
+
 @pytest.mark.parametrize(
     ("changed", "told"),
     [
         ({"mode": "replace_all"}, 'its DecalMode is "replace_all": an unlit picture'),
         ({"mode": "replace_ks"}, 'its DecalMode is "replace_ks": highlights'),
-        (
-            {"mode": "replace_normal"},
-            'its DecalMode is "replace_normal": this course has no normal',
-        ),
         ({"mode": "bump_normal"}, 'its DecalMode is "bump_normal": this course has no bump maps'),
         ({"mode": "replace_background"}, "this course has no picture behind the scene"),
         ({"between": "trilinear"}, 'its Interpolation is "trilinear": this course has no pyramids'),
@@ -202,7 +217,7 @@ def test_an_instance_with_a_material_of_its_own_has_no_texture_and_a_warning(xml
 
 
 def test_a_texture_that_nothing_has_is_no_loss(metu: Metu) -> None:
-    scene = textured(metu.folder, mode="replace_normal")
+    scene = textured(metu.folder, mode="bump_normal")
     del scene["Objects"]["Mesh"]["Textures"]
     metu.load(scene)
     assert metu.warnings == []
