@@ -281,6 +281,46 @@ def test_orders_of_point_sets() -> None:
         assert half == pytest.approx(float(widest if is_widest else usual), rel=0.3), name
 
 
+# ---------------------------------------------------------------- blue noise
+
+
+def test_errors_of_five_samplers_before_and_after_a_blur() -> None:
+    rows = table("blue_noise", "after a blur")
+    found = plots("blue_noise")
+    names = {"random": "independent", "jittered": "jittered", "sobol": "Sobol"}
+    names |= {"dithered": "dithered", "blue_noise": "blue noise"}
+    seen = {}
+    for row in rows:
+        sampler = row[0].strip("`")
+        for cell, plot in zip(row[1:], ("rmse", "seen"), strict=True):
+            (line,) = [s for s in found[plot].series if s.name == names[sampler]]
+            texts = cell.split(", ")
+            assert all(told(*pair) for pair in zip(texts, line.y, strict=True)), (sampler, plot)
+        seen[sampler] = line.y[line.x["samples"].index(4)]
+    assert [row[0].strip("`") for row in rows] == list(names)
+    (share,) = said("blue_noise", "error seen from afar is N of that of `sobol` and a third")
+    assert told(share, seen["blue_noise"] / seen["sobol"])
+    assert seen["blue_noise"] / seen["random"] == pytest.approx(1 / 3, abs=0.03)
+    lowest = {line.name: line.y[0] for line in found["spectrum"].series}
+    assert lowest["blue noise"] == pytest.approx(1 / 8, abs=0.01)
+    assert lowest["Sobol"] == pytest.approx(1, abs=0.1)
+
+
+def test_errors_in_equal_time() -> None:
+    fast, slow = said("blue_noise", "needs N seconds of the processor where `blue_noise` needs N")
+    at = {line.name: line.x["seconds"][1] for line in plots("blue_noise")["seen"].series}
+    assert told(fast, at["Sobol"])
+    assert told(slow.rstrip("."), at["blue noise"])
+    ratios = said(
+        "blue_noise",
+        "N times that of `blue_noise` for `sobol`; for jittered samples it is N times, for "
+        "independent ones N times",
+    )
+    for text, other in zip(ratios, ("Sobol", "jittered", "independent"), strict=True):
+        name = f"blue_noise: error seen from afar in equal time, {other} / blue noise"
+        assert told(text, figures("blue_noise")[name]["value"])
+
+
 # ---------------------------------------------------------------- adaptive sampling
 
 
