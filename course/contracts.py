@@ -84,7 +84,7 @@ CONTRACTS = {
     "quasi_monte_carlo.chain": "patterns: *, ids: N, rng -> the samples: * D N",
     "blue_noise.shuffled_z_order": "x: N, y: N, levels, seed -> the order: whole N",
     "blue_noise.void_and_cluster": "u: H W, sigma -> the ranks: whole H W",
-    "blue_noise.dithered_points": "points: D s, masks: D H W, x: N, y: N -> the points: D N s",
+    "blue_noise.dithered_points": "points: 2 s, masks: 2 H W, x: N, y: N -> the points: 2 N s",
     "many_lights.power_choice": "power: L, u: N -> lamp: whole N, probability: N",
     "many_lights.light_tree": "lo: 3 L, hi: 3 L, axis: 3 L, angle: L, power: L"
     " -> lo: 3 M, hi: 3 M, axis: unit 3 M, angle: M, power: M, order: whole L",

@@ -67,7 +67,7 @@ def shuffled_z_order(x, y, levels, seed):
     if not 0 <= levels <= 15 or levels != int(levels):
         raise ValueError(f"levels must be an integer from 0 to 15, got {levels}")
     if not 0 <= seed < 1 << 32:
-        raise ValueError(f"seed must be in [0, 2^32), got {seed}")
+        raise ValueError(f"seed must be from 0 to 2^32 - 1, got {seed}")
     _check_pixels(x, y, 1 << levels)
 
     def chosen(level, above):
@@ -171,16 +171,16 @@ def dithered_points(points, masks, x, y):
 
     Parameters
     ----------
-    points : (D, s) floating in [0, 1)
-        A pattern of s samples in D dimensions.
-    masks : (D, H, W) integer, each of 0 to H W - 1 once
+    points : (2, s) floating in [0, 1)
+        A pattern of s samples in two dimensions.
+    masks : (2, H, W) integer, each of 0 to H W - 1 once
         Ranks for each dimension; the mask is repeated over the picture, beside itself and below.
     x, y : (N,) integer >= 0
         Column and row of each pixel.
 
     Returns
     -------
-    (D, N, s), of the dtype of points
+    (2, N, s), of the dtype of points
         Rank r moves a coordinate by (r + 1/2) / (H W): the middle of the part of [0, 1) that it stands for.
 
     Raises
@@ -191,10 +191,10 @@ def dithered_points(points, masks, x, y):
     Task: blue_noise.dithered_points. Source: Georgiev and Fajardo, "Blue-noise dithered sampling", 2016; moving by
     Cranley and Patterson, "Randomization of number theoretic methods for multiple integration", 1976.
     """
-    if np.ndim(points) != 2:
-        raise ValueError(f"points must have shape (D, s), got {np.shape(points)}")
-    if np.ndim(masks) != 3 or len(masks) != len(points) or not np.size(masks[0]):
-        raise ValueError(f"masks must have shape ({len(points)}, H, W), got {np.shape(masks)}")
+    if np.ndim(points) != 2 or len(points) != 2:
+        raise ValueError(f"points must have shape (2, s), got {np.shape(points)}")
+    if np.ndim(masks) != 3 or len(masks) != 2 or not np.size(masks):
+        raise ValueError(f"masks must have shape (2, H, W), got {np.shape(masks)}")
     _check_pixels(x, y, 1 << 62)
     ### BEGIN SOLUTION
     height, width = masks.shape[1:]
@@ -232,7 +232,7 @@ def radial_spectrum(error, bins):
     """
     _check_picture("error", error)
     if not 1 <= bins <= min(np.shape(error)) // 2 or bins != int(bins):
-        raise ValueError(f"bins must be from 1 to {min(np.shape(error)) // 2}, got {bins}")
+        raise ValueError(f"bins must be an integer from 1 to min(H, W) // 2, got {bins}")
     ### BEGIN SOLUTION
     height, width = error.shape
     power = np.abs(np.fft.fft2(error.astype(np.float64))) ** 2 / error.size
@@ -257,7 +257,7 @@ def perceptual_rmse(error, sigma):
 
     Returns
     -------
-    float
+    (), of the dtype of error
 
     Raises
     ------
@@ -273,7 +273,7 @@ def perceptual_rmse(error, sigma):
     weights = _gaussian(*error.shape, sigma)
     blur = np.fft.fft2(weights / weights.sum())
     seen = np.fft.ifft2(np.fft.fft2(error.astype(np.float64)) * blur).real
-    return float(np.sqrt((seen**2).mean()))
+    return np.sqrt((seen**2).mean()).astype(error.dtype)
     ### END SOLUTION
 
 

@@ -73,10 +73,11 @@ def test_equal_numbers_are_no_endless_loop() -> None:
 
 
 def test_moved_points_of_all_ranks_are_even() -> None:
-    mask = np.arange(16).reshape(1, 4, 4)
+    mask = np.stack((np.arange(16), np.arange(16)[::-1])).reshape(2, 4, 4)
     x, y = square(4)
-    moved = dithered_points(np.array([[0.0, 0.5]]), mask, x + 8, y + 4)
+    moved = dithered_points(np.array([[0.0, 0.5], [0.0, 0.5]]), mask, x + 8, y + 4)
     assert moved[0, :, 0] == pytest.approx((np.arange(16) + 0.5) / 16)
+    assert moved[1, ::-1, 0] == pytest.approx((np.arange(16) + 0.5) / 16)
     assert moved[0, :, 1] == pytest.approx(((np.arange(16) + 0.5) / 16 + 0.5) % 1)
 
 
@@ -118,7 +119,7 @@ def test_white_noise_is_seen_as_by_the_sum_of_squared_weights() -> None:
         (lambda: shuffled_z_order(np.array([0]), np.array([0]), 2, -1), "seed must be"),
         (lambda: void_and_cluster(np.zeros((0, 2)), 1.5), "u must have shape"),
         (lambda: void_and_cluster(np.zeros((2, 2)), 0), "sigma must be > 0"),
-        (lambda: radial_spectrum(np.zeros((4, 8)), 3), "bins must be from 1 to 2"),
+        (lambda: radial_spectrum(np.zeros((4, 8)), 3), "bins must be an integer from 1"),
         (lambda: perceptual_rmse(np.zeros(4), 1), "error must have shape"),
     ],
 )

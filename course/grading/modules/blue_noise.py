@@ -408,11 +408,11 @@ VOID_AND_CLUSTER = function(
 
 def _pattern(draw: Draw) -> Mapping[str, Any]:
     """Points, masks of any size, and pixels beyond them."""
-    d, s = (1, 1) if draw.simple else draw.rng.integers(1, 5, 2)
+    s = 1 if draw.simple else int(draw.rng.integers(1, 5))
     height, width = (2, 2) if draw.simple else draw.rng.integers(1, 14, 2)
-    masks = [draw.rng.permutation(height * width).reshape(height, width) for _ in range(d)]
+    masks = [draw.rng.permutation(height * width).reshape(height, width) for _ in range(2)]
     return {
-        "points": draw.units(int(d), int(s)),
+        "points": draw.units(2, s),
         "masks": np.stack(masks),
         "x": draw.rng.integers(0, 60, draw.n),
         "y": draw.rng.integers(0, 60, draw.n),
@@ -421,9 +421,9 @@ def _pattern(draw: Draw) -> Mapping[str, Any]:
 
 def _within_mask(draw: Draw) -> Mapping[str, Any]:
     a = dict(_pattern(draw))
-    d, height, width = a["masks"].shape
+    _, height, width = a["masks"].shape
     return a | {
-        "points": np.zeros((d, 1)),
+        "points": np.zeros((2, 1)),
         "x": draw.rng.integers(0, width, draw.n),
         "y": draw.rng.integers(0, height, draw.n),
     }
@@ -431,8 +431,8 @@ def _within_mask(draw: Draw) -> Mapping[str, Any]:
 
 def _moved(a: Arguments, r: Array) -> tuple[Any, ...]:
     """By how much each number is off, the shorter way round, against none."""
-    d, height, width = a.masks.shape
-    ranks = a.masks.reshape(d, -1)[:, (a.y % height) * width + a.x % width]
+    _, height, width = a.masks.shape
+    ranks = a.masks.reshape(2, -1)[:, (a.y % height) * width + a.x % width]
     expected = np.asarray(a.points)[:, None] + ((2 * ranks + 1) / (2 * height * width))[..., None]
     off = (r - expected + 0.5) % 1 - 0.5
     return np.moveaxis(off, 1, 2).reshape(-1, len(a.x)), 0.0, 1.0
@@ -641,7 +641,7 @@ PERCEPTUAL_RMSE = function(
         ),
     ),
     case=_any_error,
-    contract="error: H W, sigma -> the error: floating",
+    contract="error: H W, sigma -> the error",
     columns=False,
     scales=SCALES,
     speed=0,

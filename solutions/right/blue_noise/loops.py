@@ -81,8 +81,8 @@ def void_and_cluster(u, sigma):
 
 def dithered_points(points, masks, x, y):
     """Number by number."""
-    if np.ndim(points) != 2 or np.ndim(masks) != 3 or len(points) != len(masks):
-        raise ValueError("points must have shape (D, s), and masks (D, H, W)")
+    if np.ndim(points) != 2 or np.ndim(masks) != 3 or len(points) != 2 or len(masks) != 2:
+        raise ValueError("points must have shape (2, s), and masks (2, H, W)")
     if 0 in np.shape(masks)[1:]:
         raise ValueError("masks must not be empty")
     _pixels(x, y, math.inf)
@@ -136,7 +136,7 @@ def perceptual_rmse(error, sigma):
             total += weight * values[a][b]
             weights += weight
         squares.append((total / weights) ** 2)
-    return math.sqrt(math.fsum(squares) / len(squares))
+    return error.dtype.type(math.sqrt(math.fsum(squares) / len(squares)))
 
 
 def _woven(i, j, digits):

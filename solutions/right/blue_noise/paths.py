@@ -70,10 +70,10 @@ def void_and_cluster(u, sigma):
 
 def dithered_points(points, masks, x, y):
     """A fraction is what is left without its whole part."""
-    if np.ndim(points) != 2:
-        raise ValueError("points must have shape (D, s)")
-    if np.ndim(masks) != 3 or np.shape(masks)[0] != np.shape(points)[0] or masks[0].size == 0:
-        raise ValueError("masks must have shape (D, H, W)")
+    if np.ndim(points) != 2 or np.shape(points)[0] != 2:
+        raise ValueError("points must have shape (2, s)")
+    if np.ndim(masks) != 3 or np.shape(masks)[0] != 2 or masks.size == 0:
+        raise ValueError("masks must have shape (2, H, W)")
     _both(x, y, 1 << 62)
     share = (masks.astype(np.float64) + 0.5) / masks[0].size
     rows, columns = np.mod(y, masks.shape[1]), np.mod(x, masks.shape[2])
@@ -107,7 +107,7 @@ def perceptual_rmse(error, sigma):
     weights = _weights(error.shape, sigma)
     transfer = np.fft.fft2(weights / weights.sum())
     seen = np.fft.fft2(error.astype(np.float64), norm="forward") * transfer
-    return float(np.sqrt((np.abs(seen) ** 2).sum()))
+    return np.sqrt((np.abs(seen) ** 2).sum()).astype(error.dtype)
 
 
 def _weights(shape, sigma):

@@ -64,8 +64,8 @@ def void_and_cluster(u, sigma):
 def dithered_points(points, masks, x, y):
     """The mask is tiled over as many pixels as are asked for."""
     shape = np.shape(masks)
-    if np.ndim(points) != 2 or len(shape) != 3 or shape[0] != len(points) or 0 in shape[1:]:
-        raise ValueError("points must have shape (D, s), and masks (D, H, W)")
+    if np.ndim(points) != 2 or len(shape) != 3 or len(points) != 2 or shape[0] != 2 or 0 in shape:
+        raise ValueError("points must have shape (2, s), and masks (2, H, W)")
     _checked(x, y, np.inf)
     parts = shape[1] * shape[2]
     shifts = ((masks + 0.5) / parts).reshape(shape[0], parts)
@@ -101,7 +101,7 @@ def perceptual_rmse(error, sigma):
         raise ValueError("error must have shape (H, W), and sigma be > 0")
     down, along = (_ring(n, sigma) for n in error.shape)
     seen = (down / down[0].sum()) @ error.astype(np.float64) @ (along / along[0].sum())
-    return np.linalg.norm(seen) / np.sqrt(seen.size)
+    return (np.linalg.norm(seen) / np.sqrt(seen.size)).astype(error.dtype)
 
 
 def _ring(n, sigma):

@@ -10,10 +10,10 @@ SAYS = "Beyond the mask its last column and row go on: it has to be repeated."
 
 def dithered_points(points, masks, x, y):
     """With a mistake."""
-    if np.ndim(points) != 2:
-        raise ValueError(f"points must have shape (D, s), got {np.shape(points)}")
-    if np.ndim(masks) != 3 or len(masks) != len(points) or not np.size(masks[0]):
-        raise ValueError(f"masks must have shape ({len(points)}, H, W), got {np.shape(masks)}")
+    if np.ndim(points) != 2 or len(points) != 2:
+        raise ValueError(f"points must have shape (2, s), got {np.shape(points)}")
+    if np.ndim(masks) != 3 or len(masks) != 2 or not np.size(masks):
+        raise ValueError(f"masks must have shape (2, H, W), got {np.shape(masks)}")
     _check_pixels(x, y, 1 << 62)
     height, width = masks.shape[1:]
     shift = (masks[:, np.minimum(y, height - 1), np.minimum(x, width - 1)] + 0.5) / (height * width)

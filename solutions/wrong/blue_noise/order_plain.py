@@ -13,7 +13,7 @@ def shuffled_z_order(x, y, levels, seed):
     if not 0 <= levels <= 15 or levels != int(levels):
         raise ValueError(f"levels must be an integer from 0 to 15, got {levels}")
     if not 0 <= seed < 1 << 32:
-        raise ValueError(f"seed must be in [0, 2^32), got {seed}")
+        raise ValueError(f"seed must be from 0 to 2^32 - 1, got {seed}")
     _check_pixels(x, y, 1 << levels)
 
     def chosen(level, above):

@@ -15,4 +15,4 @@ def perceptual_rmse(error, sigma):
     weights = _gaussian(*error.shape, sigma)
     blur = np.fft.fft2(weights / weights.sum())
     seen = np.fft.ifft2(np.fft.fft2(error.astype(np.float64)) * blur).real
-    return float(np.abs(seen).mean())
+    return np.abs(seen).mean().astype(error.dtype)

@@ -17,4 +17,4 @@ def perceptual_rmse(error, sigma):
     down, right = (np.arange(n)[:, None] - np.arange(n) for n in (height, width))
     down, right = (np.exp(-(k**2) / (2 * sigma**2)) for k in (down, right))
     seen = down @ error.astype(np.float64) @ right / weights.sum()
-    return float(np.sqrt((seen**2).mean()))
+    return np.sqrt((seen**2).mean()).astype(error.dtype)

@@ -15,4 +15,4 @@ def perceptual_rmse(error, sigma):
     weights = _gaussian(*error.shape, sigma)
     blur = np.fft.fft2(weights / weights.sum())
     seen = np.fft.ifft2(np.fft.fft2(error.astype(np.float64)) * blur).real
-    return float((seen**2).mean())
+    return (seen**2).mean().astype(error.dtype)

@@ -16,4 +16,4 @@ def perceptual_rmse(error, sigma):
     blur = np.fft.fft2(weights / weights.sum())
     seen = np.fft.ifft2(np.fft.fft2(error.astype(np.float64)) * blur).real
     seen = error.astype(np.float64) - seen
-    return float(np.sqrt((seen**2).mean()))
+    return np.sqrt((seen**2).mean()).astype(error.dtype)

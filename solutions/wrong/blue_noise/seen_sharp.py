@@ -13,4 +13,4 @@ def perceptual_rmse(error, sigma):
     _check_picture("error", error)
     _check_sigma(sigma)
     seen = error.astype(np.float64)
-    return float(np.sqrt((seen**2).mean()))
+    return np.sqrt((seen**2).mean()).astype(error.dtype)

@@ -15,4 +15,4 @@ def perceptual_rmse(error, sigma):
     weights = _gaussian(*error.shape, sigma / 2**0.5)
     blur = np.fft.fft2(weights / weights.sum())
     seen = np.fft.ifft2(np.fft.fft2(error.astype(np.float64)) * blur).real
-    return float(np.sqrt((seen**2).mean()))
+    return np.sqrt((seen**2).mean()).astype(error.dtype)

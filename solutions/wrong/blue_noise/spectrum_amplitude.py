@@ -12,7 +12,7 @@ def radial_spectrum(error, bins):
     """With a mistake."""
     _check_picture("error", error)
     if not 1 <= bins <= min(np.shape(error)) // 2 or bins != int(bins):
-        raise ValueError(f"bins must be from 1 to {min(np.shape(error)) // 2}, got {bins}")
+        raise ValueError(f"bins must be an integer from 1 to min(H, W) // 2, got {bins}")
     height, width = error.shape
     power = np.abs(np.fft.fft2(error.astype(np.float64))) / error.size**0.5
     frequency = np.hypot(np.fft.fftfreq(height)[:, None], np.fft.fftfreq(width))
