@@ -147,3 +147,11 @@ def test_a_tree_knows_each_box_of_a_ray() -> None:
         assert np.isin(found, which).all()
         # And few others, which touch it between two points.
         assert len(found) <= len(certain) + N / 50
+
+
+def test_a_component_next_to_0_is_as_good_as_0() -> None:
+    boxes = np.array([[[-1, -1, -1], [1, 1, 1]]], np.float32)
+    origin = np.array([[-3, -3], [0, 2], [0, 0]], np.float32)
+    way = np.array([[1, 1], [0, 0], [1e-45, 1e-45]], np.float32)
+    met = box_tree(boxes).met(origin, way, np.full(2, np.inf, np.float32), np.arange(2))
+    assert {box: found.tolist() for box, found in met.items()} == {0: [0]}
