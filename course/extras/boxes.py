@@ -50,7 +50,7 @@ class BoxTree:
         if len(which) < len(limit):
             limit = limit.take(which)
             origin, direction = origin.take(which, axis=1), direction.take(which, axis=1)
-        # A component of 0 or nearly 0 makes infinite distances, and a NaN only where the ray lies in the plane of a side.
+        # A component next to 0 makes infinite distances, and a NaN only where the ray lies in the plane of a side.
         with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
             self._collect(origin, np.float32(1) / direction, limit, which, found)
         return found
