@@ -50,13 +50,12 @@ def pairs() -> Figure:
         canvas = _plane()
         _pixels(canvas, (a, b))
         t, critical = statistics(a, b)
-        sign = "<" if abs(t) < critical else ">"
         panels.append(
             Panel(
                 canvas,
                 f"Pixels that {word}",
                 f"Dots of four samples in each of three pixels, and bars of their standard errors: two {word}.",
-                f"$|t| = {abs(t):.1f} {sign} {critical:.1f}$",
+                f"$|t| = {abs(t):.1f}$, critical value {critical:.1f}",
             )
         )
     return Figure(

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 Array = np.ndarray[Any, Any]
 
-COUNTS = 4.0, 12.0
+COUNTS = 3.0, 12.0
 """Samples of the two pixels."""
 
 
@@ -26,19 +26,18 @@ def _rows(x: Array) -> Array:
 def _statistics(axes: Axes, made: ModuleType, right: ModuleType) -> None:
     x = np.linspace(-1, 1, 81)
     one = np.ones_like(x)
-    given = _rows(x), _rows(0.9 * one), COUNTS[0] * one, 0 * _rows(x), _rows(0.4 * one)
+    given = _rows(x), _rows(0.9 * one), COUNTS[0] * one, 0 * _rows(x), _rows(3.6 * one)
     curves(axes, x, *(m.welch_t(*given, COUNTS[1] * one)[0] for m in (made, right)))
     label(axes, "difference of the means")
 
 
 def _of_no_variance(axes: Axes, made: ModuleType, right: ModuleType) -> None:
     """Infinities are drawn as 5."""
-    x = np.linspace(-1, 1, 81)
-    x[40] = 0
+    x = np.linspace(-1, 1, 9)
     one = np.full_like(x, 4)
     given = _rows(x), 0 * _rows(x), one, 0 * _rows(x), 0 * _rows(x), one
     found = (np.clip(m.welch_t(*given)[0], -5, 5) for m in (made, right))
-    curves(axes, x, *found, drawstyle="steps-mid", marker=".", markersize=2)
+    curves(axes, x, *found, drawstyle="steps-mid", marker=".")
     label(axes, "difference of the means")
 
 
@@ -67,10 +66,11 @@ def _beside_the_end(rows: tuple[float, ...]) -> Any:
     """The first channel's statistic runs past its critical value, 2; the others' stand still."""
 
     def draw(axes: Axes, made: ModuleType, right: ModuleType) -> None:
-        x = np.linspace(-5, 5, 101)
+        x = np.linspace(-5, 5, 21)
         t = np.stack((x, *(np.full_like(x, each) for each in rows)))
         given = t, np.full_like(t, 2), np.full_like(x, 0.5), 1.0
-        curves(axes, x, *(m.pair_weights(*given) for m in (made, right)), drawstyle="steps-mid")
+        found = (m.pair_weights(*given) for m in (made, right))
+        curves(axes, x, *found, drawstyle="steps-mid", marker=".")
         label(axes, "t of red; critical value 2")
 
     return draw
@@ -100,15 +100,15 @@ def _mean(result: int) -> Any:
 
 def _bias(axes: Axes, made: ModuleType, right: ModuleType) -> None:
     x = np.linspace(-0.6, 0.6, 81)
-    rest = np.full_like(_rows(x), 0.03), 0 * _rows(x), np.full_like(_rows(x), 0.1)
-    given = _rows(x), *rest, np.full_like(x, 0.2)
+    rest = np.full_like(_rows(x), 0.06), 0 * _rows(x), np.full_like(_rows(x), 0.1)
+    given = _rows(x), *rest, np.full_like(x, 0.7)
     curves(axes, x, *(m.squared_bias(*given)[0] for m in (made, right)))
     label(axes, "how far the pixel was moved")
 
 
 LOOKS = {
     "welch_t": (
-        Look("Statistics of pixels with 4 and 12 samples", plot(_statistics, curve=True)),
+        Look("Statistics of pixels with 3 and 12 samples", plot(_statistics, curve=True)),
         Look(
             "Statistics of pixels whose samples are all the same, cut off at 5",
             plot(_of_no_variance, curve=True),
@@ -116,7 +116,7 @@ LOOKS = {
         ),
     ),
     "degrees_of_freedom": (
-        Look("Degrees of freedom of pixels with 4 and 12 samples", plot(_degrees, curve=True)),
+        Look("Degrees of freedom of pixels with 3 and 12 samples", plot(_degrees, curve=True)),
         Look(
             "Degrees of freedom of pixels whose samples are all the same",
             plot(_degrees_of_none, curve=True),
