@@ -148,7 +148,13 @@ def reference(
         half = _read(part, key)
         if half is None:
             picture = render(
-                scene, spp=samples // 2, size=size, sampler="sobol", seed=seed, progress=progress
+                scene,
+                spp=samples // 2,
+                size=size,
+                sampler="sobol",
+                seed=seed,
+                progress=progress,
+                denoise=False,
             )
             if picture.interrupted:
                 raise KeyboardInterrupt

@@ -216,6 +216,21 @@ VARIANTS: dict[tuple[str, str], list[tuple[str, Changes]]] = {
     ("FilmDescription", "subdivision"): _values(
         "film.subdivision", None, {"threshold": 0.1, "depth": 3}, on=COARSE
     ),
+    ("FilmDescription", "denoise"): _values(
+        "film.denoise", None, {"level": 0.05, "sigma": 2}, on={**NOISY, "sampler.samples": 4}
+    ),
+    ("DenoiseDescription", "level"): _values(
+        "film.denoise.level",
+        0.01,
+        0.5,
+        on={**NOISY, "sampler.samples": 4, "film.denoise": {"sigma": 2}},
+    ),
+    ("DenoiseDescription", "sigma"): _values(
+        "film.denoise.sigma",
+        1,
+        4,
+        on={**NOISY, "sampler.samples": 4, "film.denoise": {"level": 0.05}},
+    ),
     ("SubdivisionDescription", "threshold"): _values(
         "film.subdivision.threshold", 0.03, 0.3, on={**COARSE, "film.subdivision": {"depth": 3}}
     ),

@@ -175,7 +175,7 @@ def _rendered(
 def _errors(scene: Scene, end: float) -> Iterator[tuple[int, float]]:
     """Samples a pixel and root-mean-square errors [radiance], until the next one would end too late."""
     size = _within(scene, CURVE_WIDTH)
-    if scene.settings.sampler not in ADAPTABLE or scene.settings.subdivision is not None:
+    if _fixed(scene):
         return
     for samples in COUNTS:
         began = monotonic()
@@ -183,6 +183,13 @@ def _errors(scene: Scene, end: float) -> Iterator[tuple[int, float]]:
         yield samples, math.sqrt(float(((a - b) ** 2).mean(dtype=np.float64)) / 2)
         if monotonic() + 4 * (monotonic() - began) > end:
             return
+
+
+def _fixed(scene: Scene) -> bool:
+    """True if the number of samples is the scene's own: they are placed at once, or a preview is about their number."""
+    settings = scene.settings
+    special = settings.subdivision is not None or settings.denoise is not None
+    return special or settings.sampler not in ADAPTABLE
 
 
 def _slope(points: tuple[tuple[int, float], ...]) -> float | None:
@@ -197,8 +204,7 @@ def _slope(points: tuple[tuple[int, float], ...]) -> float | None:
 def _picture(scene: Scene, seconds: float) -> Picture:
     """With the most samples, a power of 2, that seem to fit into the time; all pixels have them."""
     size = _within(scene, WIDTH)
-    # Other samplers place all their samples at once, as many as the scene says.
-    if scene.settings.sampler not in ADAPTABLE or scene.settings.subdivision is not None:
+    if _fixed(scene):
         return _whole(scene, size=size)
     small, began = _within(scene, CURVE_WIDTH), monotonic()
     _whole(scene, spp=TRIED, size=small)
