@@ -22,8 +22,8 @@ from course.formats.yaml.loading import Loaded, read_named_picture
 
 
 def shows_texture(material: d.MaterialDescription) -> bool:
-    """True if a material has a texture, and an ambient or diffuse term that it colours."""
-    if material.texture is None or not has_body(material):
+    """True if a material has a texture or noise, and an ambient or diffuse term that it colours."""
+    if (material.texture is None and material.noise is None) or not has_body(material):
         return False
     colored = base_color(material) * material.diffuse + ambient_color(material) * material.ambient
     return bool(colored.any())
@@ -57,8 +57,11 @@ class Painter:
         """
         thing = self._loaded.description.objects[number]
         material = self._loaded.description.materials[thing.material]
-        if material.texture is None or not shows_texture(material):
+        if not shows_texture(material):
             return None
+        if material.noise is not None:
+            return self._noise(material.noise, number, mesh)
+        assert material.texture is not None
         texture = self._texture(material.texture, ("materials", thing.material, "texture", "image"))
         name = places_function(thing)
         asked_by = ("materials", thing.material, "texture")
@@ -73,6 +76,13 @@ class Painter:
         # The quad's corners in their order around it: u goes from the first to the second, v to the fourth.
         p1, p2, _, p3 = local.astype(np.float32)
         return Paint(placed, on_rectangle(texture, p1, p2, p3, places))
+
+    def _noise(self, described: d.NoiseDescription, number: int, mesh: Mesh) -> Paint:
+        """Noise in an object's coordinates before its transformations."""
+        from course.extras.perlin import Noise
+
+        corners = self._still(number).vertices[mesh.triangles] * described.scale
+        return Paint(corners, Noise(described.conversion))
 
     def relief(self, number: int, mesh: Mesh) -> Paint | None:
         """The normal map of an object; None where it has none.
@@ -127,11 +137,15 @@ class Painter:
 
     def _own_coordinates(self, thing: d.Object, number: int) -> Floats64:
         """Vertices (V, 3) of a shape before it is transformed, its longest extent 2."""
-        still = msgspec.structs.replace(thing, transform=())
-        loaded = self._loaded
-        mesh = object_mesh(still, number, loaded.document, loaded.path.parent, self._files)
+        mesh = self._still(number)
         scaled: Floats64 = mesh.vertices / np.abs(mesh.vertices).max()
         return scaled
+
+    def _still(self, number: int) -> Mesh:
+        """An object's mesh before it is transformed."""
+        loaded = self._loaded
+        still = msgspec.structs.replace(loaded.description.objects[number], transform=())
+        return object_mesh(still, number, loaded.document, loaded.path.parent, self._files)
 
     def _texture(self, texture: TextureDescription, path: KeyPath) -> Texture:
         if texture.image not in self._images:

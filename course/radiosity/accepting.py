@@ -43,6 +43,7 @@ def _check_material(material: d.MaterialDescription, here: Place) -> None:
     for key in ("dielectric", "conductor"):
         if getattr(material, key) is not None:
             raise here.at(key).error(f"expected null {diffuse_only}")
+    here.check(material.noise is None, "noise", "null: patches have one color each")
     here.check(material.normal_map is None, "normal_map", "null: patches have one normal")
     if material.texture is not None:
         raise here.at("texture").error(

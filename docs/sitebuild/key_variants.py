@@ -391,6 +391,20 @@ VARIANTS: dict[tuple[str, str], list[tuple[str, Changes]]] = {
         )
         for name in ("globe", "weave")
     ],
+    ("NoiseDescription", "scale"): [
+        (f"scale: {scale}", {"materials.ball.color": 1, "materials.ball.noise": {"scale": scale}})
+        for scale in (2, 8)
+    ],
+    ("NoiseDescription", "conversion"): [
+        (
+            f"conversion: {conversion}",
+            {
+                "materials.ball.color": 1,
+                "materials.ball.noise": {"scale": 4, "conversion": conversion},
+            },
+        )
+        for conversion in ("linear", "absolute")
+    ],
     ("NormalMapDescription", "repeat"): [
         (
             f"repeat: {times}",

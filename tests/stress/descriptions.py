@@ -214,6 +214,8 @@ def _repaired(description: dict[str, Any]) -> dict[str, Any]:
     for material in description["materials"].values():
         if material.get("dielectric") is not None and material.get("conductor") is not None:
             material.pop("conductor")
+        if material.get("texture") is not None:
+            material.pop("noise", None)
     for thing in description["objects"]:
         if thing["shape"] == "mesh":
             # Those that are drawn have no texture coordinates.

@@ -126,6 +126,7 @@ class Objects:
         """The keys of a mesh with a name; its file, if the scene holds it itself, has a name of that stem."""
         element.attribute("id")
         textures = self.textures.of(element) if stem == "mesh" else []
+        placed = [texture for texture in textures if texture.has_places]
         common = self._common(element, textures=textures)
         given = element.attribute("shadingMode")
         mode = given or "flat"
@@ -150,13 +151,13 @@ class Objects:
                 mode = "smooth"
             normals = {"normals": "area"} if mode == "smooth" else {}
             path = self.meshes.add_file(found, faces)
-            mesh = self._with_uv(found, faces) if textures else None
+            mesh = self._with_uv(found, faces) if placed else None
         else:
-            places = self.textures.places if textures else None
+            places = self.textures.places if placed else None
             mesh = inline_mesh(faces, self.vertices, mode == "smooth", places)
         if mesh is not None:
-            if textures:
-                mesh = self.textures.placed(textures[0], mesh)
+            if placed:
+                mesh = self.textures.placed(placed[0], mesh)
             count = len(self._bases if stem == "mesh" else self.lamps)
             path = self.meshes.add_own(mesh, f"{stem}-{count + 1}", faces)
         return {

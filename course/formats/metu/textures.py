@@ -29,6 +29,9 @@ REFUSED: Final = {
 """Decal modes that can't be converted, and why."""
 
 
+CONVERSIONS: Final = {"linear": "linear", "absval": "absolute"}
+
+
 @dataclass(frozen=True)
 class Texture:
     """A `TextureMap`.
@@ -41,6 +44,7 @@ class Texture:
     mode : `DecalMode`
     nearest : true for `Interpolation` nearest
     normalizer : what the picture's values are divided by
+    noise : of type perlin, in the place of a picture, the keys of a material's `noise`
     """
 
     element: Element
@@ -49,6 +53,12 @@ class Texture:
     mode: str
     nearest: bool
     normalizer: float
+    noise: dict[str, Any] | None = None
+
+    @property
+    def has_places(self) -> bool:
+        """True if it needs texture coordinates."""
+        return self.noise is None
 
     @property
     def of_normals(self) -> bool:
@@ -130,6 +140,8 @@ class Textures:
 
     def _with(self, texture: Texture, number: str, keys: dict[str, Any]) -> dict[str, Any]:
         kd, by = self.bodies[number]
+        if texture.noise is not None:
+            return self._painted(keys, by) | {"noise": texture.noise}
         picture = texture.picture()
         self._sizes[texture.number] = picture.shape[1], picture.shape[0]
         stem = f"texture-{len(self.made) + 1}"
@@ -142,6 +154,10 @@ class Textures:
                 raise texture.element.error("blended with the DiffuseReflectance it goes above 1")
         file = self.files.add_picture(picture.astype(np.float32), stem)
         drawn = {"image": file} | ({"interpolation": "nearest"} if texture.nearest else {})
+        return self._painted(keys, by) | {"texture": drawn}
+
+    def _painted(self, keys: dict[str, Any], by: float) -> dict[str, Any]:
+        """The keys of a material whose texture is all of its diffuse reflectance."""
         of_ambient = np.array(keys.get("ambient_color", keys["color"])) * keys.get("ambient", 1.0)
         left = {k: v for k, v in keys.items() if k not in ("ambient_color", "ambient", "diffuse")}
         # A texture would paint the ambient term, too; as an emission it is the same from place to place.
@@ -150,7 +166,6 @@ class Textures:
             "diffuse": by,
             "ambient": 0.0,
             "emission": (of_ambient * self.ambient).tolist(),
-            "texture": drawn,
         }
 
     def placed(self, texture: Texture, mesh: Mesh) -> Mesh:
@@ -212,13 +227,13 @@ def _map(
     normalizer = 255.0 if scale is None else scale.number(0, above=True)
     for tag in ("ImageId", "NoiseScale", "NoiseConversion", "BumpFactor"):
         _word(element, tag)
-    if kind != "image":
-        return Refused(
-            element, f"its type is {show(kind)}, and textures of this course are pictures"
-        )
+    if kind not in ("image", "perlin"):
+        return Refused(element, f"its type is {show(kind)}, and those known are image and perlin")
     if mode not in ("replace_kd", "blend_kd", "replace_normal"):
         why = REFUSED.get(mode, "replace_kd, blend_kd and replace_normal can be converted")
         return Refused(element, f"its DecalMode is {show(mode)}: {why}")
+    if kind == "perlin":
+        return _noise(element, number, mode)
     if between not in ("nearest", "bilinear"):
         return Refused(
             element,
@@ -231,6 +246,22 @@ def _map(
     file = " ".join(images[name].words())
     path = folder / file.replace("\\", "/")
     return Texture(element, number, path, mode, between == "nearest", normalizer)
+
+
+def _noise(element: Element, number: str, mode: str) -> Texture | Refused:
+    if mode != "replace_kd":
+        return Refused(
+            element, f"its type is perlin with DecalMode {mode}: replace_kd can be converted"
+        )
+    conversion = _word(element, "NoiseConversion") or "linear"
+    if conversion not in CONVERSIONS:
+        raise element.child("NoiseConversion", "linear").unexpected("linear or absval")
+    scale = element.maybe("NoiseScale")
+    keys = {
+        "scale": 1.0 if scale is None else scale.number(0, above=True),
+        "conversion": CONVERSIONS[conversion],
+    }
+    return Texture(element, number, Path(), mode, False, 1.0, keys)
 
 
 def _word(element: Element, tag: str) -> str:

@@ -42,6 +42,8 @@ def check_consistency(description: d.SceneDescription, document: Document) -> No
         here = scene.at("materials", name)
         sharp = max(rgb(material.specular)) > _SHARPEST
         here.check(not sharp, "specular", f"numbers of at most {_SHARPEST:g}")
+        if material.texture is not None and material.noise is not None:
+            raise here.error("both texture and noise are given: expected one of them")
         if material.dielectric is not None and material.conductor is not None:
             raise here.error("both dielectric and conductor are given: expected one of them")
         _check_microfacets(material, here)

@@ -258,6 +258,18 @@ class NormalMapDescription(Map, frozen=True, kw_only=True):
     ] = (1.0, 1.0)
 
 
+class NoiseDescription(Map, frozen=True, kw_only=True):
+    """Perlin's noise in the object's own coordinates, as if it were carved from it."""
+
+    scale: Annotated[
+        float, about("Grains along one unit of the object.", "1/world unit", gt=0, le=1e4)
+    ] = 4.0
+    conversion: Annotated[
+        Literal["linear", "absolute"],
+        about("What becomes of noise n, from -1 to 1: (n + 1) / 2, or its absolute value: veins."),
+    ] = "linear"
+
+
 class MaterialDescription(Map, frozen=True, kw_only=True):
     """Blinn-Phong reflection, with a mirror, a metal or a dielectric on top."""
 
@@ -313,6 +325,13 @@ class MaterialDescription(Map, frozen=True, kw_only=True):
         about(
             "A picture that multiplies color and ambient_color from place to place; with one, color left out is all"
             " that the mirror leaves."
+        ),
+    ] = None
+    noise: Annotated[
+        NoiseDescription | None,
+        about(
+            "Noise that multiplies color and ambient_color from place to place, in the place of a texture; null for"
+            " none."
         ),
     ] = None
     normal_map: Annotated[

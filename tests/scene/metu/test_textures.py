@@ -10,6 +10,7 @@ from PIL import Image
 
 from course.core.triangles import Mesh
 from course.errors import SceneError
+from course.extras.perlin import noise
 from course.formats.meshes.files import save_ply
 from tests.scene.metu.conftest import WALL, Metu, Tree, tree
 
@@ -143,6 +144,22 @@ def test_a_ball_has_metus_longitude_and_latitude(
     np.testing.assert_allclose(xml.pixel(scene), 100 * z * nearest(u, v), rtol=5e-3)
 
 
+@pytest.mark.parametrize(("said", "meant"), [("linear", "linear"), ("absval", "absolute")])
+def test_perlin_noise_is_that_of_this_course(xml: Metu, said: str, meant: str) -> None:
+    """At (1.8, 3.6, -4) of the wall, three grains along a unit; no texture coordinates are needed."""
+    scene = textured(xml.folder, camera=look(0.6, 0.3), TexCoordData="")
+    scene["Textures"]["TextureMap"] = {
+        "_id": "1",
+        "_type": "perlin",
+        "DecalMode": "replace_kd",
+        "NoiseScale": "3",
+        "NoiseConversion": said,
+    }
+    value = float(noise(np.array([[1.8], [3.6], [-4]], np.float32) * np.float32(3))[0])
+    value = abs(value) if meant == "absolute" else (value + 1) / 2
+    np.testing.assert_allclose(xml.pixel(scene), AMBIENT + 100 * value, rtol=1e-2, atol=0.1)
+
+
 @pytest.mark.parametrize("also_a_picture", [False, True])
 def test_a_normal_map_turns_the_normal_along_metus_u_and_v(xml: Metu, also_a_picture: bool) -> None:
     """The wall's u is x, its v is -y; light comes along y and z."""
@@ -170,7 +187,8 @@ def test_a_normal_map_turns_the_normal_along_metus_u_and_v(xml: Metu, also_a_pic
         ({"mode": "bump_normal"}, 'its DecalMode is "bump_normal": this course has no bump maps'),
         ({"mode": "replace_background"}, "this course has no picture behind the scene"),
         ({"between": "trilinear"}, 'its Interpolation is "trilinear": this course has no pyramids'),
-        ({"perlin": "1"}, 'its type is "perlin", and textures of this course are pictures'),
+        ({"perlin": "blend_kd"}, "its type is perlin with DecalMode blend_kd: replace_kd can be"),
+        ({"perlin": "bump_normal"}, 'its DecalMode is "bump_normal": this course has no bump maps'),
         (
             {"TexCoordData": "0 0 1 1"},
             "refers to texture coordinates 1 to 4: expected numbers from",
@@ -192,7 +210,7 @@ def test_what_is_not_converted_is_refused_by_its_name(
     for key in ("Normalizer", "ImageId"):
         table["TextureMap"] |= {key: changed[key]} if key in changed else {}
     if "perlin" in changed:
-        table["TextureMap"] = {"_id": "1", "_type": "perlin", "NoiseScale": "3"}
+        table["TextureMap"] = {"_id": "1", "_type": "perlin", "DecalMode": changed["perlin"]}
     if "file" in changed:
         table["Images"]["Image"]["_data"] = changed["file"]
     scene["Objects"]["Mesh"]["Textures"] = changed.get("chosen", "1")

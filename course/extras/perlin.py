@@ -1,0 +1,64 @@
+"""Gradient noise in space (K. Perlin, "Improving noise", 2002), as a colour of surfaces.
+
+Each whole point of space has one of 12 directions, by a table of shuffled numbers. Between them the directions' slopes
+are mixed by 6 t^5 - 15 t^4 + 10 t^3, so the noise and its first two derivatives are continuous. It is 0 at all whole
+points.
+"""
+
+from dataclasses import dataclass
+from itertools import product
+from typing import Final
+
+import numpy as np
+
+from course.core.types import Floats32
+
+PERIOD: Final = 256
+"""Whole points after which the table repeats."""
+
+GRADIENTS: Final = np.array(
+    [g for g in product((-1, 0, 1), repeat=3) if np.abs(g).sum() == 2], np.float32
+)
+"""(12, 3): from the middle of a cube to the middles of its edges."""
+
+TABLE: Final = np.random.default_rng(1985).permutation(PERIOD)
+
+ABSOLUTE = "absolute"
+
+
+def noise(x: Floats32) -> Floats32:
+    """Noise (n,), between -1 and 1, at points (3, n)."""
+    cell = np.floor(x)
+    t = x - cell
+    whole = cell.astype(np.int64) % PERIOD
+    fade = t * t * t * (t * (t * 6 - 15) + 10)
+    total = np.zeros(x.shape[1], np.float32)
+    for corner in product((0, 1), repeat=3):
+        weight = np.ones(x.shape[1], np.float32)
+        slot = np.zeros(x.shape[1], np.int64)
+        for axis, step in enumerate(corner):
+            weight *= fade[axis] if step else 1 - fade[axis]
+            slot = TABLE[(slot + whole[axis] + step) % PERIOD]
+        gradient = GRADIENTS[slot % len(GRADIENTS)]
+        away = t - np.array(corner, np.float32)[:, None]
+        total += weight * (gradient.T * away).sum(axis=0, dtype=np.float32)
+    return total
+
+
+@dataclass(frozen=True)
+class Noise:
+    """Grey values of noise at places that the corners of triangles carry.
+
+    Attributes
+    ----------
+    conversion : "linear" for (noise + 1) / 2, "absolute" for |noise|
+    """
+
+    conversion: str
+
+    def __call__(self, barycentric: Floats32, corners: Floats32) -> Floats32:
+        """See ``ColorAt``."""
+        place: Floats32 = (barycentric[:, None] * corners).sum(axis=0, dtype=np.float32)
+        value = noise(place)
+        grey = np.abs(value) if self.conversion == ABSOLUTE else (value + 1) / 2
+        return np.broadcast_to(np.clip(grey, 0, 1), (3, len(value))).astype(np.float32)
