@@ -70,6 +70,12 @@ def test_noise_is_averaged_and_a_far_edge_is_not() -> None:
     assert np.sqrt(np.mean((preview - truth) ** 2)) < 0.35 * np.sqrt(np.mean((before - truth) ** 2))
 
 
+def test_there_are_no_neighbours_beyond_the_border() -> None:
+    film = filmed(np.full((3, 3, 3, 4), 0.5))
+    told = film.denoise(functions(Bound(Effects())), 0.05, 2.0)
+    assert told == pytest.approx({"neighbours": 8, "noise": 0, "left": 0, "bias": 0}, abs=1e-6)
+
+
 def test_pixels_of_one_sample_are_left_alone() -> None:
     samples = np.random.default_rng(2).random((3, 6, 6, 1))
     film = filmed(samples)
