@@ -216,6 +216,14 @@ def _repaired(description: dict[str, Any]) -> dict[str, Any]:
             material.pop("conductor")
         if material.get("texture") is not None:
             material.pop("noise", None)
+        metal, glass = material.get("conductor") or {}, material.get("dielectric") or {}
+        if metal.get("roughness"):
+            # Microfacets blur by themselves, and have the exact equations of Fresnel.
+            material.pop("gloss", None)
+            metal.pop("fresnel", None)
+        if glass.get("distribution") == "ggx" and glass.get("roughness"):
+            material.pop("gloss", None)
+            glass["roughness"] = min(glass["roughness"], 1.0)
     for thing in description["objects"]:
         if thing["shape"] == "mesh":
             # Those that are drawn have no texture coordinates.
@@ -251,6 +259,12 @@ def _repaired(description: dict[str, Any]) -> dict[str, Any]:
         description["film"].pop("subdivision", None)
     if description["film"].get("subdivision") is not None:
         description["sampler"] = {"type": "sobol", "samples": 1}
+        description["film"]["filter"] = "box"
+    if {"error", "subdivision"} & {k for k, v in description["film"].items() if v is not None}:
+        description["film"].pop("denoise", None)
+    if description["film"].get("denoise") is not None:
+        # It takes samples that tell how much they vary, all of one weight.
+        description["sampler"] = {"type": "sobol", "samples": 4}
         description["film"]["filter"] = "box"
     plane = camera.get("image_plane")
     if plane:
