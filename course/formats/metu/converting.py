@@ -193,12 +193,10 @@ def _depth(scene: Element, notes: Notes) -> int:
 
 
 def _pass_over_empty(scene: Element) -> None:
-    """Tables that other scenes have, and that stand here without anything in them, are no loss."""
-    for tag in ("TexCoordData", "NormalData", "Textures"):
-        if all(
-            not (each.text.strip() or each.children) for each in scene.children if each.tag == tag
-        ):
-            scene.all(tag)
+    """A table that other scenes have, and that stands here without anything in it, is no loss."""
+    tables = [each for each in scene.children if each.tag == "NormalData"]
+    if not any(each.text.strip() or each.children for each in tables):
+        scene.all("NormalData")
 
 
 def _file_names(cameras: list[MetuCamera], target: Path) -> list[str]:

@@ -159,6 +159,6 @@ def test_another_order_than_that_of_three_axes_is_refused(metu: Metu) -> None:
 
 
 def test_tables_with_something_in_them_are_still_named(metu: Metu) -> None:
-    metu.load(tree(TexCoordData="0 1"))
+    metu.load(tree(NormalData="0 1 0"))
     (warning,) = metu.warnings
-    assert "Scene/TexCoordData is not known" in warning
+    assert "Scene/NormalData is not known" in warning
