@@ -77,10 +77,10 @@ def shuffled_z_order(x, y, levels, seed):
     ### BEGIN SOLUTION
     z = _interleaved(x, y)
     order = np.zeros_like(z)
-    for level in range(levels):
-        digit = z >> 2 * level & 3
-        above = z >> 2 * level + 2
-        order |= _PERMUTATIONS[chosen(level, above), digit] << 2 * level
+    for height in range(levels):
+        digit = z >> 2 * height & 3
+        above = z >> 2 * height + 2
+        order |= _PERMUTATIONS[chosen(height, above), digit] << 2 * height
     return order
     ### END SOLUTION
 
