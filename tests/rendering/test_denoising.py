@@ -95,6 +95,9 @@ def test_threads_and_compiled_loops_change_no_bit(scene: Scene) -> None:
     one = render(scene, size=SMALL, threads=1, compiled=False)
     two = render(scene, size=SMALL, threads=2, compiled=False)
     assert one.shown.tobytes() == two.shown.tobytes()
+    pytest.importorskip("numba", reason='loops are compiled by: pip install -e ".[fast]"')
+    compiled = render(scene, size=SMALL, threads=2, compiled=True)
+    assert one.shown.tobytes() == compiled.shown.tobytes()
 
 
 def test_every_sampler_has_a_preview(scene: Scene) -> None:

@@ -126,7 +126,7 @@ def test_it_sends_out_its_intensity_over_its_solid_angle() -> None:
 def test_a_choice_among_spots_and_points_has_the_mean_of_all(
     make_scene: MakeScene, sampling: str
 ) -> None:
-    """Over 16 seeds of 64 samples; 6 standard errors of a mean, estimated from them."""
+    """Over 16 seeds of 64 samples; 8 standard errors of a mean, estimated from them: 1 in a million by Student."""
     point = {"type": "point", "position": [1, 2, 1], "intensity": 3}
     wide = SPOT | {"position": [1, 2, 0], "outer_angle": 70, "intensity": 20}
     lights = [SPOT, point, wide, SPOT | {"direction": [-1, -1, 0]}]
@@ -138,7 +138,7 @@ def test_a_choice_among_spots_and_points_has_the_mean_of_all(
     ]
     error = np.std(found, ddof=1) / 4
     reference = render(seen(make_scene, lights, 9), compiled=False, spp=4096, sampler="random")
-    assert abs(np.mean(found) - reference.linear[..., 0].mean()) < 6 * error + 1e-3 * error
+    assert abs(np.mean(found) - reference.linear[..., 0].mean()) < 8 * error
     assert all_of_them.max() > 0
 
 
