@@ -15,8 +15,9 @@ from typing import Any
 
 import numpy as np
 
-from course.contracts import CONTRACTS, Contract, Result, contract
+from course.contracts import Contract, Result, contract
 from course.errors import CourseError, CourseWarning, Ended, FunctionError
+from course.signatures import CONTRACTS
 
 LONGEST_DEVIATION = 1e-3
 """Largest difference of a direction's length from 1: the contract's 1e-5, and some more for the renderer's rounding."""

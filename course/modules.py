@@ -38,7 +38,7 @@ FURTHER = _named(
         "film": "expose luminance photographic encode_srgb convert_gamut quantize",
     }
 )
-"""The other modules. The renderer calls the functions of both that are listed in ``course.contracts``."""
+"""The other modules. The renderer calls the functions of both that are listed in ``course.signatures``."""
 
 COURSE = MODULES | FURTHER
 """All modules of the course."""

@@ -2,7 +2,7 @@
 
 A lamp is a point, what is glossy a mirror, the lens a pinhole. So a student's copy shows a picture from the first
 function on, and holds nothing of the solutions: with each function that is written an effect comes in. Shapes are those
-of ``course.contracts``.
+of ``course.signatures``.
 """
 
 from collections.abc import Callable

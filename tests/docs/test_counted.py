@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from course.contracts import CONTRACTS
 from course.effects import PROJECT
 from course.grading.known import known
 from course.modules import COURSE, FURTHER, MODULES
+from course.signatures import CONTRACTS
 from tests.test_layers import FLOORS
 
 DOCS = PROJECT / "docs"

@@ -6,11 +6,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from course.contracts import CONTRACTS, contract
+from course.contracts import contract
 from course.effects import PROJECT, Effects
 from course.grading.checks.declare import Function, declaration
 from course.grading.checks.drawing import Draw
 from course.guard import Guard
+from course.signatures import CONTRACTS
 
 SOLUTIONS = Effects(PROJECT / "solutions")
 

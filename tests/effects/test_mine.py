@@ -12,11 +12,11 @@ from PIL import Image
 
 from course import EffectError, load_scene, pixel, render
 from course.cli.main import commands
-from course.contracts import CONTRACTS
 from course.core.types import Floats32
 from course.effects import PROJECT, Effects, written_functions
 from course.modules import COURSE
 from course.scene.scene import load_variant
+from course.signatures import CONTRACTS
 from course.stand_ins import STAND_INS
 from tests.conftest import MakeScene
 

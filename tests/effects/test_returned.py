@@ -12,10 +12,11 @@ from click.testing import CliRunner
 
 from course import EffectError, load_scene, render
 from course.cli.main import commands
-from course.contracts import CONTRACTS, contract
+from course.contracts import contract
 from course.effects import PROJECT, Effects
 from course.errors import CourseWarning, FunctionError
 from course.guard import Guard
+from course.signatures import CONTRACTS
 from tests.effects.test_contracts import arguments
 
 SOLUTIONS = Effects(PROJECT / "solutions")

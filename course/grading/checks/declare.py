@@ -4,7 +4,7 @@ A declaration is all that a module writes down. The checks of the conventions fo
 laws are run on arguments that it makes (``laws.py``), failures are cut down to the smallest input that shows them
 (``examples.py``), and a mistake is told by a known wrong submission that behaves alike (``mistakes.py``).
 
-What arguments and results there are, and of which shape, says the function's contract (``course/contracts.py``); a
+What arguments and results there are, and of which shape, says the function's contract (``course/signatures.py``); a
 declaration adds how arguments are made, and the laws.
 """
 
@@ -18,10 +18,11 @@ from typing import Any
 
 import numpy as np
 
-from course.contracts import CONTRACTS, Result, parsed
+from course.contracts import Result, parsed
 from course.grading.checks.check import Array, Failure, Kind, Role, Trial
 from course.grading.checks.drawing import Draw, worst_directions, worst_units
 from course.modules import COURSE
+from course.signatures import CONTRACTS
 
 COLUMNS = "N"
 
@@ -329,7 +330,7 @@ def function(
     ----------
     path : "module.function"
     made : how arguments are made; of what isn't there, as usual
-    contract : as in ``course.contracts``, which has those of all functions that the renderer calls
+    contract : as in ``course.signatures``, which has those of all functions that the renderer calls
     how : ``case`` and what follows it in ``Function``
     """
     held = parsed(contract or CONTRACTS[path])

@@ -430,11 +430,11 @@ def _within_mask(draw: Draw) -> Mapping[str, Any]:
 
 
 def _moved(a: Arguments, r: Array) -> tuple[Any, ...]:
-    """By how much each number is off, the shorter way round, against none."""
+    """By how much each number is off, against none: the shorter way round, for what lies in [0, 1]."""
     _, height, width = a.masks.shape
     ranks = a.masks.reshape(2, -1)[:, (a.y % height) * width + a.x % width]
     expected = np.asarray(a.points)[:, None] + ((2 * ranks + 1) / (2 * height * width))[..., None]
-    off = (r - expected + 0.5) % 1 - 0.5
+    off = np.where((r >= 0) & (r <= 1), (r - expected + 0.5) % 1 - 0.5, r - expected % 1)
     return np.moveaxis(off, 1, 2).reshape(-1, len(a.x)), 0.0, 1.0
 
 
