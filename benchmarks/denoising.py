@@ -209,7 +209,9 @@ def levels(
     ]
     axes = {"samples": "samples for each pixel"}
     title = "channels of equal pixels that the test separates"
-    return Plot("separated", title, axes, "share", tuple(lines), slope=False)
+    # A logarithmic axis has no place for none, and one point is no line.
+    drawn = tuple(line for line in lines if sum(share > 0 for share in line.y) > 1)
+    return Plot("separated", title, axes, "share", drawn, slope=False)
 
 
 def _line(
