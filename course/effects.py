@@ -187,7 +187,7 @@ def written_functions(file: Path) -> frozenset[str]:
             last = node.body[-1]
             stub = isinstance(last, ast.Raise) and "NotImplementedError" in ast.dump(last)
             # The line may have been left where nothing reaches it any more.
-            stub = stub and not any(isinstance(each, ast.Return) for each in ast.walk(node))
+            stub = stub and not _returns(node)
             # The last definition of a name is the one that counts.
             names = names - {node.name} if stub else names | {node.name}
         elif isinstance(node, ast.Import | ast.ImportFrom):
@@ -195,6 +195,15 @@ def written_functions(file: Path) -> frozenset[str]:
         elif isinstance(node, ast.Assign):
             names |= {target.id for target in node.targets if isinstance(target, ast.Name)}
     return frozenset(names)
+
+
+def _returns(node: ast.AST) -> bool:
+    """Whether a function has a return of its own: those of functions within it are not."""
+    return any(
+        isinstance(each, ast.Return)
+        or (not isinstance(each, ast.FunctionDef | ast.ClassDef) and _returns(each))
+        for each in ast.iter_child_nodes(node)
+    )
 
 
 class Bound:

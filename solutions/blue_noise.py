@@ -41,8 +41,7 @@ def shuffled_z_order(x, y, levels, seed):
     A Z-order has a digit from 0 to 3 for each level, the highest for the largest quadrants. Here each digit is replaced
     by its image under a permutation of the four. Which one is hashed from the seed, the level and the digits of the
     Z-order above: all pixels in a quadrant have the same for its parts, those of two quadrants are independent, and
-    each of the 24 is equally probable. ``chosen`` makes
-    numbers for that; any other good hash does, too.
+    each of the 24 is equally probable. ``chosen`` makes numbers for that; any other good hash does, too.
 
     Parameters
     ----------

@@ -114,6 +114,11 @@ def test_a_mistake_is_still_told_with_its_line(mine: Path) -> None:
         ("def f():\n    raise NotImplementedError\ndef f():\n    return 1", {"f"}),
         ("def f():\n    return 1\ndef f():\n    raise NotImplementedError", set()),
         ("def f():\n    return 1\n    raise NotImplementedError", {"f"}),
+        ("def f():\n    def g():\n        return 1\n    raise NotImplementedError", set()),
+        (
+            "def f():\n    def g():\n        return 1\n    return g()\n    raise NotImplementedError",
+            {"f"},
+        ),
         ("from own import g as f", {"f"}),
         ("f = lambda: 1", {"f"}),
     ],
