@@ -10,13 +10,18 @@ EXCUSED = {
         *("u", "pdf", "barycentric", "albedo", "beta"),
         *("radiosity", "emission", "reflectance", "unshot", "patch_radiosity"),
         *("radiance", "rgb", "encoded", "n", "k"),
+        *("mean", "mean_a", "mean_b", "means", "variance", "variance_a", "variance_b", "variances"),
+        *("filtered_variance", "critical"),
     ),
+    "in 7 of 8 octants": ("filtered",),
+    # Numbers of samples, statistics in standard errors and pixels have no unit that could be another.
+    "only": ("count_a", "count_b", "t", "critical", "distance"),
     # Negative parts of an index are refused; a view looks from above, but for the worst directions.
     "in 2 of 8 octants": ("n", "k"),
     "in 5 of 8 octants": ("wo",),
 }
-"""What can't be negative: random numbers, densities, places in a triangle, light, its colours and shares of it,
-indices of refraction, and heights of what looks at a surface."""
+"""What can't be negative: random numbers, densities, places in a triangle, light, its colours, shares and
+variances, indices of refraction, and heights of what looks at a surface."""
 
 
 @pytest.mark.parametrize("module", COURSE)

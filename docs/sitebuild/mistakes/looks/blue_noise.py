@@ -128,14 +128,14 @@ LOOKS = {
         Look(
             "The first pattern of a mask, four times side by side",
             plot(_mask(38)),
-            ("mask_not_settled", "mask_largest_u"),
+            ("mask_not_settled",),
         ),
         Look(
             "Half of the first pattern of a mask",
             plot(_mask(19)),
             ("mask_clusters_upwards",),
         ),
-        Look("Power of a mask", plot(_power, curve=True), ("mask_white", "mask_sigma")),
+        Look("Power of a mask", plot(_power, curve=True), ("mask_white",)),
     ),
     "dithered_points": (Look("Two points, moved for six pixels", plot(_moved)),),
     "radial_spectrum": (Look("The spectrum of noise and a wave", plot(_spectrum, curve=True)),),

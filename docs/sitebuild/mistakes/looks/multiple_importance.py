@@ -151,7 +151,7 @@ LOOKS = {
         Look(
             "The weight of a density beside deltas",
             plot(_deltas(1), curve=True),
-            ("delta_always", "delta_everywhere"),
+            ("delta_always",),
         ),
     ),
     "multi_sample": (Look("Integrals by three strategies", plot(_summed, curve=True)),),
