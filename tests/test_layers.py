@@ -16,6 +16,7 @@ FLOORS = {
     "casters": 1,
     "errors": 1,
     "contracts": 1,
+    "signatures": 1,
     "guard": 1,
     "effects": 1,
     "inputs": 1,
