@@ -142,9 +142,10 @@ def _judged(submission: Known, seed: int, file: Path) -> Verdict:
         submission.module, submission.source.encode(), Limits(call_seconds=60, cpu_seconds=600)
     ) as worker:
         verdict = judge(submission, worker, arrays, seed)
-    if submission.right or verdict.fault:
+    if submission.right:
         return verdict
-    return replace(verdict, fault=unfair(verdict))
+    found = marks(verdict)
+    return replace(verdict, fault=verdict.fault or unfair(found), marks=found)
 
 
 def _by_function(submission: Known, seed: int, file: Path) -> Verdict:
@@ -162,7 +163,7 @@ def fairness(modules: Sequence[str], verdicts: Sequence[Verdict]) -> Table:
     """What functions earn that are of no use, and those that are wrong in a corner only, as shares of their points."""
 
     def row(name: str, some: Sequence[Verdict]) -> tuple[str, ...]:
-        found = [marks(verdict) for verdict in some if not verdict.submission.right]
+        found = [verdict.marks for verdict in some if verdict.marks is not None]
         useless = [one.share for one in found if one.useless]
         corner = [one.share for one in found if one.right_elsewhere]
         most = f"{max(useless):.0%}" if useless else NONE

@@ -22,6 +22,22 @@ NAME = 36
 
 
 @dataclass(frozen=True)
+class Marks:
+    """What a wrong submission earned for the function that it gets wrong.
+
+    Attributes
+    ----------
+    share : of the function's points
+    useless : whether most of what the function gives is wrong, in its picture as well where it has one
+    right_elsewhere : whether it is wrong in a corner only
+    """
+
+    share: float
+    useless: bool
+    right_elsewhere: bool
+
+
+@dataclass(frozen=True)
 class Verdict:
     """What became of one known submission.
 
@@ -32,6 +48,7 @@ class Verdict:
     told : the mistake that the student was told at the check meant for it
     fault : what is wrong with the grader; empty if nothing is
     results : of all checks, without what there was to draw
+    marks : what a wrong submission earned, where all checks were run
     """
 
     submission: Known
@@ -39,6 +56,7 @@ class Verdict:
     told: str
     fault: str
     results: tuple[Result, ...] = ()
+    marks: Marks | None = None
 
 
 def judge(
@@ -62,22 +80,6 @@ def judge(
     return Verdict(submission, failed, told, _fault(submission, wrong, meant), bare)
 
 
-@dataclass(frozen=True)
-class Marks:
-    """What a wrong submission earned for the function that it gets wrong.
-
-    Attributes
-    ----------
-    share : of the function's points
-    useless : whether most of what the function gives is wrong, in its picture as well where it has one
-    right_elsewhere : whether it is wrong in a corner only
-    """
-
-    share: float
-    useless: bool
-    right_elsewhere: bool
-
-
 def marks(verdict: Verdict) -> Marks:
     """Those of a wrong submission, all of whose checks were run."""
     known = verdict.submission
@@ -97,9 +99,8 @@ MOST, LEAST = 0.25, 0.8
 """Shares of its points that a function of no use may earn at most, and one that is wrong in a corner earns at least."""
 
 
-def unfair(verdict: Verdict) -> str:
-    """What is wrong with the points of a submission all of whose checks were run; nothing if they are fair."""
-    found = marks(verdict)
+def unfair(found: Marks) -> str:
+    """What is wrong with the points of a submission; nothing if they are fair."""
     if found.useless and found.share > MOST:
         return f"is of no use, but earns {found.share:.0%} of its points"
     if found.right_elsewhere and found.share < LEAST:

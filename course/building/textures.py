@@ -12,7 +12,7 @@ from course.core.triangles import Mesh
 from course.core.types import Floats32, Floats64
 from course.effects import Bound
 from course.extras.painting import Paint
-from course.extras.textures import Texture, on_mesh, on_rectangle, on_sphere, places_on
+from course.extras.textures import Places, Texture, on_mesh, on_rectangle, on_sphere
 from course.formats.pictures.display import linear_to_srgb8
 from course.formats.pictures.reading import LINEAR
 from course.formats.yaml import description as d
@@ -62,20 +62,10 @@ class Painter:
         if material.noise is not None:
             return self._noise(material.noise, number, mesh)
         assert material.texture is not None
-        texture = self._texture(material.texture, ("materials", thing.material, "texture", "image"))
-        name = places_function(thing)
         asked_by = ("materials", thing.material, "texture")
-        places = self._bound.function("textures", name, asked_by)
-        if name == "triangle_uv":
-            corners = self._corners(number, mesh, "texture")
-            return Paint(corners, on_mesh(texture, places))
-        local = self._own_coordinates(thing, number)
-        placed = local[mesh.triangles]
-        if name == "sphere_uv":
-            return Paint(placed, on_sphere(texture, places))
-        # The quad's corners in their order around it: u goes from the first to the second, v to the fourth.
-        p1, p2, _, p3 = local.astype(np.float32)
-        return Paint(placed, on_rectangle(texture, p1, p2, p3, places))
+        texture = self._texture(material.texture, (*asked_by, "image"))
+        corners, places = self._places(number, mesh, asked_by)
+        return Paint(corners, lambda weights, own: texture(places(weights, own)))
 
     def _noise(self, described: d.NoiseDescription, number: int, mesh: Mesh) -> Paint:
         """Noise in an object's coordinates before its transformations."""
@@ -101,11 +91,8 @@ class Painter:
         colors = self._normals(described.image, (*asked_by, "image"))
         lookup = self._bound.function("textures", "texture_lookup", asked_by)
         texture = Texture(colors, np.array(described.repeat, np.float32), lookup)
-        name = places_function(thing)
-        places = self._bound.function("textures", name, asked_by)
-        corners = self._corners(number, mesh, "normal map")
-        local = None if name == "triangle_uv" else self._own_coordinates(thing, number)
-        known: Any = NormalMap(texture, places_on(name, places, local), wraps=name == "sphere_uv")
+        corners, places = self._places(number, mesh, asked_by)
+        known: Any = NormalMap(texture, places, wraps=places_function(thing) == "sphere_uv")
         return Paint(corners, known)
 
     def _normals(self, file: str, path: KeyPath) -> Floats32:
@@ -119,13 +106,17 @@ class Painter:
             self._images[key] = np.ascontiguousarray(image, np.float32)
         return self._images[key]
 
-    def _corners(self, number: int, mesh: Mesh, what: str) -> Floats64:
-        """What the corners of an object's triangles carry, (T, 3, 3): u and v, or its own coordinates."""
+    def _places(self, number: int, mesh: Mesh, asked_by: KeyPath) -> tuple[Floats64, Places]:
+        """What the corners of an object's triangles carry, (T, 3, 3), and the way from there to u and v."""
         thing = self._loaded.description.objects[number]
-        if places_function(thing) != "triangle_uv":
-            found: Floats64 = self._own_coordinates(thing, number)[mesh.triangles]
-            return found
+        name = places_function(thing)
+        function = self._bound.function("textures", name, asked_by)
+        if name != "triangle_uv":
+            local = self._own_coordinates(number)
+            places = on_sphere(function) if name == "sphere_uv" else on_rectangle(local, function)
+            return local[mesh.triangles], places
         if mesh.uv is None:
+            what = str(asked_by[-1]).replace("_", " ")
             raise self._loaded.document.error(
                 ("objects", number),
                 f'material "{thing.material}" has a {what}, but the mesh has no texture coordinates;'
@@ -133,9 +124,9 @@ class Painter:
             )
         corners = np.zeros((len(mesh.triangles), 3, 3))
         corners[:, :, :2] = mesh.uv[mesh.triangles]
-        return corners
+        return corners, on_mesh(function)
 
-    def _own_coordinates(self, thing: d.Object, number: int) -> Floats64:
+    def _own_coordinates(self, number: int) -> Floats64:
         """Vertices (V, 3) of a shape before it is transformed, its longest extent 2."""
         mesh = self._still(number)
         scaled: Floats64 = mesh.vertices / np.abs(mesh.vertices).max()

@@ -88,6 +88,7 @@ class MomentsFilm(Film):
         x, y, distance = _disk(sigma)
         critical = denoising.critical_value(1 / _INVERSE, level)
         found, sums = np.empty_like(pictures.mean), np.zeros(4)
+        v = pictures.variance / pictures.count
         band = max(PAIRS // len(x), 1)
         for first in range(0, self.width * self.height, band):
             pixels = np.arange(first, min(first + band, self.width * self.height))
@@ -100,7 +101,6 @@ class MomentsFilm(Film):
             chosen[:, 0] = True
             weights = _weights(denoising, pictures, pixels, others, critical, distance, sigma)
             weights *= chosen
-            v = pictures.variance / pictures.count
             mean, left = denoising.weighted_mean(pictures.mean[:, others], v[:, others], weights)
             share = weights[:, 0] / weights.sum(axis=1)
             own = pictures.mean[:, pixels], v[:, pixels]

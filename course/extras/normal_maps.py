@@ -15,7 +15,7 @@ from course.core.hits import Hits
 from course.core.triangles import Triangles
 from course.core.types import Floats32, Floats64
 from course.core.vectors import cross, dot, gather
-from course.extras.painting import NOT_PAINTED, Painting
+from course.extras.painting import Painting
 
 STEP = np.float32(0.125)
 """How far, in edges of its triangle, a place is compared with its neighbours."""
@@ -65,25 +65,16 @@ class Relief:
 
     def normals(self, hits: Hits, triangles: Triangles) -> Floats32:
         """Shading normals (3, n) of hits, on the incoming side; ``hits.ns`` where there is no map."""
-        row = self.maps.row.take(hits.triangle)
         ns = hits.ns
-        mapped = np.flatnonzero(row != NOT_PAINTED)
-        if len(mapped) == 0:
-            return ns
-        ns = ns.copy()
-        number = self.maps.number.take(row.take(mapped))
-        for k, normal_map in enumerate(self.maps.color_at):
-            which = mapped[number == k]
-            if len(which) == 0:
-                continue
-            corners = gather(self.maps.corners, row.take(which)).reshape(3, 3, -1)
-            p, q = hits.u.take(which), hits.v.take(which)
-            map_: Any = normal_map
-            place, first, second = map_.changes(np.stack((1 - p - q, p, q)), corners)
+        for which, normal_map, weights, corners in self.maps.painted(hits.triangle, hits.u, hits.v):
+            if ns is hits.ns:
+                ns = ns.copy()
+            known: Any = normal_map
+            place, first, second = known.changes(weights, corners)
             edges = gather(triangles.edges, hits.triangle.take(which))
             side = hits.side.take(which)
             outward = hits.ns.take(which, axis=1) * side
-            turned = _turned(map_.color(place), outward, edges[0:3], edges[3:6], first, second)
+            turned = _turned(known.color(place), outward, edges[0:3], edges[3:6], first, second)
             ns[:, which] = turned * side
         return ns
 

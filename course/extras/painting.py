@@ -4,7 +4,7 @@ A shape is painted in coordinates of its own: each corner of its triangles carri
 corner's place on the ball before it was moved, and a function makes colours of the corners and the barycentrics.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -58,11 +58,21 @@ class Painting:
         triangle : (n,) of the surface
         u, v : (n,) barycentrics of the corners 1 and 2
         """
+        tint = None
+        for which, color_at, weights, corners in self.painted(triangle, u, v):
+            if tint is None:
+                tint = np.ones((3, len(triangle)), np.float32)
+            tint[:, which] = color_at(weights, corners)
+        return tint
+
+    def painted(
+        self, triangle: Numbers, u: Floats32, v: Floats32
+    ) -> Iterator[tuple[Indices, ColorAt, Floats32, Floats32]]:
+        """Hits (m,) of one function after the other, with the function, their barycentrics and what corners carry."""
         row = self.row.take(triangle)
         painted = np.flatnonzero(row != NOT_PAINTED)
         if len(painted) == 0:
-            return None
-        tint = np.ones((3, len(triangle)), np.float32)
+            return
         number = self.number.take(row.take(painted))
         for k, color_at in enumerate(self.color_at):
             which: Indices = painted[number == k]
@@ -70,8 +80,7 @@ class Painting:
                 continue
             corners = gather(self.corners, row.take(which)).reshape(3, 3, -1)
             p, q = u.take(which), v.take(which)
-            tint[:, which] = color_at(np.stack((1 - p - q, p, q)), corners)
-        return tint
+            yield which, color_at, np.stack((1 - p - q, p, q)), corners
 
 
 def make_painting(parts: Sequence[tuple[int, Paint | None]]) -> Painting | None:

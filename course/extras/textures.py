@@ -6,10 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from course.core.types import Floats32, Floats64
-from course.extras.painting import ColorAt
 
-Places = Callable[..., Floats32]
-"""A function of the `textures` module that finds places (2, N) in a picture."""
+Places = Callable[[Floats32, Floats32], Floats32]
+"""(barycentrics (3, N), what the corners carry (3 corners, 3, N)) -> places (2, N) in a picture."""
 
 
 @dataclass(frozen=True)
@@ -39,41 +38,24 @@ class Texture:
         return self.lookup(self.image, uv)
 
 
-def on_rectangle(
-    texture: Texture, p1: Floats32, p2: Floats32, p3: Floats32, rectangle_uv: Places
-) -> ColorAt:
-    """Colours of a rectangle whose corners carry their places in its own coordinates.
+def on_rectangle(local: Floats64, rectangle_uv: Callable[..., Floats32]) -> Places:
+    """Places on a rectangle whose corners carry their places in its own coordinates.
 
-    ``p1``, ``p2``, ``p3``: (3,), where u = v = 0, u = 1 and v = 1.
+    ``local``: (4, 3) its corners in their order around it: u goes from the first to the second, v to the fourth.
     """
-    return lambda barycentric, corners: texture(
-        rectangle_uv(_points(barycentric, corners), p1, p2, p3)
-    )
-
-
-def on_sphere(texture: Texture, sphere_uv: Places) -> ColorAt:
-    """Colours of a sphere about the origin whose corners carry their places in its own coordinates."""
-    center = np.zeros(3, np.float32)
-    return lambda barycentric, corners: texture(sphere_uv(_points(barycentric, corners), center))
-
-
-def on_mesh(texture: Texture, triangle_uv: Places) -> ColorAt:
-    """Colours of triangles whose corners carry u and v."""
-    return lambda barycentric, corners: texture(triangle_uv(barycentric, *corners[:, :2]))
-
-
-def places_on(name: str, function: Places, local: Floats64 | None) -> Places:
-    """(barycentrics, what the corners carry) -> places, by the function of that name.
-
-    ``local``: (V, 3) vertices of a sphere or a rectangle in its own coordinates.
-    """
-    if name == "triangle_uv" or local is None:
-        return lambda weights, corners: function(weights, *corners[:, :2])
-    if name == "sphere_uv":
-        center = np.zeros(3, np.float32)
-        return lambda weights, corners: function(_points(weights, corners), center)
     p1, p2, _, p3 = local.astype(np.float32)
-    return lambda weights, corners: function(_points(weights, corners), p1, p2, p3)
+    return lambda weights, corners: rectangle_uv(_points(weights, corners), p1, p2, p3)
+
+
+def on_sphere(sphere_uv: Callable[..., Floats32]) -> Places:
+    """Places on a sphere about the origin whose corners carry their places in its own coordinates."""
+    center = np.zeros(3, np.float32)
+    return lambda weights, corners: sphere_uv(_points(weights, corners), center)
+
+
+def on_mesh(triangle_uv: Callable[..., Floats32]) -> Places:
+    """Places on triangles whose corners carry u and v."""
+    return lambda weights, corners: triangle_uv(weights, *corners[:, :2])
 
 
 def _points(barycentric: Floats32, corners: Floats32) -> Floats32:

@@ -1,8 +1,5 @@
 """Perlin's noise: zero at whole points, bounded, smooth, and the same wherever the object goes."""
 
-import subprocess
-import sys
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -98,12 +95,3 @@ def test_a_surface_has_the_noise_of_its_own_place(
 def test_a_material_has_a_texture_or_noise(make_scene: MakeScene) -> None:
     with pytest.raises(SceneError, match="both texture and noise are given"):
         make_scene(materials={"m": {"noise": {}, "texture": {"image": "a.png"}}})
-
-
-def test_a_scene_without_it_does_not_load_it() -> None:
-    code = (
-        "import sys; from course import load_scene, render;"
-        "render(load_scene('scenes/textures.yaml'), spp=1, size=(8, 8));"
-        "assert 'course.extras.perlin' not in sys.modules"
-    )
-    subprocess.run([sys.executable, "-c", code], check=True, cwd=Path(__file__).parents[2])

@@ -9,7 +9,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from benchmarks.mutants.judging import Verdict, judge, matrix, unfair
+from benchmarks.mutants.judging import Verdict, judge, marks, matrix, unfair
 from course.grading.calibration import trusted
 from course.grading.checks.check import Check, References
 from course.grading.checks.result import Result, Status
@@ -91,7 +91,7 @@ def test_points_that_are_not_fair_are_found_out(name: str, earned: int, says: st
     wrong = next(one for one in known("multiple_importance") if one.name == name)
     status = Status.PASSED if earned else Status.FAILED
     result = Result(wrong.module, wrong.function, "values", "", "whole", status, earned, 1)
-    assert unfair(Verdict(wrong, (), "", "", (result,))) == says
+    assert unfair(marks(Verdict(wrong, (), "", "", (result,)))) == says
 
 
 def test_a_grader_that_fails_the_right_is_found_out(usual_references: References) -> None:

@@ -30,11 +30,17 @@ BOX: dict[str, Any] = {
 }
 
 
-def imported(folder: Path, scene: dict[str, Any], *options: str) -> set[str]:
-    """Every module that `python -m course render` of a scene imports, by its full name."""
-    (folder / "box.yaml").write_text(json.dumps(scene), encoding="utf-8")
+OF_A_KEY = {
+    *("course.extras.spot_light", "course.extras.normal_maps", "course.extras.perlin"),
+    *("course.extras.samplers.blue_noise", "course.extras.denoising"),
+}
+"""What one key of a scene asks for."""
+
+
+def imported(folder: Path, scene: str, *options: str) -> set[str]:
+    """Every module that `python -m course render` of a scene file imports, by its full name."""
     done = subprocess.run(
-        [sys.executable, "-X", "importtime", "-m", "course", "render", "box.yaml", *options],
+        [sys.executable, "-X", "importtime", "-m", "course", "render", scene, *options],
         cwd=folder,
         env=THIS_CHECKOUT,
         capture_output=True,
@@ -52,7 +58,8 @@ def roots(modules: set[str]) -> set[str]:
 def test_one_box_imports_no_heavy_library_and_no_module_of_effects_it_does_not_call(
     tmp_path: Path,
 ) -> None:
-    modules = imported(tmp_path, BOX)
+    (tmp_path / "box.yaml").write_text(json.dumps(BOX), encoding="utf-8")
+    modules = imported(tmp_path, "box.yaml")
     assert (tmp_path / "box.png").exists()
     assert {"numpy", "embreex", "course"} <= roots(modules), "the list is the right one"
     assert not roots(modules) & NEVER
@@ -65,6 +72,14 @@ def test_one_box_imports_no_heavy_library_and_no_module_of_effects_it_does_not_c
         "OpenImageIO",
         "jsonschema",
     }
+
+
+@pytest.mark.parametrize("name", ["textures", "soft_shadows"])
+def test_what_a_key_asks_for_is_imported_for_scenes_that_have_it(tmp_path: Path, name: str) -> None:
+    scene = str(ROOT / "scenes" / f"{name}.yaml")
+    modules = imported(tmp_path, scene, "--spp", "1", "--size", "8x8")
+    assert "course.core.render" in modules
+    assert not modules & OF_A_KEY
 
 
 @pytest.mark.parametrize(

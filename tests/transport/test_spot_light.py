@@ -2,9 +2,6 @@
 
 import math
 import re
-import subprocess
-import sys
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -161,15 +158,6 @@ def test_what_is_wrong_is_named(make_scene: MakeScene, changed: Any, told: str) 
     with pytest.raises(SceneError) as error:
         seen(make_scene, [SPOT | changed])
     assert re.search(told, str(error.value)), error.value
-
-
-def test_a_scene_without_one_does_not_load_it() -> None:
-    code = (
-        "import sys; from course import load_scene, render;"
-        "render(load_scene('scenes/soft_shadows.yaml'), spp=1, size=(8, 8));"
-        "assert 'course.extras.spot_light' not in sys.modules"
-    )
-    subprocess.run([sys.executable, "-c", code], check=True, cwd=Path(__file__).parents[2])
 
 
 def test_the_stage_mixes_its_colours() -> None:
