@@ -1,6 +1,5 @@
 """From texture descriptions to what paints the objects."""
 
-from pathlib import Path
 from typing import Any
 
 import msgspec
@@ -13,8 +12,6 @@ from course.core.types import Floats32, Floats64
 from course.effects import Bound
 from course.extras.painting import Paint
 from course.extras.textures import Places, Texture, on_mesh, on_rectangle, on_sphere
-from course.formats.pictures.display import linear_to_srgb8
-from course.formats.pictures.reading import LINEAR
 from course.formats.yaml import description as d
 from course.formats.yaml.description import TextureDescription
 from course.formats.yaml.document import KeyPath
@@ -47,6 +44,7 @@ class Painter:
         self._bound = bound
         self._files = files
         self._images: dict[str, Floats32] = {}
+        self._latest: tuple[int, Floats64, Floats64] = -1, *(np.zeros((0, 3, 3)),) * 2
 
     def paint(self, number: int, mesh: Mesh) -> Paint | None:
         """The paint of an object; None where it has none.
@@ -99,11 +97,7 @@ class Painter:
         """Colours of a picture of normals; those of PNG and JPEG are codes, without sRGB's curve."""
         key = f"normals of {file}"
         if key not in self._images:
-            image = read_named_picture(file, path, self._loaded)
-            if Path(file).suffix.lower() not in LINEAR:
-                codes = linear_to_srgb8(np.moveaxis(image, -1, 0))
-                image = codes.astype(np.float32) / np.float32(255)
-            self._images[key] = np.ascontiguousarray(image, np.float32)
+            self._images[key] = read_named_picture(file, path, self._loaded, codes=True)
         return self._images[key]
 
     def _places(self, number: int, mesh: Mesh, asked_by: KeyPath) -> tuple[Floats64, Places]:
@@ -111,20 +105,27 @@ class Painter:
         thing = self._loaded.description.objects[number]
         name = places_function(thing)
         function = self._bound.function("textures", name, asked_by)
-        if name != "triangle_uv":
-            local = self._own_coordinates(number)
-            places = on_sphere(function) if name == "sphere_uv" else on_rectangle(local, function)
-            return local[mesh.triangles], places
+        # A picture and a normal map of one object have the same.
+        if self._latest[0] != number:
+            of_mesh = name == "triangle_uv"
+            vertices = self._uv(number, mesh, asked_by) if of_mesh else self._own_coordinates(number)
+            self._latest = number, vertices, vertices[mesh.triangles]
+        _, vertices, corners = self._latest
+        if name == "rectangle_uv":
+            return corners, on_rectangle(vertices, function)
+        return corners, (on_sphere if name == "sphere_uv" else on_mesh)(function)
+
+    def _uv(self, number: int, mesh: Mesh, asked_by: KeyPath) -> Floats64:
+        """Texture coordinates of a mesh as points (V, 3) whose third coordinate is 0."""
         if mesh.uv is None:
+            thing = self._loaded.description.objects[number]
             what = str(asked_by[-1]).replace("_", " ")
             raise self._loaded.document.error(
                 ("objects", number),
                 f'material "{thing.material}" has a {what}, but the mesh has no texture coordinates;'
                 " save it with some (vt in an OBJ file), or give it another material",
             )
-        corners = np.zeros((len(mesh.triangles), 3, 3))
-        corners[:, :, :2] = mesh.uv[mesh.triangles]
-        return corners, on_mesh(function)
+        return np.pad(mesh.uv.astype(np.float64), ((0, 0), (0, 1)))
 
     def _own_coordinates(self, number: int) -> Floats64:
         """Vertices (V, 3) of a shape before it is transformed, its longest extent 2."""

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from course import render
+from course.building.textures import Painter
 from course.compiled import library
 from course.core.triangles import Mesh
 from course.errors import SceneError
@@ -14,6 +15,7 @@ from course.extras.normal_maps import NormalMap, _turned
 from course.formats.meshes.files import save_ply
 from course.formats.pictures.files import save, write_exr
 from tests.conftest import MakeScene
+from tests.imaging.picture_files import png
 
 M = np.array([0.3, -0.2, 0.8]) / np.linalg.norm([0.3, -0.2, 0.8])
 """Along u, along v, along the normal."""
@@ -182,6 +184,14 @@ def test_codes_of_a_png_are_taken_as_they_are(make_scene: MakeScene, tmp_path: P
     np.testing.assert_allclose(found[:3], [m[0], m[2], -m[1]], atol=3e-4)
 
 
+def test_16_bits_are_16_bits(make_scene: MakeScene, tmp_path: Path) -> None:
+    """u of the normal is 1e-3, a quarter of a code of 8 bits."""
+    code = np.round((np.array([1e-3, 0, 1]) + 1) / 2 * 65535).astype(int)
+    (tmp_path / "map.png").write_bytes(png(np.tile(code, (2, 2, 1)), 16))
+    found = lit(make_scene, QUAD, (0.1, 0, 0.2), (0, 2, 0), "map.png")
+    np.testing.assert_allclose(found[[0, 1]], [1e-3, 1], atol=2e-5)
+
+
 def test_a_mirror_reflects_by_the_turned_normal(make_scene: MakeScene, tmp_path: Path) -> None:
     """A ray from above comes back along 2 (n . y) n - y, into a part of the sky that has its colour."""
     write_map(tmp_path)
@@ -215,6 +225,23 @@ def test_both_engines_agree(make_scene: MakeScene, tmp_path: Path) -> None:
     )
     pictures = [render(scene, compiled=each).linear for each in (False, True)]
     np.testing.assert_allclose(*pictures, rtol=1e-4, atol=1e-5)
+
+
+def test_a_picture_and_a_normal_map_share_what_corners_carry(
+    make_scene: MakeScene, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    write_map(tmp_path)
+    made = []
+    once = Painter._own_coordinates
+
+    def counted(*arguments: Any) -> Any:
+        made.append(1)
+        return once(*arguments)
+
+    monkeypatch.setattr(Painter, "_own_coordinates", counted)
+    both = {"normal_map": {"image": "map.exr"}, "texture": {"image": "map.exr"}}
+    make_scene(materials={"m": both}, objects=[QUAD | {"material": "m"}])
+    assert len(made) == 1
 
 
 def test_a_mesh_without_places_is_refused(make_scene: MakeScene, tmp_path: Path) -> None:

@@ -16,7 +16,6 @@ from course.core.types import Floats64
 from course.errors import SceneError
 from course.formats.metu.element import Element
 from course.formats.metu.meshes import MeshTable
-from course.formats.pictures.display import linear_to_srgb8
 from course.formats.pictures.reading import LINEAR, read_picture
 from course.formats.yaml.document import show, suggest
 
@@ -68,14 +67,15 @@ class Texture:
     def picture(self) -> Floats64:
         """The values over the normalizer, or the colours of a normal map, (H, W, 3)."""
         try:
-            found = read_picture(self.file)
+            found = read_picture(self.file, codes=True)
         except (SceneError, ValueError) as error:
             raise self.element.error(f"its picture can't be used: {error}") from None
         linear = self.file.suffix.lower() in LINEAR
-        codes = found if linear else linear_to_srgb8(np.moveaxis(found, -1, 0))
+        # METU counts codes to 255, whatever the depth; in float32 the product is exact for 8 bits.
+        codes = found if linear else found * np.float32(255)
         values: Floats64 = codes.astype(np.float64) / self.normalizer
         if self.of_normals:
-            values = codes.astype(np.float64) / (1.0 if linear else 255.0)
+            values = found.astype(np.float64)
             # Green is along v, which goes down there, and up here.
             values[..., 1] = 1 - values[..., 1]
         if values.max(initial=0) > 1:

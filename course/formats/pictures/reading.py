@@ -40,7 +40,9 @@ _STRIP: Final = 1 << 20
 _OPENING = threading.Lock()
 
 
-def read_picture(path: Path, bound: Bound = USUAL_FILE, pixels: Bound = USUAL_PIXELS) -> Floats32:
+def read_picture(
+    path: Path, bound: Bound = USUAL_FILE, pixels: Bound = USUAL_PIXELS, codes: bool = False
+) -> Floats32:
     """A picture as linear RGB; grey becomes RGB, and alpha is dropped.
 
     On the way it takes little more memory than the picture that is returned and the file's own codes together.
@@ -52,12 +54,15 @@ def read_picture(path: Path, bound: Bound = USUAL_FILE, pixels: Bound = USUAL_PI
     ----------
     bound : the most bytes that the file may have
     pixels : the most pixels that the picture may have; it is refused before they are read
+    codes : true for numbers as the file has them: without sRGB's curve, the largest code of its depth is 1
     """
     with opened(path, "picture", bound, SceneError) as stream:
         try:
             linear = path.suffix.lower() in LINEAR
-            read = _read_linear if linear else _read_coded
-            picture = read(stream, path, pixels)
+            if linear:
+                picture = _read_linear(stream, path, pixels)
+            else:
+                picture = _read_coded(stream, path, pixels, codes)
         except UnicodeDecodeError as error:  # from a message that quotes the file's own bytes
             raise SceneError(f"{shown(path)}: its header is corrupt") from error
         except Exception as error:
@@ -85,7 +90,7 @@ def _check_size(width: int, height: int, pixels: Bound) -> None:
         raise ValueError(f"{width} x {height} are more than {pixels.most:,} pixels{pixels.remedy}")
 
 
-def _read_coded(stream: BinaryIO, path: Path, pixels: Bound) -> Floats32:
+def _read_coded(stream: BinaryIO, path: Path, pixels: Bound, codes: bool) -> Floats32:
     # Pillow warns of what it can read all the same, such as a damaged date or 90 million pixels.
     with warnings.catch_warnings(action="ignore"), _opened(stream) as image:
         _check_size(image.width, image.height, pixels)
@@ -94,11 +99,11 @@ def _read_coded(stream: BinaryIO, path: Path, pixels: Bound) -> Floats32:
         # Of a corrupt file Pillow only raises an error; OpenImageIO's PNG library would print one as well.
         image.load()
         if not (image.mode.startswith("I;16") or _is_deep_png(stream)):
-            return _from_codes(image)
+            return _from_codes(image, _table(256, codes))
     stream.seek(0)
     with warnings.catch_warnings(action="ignore"), _opened(stream) as again:
         again.verify()
-    return _from_deep_codes(path)
+    return _from_deep_codes(path, _table(65536, codes))
 
 
 def _opened(stream: BinaryIO) -> Image:
@@ -116,9 +121,14 @@ def _opened(stream: BinaryIO) -> Image:
             Image.MAX_IMAGE_PIXELS = usual
 
 
-def _from_codes(image: Image) -> Floats32:
-    """Linear light (H, W, 3) of a picture of 8 bits."""
-    table = srgb_to_linear(np.arange(256) / 255)
+def _table(count: int, codes: bool) -> Floats32:
+    """What each of so many codes means."""
+    shares = np.arange(count) / (count - 1)
+    return shares.astype(np.float32) if codes else srgb_to_linear(shares)
+
+
+def _from_codes(image: Image, table: Floats32) -> Floats32:
+    """A picture of 8 bits (H, W, 3) by a table of what its codes mean."""
     picture = np.empty((image.height, image.width, 3), np.float32)
     for rows in _strips(image.height, image.width):
         codes = image.crop((0, rows.start, image.width, rows.stop)).convert("RGB")
@@ -127,10 +137,9 @@ def _from_codes(image: Image) -> Floats32:
     return picture
 
 
-def _from_deep_codes(path: Path) -> Floats32:
-    """Linear light (H, W, 3) of a picture of 16 bits."""
+def _from_deep_codes(path: Path, table: Floats32) -> Floats32:
+    """A picture of 16 bits (H, W, 3) by a table of what its codes mean."""
     file, spec = _open_linear(path)
-    table = srgb_to_linear(np.arange(65536) / 65535)
     channels = _color_channels(spec.channelnames)
     picture = np.empty((spec.height, spec.width, 3), np.float32)
     for rows in _strips(spec.height, spec.width):

@@ -12,6 +12,7 @@ from course.core.triangles import Mesh
 from course.errors import SceneError
 from course.extras.perlin import noise
 from course.formats.meshes.files import save_ply
+from tests.imaging.picture_files import png
 from tests.scene.metu.conftest import WALL, Metu, Tree, tree
 
 CODES = np.random.default_rng(7).integers(0, 256, (4, 6, 3), np.uint8)
@@ -91,6 +92,13 @@ def test_blending_is_the_mean_with_the_material(metu: Metu) -> None:
     scene = textured(metu.folder, mode="blend_kd", camera=look(*PLACES[1]))
     expected = (np.array([0.5, 0.25, 0]) + nearest(*PLACES[1])) / 2
     np.testing.assert_allclose(metu.pixel(scene), AMBIENT + 100 * expected, rtol=1e-4, atol=0.01)
+
+
+def test_codes_of_16_bits_count_to_255_too(xml: Metu) -> None:
+    """By 8 bits they would be off by half a code, 0.2."""
+    scene = textured(xml.folder, camera=look(*PLACES[1]))
+    (xml.folder / "picture.png").write_bytes(png(np.full((4, 6, 3), 25856), 16))
+    np.testing.assert_allclose(xml.pixel(scene), AMBIENT + 100 * 25856 / 65535, atol=2e-3)
 
 
 def test_offsets_count_from_where_they_say(xml: Metu) -> None:
