@@ -108,7 +108,9 @@ class Painter:
         # A picture and a normal map of one object have the same.
         if self._latest[0] != number:
             of_mesh = name == "triangle_uv"
-            vertices = self._uv(number, mesh, asked_by) if of_mesh else self._own_coordinates(number)
+            vertices = (
+                self._uv(number, mesh, asked_by) if of_mesh else self._own_coordinates(number)
+            )
             self._latest = number, vertices, vertices[mesh.triangles]
         _, vertices, corners = self._latest
         if name == "rectangle_uv":

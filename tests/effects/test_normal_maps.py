@@ -185,7 +185,7 @@ def test_codes_of_a_png_are_taken_as_they_are(make_scene: MakeScene, tmp_path: P
 
 
 def test_16_bits_are_16_bits(make_scene: MakeScene, tmp_path: Path) -> None:
-    """u of the normal is 1e-3, a quarter of a code of 8 bits."""
+    """Along u the normal is 1e-3, a quarter of a code of 8 bits."""
     code = np.round((np.array([1e-3, 0, 1]) + 1) / 2 * 65535).astype(int)
     (tmp_path / "map.png").write_bytes(png(np.tile(code, (2, 2, 1)), 16))
     found = lit(make_scene, QUAD, (0.1, 0, 0.2), (0, 2, 0), "map.png")

@@ -124,9 +124,7 @@ def test_every_code_of_16_bits_is_decoded_by_the_srgb_formula(read: Read, channe
 def test_codes_are_shares_of_the_largest_without_a_curve(tmp_path: Path, bits: int) -> None:
     (tmp_path / "a.png").write_bytes(by_hand.png(codes(3, bits), bits))
     picture = read_picture(tmp_path / "a.png", codes=True)
-    np.testing.assert_array_equal(
-        picture, (codes(3, bits) / ((1 << bits) - 1)).astype(np.float32)
-    )
+    np.testing.assert_array_equal(picture, (codes(3, bits) / ((1 << bits) - 1)).astype(np.float32))
 
 
 def test_png_of_a_palette_and_of_one_bit(read: Read) -> None:

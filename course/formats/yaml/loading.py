@@ -58,9 +58,7 @@ def bytes_of_files(document: Document) -> Bound:
     return _bound(document, "bytes")
 
 
-def read_named_picture(
-    file: str, path: KeyPath, loaded: Loaded, codes: bool = False
-) -> Floats32:
+def read_named_picture(file: str, path: KeyPath, loaded: Loaded, codes: bool = False) -> Floats32:
     """A picture that a scene names as linear RGB, or codes, (H, W, 3); SceneError by the key that names it."""
     document = loaded.document
     try:
