@@ -8,6 +8,7 @@ from __future__ import annotations
 import threading
 import warnings
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, BinaryIO, Final
 
@@ -59,10 +60,8 @@ def read_picture(
     with opened(path, "picture", bound, SceneError) as stream:
         try:
             linear = path.suffix.lower() in LINEAR
-            if linear:
-                picture = _read_linear(stream, path, pixels)
-            else:
-                picture = _read_coded(stream, path, pixels, codes)
+            read = _read_linear if linear else partial(_read_coded, codes=codes)
+            picture = read(stream, path, pixels)
         except UnicodeDecodeError as error:  # from a message that quotes the file's own bytes
             raise SceneError(f"{shown(path)}: its header is corrupt") from error
         except Exception as error:
