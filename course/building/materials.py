@@ -8,8 +8,9 @@ import numpy as np
 
 from course.building.frame import BRIGHTEST, Frame
 from course.core.environment import ConstantEnvironment, CubeEnvironment
-from course.core.types import Floats64, Mask
+from course.core.types import Floats64
 from course.extras.conductors import Conductors
+from course.extras.highlights import Highlights
 from course.extras.materials import FullMaterials
 from course.extras.world import FullWorld
 from course.formats.yaml.description import MaterialDescription, ObjectLight, SceneDescription, rgb
@@ -81,11 +82,22 @@ def _conductors(materials: Mapping[str, MaterialDescription], count: int) -> Con
     return Conductors(metal, n, k, approximate if approximate.any() else None)
 
 
-def _plain(materials: Mapping[str, MaterialDescription], count: int) -> Mask | None:
-    plain = np.zeros(count, np.bool_)
+def _highlights(materials: Mapping[str, MaterialDescription], count: int) -> Highlights | None:
+    plain, mirrored, facets, covers = np.zeros((4, count), np.bool_)
+    straight = np.zeros(count, np.float32)
     for column, material in enumerate(materials.values()):
-        plain[column] = material.highlight == "plain" and rgb(material.specular).any()
-    return plain if plain.any() else None
+        known = material.facets
+        if not (rgb(material.specular).any() or (known is not None and known.covers)):
+            continue
+        plain[column] = material.highlight.startswith("plain")
+        mirrored[column] = material.highlight.endswith("phong")
+        if known is not None:
+            facets[column], covers[column] = True, known.covers
+            n, k = known.refraction_index, known.absorption_index
+            straight[column] = ((n - 1) ** 2 + k * k) / ((n + 1) ** 2 + k * k)
+    if not (plain | mirrored | facets).any():
+        return None
+    return Highlights(plain, mirrored, facets, straight, covers if covers.any() else None)
 
 
 def compile_materials(
@@ -125,7 +137,7 @@ def compile_materials(
         emitted.astype(f),
         np.arange(max(count, 1)) >= len(materials),
         conductors=_conductors(materials, max(count, 1)),
-        plain=_plain(materials, max(count, 1)),
+        highlights=_highlights(materials, max(count, 1)),
     )
 
 

@@ -79,6 +79,8 @@ class CompiledDirectLight(FullDirectLight):
         accelerator = self.surface.accelerator
         # After a bounce neighbours go apart, and few face the light: to gather those that do makes fuller packets.
         several = depth or self.lifted or self.choice is not None
+        # The loop takes all light that arrives to be the diffuse term's.
+        several = several or (self.highlights is not None and self.highlights.covers is not None)
         if several or not isinstance(accelerator, PacketAccelerator | MovingPackets):
             return super()._from_lights(hits, path, depth, draws)
         diffuse: Floats32 | None = None

@@ -129,7 +129,7 @@ def _fits_direct_light(direct: DirectLight | None) -> bool:
     if direct is None:
         return True
     plain = not isinstance(direct, FullDirectLight) or (
-        direct.plain is None and not direct.lifted and direct.choice is None
+        direct.highlights is None and not direct.lifted and direct.choice is None
     )
     lamps = all(_lamp(light) is not None for light in direct.lights)
     return plain and lamps and (direct.sky is None or _fits_sky(direct.sky))

@@ -8,8 +8,9 @@ from course.core.direct import Candidates, DirectLight
 from course.core.hits import Hits
 from course.core.lights.sample import TO_THE_LIGHT, Light
 from course.core.rays import Draws
-from course.core.types import Floats32, Indices, Mask
+from course.core.types import Floats32, Indices
 from course.core.vectors import dot
+from course.extras.highlights import Highlights
 from course.extras.light_choice import WHERE, WHICH, LightChoice, some_of
 
 
@@ -19,12 +20,12 @@ class FullDirectLight(DirectLight):
 
     Attributes
     ----------
-    plain : (M,) bool, materials whose highlights lack the cosine in E; None if there are none
+    highlights : by other models than Blinn's with the cosine; None if there are none
     lifted : true if rays start so far above surfaces that lights are sampled for the surface itself
     choice : chooses one light for each hit; None if all lights send light to all hits
     """
 
-    plain: Mask | None = None
+    highlights: Highlights | None = None
     lifted: bool = False
     choice: LightChoice | None = None
 
@@ -62,11 +63,38 @@ class FullDirectLight(DirectLight):
 
     def _highlight(self, hits: Hits, candidates: Candidates, irradiance: Floats32) -> Floats32:
         highlight = super()._highlight(hits, candidates, irradiance)
-        if self.plain is not None:
+        models = self.highlights
+        if models is None:
+            return highlight
+        material = candidates.of(hits.material)
+        if models.others is not None:
+            which = np.flatnonzero(models.others.take(material))
+            to_light, direction = self._ways(hits, candidates)
+            highlight[which] = irradiance.take(which) * models.factor(
+                to_light if to_light.shape[1] == 1 else to_light.take(which, axis=1),
+                direction.take(which, axis=1),
+                candidates.of(hits.ns).take(which, axis=1),
+                self.exponent(material.take(which)),
+                material.take(which),
+            )
+        if models.plain.any():
             cosine = dot(candidates.of(hits.ns), candidates.to_light) * candidates.inverse_length
-            plain = self.plain.take(candidates.of(hits.material))
+            plain = models.plain.take(material)
             highlight /= np.where(plain, np.maximum(cosine, np.float32(1e-20)), np.float32(1))
         return highlight
+
+    def _under_highlight(
+        self, hits: Hits, candidates: Candidates, irradiance: Floats32
+    ) -> Floats32:
+        if self.highlights is None or self.highlights.covers is None:
+            return irradiance
+        ways = self._ways(hits, candidates)
+        return irradiance * self.highlights.left(*ways, candidates.of(hits.material))
+
+    def _ways(self, hits: Hits, candidates: Candidates) -> tuple[Floats32, Floats32]:
+        """Unit vectors to the light, (3, k) or (3, 1), and from the viewer, (3, k)."""
+        to_light: Floats32 = candidates.to_light * candidates.inverse_length
+        return to_light, candidates.of(hits.direction)
 
 
 def _spread(

@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 
 from course.core.materials import MaterialTable
-from course.core.types import Mask
 from course.extras.conductors import Conductors
+from course.extras.highlights import Highlights
 
 
 @dataclass(frozen=True)
@@ -14,8 +14,8 @@ class FullMaterials(MaterialTable):
     Attributes
     ----------
     conductors : the metals, None where there are none
-    plain : (M,) which materials have highlights without the cosine in E, None where none has
+    highlights : by other models than Blinn's with the cosine, None where there are none
     """
 
     conductors: Conductors | None = None
-    plain: Mask | None = None
+    highlights: Highlights | None = None

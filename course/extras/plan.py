@@ -114,13 +114,13 @@ def _sky(world: FullWorld) -> Sky | None:
 def _direct_light(world: FullWorld, sky: Sky | None) -> DirectLight | None:
     materials = world.materials
     direct = plan_direct_light(world, sky is not None)
-    plain = materials.plain if isinstance(materials, FullMaterials) else None
+    highlights = materials.highlights if isinstance(materials, FullMaterials) else None
     choice = world.choice if world.lights else None
-    extras = sky, plain, choice
+    extras = sky, highlights, choice
     if direct is None or not (world.lifted or any(extra is not None for extra in extras)):
         return direct
     known = same_fields(direct) | {"sky": sky}
-    return FullDirectLight(**known, plain=plain, lifted=world.lifted, choice=choice)
+    return FullDirectLight(**known, highlights=highlights, lifted=world.lifted, choice=choice)
 
 
 def _path_integrator(

@@ -330,7 +330,19 @@ VARIANTS: dict[tuple[str, str], list[tuple[str, Changes]]] = {
         "materials.ball.exponent", 8, 32, 200, on={"materials.ball.specular": 0.5}
     ),
     ("MaterialDescription", "highlight"): _values(
-        "materials.ball.highlight", "cosine", "plain", on=GRAZED
+        "materials.ball.highlight", "cosine", "plain", "phong", "plain_phong", on=GRAZED
+    ),
+    ("Facets", "refraction_index"): _values(
+        "materials.ball.facets.refraction_index", 1.5, 4, on=GRAZED
+    ),
+    ("Facets", "absorption_index"): _values(
+        "materials.ball.facets.absorption_index", 0, 2, on=GRAZED
+    ),
+    ("Facets", "covers"): _values(
+        "materials.ball.facets.covers",
+        False,
+        True,
+        on=GRAZED | {"materials.ball.facets.refraction_index": 3},
     ),
     ("MaterialDescription", "emission"): _values("materials.ball.emission", 0, [0.9, 0.5, 0.1]),
     ("MaterialDescription", "mirror"): _values(

@@ -52,7 +52,7 @@ def test_values_show_a_difference(definition: str) -> None:
 def test_a_plain_highlight_ends_where_the_light_does() -> None:
     """With the cosine it has faded away by then: the upper left of the ball shines much less."""
     said, shown = _shown("MaterialDescription", "highlight")
-    assert said == ["highlight: cosine", "highlight: plain"]
+    assert said[:2] == ["highlight: cosine", "highlight: plain"]
     shining = [picture[5:10, 11:17].mean() for picture in shown]
     assert shining[1] > 1.4 * shining[0]
 

@@ -216,6 +216,8 @@ def _repaired(description: dict[str, Any]) -> dict[str, Any]:
             material.pop("conductor")
         if material.get("texture") is not None:
             material.pop("noise", None)
+        if material.get("facets") is not None:
+            material.pop("highlight", None)
         metal, glass = material.get("conductor") or {}, material.get("dielectric") or {}
         if metal.get("roughness"):
             # Microfacets blur by themselves, and have the exact equations of Fresnel.

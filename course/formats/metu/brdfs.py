@@ -1,31 +1,33 @@
 """`BRDFs`: which of METU's models a material has, as terms of Blinn and Phong's model of this course.
 
 Of a light that sends the irradiance E to a surface that faces it, METU's models reflect, for kd, ks and exponent p, h
-the angle between the normal and the half vector, and t that between the normal and the light:
+the angle between the normal and the half vector, r that between the mirrored light and the viewer, and t that between
+the normal and the light:
 
 - OriginalBlinnPhong: (kd cos t + ks cos^p h) E, the model of a material without a BRDF;
-- ModifiedBlinnPhong: (kd + ks cos^p h) cos t E; normalized, (kd + ks (p + 8) / 8 cos^p h) cos t E / pi.
-
-The others need a mirrored direction in the place of the half vector, or microfacets with a distribution by Blinn.
+- ModifiedBlinnPhong: (kd + ks cos^p h) cos t E; normalized, (kd + ks (p + 8) / 8 cos^p h) cos t E / pi;
+- OriginalPhong and ModifiedPhong: r in the place of h; normalized, (p + 2) / 2 in the place of (p + 8) / 8;
+- TorranceSparrow: (kd / pi + ks D F G / (4 cos t cos v)) cos t E, v the angle between the normal and the viewer, with
+  the D, F and G of this course's facets; with kdfresnel, kd (1 - F).
 """
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 from course.formats.metu.element import Element
 from course.formats.yaml.document import suggest
 
-CONVERTED = ("OriginalBlinnPhong", "ModifiedBlinnPhong")
-
-REFUSED = {
-    "OriginalPhong": "its highlight lies about the mirrored direction; this course has that of the half vector,"
-    " OriginalBlinnPhong",
-    "ModifiedPhong": "its highlight lies about the mirrored direction; this course has that of the half vector,"
-    " ModifiedBlinnPhong",
-    "TorranceSparrow": "its microfacets have a distribution by Blinn, cos^Exponent; those of this course have one by"
-    " GGX, which no Exponent makes the same",
+HIGHLIGHTS = {
+    "OriginalBlinnPhong": "plain",
+    "ModifiedBlinnPhong": "cosine",
+    "OriginalPhong": "plain_phong",
+    "ModifiedPhong": "phong",
+    "TorranceSparrow": "cosine",
 }
-"""Why a model can't be converted."""
+"""The models, and what the key `highlight` of materials calls them."""
+
+FACETS = "TorranceSparrow"
 
 
 @dataclass(frozen=True)
@@ -35,55 +37,60 @@ class Brdf:
     Attributes
     ----------
     exponent : of the highlight; None for that of the material
-    highlight : see the key of that name of materials
+    model : one of METU's
     normalized : true if the diffuse term is divided by pi, and the highlight brought to its energy
+    covers : true if the diffuse term gets what facets leave
     """
 
     exponent: float | None = None
-    highlight: str = "plain"
+    model: str = "OriginalBlinnPhong"
     normalized: bool = False
+    covers: bool = False
+
+    def keys(self, material: Element, exponent: float) -> dict[str, Any]:
+        """The keys of a highlight but for its colour; SceneError for facets without an index of refraction."""
+        keys: dict[str, Any] = {"exponent": exponent, "highlight": HIGHLIGHTS[self.model]}
+        if self.model != FACETS:
+            return keys
+        facets: dict[str, Any] = {
+            "refraction_index": material.child("RefractionIndex", "1.5").number(0, above=True),
+            "absorption_index": material.number_of("AbsorptionIndex", 0.0),
+        }
+        return keys | {"facets": facets | ({"covers": True} if self.covers else {})}
 
     def highlight_factor(self, exponent: float) -> float:
         """What the specular reflectance is multiplied by, relative to a diffuse term of the same kind."""
-        return (exponent + 8) / 8 if self.normalized else 1.0
+        if not self.normalized or self.model == FACETS:
+            return 1.0
+        return (exponent + 2) / 2 if self.model == "ModifiedPhong" else (exponent + 8) / 8
 
 
-def read_brdfs(scene: Element) -> dict[str, Brdf | Element]:
-    """The models by id; an element stands for one that can't be converted, which is refused where it is used."""
+def read_brdfs(scene: Element) -> dict[str, Brdf]:
+    """The models by id."""
     parent = scene.maybe("BRDFs")
-    found: dict[str, Brdf | Element] = {}
-    for kind in (*CONVERTED, *REFUSED) if parent is not None else ():
+    found: dict[str, Brdf] = {}
+    for kind in HIGHLIGHTS if parent is not None else ():
         assert parent is not None
         for element in parent.all(kind):
             number = element.id(found)
             exponent = element.child("Exponent", "such as 50").number(0)
-            normalized = element.flag("normalized")
-            element.flag("kdfresnel")
-            found[number] = element
-            if kind in CONVERTED:
-                modified = kind == "ModifiedBlinnPhong"
-                if normalized and not modified:
-                    raise element.error("normalized is true: only a modified model has such a form")
-                found[number] = Brdf(exponent, "cosine" if modified else "plain", normalized)
+            normalized, covers = element.flag("normalized"), element.flag("kdfresnel")
+            if normalized and not kind.startswith("Modified"):
+                raise element.error("normalized is true: only a modified model has such a form")
+            if covers and kind != FACETS:
+                raise element.error(f"kdfresnel is true: only {FACETS} has such a form")
+            found[number] = Brdf(exponent, kind, normalized or kind == FACETS, covers)
     return found
 
 
-def brdf_of(material: Element, brdfs: Mapping[str, Brdf | Element]) -> Brdf:
-    """The model of a material.
-
-    Raises SceneError: there is none of that id, or it is one that can't be converted.
-    """
+def brdf_of(material: Element, brdfs: Mapping[str, Brdf]) -> Brdf:
+    """The model of a material; SceneError where there is none of that id."""
     name = material.attribute("BRDF")
     if not name:
         return Brdf()
     if name not in brdfs:
         raise material.error(f"BRDF is {name}: expected the id of one; {suggest(name, brdfs)}")
-    brdf = brdfs[name]
-    if isinstance(brdf, Element):
-        raise brdf.refused(
-            f"{REFUSED[brdf.tag]}; take the attribute BRDF from {material.path} to render it without"
-        )
-    return brdf
+    return brdfs[name]
 
 
 def pi_is_of_surfaces(scene: Element) -> bool:
@@ -92,7 +99,7 @@ def pi_is_of_surfaces(scene: Element) -> bool:
     This course divides reflectances by pi, METU's models don't, but for normalized ones. Where lights only send light
     to surfaces, they are pi times as strong; where cameras or paths see them, surfaces reflect pi times as much.
     """
-    seen = {"SphericalDirectionalLight", "LightMesh", "LightSphere"}
+    seen = {"SphericalDirectionalLight", "LightMesh", "LightSphere", FACETS}
     return any(
         each.tag in seen
         or each.attributes.get("normalized", "").strip().lower() in ("true", "1")

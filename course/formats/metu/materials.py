@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from course.formats.metu.brdfs import Brdf, brdf_of
+from course.formats.metu.brdfs import FACETS, Brdf, brdf_of
 from course.formats.metu.element import Element, Notes
 
 TYPES = ("mirror", "conductor", "dielectric")
@@ -17,6 +17,9 @@ COUNTS_WITH = {
 }
 """The types that an element is read for."""
 
+INDICES = ("RefractionIndex", "AbsorptionIndex")
+"""They are read for the facets of a BRDF, too."""
+
 DEGAMMA = 2.2
 """The power of reflectances that are given as codes of a screen."""
 
@@ -27,7 +30,7 @@ def material_name(number: str) -> str:
 
 
 def read_materials(
-    scene: Element, notes: Notes, brdfs: Mapping[str, Brdf | Element], of_surfaces: bool
+    scene: Element, notes: Notes, brdfs: Mapping[str, Brdf], of_surfaces: bool
 ) -> tuple[dict[str, dict[str, Any]], dict[str, tuple[list[float], float]]]:
     """The materials of a scene by id; and of each its diffuse reflectance, and what that is multiplied by.
 
@@ -60,10 +63,10 @@ def _material(
     material = _body(ambient, [by * value for value in diffuse])
     power = element.number_of("PhongExponent", 1.0)
     power = power if brdf.exponent is None else brdf.exponent
-    if any(specular):
+    if any(specular) or brdf.model == FACETS:
         by *= brdf.highlight_factor(power)
         specular = [by * value for value in specular]
-        material |= {"specular": specular, "exponent": power, "highlight": brdf.highlight}
+        material |= {"specular": specular} | brdf.keys(element, power)
     if kind in ("mirror", "conductor"):
         material["mirror"] = list(
             element.child("MirrorReflectance", "such as 0.9 0.9 0.9").color(1)
@@ -83,7 +86,8 @@ def _material(
         if any(diffuse) or any(ambient):
             material["dielectric"]["shaded"] = True
     for tag, kinds in COUNTS_WITH.items():
-        idle = None if kind in kinds else element.maybe(tag)
+        counts = kind in kinds or (brdf.model == FACETS and tag in INDICES)
+        idle = None if counts else element.maybe(tag)
         if idle is not None and idle.many("numbers, such as 0.5").any():
             notes.add(idle, f"counts only with type {' or '.join(kinds)}, and was left out")
     edge = element.number_of("Roughness", 0.0)

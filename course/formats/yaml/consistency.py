@@ -42,6 +42,11 @@ def check_consistency(description: d.SceneDescription, document: Document) -> No
         here = scene.at("materials", name)
         sharp = max(rgb(material.specular)) > _SHARPEST
         here.check(not sharp, "specular", f"numbers of at most {_SHARPEST:g}")
+        if material.facets is not None:
+            here.check(material.highlight == "cosine", "highlight", "cosine beside facets")
+            here.check(
+                material.exponent <= _SHARPEST, "exponent", f"at most {_SHARPEST:g} of facets"
+            )
         if material.texture is not None and material.noise is not None:
             raise here.error("both texture and noise are given: expected one of them")
         if material.dielectric is not None and material.conductor is not None:

@@ -218,6 +218,20 @@ class Conductor(Map, frozen=True, kw_only=True):
 _Times: TypeAlias = Annotated[float, msgspec.Meta(gt=0, le=1e4)]
 
 
+class Facets(Map, frozen=True, kw_only=True):
+    """A highlight by Torrance and Sparrow: mirrors whose normals lie as dense as the exponent's power of a cosine."""
+
+    refraction_index: Annotated[
+        float, about("Index of refraction of the facets against what surrounds them.", gt=0, le=1e4)
+    ] = 1.5
+    absorption_index: Annotated[
+        float, about("Imaginary part of that index: 0 of what is no metal.", ge=0, le=1e4)
+    ] = 0.0
+    covers: Annotated[
+        bool, about("Whether the diffuse term gets what the facets leave of a light, and not all.")
+    ] = False
+
+
 class TextureDescription(Map, frozen=True, kw_only=True):
     """A picture on a surface, repeated beyond its edges."""
 
@@ -292,12 +306,17 @@ class MaterialDescription(Map, frozen=True, kw_only=True):
     specular: Annotated[Color, about("Colour of the highlight; a sharp one may exceed 1.")] = 0.0
     exponent: Annotated[float, about("Blinn-Phong exponent of the highlight.", ge=0)] = 32.0
     highlight: Annotated[
-        Literal["cosine", "plain"],
+        Literal["cosine", "plain", "phong", "plain_phong"],
         about(
-            "Whether the highlight fades with the cosine between light and normal, as the diffuse term does;"
-            " plain is Blinn's formula, without it."
+            "Blinn's highlight, about the half vector, or Phong's, about the mirrored direction. cosine and phong fade"
+            " with the cosine between light and normal, as the diffuse term does; the plain ones don't, as in the"
+            " models' first form."
         ),
     ] = "cosine"
+    facets: Annotated[
+        Facets | None,
+        about("Makes the highlight that of microfacets; null for one by exponent alone."),
+    ] = None
     emission: Annotated[
         Color,
         about(

@@ -17,6 +17,7 @@ NARROW = {"NearPlane": "-1e-3 1e-3 -1e-3 1e-3"}
 DARK = {"_id": "2", "DiffuseReflectance": "0 0 0"}
 BLACK = {"AmbientLight": "0 0 0"}
 KD = np.array([1, 0.5, 0])
+PATHS = {"Renderer": "PathTracing", "RendererParams": "NextEventEstimation ImportanceSampling"}
 WALL_MESH = {"_id": "1", "Material": "1", "Faces": "1 2 3 1 3 4"}
 
 
@@ -60,28 +61,58 @@ def test_a_spot_light_falls_off_between_half_of_its_two_angles(xml: Metu, degree
     np.testing.assert_allclose(pixel, expected, rtol=2e-3, atol=1e-6)
 
 
+@pytest.mark.parametrize("paths", [False, True])
 @pytest.mark.parametrize(
-    ("kind", "normalized"),
+    ("kind", "flag"),
     [
-        ("OriginalBlinnPhong", False),
-        ("ModifiedBlinnPhong", False),
-        ("ModifiedBlinnPhong", True),
+        ("OriginalBlinnPhong", ""),
+        ("ModifiedBlinnPhong", ""),
+        ("ModifiedBlinnPhong", "_normalized"),
+        ("OriginalPhong", ""),
+        ("ModifiedPhong", ""),
+        ("ModifiedPhong", "_normalized"),
+        ("TorranceSparrow", ""),
+        ("TorranceSparrow", "_kdfresnel"),
     ],
 )
-def test_brdfs_are_those_of_their_formulas(metu: Metu, kind: str, normalized: bool) -> None:
-    """The light comes at 60 degrees to the normal, so the half vector is at 30."""
-    brdf = {"_id": "7", "Exponent": "12"} | ({"_normalized": "true"} if normalized else {})
+def test_brdfs_are_those_of_their_formulas(metu: Metu, kind: str, flag: str, paths: bool) -> None:
+    """The light comes at 60 degrees to the normal, and the eye stands at 20 on the other side of it."""
+    brdf = {"_id": "7", "Exponent": "12"} | ({flag: "true"} if flag else {})
     matt = MATT | {"_BRDF": "7", "SpecularReflectance": "0.5 1 0.25", "PhongExponent": "3"}
-    direction = f"0 {math.sin(math.pi / 3)} {-math.cos(math.pi / 3)}"
-    light = directional(direction)
-    pixel = metu.pixel(tree(camera=NARROW, lights=light, materials=[matt], BRDFs={kind: brdf}))
-    cosine, shine = 0.5, math.cos(math.pi / 6) ** 12
-    ks = np.array([0.5, 1, 0.25])
-    f = KD + ks * shine
-    if normalized:
-        f = KD / math.pi + ks * (12 + 8) / (8 * math.pi) * shine
-    if kind == "OriginalBlinnPhong":
-        f = KD + ks * shine / cosine
+    matt |= {"RefractionIndex": "2.5"} if kind == "TorranceSparrow" else {}
+    light = directional(f"0 {math.sin(math.pi / 3)} {-math.cos(math.pi / 3)}")
+    tilt = math.radians(20)
+    camera = NARROW | {"Position": f"0 {4 * math.tan(tilt)} 0", "Gaze": f"0 {-math.tan(tilt)} -1"}
+    camera |= PATHS if paths else {}
+    scene = tree(camera=camera, lights=light, materials=[matt], BRDFs={kind: brdf})
+    scene["MaxRecursionDepth"] = "1"
+    pixel = metu.pixel(scene)
+    to_light, to_eye = (
+        np.array([0, -math.sqrt(0.75), 0.5]),
+        np.array([0, math.sin(tilt), math.cos(tilt)]),
+    )
+    half = (to_light + to_eye) / np.linalg.norm(to_light + to_eye)
+    cosine, seen, upright, met = 0.5, to_eye[2], half[2], half @ to_eye
+    shine = (
+        2 * cosine * seen - to_light @ to_eye
+        if "nPhong" not in kind and "Phong" in kind
+        else upright
+    ) ** 12
+    ks, kd = np.array([0.5, 1, 0.25]), KD
+    f = kd + ks * shine / (cosine if "Original" in kind else 1)
+    if flag == "_normalized":
+        f = (
+            kd / math.pi
+            + ks * shine * ((12 + 8) / 8 if "Blinn" in kind else (12 + 2) / 2) / math.pi
+        )
+    if kind == "TorranceSparrow":
+        straight = (1.5 / 3.5) ** 2
+        fresnel = straight + (1 - straight) * (1 - met) ** 5
+        masked = min(1, 2 * upright * min(cosine, seen) / met)
+        d = (12 + 2) / (2 * math.pi) * shine
+        f = kd / math.pi * (1 - fresnel if flag else 1) + ks * d * fresnel * masked / (
+            4 * cosine * seen
+        )
     np.testing.assert_allclose(pixel, f * [10, 20, 30] * cosine, rtol=1e-4)
 
 
@@ -109,9 +140,6 @@ def ball(center: str, **more: Any) -> Tree:
         lights=BLACK,
         **more,
     )
-
-
-PATHS = {"Renderer": "PathTracing", "RendererParams": "NextEventEstimation ImportanceSampling"}
 
 
 @pytest.mark.parametrize(
@@ -209,17 +237,13 @@ REFUSED: dict[str, tuple[Tree, tuple[str, ...]]] = {
         {"lights": {"SpotLight": SPOT | {"CoverageAngle": "361"}}},
         ('SpotLight/CoverageAngle is "361": expected an angle up to 360 [degree]',),
     ),
-    "phong": (
-        {"BRDFs": {"OriginalPhong": {"_id": "1", "Exponent": "3"}}},
-        ("Scene/BRDFs/OriginalPhong is refused: ", "the attribute BRDF from Scene/Materials"),
-    ),
-    "modified phong": (
-        {"BRDFs": {"ModifiedPhong": {"_id": "1", "_normalized": "true", "Exponent": "3"}}},
-        ("Scene/BRDFs/ModifiedPhong is refused: ",),
-    ),
     "torrance": (
         {"BRDFs": {"TorranceSparrow": {"_id": "1", "_kdfresnel": "true", "Exponent": "3"}}},
-        ("Scene/BRDFs/TorranceSparrow is refused: its microfacets have a distribution by Blinn",),
+        ("Scene/Materials/Material: RefractionIndex is missing: expected 1.5",),
+    ),
+    "kdfresnel": (
+        {"BRDFs": {"ModifiedPhong": {"_id": "1", "_kdfresnel": "true", "Exponent": "3"}}},
+        ("Scene/BRDFs/ModifiedPhong: kdfresnel is true: only TorranceSparrow has such a form",),
     ),
     "no such brdf": (
         {"BRDFs": {"ModifiedBlinnPhong": {"_id": "2", "Exponent": "3"}}},
