@@ -211,6 +211,7 @@ class CompiledDirectLight(FullDirectLight):
     ) -> Floats32:
         if total is None:
             total = np.zeros((3, hits.size), np.float32)
+        values = self._under_facets(hits, candidates, values)
         direct_kernels.spread(candidates.index, *map(np.ascontiguousarray, (values, color)), total)
         return total
 

@@ -109,8 +109,7 @@ class DirectLight:
             irradiance *= self._visible(light, hits, candidates, draws)
             draws.cast("shadow", len(candidates.index), path, candidates.index)
             # ---- Blinn-Phong
-            body = self._under_highlight(hits, candidates, irradiance)
-            diffuse = self._accumulated(diffuse, hits, candidates, body, light.color)
+            diffuse = self._accumulated(diffuse, hits, candidates, irradiance, light.color)
             if self.specular is not None:
                 highlight = self._highlight(hits, candidates, irradiance)
                 specular = self._accumulated(specular, hits, candidates, highlight, light.color)
@@ -205,12 +204,6 @@ class DirectLight:
         column = np.flatnonzero(near)
         ng = hits.ng.take(candidates.hit(column), axis=1)
         return column[dot(ng, to_light.take(column, axis=1)) <= 0]
-
-    def _under_highlight(
-        self, hits: Hits, candidates: Candidates, irradiance: Floats32
-    ) -> Floats32:
-        """The irradiance (k,) of the diffuse term."""
-        return irradiance
 
     def _highlight(self, hits: Hits, candidates: Candidates, irradiance: Floats32) -> Floats32:
         """(n . h)^exponent times the irradiance, (k,)."""

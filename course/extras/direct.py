@@ -83,13 +83,24 @@ class FullDirectLight(DirectLight):
             highlight /= np.where(plain, np.maximum(cosine, np.float32(1e-20)), np.float32(1))
         return highlight
 
-    def _under_highlight(
-        self, hits: Hits, candidates: Candidates, irradiance: Floats32
+    def _accumulated(
+        self,
+        total: Floats32 | None,
+        hits: Hits,
+        candidates: Candidates,
+        values: Floats32,
+        color: Floats32,
     ) -> Floats32:
-        if self.highlights is None or self.highlights.covers is None:
-            return irradiance
+        values = self._under_facets(hits, candidates, values)
+        return super()._accumulated(total, hits, candidates, values, color)
+
+    def _under_facets(self, hits: Hits, candidates: Candidates, values: Floats32) -> Floats32:
+        """Values (k,) of a sum: irradiance, which is the diffuse term's, less what facets over that reflect."""
+        covered = self.highlights is not None and self.highlights.covers is not None
+        if self.highlights is None or not covered or values is not candidates.irradiance:
+            return values
         ways = self._ways(hits, candidates)
-        return irradiance * self.highlights.left(*ways, candidates.of(hits.material))
+        return values * self.highlights.left(*ways, candidates.of(hits.material))
 
     def _ways(self, hits: Hits, candidates: Candidates) -> tuple[Floats32, Floats32]:
         """Unit vectors to the light, (3, k) or (3, 1), and from the viewer, (3, k)."""

@@ -241,8 +241,8 @@ class RecordedDirect(DirectLight):
     def _visible(self, light: Light, hits: Hits, candidates: Candidates, draws: Draws) -> Mask:
         free = super()._visible(light, hits, candidates, draws)
         irradiance = candidates.irradiance * free
-        body = self._under_highlight(hits, candidates, irradiance)
-        diffuse = self._accumulated(None, hits, candidates, body, light.color)
+        unblocked = replace(candidates, irradiance=irradiance)
+        diffuse = self._accumulated(None, hits, unblocked, irradiance, light.color)
         specular = None
         if self.specular is not None:
             highlight = self._highlight(hits, candidates, irradiance)

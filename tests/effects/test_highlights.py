@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from course import render
+from course import pixel, render
 from course.compiled import library
 from course.errors import SceneError
 from tests.conftest import MakeScene
@@ -108,3 +108,17 @@ def test_facets_beside_another_highlight_are_refused(make_scene: MakeScene) -> N
         material = {"facets": FACETS, **keys}
         with pytest.raises(SceneError, match=told):
             make_scene(materials={"m": material}, objects=[{"shape": "quad", "material": "m"}])
+
+
+def test_a_story_of_a_pixel_tells_what_is_seen(make_scene: MakeScene) -> None:
+    """Facets leave less to the diffuse term in the recording stages, too."""
+    scene = make_scene(
+        camera={"eye": [3, 2, 0], "look_at": [0, 0, 0]},
+        film={"width": 1, "height": 1},
+        materials={"m": {"specular": 1, "exponent": 5, "facets": FACETS | {"covers": True}}},
+        objects=[{"shape": "quad", "width": 9, "depth": 9, "material": "m"}],
+        lights=[{"type": "directional", "direction": [1, -2, 0], "irradiance": 1}],
+    )
+    told = pixel(scene, 0, 0, spp=1)
+    lit = sum(np.array(segment.radiance) for segment in told.recording.segments)
+    np.testing.assert_allclose(lit, told.color, rtol=1e-5)
