@@ -9,7 +9,7 @@ from course.building.materials import base_color, has_body
 from course.core.environment import ConstantEnvironment, CubeEnvironment, Environment
 from course.core.types import Floats32
 from course.effects import Bound
-from course.extras.cube_faces import cube_from_cross, cube_from_lat_long
+from course.extras.cube_faces import cube_from_angular, cube_from_cross, cube_from_lat_long
 from course.extras.environment_hemispheres import WAYS, HemisphereSampling
 from course.extras.environment_light import PictureSampling, picture_sampling
 from course.extras.environment_sampling import product_sampling
@@ -59,12 +59,15 @@ def compile_environment(
     else:
         image = read_named_picture(environment.image, ("environment", "image"), loaded)
         height, width = image.shape[:2]
-        if width != 2 * height:
+        angular = isinstance(environment, d.AngularEnvironment)
+        if width != height * (1 if angular else 2):
             raise loaded.document.error(
                 ("environment", "image"),
-                f"a picture of all directions is twice as wide as high, not {width} x {height}",
+                f"{'an angular map is as' if angular else 'a picture of all directions is twice as'} wide as high,"
+                f" not {width} x {height}",
             )
-        faces = cube_from_lat_long(image, environment.size or max(height // 2, 1))
+        resample = cube_from_angular if angular else cube_from_lat_long
+        faces = resample(image, environment.size or max(width // 4, 1))
     scale = rgb(environment.scale)
     brightest = faces.max(axis=(0, 1, 2)) * scale
     in_range(brightest, loaded, ("environment", "scale"), "radiance")

@@ -1,5 +1,7 @@
 """The six faces of a cube map, from pictures of other forms."""
 
+from collections.abc import Callable
+
 import numpy as np
 
 from course.core.types import Floats32, Floats64
@@ -23,11 +25,42 @@ def cube_from_lat_long(image: Floats32, size: int) -> Floats32:
     bilinear samples.
     """
     height, width = image.shape[:2]
+
+    def place(x: Floats64, y: Floats64, z: Floats64) -> tuple[Floats64, Floats64]:
+        column = (0.5 + np.arctan2(x, -z) / (2 * np.pi)) * width - 0.5
+        return column, np.arctan2(np.hypot(x, z), y) / np.pi * height - 0.5
+
+    return _resampled(image, size, place)
+
+
+def cube_from_angular(image: Floats32, size: int) -> Floats32:
+    """Faces (6, size, size, 3) from an angular map (N, N, 3), a light probe (P. Debevec, 1998).
+
+    The picture's middle looks along -z, its right half to +x, its top to +y. The distance from the middle is in
+    proportion to the angle from -z; the rim of the inscribed disk is +z. What lies beyond it is never read. Each texel
+    is the mean of four bilinear samples.
+    """
+    count = len(image)
+
+    def place(x: Floats64, y: Floats64, z: Floats64) -> tuple[Floats64, Floats64]:
+        across = np.hypot(x, y)
+        # The four pixels of a sample lie within the disk.
+        share = np.minimum(np.arctan2(across, -z) / np.pi, max(1 - 2 / count, 0))
+        share /= np.maximum(across, 1e-300)
+        return (1 + share * x) / 2 * count - 0.5, (1 - share * y) / 2 * count - 0.5
+
+    return _resampled(image, size, place)
+
+
+def _resampled(
+    image: Floats32,
+    size: int,
+    place: Callable[[Floats64, Floats64, Floats64], tuple[Floats64, Floats64]],
+) -> Floats32:
+    """Faces by the columns and rows of a picture that directions (x, y, z) have."""
     faces = np.empty((6, size, size, 3), np.float32)
     for number, directions in enumerate(texel_directions(size, 2)):
-        x, y, z = np.moveaxis(directions, -1, 0)
-        column = (0.5 + np.arctan2(x, -z) / (2 * np.pi)) * width - 0.5
-        row = np.arctan2(np.hypot(x, z), y) / np.pi * height - 0.5
+        column, row = place(*np.moveaxis(directions, -1, 0))
         faces[number] = _bilinear(image, column, row).mean(axis=2)
     return faces
 

@@ -46,6 +46,13 @@ ELSEWHERE: dict[tuple[str, str], tuple[str, str]] = {
     ("CubeEnvironment", "lights"): ("LatLongEnvironment", "lights"),
     ("CubeEnvironment", "sampling"): ("ConstantEnvironment", "sampling"),
     ("CubeEnvironment", "seen_by"): ("ConstantEnvironment", "seen_by"),
+    **{
+        ("AngularEnvironment", key): ("LatLongEnvironment", key)
+        for key in ("image", "size", "scale", "lookup", "lights")
+    },
+    **{
+        ("AngularEnvironment", key): ("ConstantEnvironment", key) for key in ("sampling", "seen_by")
+    },
     ("LatLongEnvironment", "sampling"): ("ConstantEnvironment", "sampling"),
     ("LatLongEnvironment", "seen_by"): ("ConstantEnvironment", "seen_by"),
     ("RectangleLight", "intensity"): ("SphereLight", "intensity"),

@@ -243,6 +243,8 @@ def _repaired(description: dict[str, Any]) -> dict[str, Any]:
         if thing["shape"] == "torus_knot":
             thing |= {"p": 2, "q": 3, "segments": 40, "tube": thing.get("radius", 1.0) / 10}
     environment = description.get("environment", {"type": "constant"})
+    if environment["type"] == "angular":
+        environment["image"] = FACES[0]
     if environment["type"] == "cube":
         if environment.get("cross") is None:
             environment["faces"] = FACES

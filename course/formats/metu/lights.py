@@ -19,6 +19,9 @@ from course.formats.metu.transformations import matrix_of, point
 from course.formats.metu.transformations import normal as transformed_normal
 from course.formats.yaml.document import show, suggest
 
+ENVIRONMENTS = {"latlong": "lat_long", "probe": "angular"}
+"""Types of METU's environments, and those of this course."""
+
 
 def read_lights(
     scene: Element, steps: dict[str, dict[str, Any]], pi: float = math.pi
@@ -60,11 +63,8 @@ def read_environment(
         return {"type": "constant", "radiance": background, "seen_by": "camera"}
     element.attribute("id")
     kind = element.attribute("type") or "latlong"
-    if kind != "latlong":
-        raise element.refused(
-            f"its type is {show(kind)}, and this course has environments of type latlong;"
-            " save the picture as one, or remove it"
-        )
+    if kind not in ENVIRONMENTS:
+        raise element.error(f"its type is {show(kind)}: expected {' or '.join(ENVIRONMENTS)}")
     number = element.child("ImageId", "the id of an Image")
     name = " ".join(number.words())
     if name not in images:
@@ -78,7 +78,7 @@ def read_environment(
         )
     if not os.path.exists(path):  # noqa: PTH110
         raise image.error(f"names {show(file)}: no such file in {folder.resolve()}")
-    return {"type": "lat_long", "image": name_of(path), "lights": True}
+    return {"type": ENVIRONMENTS[kind], "image": name_of(path), "lights": True}
 
 
 def read_images(scene: Element) -> dict[str, Element]:

@@ -728,7 +728,22 @@ class LatLongEnvironment(EnvironmentDescription, frozen=True, kw_only=True, tag=
     seen_by: _SeenBy = "all"
 
 
-Environment: TypeAlias = ConstantEnvironment | CubeEnvironment | LatLongEnvironment
+class AngularEnvironment(LatLongEnvironment, frozen=True, kw_only=True, tag="angular"):
+    """A light probe: all directions in a disk, -z in its middle, +x right, +y up, and +z all around its rim."""
+
+    image: Annotated[
+        str,
+        about("File of the picture, as wide as high: PNG, JPEG, EXR or HDR.", min_length=1),
+    ]
+    size: Annotated[
+        Annotated[int, msgspec.Meta(ge=1, le=8192)] | None,
+        about("Edge of the cube's faces; a quarter of the width if null.", "pixel"),
+    ] = None
+
+
+Environment: TypeAlias = (
+    ConstantEnvironment | CubeEnvironment | LatLongEnvironment | AngularEnvironment
+)
 
 
 class LensDescription(Map, frozen=True, kw_only=True):

@@ -186,10 +186,12 @@ def test_a_mesh_lights_a_wall_as_the_rectangle_that_it_is(xml: Metu) -> None:
     np.testing.assert_allclose(xml.pixel(scene), KD * 8 * math.pi * factor, rtol=0.02)
 
 
-def environment(folder: Path, picture: np.ndarray[Any, Any], **more: Any) -> Tree:
+def environment(
+    folder: Path, picture: np.ndarray[Any, Any], kind: str = "latlong", **more: Any
+) -> Tree:
     """A scene in the light of a picture; the wall is the only object."""
     write_exr(folder / "sky.exr", np.moveaxis(picture, -1, 0).astype(np.float32))
-    lights = BLACK | {"SphericalDirectionalLight": {"_id": "1", "_type": "latlong", "ImageId": "3"}}
+    lights = BLACK | {"SphericalDirectionalLight": {"_id": "1", "_type": kind, "ImageId": "3"}}
     images = {"Image": {"_id": "3", "_data": "sky.exr"}}
     return tree(lights=lights, Textures={"Images": images}, **more)
 
@@ -218,6 +220,34 @@ def test_the_middle_of_the_picture_is_ahead(xml: Metu, gaze: str, row: int, colu
     assert xml.pixel(scene).min() > 0.5
     other = NARROW | {"Gaze": "0 -1 0.3", "Up": "0 0 1"}
     assert xml.pixel(environment(xml.folder, sky, camera=other)).max() < 0.5
+
+
+@pytest.mark.parametrize("gaze", ["1 0 -2", "-1 2 1", "0.3 -0.4 1", "0 0 1"])
+def test_a_probe_has_the_angle_from_ahead_along_its_radius(xml: Metu, gaze: str) -> None:
+    """With r = acos(-z) / (pi sqrt(x^2 + y^2)), u = (1 + r x) / 2 and v = (1 - r y) / 2, v down; a spot is there."""
+    x, y, z = np.array(gaze.split(), float) / np.linalg.norm(np.array(gaze.split(), float))
+    count, across = 256, math.hypot(x, y)
+    r = math.acos(-z) / (math.pi * across) if across else 1.0
+    rows, columns = np.mgrid[:count, :count] + 0.5
+    u, v = (1 + r * x) / 2 * count, (1 - r * y) / 2 * count
+    if across:
+        spot = np.hypot(columns - u, rows - v) < 12
+    else:
+        # Straight behind is all around the rim; the corners beyond it are dark.
+        distance = np.hypot(columns - count / 2, rows - count / 2)
+        spot = (distance > count / 2 - 12) & (distance < count / 2)
+    sky = np.where(spot, 1, 0.01)[..., None].repeat(3, axis=2)
+    camera = NARROW | {"Gaze": gaze, "Position": "0 0 -3" if z > 0 else "0 0 -5"}
+    assert xml.pixel(environment(xml.folder, sky, "probe", camera=camera)).min() > 0.99
+    camera["Gaze"] = f"{-x} {-y} {z}" if across else "1 0 1"
+    assert xml.pixel(environment(xml.folder, sky, "probe", camera=camera)).max() < 0.02
+
+
+def test_an_even_probe_lights_as_half_a_sphere_whatever_its_corners_are(xml: Metu) -> None:
+    rows, columns = np.mgrid[:16, :16] - 7.5
+    even = np.where(np.hypot(rows, columns)[..., None] < 8, [2.0, 3.0, 4.0], 0)
+    scene = environment(xml.folder, even, "probe", camera=NARROW | {"NumSamples": "16"})
+    np.testing.assert_allclose(xml.pixel(scene), KD * [2, 3, 4] * math.pi, rtol=1e-4)
 
 
 def refused(metu: Metu, scene: Tree) -> str:
@@ -269,9 +299,9 @@ REFUSED: dict[str, tuple[Tree, tuple[str, ...]]] = {
         {"materials": [MATT | {"Transparency": "0.5 0.5 0.5"}]},
         ("Scene/Materials/Material/Transparency is refused: ",),
     ),
-    "probe": (
-        {"lights": {"SphericalDirectionalLight": {"_id": "1", "_type": "probe", "ImageId": "1"}}},
-        ('SphericalDirectionalLight is refused: its type is "probe"', "latlong"),
+    "ball": (
+        {"lights": {"SphericalDirectionalLight": {"_id": "1", "_type": "ball", "ImageId": "1"}}},
+        ('SphericalDirectionalLight: its type is "ball": expected latlong or probe',),
     ),
     "no image": (
         {"lights": {"SphericalDirectionalLight": {"_id": "1", "ImageId": "1"}}},
