@@ -7,6 +7,7 @@ function of it is asked for. A scene that doesn't use an effect never imports it
 import ast
 import os
 import sys
+import warnings
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from importlib.util import module_from_spec, spec_from_file_location
@@ -14,7 +15,7 @@ from pathlib import Path
 from types import ModuleType, SimpleNamespace
 from typing import Any
 
-from course.errors import EffectError, Ended
+from course.errors import CourseWarning, EffectError, Ended
 from course.modules import COURSE
 
 PACKAGE = Path(__file__).resolve().parent
@@ -28,6 +29,22 @@ PROJECT = PACKAGE.parent if CHECKOUT else PACKAGE.parent / "penumbra_course_file
 
 ASSIGNMENTS = (PROJECT if CHECKOUT else Path()) / "assignments"
 """The functions that are to be written. An installed wheel has none: they are in the current folder."""
+
+
+def begin() -> str:
+    """What to do where the current folder has no assignments: go to one that has them, else make one."""
+    return _way() or "`course start FOLDER` makes a folder to work in"
+
+
+def _way() -> str:
+    """The way to a folder of `course start` above or below the current one; empty where there is none."""
+    here = Path.cwd()
+    above = [folder for folder in here.parents[:3] if (folder / "assignments").is_dir()]
+    below = sorted(folder.parent for folder in here.glob("*/assignments") if folder.is_dir())
+    # A blank in a name has to be quoted in every shell.
+    names = [os.path.relpath(folder) for folder in (above[:1] or below[:3])]
+    ways = [f'`cd "{name}"`' if " " in name else f"`cd {name}`" for name in names]
+    return f"{' or '.join(ways)} goes to your course" if ways else ""
 
 
 @dataclass(frozen=True)
@@ -72,6 +89,12 @@ class Effects:
         elif folder is None:
             # A student's copy has no solutions.
             folder = "solutions" if (PROJECT / "solutions").is_dir() else "mine"
+            if not CHECKOUT and (way := _way()):
+                warnings.warn(
+                    f"no folder assignments here, so all functions are the course's: {way}",
+                    CourseWarning,
+                    stacklevel=2,
+                )
         path = Path(folder)
         self._rest: Effects | None = None
         self._stands_in = False
@@ -85,11 +108,11 @@ class Effects:
         if str(folder) in ("solutions", "assignments") and not path.is_dir():
             path = PROJECT / path
         if str(folder) == "assignments" and not path.is_dir() and not CHECKOUT:
-            raise EffectError("no folder assignments here; `course start FOLDER` makes one")
+            raise EffectError(f"no folder assignments here; {begin()}")
         # Path.is_dir raises an error of its own for a name that is too long.
         if not os.path.isdir(path):  # noqa: PTH112
             raise EffectError(
-                f"no folder {path} with effect functions; --effects takes solutions, assignments or a folder"
+                f"no folder {path} with effect functions; --effects takes mine, solutions, assignments or a folder"
             )
         self.folder = path
         self.trusted = path.resolve() == PROJECT / "solutions" if trusted is None else trusted

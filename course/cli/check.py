@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import json
 from collections.abc import Callable
 from dataclasses import replace
@@ -16,6 +17,7 @@ from course.cli.outputs import check_outputs
 from course.cli.tables import count
 from course.cli.watching import await_change, times
 from course.errors import CourseError
+from course.grading.errors import meant
 
 if TYPE_CHECKING:
     from course.grading.checks.check import Check, References
@@ -128,7 +130,7 @@ def _check(
     chosen = _chooser(only)
     if not has_references(seed):
         chosen = _without_references(chosen, seed)
-    shown = _Printer(seed, rungs)
+    shown = _Printer(folder, seed, rungs)
     report = grade(
         read_found(folder, paths),
         arrays,
@@ -145,9 +147,25 @@ def _check(
             raise CourseError(
                 f"only checks that compare with references are asked for: leave --seed {seed} out"
             )
-        raise CourseError(f"--only {only}: no check of {', '.join(modules)} has that name")
+        raise CourseError(
+            f"--only {only}: no check of {', '.join(modules)} has that name{_near(only, modules)}"
+        )
     shown.end(report)
     return report
+
+
+def _near(only: str | None, modules: tuple[str, ...]) -> str:
+    """The function or check that may be meant by a name that isn't one; empty where none is alike."""
+    from course.grading.catalog import module_checks
+
+    checks = [check for module in modules for check in module_checks(module).checks]
+    names = {check.function for check in checks}
+    function, _, name = (only or "").partition("/")
+    if function in names:
+        near = meant(name, [check.name for check in checks if check.function == function])
+        return f"; did you mean {function}/{near}?" if near else ""
+    near = meant(function, names)
+    return f"; did you mean {near}?" if near else ""
 
 
 def _print_lines(report: Report, folder: Path) -> None:
@@ -194,8 +212,8 @@ def _without_references(
 class _Printer:
     """Prints results as they come: a line for each function, and what went wrong under it."""
 
-    def __init__(self, seed: int, rungs: int) -> None:
-        self._seed, self._rungs = seed, rungs
+    def __init__(self, folder: Path, seed: int, rungs: int) -> None:
+        self._folder, self._seed, self._rungs = folder, seed, rungs
         self._module = ""
         self._pending: list[Result] = []
 
@@ -215,6 +233,8 @@ class _Printer:
                 click.secho(f"  {result.found}", fg="red")
                 for line in result.where.splitlines():
                     click.echo(f"  {line}")
+                if result.hint:
+                    click.echo(f"  {result.hint}")
         self._pending.append(result)
 
     def end(self, report: Report) -> None:
@@ -244,6 +264,8 @@ class _Printer:
             click.echo(
                 f"  {click.style('right', fg='green')}    {function}  ({count(len(results), 'check')})"
             )
+            for note in dict.fromkeys(result.hint for result in results if result.hint):
+                click.echo(f"           {note}")
             return
         if all(result.status == "not attempted" for result in results):
             click.echo(f"  {click.style('to do', fg='yellow')}    {function}")
@@ -268,6 +290,7 @@ class _Printer:
             _line("these", names)
 
     def _tell(self, result: Result) -> None:
+        from course.grading.progress import line_of
         from course.grading.report import docs_page, ending, findings, reproduce
 
         what = "" if ending(result) == "failed" else f" [{ending(result)}]"
@@ -277,7 +300,24 @@ class _Printer:
         below = len(findings(result)) > len(findings(result, self._rungs))
         more = f" --hint {self._rungs + 1}" if below else ""
         _line("more" if below else "again", f"{reproduce(result, self._seed)}{more}")
+        path = self._folder / f"{result.module}.py"
+        _line("file", f"{path}:{line_of(path, result.function)}{_loops(path, result)}")
         _line("read", docs_page(result))
+
+
+def _loops(path: Path, result: Result) -> str:
+    """Of a function that gave no answer in time, its loops that may never end."""
+    if result.status != "timeout":
+        return ""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    lines = [
+        str(loop.lineno)
+        for function in tree.body
+        if isinstance(function, ast.FunctionDef) and function.name == result.function
+        for loop in ast.walk(function)
+        if isinstance(loop, ast.While)
+    ]
+    return f", with a loop by `while` in line {', '.join(lines)}" if lines else ""
 
 
 def _short(text: str) -> str:

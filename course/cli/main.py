@@ -15,33 +15,23 @@ import click
 
 from course import __version__
 from course.cli.options import INTERRUPTED
+from course.effects import CHECKOUT
 from course.errors import CourseError, CourseWarning
+from course.grading.errors import meant
 
-COMMANDS = (
-    "render",
-    "pixel",
-    "check",
-    "start",
-    "studio",
-    "view",
-    "status",
-    "portfolio",
-    "radiosity",
-    "info",
-    "convert",
-    "compare",
-    "schema",
-    "demo",
-    "bench",
-    "release",
-    "calibrate",
-    "references",
-    "quiz",
-    "grade",
-    "regrade",
-    "viva",
-    "bundle",
-)
+SECTIONS = {
+    "Learn": ("start", "check", "status", "studio", "portfolio"),
+    "Render": (
+        *("render", "pixel", "view", "radiosity", "info", "convert", "compare", "schema"),
+        *("demo", "bench"),
+    ),
+    "Teach": (
+        *("release", "grade", "regrade", "viva", "quiz", "bundle", "calibrate", "references"),
+    ),
+}
+"""The commands as `course --help` lists them."""
+
+COMMANDS = tuple(name for names in SECTIONS.values() for name in names)
 """Each is the command of that name in the module of that name beside this file."""
 
 
@@ -62,6 +52,17 @@ class Commands(click.Group):
         """Return the names in the order in which they are listed."""
         return list(COMMANDS)
 
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """List the commands by what they are for."""
+        width = max(map(len, COMMANDS))
+        for title, names in SECTIONS.items():
+            commands = [(name, self.get_command(ctx, name)) for name in names]
+            rows = [
+                (name.ljust(width), one.get_short_help_str(1000)) for name, one in commands if one
+            ]
+            with formatter.section(title):
+                formatter.write_dl(rows)
+
     def get_command(self, ctx: click.Context, name: str) -> click.Command | None:
         """Import the command of that name."""
         if name not in COMMANDS:
@@ -69,6 +70,17 @@ class Commands(click.Group):
         command = getattr(import_module(f"course.cli.{name}"), name)
         assert isinstance(command, click.Command)
         return command
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """Find the command; where there is none of that name, tell which may be meant."""
+        try:
+            return super().resolve_command(ctx, args)
+        except click.UsageError as error:
+            if not (near := meant(args[0], COMMANDS)):
+                raise
+            raise click.UsageError(f"{error.message} Did you mean {near}?", ctx) from None
 
     def invoke(self, ctx: click.Context) -> object:
         """Run a command; what the user can mend becomes a message, anything else is a defect."""
@@ -110,7 +122,9 @@ def _told(
 @click.group(
     cls=Commands,
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
-    help="Penumbra: a course in distribution ray tracing.",
+    help="Penumbra: a course in distribution ray tracing. Begin with `course "
+    + ("check sampling" if CHECKOUT else "start FOLDER")
+    + "`.",
 )
 @click.version_option(__version__, prog_name="course")
 def commands() -> None:

@@ -11,8 +11,9 @@ from pathlib import Path
 
 import click
 
-from course.effects import ASSIGNMENTS, CHECKOUT
+from course.effects import ASSIGNMENTS, CHECKOUT, begin
 from course.errors import CourseError
+from course.grading.errors import meant
 from course.modules import COURSE
 
 INTERRUPTED = 130
@@ -72,14 +73,27 @@ def json_path(_ctx: click.Context, _option: click.Parameter, text: str | None) -
 
 
 def modules_from(
-    _ctx: click.Context, _option: click.Parameter, names: tuple[str, ...]
+    ctx: click.Context, _option: click.Parameter, names: tuple[str, ...]
 ) -> tuple[str, ...]:
     """Return modules in the order of the course from names, several in one separated by commas."""
     given = [name for text in names for name in text.split(",")]
     for name in given:
         if name not in COURSE:
-            raise click.BadParameter(f"{name!r}; the modules are {', '.join(COURSE)}")
+            raise click.BadParameter(f"{name!r}{_instead(ctx, name)}")
     return tuple(name for name in COURSE if not given or name in given)
+
+
+def _instead(ctx: click.Context, name: str) -> str:
+    """What may be meant by a name of no module: the file of one, its function, or a slip; else all that there are."""
+    stem = Path(name).stem if name.endswith(".py") else name
+    if near := meant(stem.lower(), COURSE):
+        return f"; did you mean {near}?"
+    module, _, function = stem.replace("/", ".").rpartition(".")
+    for other in [module] if module else COURSE:
+        if function in COURSE.get(other, ()):
+            way = f": course check {other} --only {function}" if ctx.info_name == "check" else ""
+            return f" is a function of {other}{way}"
+    return f"; the modules are {', '.join(COURSE)}"
 
 
 PATH = click.Path(path_type=Path)
@@ -92,7 +106,7 @@ modules_argument = click.argument("modules", nargs=-1, metavar="[MODULE]...", ca
 def own_folder(_ctx: click.Context, _option: click.Parameter, folder: Path) -> Path:
     """Return the folder of one's own modules, which must be there."""
     if not folder.is_dir():
-        remedy = "" if CHECKOUT else ", `course start FOLDER` makes a folder to work in"
+        remedy = "" if CHECKOUT else f", {begin()}"
         raise CourseError(f"{folder}: no such folder; --folder says where your modules are{remedy}")
     return folder
 

@@ -44,6 +44,7 @@ def release(check: bool, force: bool, out: Path | None) -> None:
         if out.suffix == ".zip":
             # Before the references are made, which takes a while. A folder is made where there is none.
             check_outputs(files=[("--out", out)])
+        click.echo("making the references of all checks, which takes up to a minute", err=True)
         files = write_archive(PROJECT, out)
         click.echo(f"{out}: {count(files, 'file')}, searched for solutions and free of them")
         return

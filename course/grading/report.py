@@ -3,6 +3,7 @@
 The checks of one function need not run one after the other: those that judge pictures come last in a module.
 """
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from math import fsum
@@ -145,12 +146,15 @@ class FunctionResults(Total):
 
     @property
     def repeated(self) -> tuple[tuple[str, tuple[Result, ...]], ...]:
-        """The others that say what an earlier one has said, by what they have found."""
+        """The others that say what an earlier one has said, by what they have found first.
+
+        Sizes don't count: the same cause with another number of columns is the same.
+        """
         found: dict[str, list[Result]] = {}
         for result in self.others:
             if result.same_as:
-                found.setdefault(result.found, []).append(result)
-        return tuple((text, tuple(results)) for text, results in found.items())
+                found.setdefault(re.sub(r"\d+", "#", result.found), []).append(result)
+        return tuple((results[0].found, tuple(results)) for results in found.values())
 
     def parts(self) -> tuple[Result, ...]:
         """Its results."""

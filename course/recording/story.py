@@ -154,6 +154,14 @@ class Story:
         )
         root.below.append(Line(self.reason))
         root.below += self._followed([one for one in self.segments if one.parent is None])
+        if any(one.calls for one in self.segments):
+            frame = recording.scene.compiled.frame
+            root.below.append(
+                Line(
+                    "positions that functions are given and return are in the compiled scene: "
+                    f"{_numbers(frame.center)} is its origin, and {frame.scale:.3g} its unit"
+                )
+            )
         return root
 
     def _followed(self, rays: Sequence[Segment]) -> list[Line]:

@@ -24,7 +24,7 @@ def folder(tmp_path: Path) -> Path:
     return made
 
 
-@pytest.mark.parametrize("names", ["bokeh", "thin_lens,bokeh", "thin_lens,", "THIN_LENS"])
+@pytest.mark.parametrize("names", ["bokeh", "thin_lens,bokeh", "thin_lens,"])
 def test_a_name_of_no_module_is_told_with_the_names_that_are(
     run: Run, folder: Path, names: str
 ) -> None:
@@ -33,6 +33,41 @@ def test_a_name_of_no_module_is_told_with_the_names_that_are(
     wrong = names.rpartition(",")[2]
     assert f"{wrong!r}; the modules are {', '.join(COURSE)}" in result.stderr
     assert not result.stdout
+
+
+@pytest.mark.parametrize(
+    ("name", "says"),
+    [
+        ("THIN_LENS", "; did you mean thin_lens?"),
+        ("thinlens", "; did you mean thin_lens?"),
+        ("assignments/thin_lens.py", "; did you mean thin_lens?"),
+        ("lens_rays", " is a function of thin_lens: course check thin_lens --only lens_rays"),
+        ("thin_lens.lens_rays", " is a function of thin_lens: course check thin_lens --only"),
+        ("thin_lens/lens_rays", " is a function of thin_lens: course check thin_lens --only"),
+    ],
+)
+def test_what_is_meant_by_a_name_of_no_module_is_told(
+    run: Run, folder: Path, name: str, says: str
+) -> None:
+    result = run("check", name, "--folder", folder)
+    assert result.exit_code == 2
+    assert f"{name!r}{says}" in " ".join(result.stderr.split())
+
+
+@pytest.mark.parametrize(
+    ("only", "near"),
+    [
+        ("lens_ray", "lens_rays"),
+        ("lens_rays/contrakt", "lens_rays/contract"),
+        ("lens_ray/contract", "lens_rays"),
+    ],
+)
+def test_what_is_meant_by_a_name_of_no_check_is_told(
+    run: Run, folder: Path, only: str, near: str
+) -> None:
+    result = run("check", "thin_lens", "--only", only, "--folder", folder)
+    assert result.exit_code == 1
+    assert result.stderr.endswith(f"has that name; did you mean {near}?\n")
 
 
 @pytest.mark.parametrize(
@@ -126,6 +161,46 @@ def test_a_long_exception_is_cut_and_told_once(run: Run, folder: Path) -> None:
     assert text.count("\n      contract") == 1
     assert "checks more: KeyError: 'long long" in text
     assert len(text) < 2000
+
+
+def test_one_cause_is_told_once_whatever_the_sizes(run: Run, folder: Path) -> None:
+    own = "\n\ndef displacement(*given):\n    return _right(*given).T\n"
+    right = SOLUTION.replace("def displacement(", "def _right(")
+    (folder / "motion_blur.py").write_text(right + own, encoding="utf-8")
+    text = run("check", "motion_blur", "--folder", folder, "--only", "displacement").stdout
+    assert "It is turned over" in text
+    assert text.count("more: displacement returned") == 1
+    line = (right + own).splitlines().index("def displacement(*given):") + 1
+    assert f"file        {folder / 'motion_blur.py'}:{line}\n" in text
+
+
+def test_a_function_without_return_is_told_what_is_missing(run: Run, folder: Path) -> None:
+    own = "\n\ndef displacement(*_):\n    pass\n"
+    (folder / "motion_blur.py").write_text(SOLUTION + own, encoding="utf-8")
+    said = run("check", "motion_blur", "--folder", folder, "--only", "displacement/contract")
+    assert "has to end with `return`" in said.stdout
+
+
+def test_a_loop_that_never_ends_is_pointed_at(run: Run, folder: Path) -> None:
+    own = "\n\ndef displacement(*_):\n    while True:\n        pass\n"
+    (folder / "motion_blur.py").write_text(SOLUTION + own, encoding="utf-8")
+    last = len((SOLUTION + own).splitlines())
+    said = run("check", "motion_blur", "--folder", folder, "--only", "displacement/contract")
+    assert f"a loop by `while` in line {last - 1}\n" in said.stdout
+
+
+def test_what_a_right_function_should_know_is_told(run: Run, folder: Path) -> None:
+    own = "\n\ndef displacement(*given):\n    sum(range(2_000_000))\n    return _right(*given)\n"
+    right = SOLUTION.replace("def displacement(", "def _right(")
+    (folder / "motion_blur.py").write_text(right + own, encoding="utf-8")
+    said = run("check", "motion_blur", "--folder", folder, "--only", "displacement/speed").stdout
+    assert "right    displacement" in said
+    assert "whole arrays instead of loops would help" in said
+
+
+def test_a_module_that_may_not_be_imported_is_told_with_a_remedy(run: Run, folder: Path) -> None:
+    (folder / "motion_blur.py").write_text(f"import matplotlib\n{SOLUTION}", encoding="utf-8")
+    assert check(run, folder).count("NumPy and Python's own library") == 1
 
 
 def test_nothing_that_a_submission_writes_steers_the_terminal(run: Run, folder: Path) -> None:

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from course.cli.main import COMMANDS
 from course.formats.pictures.reading import read_picture
 from tests.cli.conftest import Run
 from tests.cli.signalled import interrupted, started
@@ -160,3 +161,18 @@ def test_ctrl_c_writes_a_partial_picture_and_says_so(tmp_path: Path, scene: Path
     assert {path.name for path in tmp_path.iterdir()} == {"box.yaml", "box.partial.png"}
     with Image.open(tmp_path / "box.partial.png") as image:
         assert image.size == (640, 480)
+
+
+def test_commands_are_listed_whole_and_by_what_they_are_for(run: Run) -> None:
+    said = run("--help").stdout
+    assert said.index("\nLearn:") < said.index("\n  start ") < said.index("\nRender:")
+    assert said.index("\nTeach:") < said.index("\n  grade ")
+    assert all(f"\n  {name} " in said for name in COMMANDS)
+    assert "..." not in said.partition("\nLearn:")[2]
+
+
+def test_a_command_that_is_misspelt_is_told_with_the_one_that_is_meant(run: Run) -> None:
+    near, far = run("chek"), run("frobnicate")
+    assert near.exit_code == far.exit_code == 2
+    assert near.stderr.endswith("No such command 'chek'. Did you mean check?\n")
+    assert far.stderr.endswith("No such command 'frobnicate'.\n")

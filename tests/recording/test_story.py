@@ -160,6 +160,13 @@ def test_the_command_prints_the_story(scene_file: Path) -> None:
     assert lines[0].startswith("pixel 16,16 of scene.yaml: ")
     assert lines[0].endswith(" from 8 samples")
     assert "      soft_shadows.point_on_sphere was asked 8 times" in result.stdout
+    # The lamp of the file is found again from what its function returned, as the last line says.
+    said = re.search(r"mean (.*)\n", result.stdout)
+    frame = re.search(r"compiled scene: (.*) is its origin, and (.*) its unit\n", result.stdout)
+    assert said
+    assert frame
+    mean, origin = (np.array(text.split(), float) for text in (said[1], frame[1]))
+    assert np.linalg.norm(mean * float(frame[2]) + origin - (0, 0, 9)) < 1
 
 
 def test_json_has_every_segment(scene_file: Path) -> None:

@@ -400,7 +400,7 @@ def _looked(value: Any, result: Result, sizes: dict[str, int], dtype: Any) -> Ar
 
 _DTYPES = (
     "The dtype of a result is that of the batch arguments; single points and numbers, NumPy's own too, "
-    "never change it."
+    "never change it. Cast at the end: result.astype(u.dtype), where u is such an argument."
 )
 
 

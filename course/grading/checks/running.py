@@ -247,6 +247,14 @@ def _breaks(
 
 COMMA = "A comma after the only result makes a tuple of it."
 
+NONE = "A function that ends without return gives None: every way through it has to end with `return` and the result."
+
+ROWS = "Several rows become one array by np.stack([x, y, z])."
+
+TURNED = "It is turned over: coordinates are in the first axis, and the columns of the batch in the last."
+
+LAST = "The last axis has a column for each ray: it is as long as that of the arguments."
+
 
 class Gate:
     """A ``Caller`` between a student's functions and a check: it lets no value through that a check could stumble over.
@@ -307,12 +315,21 @@ class Gate:
         if several != (count > 1) or len(parts) != count:
             wanted = f"{count} results" if count > 1 else "one array or number"
             wrong = f"{told(value)} instead of {wanted}"
-            remedy = COMMA if count == 1 and len(parts) == 1 else ""
+            remedy = (
+                NONE
+                if value is None
+                else COMMA
+                if count == 1 and len(parts) == 1
+                else ROWS
+                if count == 1 and several
+                else ""
+            )
         else:
             shapes = (None if named else declared.shapes(arguments)) or [None] * count
             for part, result, shape in zip(parts, declared.results, shapes, strict=True):
                 if not wrong and (wrong := _wrong(part, shape, result.finite)):
                     example = _column(declared, part, arguments)
+                    remedy = _remedy(part, shape)
         if wrong:
             given = said(self._path(function), arguments, named)
             error = StudentError(
@@ -321,6 +338,17 @@ class Gate:
             error.example = example
             raise error
         return value
+
+
+def _remedy(part: Any, shape: tuple[int, ...] | None) -> str:
+    """What to do about a result that is none or of another shape; empty where that is not known."""
+    if part is None:
+        return NONE
+    if shape is None or not isinstance(part, np.ndarray) or part.shape == shape:
+        return ""
+    if part.shape == shape[::-1]:
+        return TURNED
+    return LAST if part.shape[-1:] != shape[-1:] else ""
 
 
 def _column(declared: Function, part: Any, arguments: tuple[Any, ...]) -> str:

@@ -23,7 +23,7 @@ from course.grading.classes.settings import INSTRUCTOR, Settings
 from course.grading.classes.similarity import Compared, compare
 from course.grading.classes.submitted import Submission, find_submissions
 from course.grading.references import make_references
-from course.grading.report import Report
+from course.grading.report import Report, grouped
 from course.grading.worker.sandbox import protected
 
 FAULT = "grader error"
@@ -226,7 +226,10 @@ def finish(
     (out / INSTRUCTOR).mkdir(parents=True, exist_ok=True)
     compared = compare(submissions, settings.modules, out / INSTRUCTOR / "similarity.npz")
     marks = _marks(submissions, reports, rules)
-    lines = {one.student: Line(one.remarks, marks.get(one.student)) for one in submissions}
+    lines = {
+        one.student: Line((*one.remarks, *_unusable(one, report)), marks.get(one.student))
+        for one, report in zip(submissions, reports, strict=True)
+    }
     total = None if rules is None else rules.policy.total
     matched = None
     if roster is not None:
@@ -256,6 +259,15 @@ def finish(
     used = {rules.student(one.names)[0] for one in submissions} if rules else set()
     unused = tuple(one for one in rules.policy.students if one not in used) if rules else ()
     return Finished(compared, matched, unused, (grades, page, *tables), unprotected)
+
+
+def _unusable(submission: Submission, report: Report) -> tuple[str, ...]:
+    """What is told of files that were handed in, and of which no function can be called: a 0 that has a reason."""
+    return tuple(
+        module.trouble.found
+        for module in grouped(report)
+        if module.trouble and module.name in submission.sources
+    )
 
 
 def _marks(

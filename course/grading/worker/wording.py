@@ -19,9 +19,26 @@ LONGEST_TRACEBACK = 3000
 ONE_EACH = "(a * b).sum(axis=0) gives the dot product of each column"
 
 REMEDIES = {
-    rf"No module named '({'|'.join(COURSE)})'": (
+    rf"No module named '({'|'.join(COURSE)}|assignments)['.]": (
         "Each module is checked by itself, without the files beside it: "
         "copy the helper into this file."
+    ),
+    r"No module named|not allowed while grading: (import |opening .*__init__)": (
+        "While functions are checked there are NumPy and Python's own library, such as math, and nothing else: "
+        "import what draws, renders or compiles in another file, which calls these functions."
+    ),
+    r"not allowed while grading": (
+        "While functions are checked they read and write no files, and start no programs: "
+        "all that they need comes with their arguments."
+    ),
+    r"EOF when reading a line|BdbQuit": (
+        "Nobody can type while functions are checked: print shows values, and a file of your own that calls the "
+        "function can be stopped in a debugger."
+    ),
+    r"SystemExit": "exit() ends the whole program: a function ends with return.",
+    r"name '(math|cmath|itertools|functools|random)' is not defined": (
+        "A module of Python's own library has to be imported at the top of the file. "
+        "NumPy's functions (np.sqrt, np.cos) take whole batches."
     ),
     r"shapes? .* not aligned|mismatch in its core dimension": (
         f"np.dot and @ multiply matrices, not the columns of two batches: {ONE_EACH}."
@@ -84,7 +101,7 @@ def replied(kind: Trouble, head: Mapping[str, Any], arguments: str = "") -> Stud
         str(head.get("type", ""))[:80],
         "\n".join(_cut(line, LONGEST_LINE) for line in lines),
         arguments=arguments if kind == "raised" else "",
-        remedy=remedy(message) if kind == "raised" else "",
+        remedy=remedy(f"{head.get('type', '')}: {message}") if kind == "raised" else "",
     )
 
 
@@ -156,7 +173,9 @@ def not_loaded(module: str, error: StudentError, seconds: float, over: str = "")
             else f"the import of {module}.py doesn't end within {seconds:g} s"
         )
     kind = error.kind if error.kind in ("timeout", "crashed") else "not loaded"
-    return StudentError(kind, message, error.type, error.traceback, module_wide=True)
+    return StudentError(
+        kind, message, error.type, error.traceback, module_wide=True, remedy=error.remedy
+    )
 
 
 def _cut(text: str, longest: int) -> str:

@@ -121,6 +121,17 @@ def grade(
     )
 
 
+@pytest.mark.usefixtures("references_once")
+def test_a_file_of_which_nothing_can_be_called_is_remarked_on(tmp_path: Path) -> None:
+    folder = hand_in(tmp_path / "class", ada=STUB, bob="1 / 0\n", eve="")
+    grade(folder, Here())
+    with (tmp_path / "out" / "grades.csv").open() as file:
+        rows = {row["student"]: row["remarks"] for row in csv.DictReader(file)}
+    assert rows["ada"] == ""
+    assert rows["bob"].startswith("motion_blur.py can't be imported: ZeroDivisionError")
+    assert rows["eve"] == "motion_blur.py is empty"
+
+
 def test_a_class_from_folders_and_zip_files(tmp_path: Path) -> None:
     wrong = next(one for one in known("motion_blur") if not one.right)
     folder = hand_in(tmp_path / "class", ada=RIGHT, eve=RIGHT, bob=wrong.source)

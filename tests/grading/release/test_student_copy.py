@@ -88,3 +88,23 @@ def test_what_a_report_tells_to_run_and_to_read_is_in_the_copy(copy: Path) -> No
     assert line == "course check --only scene/picture"
     ended = check(copy, *line.split()[2:])
     assert "0 of 3 points" in ended.stdout
+
+
+def test_its_own_tests_are_found_with_what_its_makefile_installs(copy: Path) -> None:
+    makefile = (copy / "Makefile").read_text(encoding="utf-8")
+    packages = makefile.partition("--editable . ")[2].splitlines()[0]
+    assert f"pip install -e . {packages}\n" in (copy / "README.md").read_text(encoding="utf-8")
+    first, *plugins = packages.split()
+    assert first == "pytest"
+    given = [word for name in plugins for word in ("-p", name.replace("-", "_"))]
+    ended = subprocess.run(
+        [sys.executable, "-m", "pytest", "-q", "--collect-only", "tests", *given],
+        check=False,
+        cwd=copy,
+        # The plugins of this environment are not those of the student's.
+        env=os.environ | {"PYTHONPATH": str(copy), "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1"},
+        capture_output=True,
+        text=True,
+        timeout=120,
+    )
+    assert ended.returncode == 0, ended.stdout + ended.stderr

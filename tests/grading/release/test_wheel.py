@@ -128,6 +128,19 @@ def test_where_nothing_is_yet_the_remedy_is_told(course: Course) -> None:
     assert "`course start FOLDER` makes a folder to work in" in missing.stderr
 
 
+def test_where_the_course_is_near_the_way_to_it_is_told(course: Course) -> None:
+    course("start", "my course")
+    for folder, way in ((".", '`cd "my course"`'), ("my course/docs", "`cd ..`")):
+        for command in (("check", "sampling"), ("status",)):
+            missing = course(*command, folder=folder)
+            assert missing.returncode == 1
+            assert f"{way} goes to your course" in missing.stderr
+    line = ("render", "my course/scenes/soft_shadows.yaml", "--size", "30x20", "--spp", "1")
+    rendered = course(*line, "-o", "a.png")
+    assert rendered.returncode == 0, rendered.stderr
+    assert 'all functions are the course\'s: `cd "my course"`' in rendered.stderr
+
+
 def test_links_of_the_folder_lead_somewhere(course: Course, tmp_path: Path) -> None:
     course("start", "mine", "--instructor")
     for name in LICENSES:

@@ -131,4 +131,29 @@ def test_a_recursion_without_end_is_one_cause_however_deep_it_went() -> None:
 
 def test_a_module_beside_it_is_not_there() -> None:
     assert "copy the helper into this file" in remedy("No module named 'glossy'")
-    assert not remedy("No module named 'pandas'")
+    assert "NumPy and Python's own library" in remedy("No module named 'pandas'")
+
+
+@pytest.mark.parametrize(
+    ("line", "says"),
+    [
+        ("from sampling import sphere_by_polar", "copy the helper into this file"),
+        ("from assignments.sampling import sphere_by_polar", "copy the helper into this file"),
+        ("import matplotlib.pyplot", "NumPy and Python's own library"),
+        ("from course import render", "NumPy and Python's own library"),
+        ("open('points.txt')", "all that they need comes with their arguments"),
+        ("input()", "Nobody can type"),
+        ("breakpoint()", "Nobody can type"),
+        ("__import__('sys').exit()", "a function ends with return"),
+        ("math.sqrt(2)", "imported at the top of the file"),
+    ],
+)
+@pytest.mark.parametrize("inside", [False, True])
+def test_what_no_function_may_ask_for_has_a_remedy_wherever_it_stands(
+    line: str, says: str, inside: bool
+) -> None:
+    source = f"def f():\n    {line}\n" if inside else f"{line}\ndef f():\n    return 1\n"
+    with Worker("m", source.encode()) as worker, pytest.raises(StudentError) as error:
+        worker.call("f")
+    assert error.value.module_wide != inside
+    assert says in error.value.remedy
