@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner, Result
 
-from course import pixel
+from course import load_scene, pixel
 from course.cli.main import commands
 from course.effects import PROJECT
 from course.recording.story import Line, Story
@@ -160,13 +160,18 @@ def test_the_command_prints_the_story(scene_file: Path) -> None:
     assert lines[0].startswith("pixel 16,16 of scene.yaml: ")
     assert lines[0].endswith(" from 8 samples")
     assert "      soft_shadows.point_on_sphere was asked 8 times" in result.stdout
-    # The lamp of the file is found again from what its function returned, as the last line says.
-    said = re.search(r"mean (.*)\n", result.stdout)
-    frame = re.search(r"compiled scene: (.*) is its origin, and (.*) its unit\n", result.stdout)
+
+
+def test_the_lamp_is_found_again_from_what_its_function_returned() -> None:
+    path = PROJECT / "scenes" / "soft_shadows.yaml"
+    told = "\n".join(texts(pixel(path, 300, 300).tree))
+    said = re.search(r"point_on_sphere was asked 64 times; mean (.*)", told)
+    frame = re.search(r"compiled scene: (.*) is its origin, and (.*) its unit", told)
     assert said
     assert frame
     mean, origin = (np.array(text.split(), float) for text in (said[1], frame[1]))
-    assert np.linalg.norm(mean * float(frame[2]) + origin - (0, 0, 9)) < 1
+    (lamp,) = (o for o in load_scene(path).loaded.description.lights if hasattr(o, "radius"))
+    assert np.linalg.norm(mean * float(frame[2]) + origin - lamp.center) < lamp.radius / 2
 
 
 def test_json_has_every_segment(scene_file: Path) -> None:

@@ -44,7 +44,9 @@ MOST_READ = 50
 
 MOST_LISTED = 4
 
-_DEFINED = re.compile(rb"^(?:async\s+)?def\s+(\w+)", re.MULTILINE)
+_DEFINED = re.compile(rb'(?:^|"|\\n)(?:async\s+)?def\s+(\w+)', re.MULTILINE)
+"""In a program at the beginning of a line, in a notebook at that of a string or after an escaped end of line."""
+
 _Sources = dict[str, bytes]
 """Module -> the file."""
 
@@ -264,7 +266,7 @@ def choose(entries: Sequence[Entry], modules: tuple[str, ...], remarks: list[str
 
 
 def module_defined(source: bytes, modules: Iterable[str]) -> str:
-    """The module whose functions a file defines most of; empty if there is none, or more than one."""
+    """The module whose functions a file or notebook defines most of; empty if there is none, or more than one."""
     defined = {name.decode() for name in _DEFINED.findall(source)}
     count = {module: len(defined & {*COURSE[module]}) for module in modules}
     most = max(count.values(), default=0)
@@ -285,7 +287,7 @@ def _taken(module: str, candidates: list[tuple[Entry, Named]], remarks: list[str
     entry = first[0]
     source = _source(module, entry)
     if entry.path.name != f"{module}.py":
-        how = " from its cells" if entry.path.name.lower().endswith(NOTEBOOK) else ""
+        how = " from its cells" if _is_notebook(entry) else ""
         remarks.append(f"{entry.path} was graded{how} as {module}.py")
     others = [other for other, _ in candidates if other is not entry]
     if others:
@@ -297,30 +299,48 @@ def _taken_by_content(
     entries: Sequence[Entry], modules: Sequence[str], remarks: list[str]
 ) -> _Sources:
     sources: _Sources = {}
-    files = [entry for entry in entries if read_name(entry.path.name, ()).suffix == PYTHON]
-    by_module: dict[str, list[tuple[Entry, bytes]]] = {}
-    for entry in files[:MOST_READ]:
-        try:
-            source = entry.read(LARGEST_FILE)
-        except SubmissionError as error:
-            remarks.append(str(error))
-            continue
-        if module := module_defined(source, modules):
-            by_module.setdefault(module, []).append((entry, source))
-    for module, found in by_module.items():
-        if len(found) > 1:
-            listed = _listed([entry for entry, _ in found])
-            raise SubmissionError(f"{listed} define functions of {module}; name one {module}.py")
-        ((entry, source),) = found
-        sources[module] = source
-        remarks.append(f"{entry.path} was graded as {module}.py, whose functions it defines")
+    # A program goes before a notebook; editors that hide suffixes save it as a text.
+    for suffixes in ((PYTHON, ".txt"), (NOTEBOOK,)):
+        files = [entry for entry in entries if entry.path.suffix.lower() in suffixes]
+        by_module: dict[str, list[tuple[Entry, bytes]]] = {}
+        for entry in files[:MOST_READ]:
+            try:
+                source = _content(entry)
+            except SubmissionError as error:
+                remarks.append(str(error))
+                continue
+            module = module_defined(source, modules)
+            if module and module not in sources:
+                by_module.setdefault(module, []).append((entry, source))
+        for module, found in by_module.items():
+            if len(found) > 1:
+                listed = _listed([entry for entry, _ in found])
+                raise SubmissionError(
+                    f"{listed} define functions of {module}; name one {module}.py"
+                )
+            ((entry, source),) = found
+            notebook = NOTEBOOK in suffixes
+            sources[module] = (
+                notebook_source(module, str(entry.path), source) if notebook else source
+            )
+            how = " from its cells" if notebook else ""
+            remarks.append(
+                f"{entry.path} was graded{how} as {module}.py, whose functions it defines"
+            )
     return sources
 
 
+def _content(entry: Entry) -> bytes:
+    return entry.read(LARGEST_NOTEBOOK if _is_notebook(entry) else LARGEST_FILE)
+
+
+def _is_notebook(entry: Entry) -> bool:
+    return entry.path.name.lower().endswith(NOTEBOOK)
+
+
 def _source(module: str, entry: Entry) -> bytes:
-    if entry.path.name.lower().endswith(NOTEBOOK):
-        return notebook_source(module, str(entry.path), entry.read(LARGEST_NOTEBOOK))
-    return entry.read(LARGEST_FILE)
+    source = _content(entry)
+    return notebook_source(module, str(entry.path), source) if _is_notebook(entry) else source
 
 
 def _nothing(entries: Sequence[Entry], modules: Sequence[str], remarks: Sequence[str]) -> str:

@@ -310,6 +310,25 @@ def test_a_notebook_gives_what_its_functions_use(tmp_path: Path) -> None:
     assert found.remarks == ("Thin Lens.ipynb was graded from its cells as thin_lens.py",)
 
 
+def test_a_notebook_or_a_text_of_any_name_is_known_by_its_functions(tmp_path: Path) -> None:
+    lines = ["import numpy as np", "def point_on_disk(u):\n    return u", "1/0"]
+    one_string = {"cells": [{"cell_type": "code", "source": "\n".join(lines[:2])}], "nbformat": 4}
+    put(tmp_path / "ada", **{"Untitled.ipynb": notebook(*lines), "notes.txt": b"def f(): 1"})
+    put(tmp_path / "bob", **{"Untitled1.ipynb": json.dumps(one_string).encode()})
+    put(tmp_path / "cy", **{"thin_lens.py.txt": LENS, "a.ipynb": notebook(*lines)})
+    put(tmp_path / "dan", **{"a.ipynb": notebook("x = 1")})
+    put(tmp_path / "eve", **{"a.ipynb": notebook(*lines), "b.ipynb": notebook(*lines)})
+    found = find(tmp_path)
+    for name in ("ada", "bob"):
+        assert b"def point_on_disk" in found[name].sources["thin_lens"]
+        assert b"1/0" not in found[name].sources["thin_lens"]
+    (remark,) = found["ada"].remarks
+    assert "Untitled.ipynb was graded from its cells as thin_lens.py" in remark
+    assert found["cy"].sources == {"thin_lens": LENS}
+    assert "it holds a.ipynb" in found["dan"].trouble
+    assert "a.ipynb, b.ipynb define functions of thin_lens" in found["eve"].trouble
+
+
 @pytest.mark.parametrize(
     ("content", "why"),
     [
