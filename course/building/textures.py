@@ -12,6 +12,7 @@ from course.core.types import Floats32, Floats64
 from course.effects import Bound
 from course.extras.painting import Paint
 from course.extras.textures import Places, Texture, on_mesh, on_rectangle, on_sphere
+from course.formats.meshes import transforms
 from course.formats.yaml import description as d
 from course.formats.yaml.description import TextureDescription
 from course.formats.yaml.document import KeyPath
@@ -36,11 +37,12 @@ def places_function(thing: d.Object) -> str:
 class Painter:
     """Makes the paint of objects; each picture is read once, and those that nothing shows never.
 
-    ``files``: mesh files that have been read, by their normals and names in the scene.
+    ``files``: mesh files that have been read, by their normals and names in the scene; ``scale``: that of the frame.
     """
 
-    def __init__(self, loaded: Loaded, bound: Bound, files: dict[str, Mesh]) -> None:
+    def __init__(self, loaded: Loaded, bound: Bound, files: dict[str, Mesh], scale: float) -> None:
         self._loaded = loaded
+        self._scale = scale
         self._bound = bound
         self._files = files
         self._images: dict[str, Floats32] = {}
@@ -73,25 +75,54 @@ class Painter:
         return Paint(corners, Noise(described.conversion))
 
     def relief(self, number: int, mesh: Mesh) -> Paint | None:
-        """The normal map of an object; None where it has none.
+        """The normal map or the bump map of an object; None where it has none.
 
         Raises SceneError: the picture is missing or can't be read, or the mesh has no texture coordinates; names the
         key that asks for it.
         ``mesh``: as in ``paint``.
         """
         thing = self._loaded.description.objects[number]
-        described = self._loaded.description.materials[thing.material].normal_map
-        if described is None:
+        material = self._loaded.description.materials[thing.material]
+        if material.bump is not None:
+            return self._bump(material.bump, number, mesh)
+        if material.normal_map is None:
             return None
+        asked_by = ("materials", thing.material, "normal_map")
+        described = material.normal_map
+        corners, known = self._relief(described.image, described.repeat, number, mesh, asked_by)
+        return Paint(corners, known)
+
+    def _bump(self, described: d.BumpDescription, number: int, mesh: Mesh) -> Paint:
+        from course.extras.bump_maps import BumpMap, NoiseHeights, PictureHeights
+
+        thing = self._loaded.description.objects[number]
+        # Heights are in the object's own unit, which steps may change.
+        matrix = transforms.compose(map(transforms.of_step, msgspec.to_builtins(thing.transform)))
+        unit = abs(np.linalg.det(matrix[:3, :3])) ** (1 / 3)
+        height = described.height * unit / self._scale
+        if described.noise is not None:
+            carved = self._noise(described.noise, number, mesh)
+            raised: Any = BumpMap(NoiseHeights(carved.color_at), height)  # type: ignore[arg-type]
+            return Paint(carved.corners, raised)
+        assert described.image is not None
+        asked_by = ("materials", thing.material, "bump")
+        corners, known = self._relief(described.image, described.repeat, number, mesh, asked_by)
+        size = np.array(known.color.image.shape[1::-1]) * described.repeat
+        raised = BumpMap(PictureHeights(known, (0.5 / size).astype(np.float32)), height)
+        return Paint(corners, raised)
+
+    def _relief(
+        self, image: str, repeat: tuple[float, float], number: int, mesh: Mesh, asked_by: KeyPath
+    ) -> tuple[Floats64, Any]:
+        """What an object's corners carry, and its normal map by a picture."""
         from course.extras.normal_maps import NormalMap
 
-        asked_by = ("materials", thing.material, "normal_map")
-        colors = self._normals(described.image, (*asked_by, "image"))
+        colors = self._normals(image, (*asked_by, "image"))
         lookup = self._bound.function("textures", "texture_lookup", asked_by)
-        texture = Texture(colors, np.array(described.repeat, np.float32), lookup)
+        texture = Texture(colors, np.array(repeat, np.float32), lookup)
         corners, places = self._places(number, mesh, asked_by)
-        known: Any = NormalMap(texture, places, wraps=places_function(thing) == "sphere_uv")
-        return Paint(corners, known)
+        wraps = places_function(self._loaded.description.objects[number]) == "sphere_uv"
+        return corners, NormalMap(texture, places, wraps)
 
     def _normals(self, file: str, path: KeyPath) -> Floats32:
         """Colours of a picture of normals; those of PNG and JPEG are codes, without sRGB's curve."""

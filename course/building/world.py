@@ -90,7 +90,7 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
         str(number): in_its_surroundings(scene.materials[name], scene.materials)
         for number, name in enumerate(columns.names)
     }
-    painter = _painter(used, loaded, bound, files)
+    painter = _painter(used, loaded, bound, files, frame.scale)
     parts = [
         FullPart(
             frame.mesh(mesh),
@@ -180,12 +180,16 @@ def _still_eye(loaded: Loaded, frame: Frame) -> Floats64 | None:
 
 
 def _painter(
-    used: dict[str, d.MaterialDescription], loaded: Loaded, bound: Bound, files: dict[str, Mesh]
+    used: dict[str, d.MaterialDescription],
+    loaded: Loaded,
+    bound: Bound,
+    files: dict[str, Mesh],
+    scale: float,
 ) -> Painter | None:
     """What paints the objects; None where no surface shows a texture."""
-    if not any(shows_texture(material) or material.normal_map for material in used.values()):
+    if not any(shows_texture(each) or each.normal_map or each.bump for each in used.values()):
         return None
-    return Painter(loaded, bound, files)
+    return Painter(loaded, bound, files, scale)
 
 
 def _moved(mesh: Mesh, by: Floats64) -> Mesh:

@@ -1,4 +1,6 @@
-"""Normal maps: shading normals from a picture, in the frame of its places on the surface.
+"""Normal maps and bump maps: shading normals from a picture or from noise.
+
+A normal map has them in the frame of its places on the surface.
 
 A colour c means the direction 2 c - 1: red along growing u, green along growing v, blue along the normal. (J. Cohen,
 M. Olano and D. Manocha, "Appearance-preserving simplification", 1998.) The frame is that of the triangle's own u and v,
@@ -39,6 +41,13 @@ class NormalMap:
     places: Callable[[Floats32, Floats32], Floats32]
     wraps: bool
 
+    def normals(
+        self, weights: Floats32, corners: Floats32, normal: Floats32, edges: Floats32
+    ) -> Floats32:
+        """Normals (3, n) in the place of shading normals; edges (6, n) go from corner 0 to 1, and to 2."""
+        place, first, second = self.changes(weights, corners)
+        return _turned(self.color(place), normal, edges[0:3], edges[3:6], first, second)
+
     def changes(self, weights: Floats32, corners: Floats32) -> tuple[Floats32, Floats32, Floats32]:
         """Places (2, n) at barycentrics, and how they change along the edges from corner 0 to 1, and to 2."""
         here = self.places(weights, corners)
@@ -70,12 +79,10 @@ class Relief:
             if ns is hits.ns:
                 ns = ns.copy()
             known: Any = normal_map
-            place, first, second = known.changes(weights, corners)
             edges = gather(triangles.edges, hits.triangle.take(which))
             side = hits.side.take(which)
             outward = hits.ns.take(which, axis=1) * side
-            turned = _turned(known.color(place), outward, edges[0:3], edges[3:6], first, second)
-            ns[:, which] = turned * side
+            ns[:, which] = known.normals(weights, corners, outward, edges) * side
         return ns
 
 

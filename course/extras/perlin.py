@@ -58,7 +58,17 @@ class Noise:
 
     def __call__(self, barycentric: Floats32, corners: Floats32) -> Floats32:
         """See ``ColorAt``."""
-        place: Floats32 = (barycentric[:, None] * corners).sum(axis=0, dtype=np.float32)
+        grey = self.grey(between(barycentric, corners))
+        return np.broadcast_to(grey, (3, len(grey))).astype(np.float32)
+
+    def grey(self, place: Floats32) -> Floats32:
+        """Values (n,) from 0 to 1 at places (3, n)."""
         value = noise(place)
         grey = np.abs(value) if self.conversion == ABSOLUTE else (value + 1) / 2
-        return np.broadcast_to(np.clip(grey, 0, 1), (3, len(value))).astype(np.float32)
+        return np.asarray(np.clip(grey, 0, 1), np.float32)
+
+
+def between(barycentric: Floats32, corners: Floats32) -> Floats32:
+    """Places (3, n) by barycentrics (3, n) between what the corners carry (3 corners, 3, n)."""
+    place: Floats32 = (barycentric[:, None] * corners).sum(axis=0, dtype=np.float32)
+    return place

@@ -44,7 +44,8 @@ def _check_material(material: d.MaterialDescription, here: Place) -> None:
         if getattr(material, key) is not None:
             raise here.at(key).error(f"expected null {diffuse_only}")
     here.check(material.noise is None, "noise", "null: patches have one color each")
-    here.check(material.normal_map is None, "normal_map", "null: patches have one normal")
+    for key in ("normal_map", "bump"):
+        here.check(getattr(material, key) is None, key, "null: patches have one normal")
     if material.texture is not None:
         raise here.at("texture").error(
             "expected null for radiosity, whose patches have one color each"

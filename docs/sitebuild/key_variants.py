@@ -417,6 +417,20 @@ VARIANTS: dict[tuple[str, str], list[tuple[str, Changes]]] = {
         )
         for conversion in ("linear", "absolute")
     ],
+    ("BumpDescription", "height"): [
+        (
+            f"height: {height}",
+            {"materials.ball.bump": {"image": "textures/bricks.png", "height": height}},
+        )
+        for height in (-0.2, 0.05, 0.2)
+    ],
+    ("BumpDescription", "repeat"): [
+        (
+            f"repeat: {times}",
+            {"materials.ball.bump": {"image": "textures/bricks.png", "repeat": times}},
+        )
+        for times in ([4, 2], [8, 4])
+    ],
     ("NormalMapDescription", "repeat"): [
         (
             f"repeat: {times}",

@@ -42,6 +42,8 @@ def lit(
     """Cosines at a point for light along x, y and z and against them, (6,): the normal, and minus it."""
     found = []
     material = {"color": 1} | ({} if image is None else {"normal_map": {"image": image}})
+    if "bump" in more:
+        material["bump"] = more.pop("bump")
     compiled = more.pop("compiled", False)
     for axis in (*np.eye(3), *-np.eye(3)):
         up = [0, 0, -1] if abs(np.array(away, float)[1]) > 0.9 * np.linalg.norm(away) else [0, 1, 0]

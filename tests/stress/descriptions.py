@@ -216,6 +216,10 @@ def _repaired(description: dict[str, Any]) -> dict[str, Any]:
             material.pop("conductor")
         if material.get("texture") is not None:
             material.pop("noise", None)
+        if (bump := material.get("bump")) is not None:
+            material.pop("normal_map", None)
+            carved = bump.get("image") is None
+            bump["noise"] = (bump.get("noise") or {}) if carved else None
         if material.get("facets") is not None:
             material.pop("highlight", None)
         metal, glass = material.get("conductor") or {}, material.get("dielectric") or {}
@@ -229,7 +233,8 @@ def _repaired(description: dict[str, Any]) -> dict[str, Any]:
     for thing in description["objects"]:
         if thing["shape"] == "mesh":
             # Those that are drawn have no texture coordinates.
-            materials[thing.get("material", MATERIALS[0])].pop("normal_map", None)
+            for key in ("normal_map", "bump"):
+                materials[thing.get("material", MATERIALS[0])].pop(key, None)
     for thing in description["objects"]:
         for step in thing.get("transform", []):
             if "matrix" in step:

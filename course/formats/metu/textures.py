@@ -23,10 +23,12 @@ REFUSED: Final = {
     "replace_all": "an unlit picture is no reflectance",
     "replace_ks": "highlights of this course have one colour for each material",
     "replace_background": "this course has no picture behind the scene that stands still",
-    "bump_normal": "this course has no bump maps",
 }
 """Decal modes that can't be converted, and why."""
 
+
+MODES: Final = ("replace_kd", "blend_kd", "replace_normal", "bump_normal")
+"""Those that can."""
 
 CONVERSIONS: Final = {"linear": "linear", "absval": "absolute"}
 
@@ -44,6 +46,7 @@ class Texture:
     nearest : true for `Interpolation` nearest
     normalizer : what the picture's values are divided by
     noise : of type perlin, in the place of a picture, the keys of a material's `noise`
+    height : of bumps, that of a code, or of a noise, of 1
     """
 
     element: Element
@@ -53,6 +56,7 @@ class Texture:
     nearest: bool
     normalizer: float
     noise: dict[str, Any] | None = None
+    height: float = 1.0
 
     @property
     def has_places(self) -> bool:
@@ -61,21 +65,26 @@ class Texture:
 
     @property
     def of_normals(self) -> bool:
-        """True for a normal map."""
-        return self.mode == "replace_normal"
+        """True for a normal map and for a bump map."""
+        return self.mode in ("replace_normal", "bump_normal")
+
+    @property
+    def linear(self) -> bool:
+        """True for a picture of numbers, which aren't codes up to 255."""
+        return self.file.suffix.lower() in LINEAR
 
     def picture(self) -> Floats64:
-        """The values over the normalizer, or the colours of a normal map, (H, W, 3)."""
+        """The values over the normalizer, or the colours of a normal map or a bump map, (H, W, 3)."""
         try:
             found = read_picture(self.file, codes=True)
         except (SceneError, ValueError) as error:
             raise self.element.error(f"its picture can't be used: {error}") from None
-        linear = self.file.suffix.lower() in LINEAR
         # METU counts codes to 255, whatever the depth; in float32 the product is exact for 8 bits.
-        codes = found if linear else found * np.float32(255)
+        codes = found if self.linear else found * np.float32(255)
         values: Floats64 = codes.astype(np.float64) / self.normalizer
         if self.of_normals:
             values = found.astype(np.float64)
+        if self.mode == "replace_normal":
             # Green is along v, which goes down there, and up here.
             values[..., 1] = 1 - values[..., 1]
         if values.max(initial=0) > 1:
@@ -124,7 +133,7 @@ class Textures:
         if len({texture.of_normals for texture in found}) < len(found):
             assert element is not None
             raise element.refused(
-                "an object of this course has one texture and one normal map; leave one of each"
+                "an object of this course has one texture, and one normal map or bump map; leave one of each"
             )
         return sorted(found, key=lambda texture: texture.of_normals)
 
@@ -140,14 +149,25 @@ class Textures:
 
     def _with(self, texture: Texture, number: str, keys: dict[str, Any]) -> dict[str, Any]:
         kd, by = self.bodies[number]
-        if texture.noise is not None:
+        if texture.mode == "bump_normal":
+            self.files.notes.add(
+                texture.element,
+                "is a bump map: its heights, BumpFactor times a value over Normalizer, are taken for lengths of the"
+                " object's own unit",
+            )
+            if texture.noise is not None:
+                return keys | {"bump": {"noise": texture.noise, "height": texture.height}}
+        elif texture.noise is not None:
             return self._painted(keys, by) | {"noise": texture.noise}
         picture = texture.picture()
         self._sizes[texture.number] = picture.shape[1], picture.shape[0]
         stem = f"texture-{len(self.made) + 1}"
         if texture.of_normals:
             file = self.files.add_picture(picture.astype(np.float32), f"{stem}-normals")
-            return keys | {"normal_map": {"image": file}}
+            if texture.mode == "replace_normal":
+                return keys | {"normal_map": {"image": file}}
+            height = texture.height * (1.0 if texture.linear else 255.0) / texture.normalizer
+            return keys | {"bump": {"image": file, "height": height}}
         if texture.mode == "blend_kd":
             picture = (picture + np.array(kd)) / 2
             if picture.max() > 1:
@@ -225,15 +245,17 @@ def _map(
     between = _word(element, "Interpolation") or "nearest"
     scale = element.maybe("Normalizer")
     normalizer = 255.0 if scale is None else scale.number(0, above=True)
-    for tag in ("ImageId", "NoiseScale", "NoiseConversion", "BumpFactor"):
+    for tag in ("ImageId", "NoiseScale", "NoiseConversion"):
         _word(element, tag)
+    factor = element.maybe("BumpFactor")
+    height = 1.0 if factor is None else factor.numbers(1, "10")[0]
     if kind not in ("image", "perlin"):
         return Refused(element, f"its type is {show(kind)}, and those known are image and perlin")
-    if mode not in ("replace_kd", "blend_kd", "replace_normal"):
-        why = REFUSED.get(mode, "replace_kd, blend_kd and replace_normal can be converted")
+    if mode not in MODES:
+        why = REFUSED.get(mode, f"{', '.join(MODES[:-1])} and {MODES[-1]} can be converted")
         return Refused(element, f"its DecalMode is {show(mode)}: {why}")
     if kind == "perlin":
-        return _noise(element, number, mode)
+        return _noise(element, number, mode, height)
     if between not in ("nearest", "bilinear"):
         return Refused(
             element,
@@ -245,13 +267,15 @@ def _map(
         raise image.unexpected(f"the id of an Image; {suggest(name, images)}")
     file = " ".join(images[name].words())
     path = folder / file.replace("\\", "/")
-    return Texture(element, number, path, mode, between == "nearest", normalizer)
+    nearest = between == "nearest"
+    return Texture(element, number, path, mode, nearest, normalizer, height=height)
 
 
-def _noise(element: Element, number: str, mode: str) -> Texture | Refused:
-    if mode != "replace_kd":
+def _noise(element: Element, number: str, mode: str, height: float) -> Texture | Refused:
+    if mode not in ("replace_kd", "bump_normal"):
         return Refused(
-            element, f"its type is perlin with DecalMode {mode}: replace_kd can be converted"
+            element,
+            f"its type is perlin with DecalMode {mode}: replace_kd and bump_normal can be converted",
         )
     conversion = _word(element, "NoiseConversion") or "linear"
     if conversion not in CONVERSIONS:
@@ -261,7 +285,7 @@ def _noise(element: Element, number: str, mode: str) -> Texture | Refused:
         "scale": 1.0 if scale is None else scale.number(0, above=True),
         "conversion": CONVERSIONS[conversion],
     }
-    return Texture(element, number, Path(), mode, False, 1.0, keys)
+    return Texture(element, number, Path(), mode, False, 1.0, keys, height)
 
 
 def _word(element: Element, tag: str) -> str:

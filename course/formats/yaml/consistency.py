@@ -47,6 +47,11 @@ def check_consistency(description: d.SceneDescription, document: Document) -> No
             here.check(
                 material.exponent <= _SHARPEST, "exponent", f"at most {_SHARPEST:g} of facets"
             )
+        if (bump := material.bump) is not None:
+            if material.normal_map is not None:
+                raise here.error("both normal_map and bump are given: expected one of them")
+            if (bump.image is None) == (bump.noise is None):
+                raise here.at("bump").error("give exactly one of image and noise")
         if material.texture is not None and material.noise is not None:
             raise here.error("both texture and noise are given: expected one of them")
         if material.dielectric is not None and material.conductor is not None:

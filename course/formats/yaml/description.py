@@ -284,6 +284,35 @@ class NoiseDescription(Map, frozen=True, kw_only=True):
     ] = "linear"
 
 
+class BumpDescription(Map, frozen=True, kw_only=True):
+    """Shading normals of a surface that is raised along its normals; exactly one of image and noise."""
+
+    image: Annotated[
+        str | None,
+        about(
+            "File of a picture, relative to the scene file. Its grey is the share of height: the mean of the codes,"
+            " without sRGB's curve."
+        ),
+    ] = None
+    repeat: Annotated[
+        tuple[_Times, _Times],
+        about("How often the picture repeats along u and v, as of a texture."),
+    ] = (1.0, 1.0)
+    noise: Annotated[
+        NoiseDescription | None, about("Noise whose value is the share of height.")
+    ] = None
+    height: Annotated[
+        float,
+        about(
+            "How high white is above black before the object is transformed; below 0 white is deeper. An uneven"
+            " scaling counts by its mean.",
+            "world unit",
+            ge=-1e6,
+            le=1e6,
+        ),
+    ] = 0.1
+
+
 class MaterialDescription(Map, frozen=True, kw_only=True):
     """Blinn-Phong reflection, with a mirror, a metal or a dielectric on top."""
 
@@ -356,6 +385,10 @@ class MaterialDescription(Map, frozen=True, kw_only=True):
     normal_map: Annotated[
         NormalMapDescription | None,
         about("A picture that turns the shading normals from place to place; null for none."),
+    ] = None
+    bump: Annotated[
+        BumpDescription | None,
+        about("Heights whose slopes tilt the shading normals; null for none. Outlines stay flat."),
     ] = None
 
 

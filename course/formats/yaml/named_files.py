@@ -21,6 +21,8 @@ def with_files(scene: d.SceneDescription, change: Callable[[str], str]) -> d.Sce
         if (normals := materials[name].normal_map) is not None:
             normals = replace(normals, image=change(normals.image))
             materials[name] = replace(materials[name], normal_map=normals)
+        if (bump := materials[name].bump) is not None and bump.image is not None:
+            materials[name] = replace(materials[name], bump=replace(bump, image=change(bump.image)))
     environment = scene.environment
     match environment:
         case d.LatLongEnvironment():

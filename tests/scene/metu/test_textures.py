@@ -187,16 +187,50 @@ def test_a_normal_map_turns_the_normal_along_metus_u_and_v(xml: Metu, also_a_pic
     np.testing.assert_allclose(xml.pixel(scene), expected, rtol=1e-3, atol=1e-3)
 
 
+BUMPS = {"_id": "1", "DecalMode": "bump_normal", "BumpFactor": "2"}
+
+
+@pytest.mark.parametrize("also_a_picture", [False, True])
+def test_a_bump_map_tilts_the_normal_by_the_slope_of_its_codes(
+    xml: Metu, also_a_picture: bool
+) -> None:
+    """Along a u that is 18 wide codes rise by 40 in a sixth, along v by 25 in a quarter, downwards."""
+    rows, columns = np.mgrid[:4, :6]
+    codes = (10 + 40 * columns + 25 * rows).astype(np.uint8)
+    lights = {"DirectionalLight": SUN["DirectionalLight"] | {"Direction": "0 -1 -1"}}
+    scene = textured(xml.folder, lights=lights, camera=look(0.4, 0.3))
+    Image.fromarray(codes[..., None].repeat(3, axis=2)).save(xml.folder / "bumps.png")
+    table = scene["Textures"]
+    table["Images"]["Image"] = [table["Images"]["Image"], {"_id": "6", "_data": "bumps.png"}]
+    bumps = BUMPS | {"_id": "2", "_type": "image", "ImageId": "6", "Normalizer": "51"}
+    table["TextureMap"] = [table["TextureMap"], bumps]
+    scene["Objects"]["Mesh"] |= {"Textures": "2 1" if also_a_picture else "2"}
+    n = np.array([-40 * 6, 25 * 4, 0]) / 51 * 2 / 18 + [0, 0, 1]
+    n /= np.linalg.norm(n)
+    kd = nearest(0.4, 0.3) if also_a_picture else np.array([0.5, 0.25, 0])
+    expected = 100 * kd * max(n @ [0, 1, 1], 0) / math.sqrt(2)
+    np.testing.assert_allclose(xml.pixel(scene), expected, rtol=1e-3, atol=1e-3)
+    assert "is a bump map: its heights" in xml.warnings[0]
+
+
+def test_bumps_of_perlin_noise_are_those_of_this_course(xml: Metu) -> None:
+    scene = textured(xml.folder)
+    noises = {"_type": "perlin", "NoiseScale": "3", "NoiseConversion": "absval"}
+    scene["Textures"]["TextureMap"] = BUMPS | noises
+    found = xml.load(scene).loaded.description.materials["material 1 with texture 1"].bump
+    assert found is not None
+    assert found.noise is not None
+    assert (found.noise.scale, found.noise.conversion, found.height) == (3, "absolute", 2)
+
+
 @pytest.mark.parametrize(
     ("changed", "told"),
     [
         ({"mode": "replace_all"}, 'its DecalMode is "replace_all": an unlit picture'),
         ({"mode": "replace_ks"}, 'its DecalMode is "replace_ks": highlights'),
-        ({"mode": "bump_normal"}, 'its DecalMode is "bump_normal": this course has no bump maps'),
         ({"mode": "replace_background"}, "this course has no picture behind the scene"),
         ({"between": "trilinear"}, 'its Interpolation is "trilinear": this course has no pyramids'),
-        ({"perlin": "blend_kd"}, "its type is perlin with DecalMode blend_kd: replace_kd can be"),
-        ({"perlin": "bump_normal"}, 'its DecalMode is "bump_normal": this course has no bump maps'),
+        ({"perlin": "blend_kd"}, "its type is perlin with DecalMode blend_kd: replace_kd and bump"),
         (
             {"TexCoordData": "0 0 1 1"},
             "refers to texture coordinates 1 to 4: expected numbers from",
@@ -243,7 +277,7 @@ def test_an_instance_with_a_material_of_its_own_has_no_texture_and_a_warning(xml
 
 
 def test_a_texture_that_nothing_has_is_no_loss(metu: Metu) -> None:
-    scene = textured(metu.folder, mode="bump_normal")
+    scene = textured(metu.folder, mode="replace_ks")
     del scene["Objects"]["Mesh"]["Textures"]
     metu.load(scene)
     assert metu.warnings == []
