@@ -262,15 +262,15 @@ def _with_pieces(part: FullPart, at: Floats64, parent: Indices) -> FullPart:
         normals,
         joined(mesh.uv),
     )
-    paint = part.paint
-    if paint is not None:
+
+    def repainted(paint: Paint | None) -> Paint | None:
+        if paint is None:
+            return None
         corners = carried(paint.corners[parent]).reshape(-1, 3, 3)
-        paint = Paint(np.concatenate((paint.corners[whole], corners)), paint.color_at)
-    relief = part.relief
-    if relief is not None:
-        corners = carried(relief.corners[parent]).reshape(-1, 3, 3)
-        relief = replace(relief, corners=np.concatenate((relief.corners[whole], corners)))
-    return replace(part, mesh=pieces, paint=paint, relief=relief)
+        return replace(paint, corners=np.concatenate((paint.corners[whole], corners)))
+
+    paint, relief, shine = map(repainted, (part.paint, part.relief, part.shine))
+    return replace(part, mesh=pieces, paint=paint, relief=relief, shine=shine)
 
 
 def _barycentrics(p: Floats64, at: Floats64) -> Floats64:

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from course.building.frame import in_range
-from course.building.materials import base_color, has_body
+from course.building.materials import diffuse_share
 from course.core.environment import ConstantEnvironment, CubeEnvironment, Environment
 from course.core.types import Floats32
 from course.effects import Bound
@@ -122,7 +122,7 @@ def _anything_diffuse(loaded: Loaded) -> bool:
     """True if any object reflects diffusely."""
     scene = loaded.description
     used = (scene.materials[thing.material] for thing in scene.objects)
-    return any(has_body(m) and (base_color(m) * m.diffuse).any() for m in used)
+    return any(diffuse_share(material).any() for material in used)
 
 
 def _faces(environment: d.CubeEnvironment, loaded: Loaded) -> Floats32:

@@ -41,8 +41,14 @@ def returned_share(material: MaterialDescription) -> Floats64:
     Above 1 the material makes light. Highlights are left out: how much they return depends on the
     directions.
     """
-    rest = base_color(material) * material.diffuse if has_body(material) else np.zeros(3)
-    return rest + handed_on(material)
+    return diffuse_share(material) + handed_on(material)
+
+
+def diffuse_share(material: MaterialDescription) -> Floats64:
+    """(3,) float64 share of the light that is reflected diffusely."""
+    if not has_body(material) or rgb(material.unlit).any():
+        return np.zeros(3)
+    return base_color(material) * material.diffuse
 
 
 def handed_on(material: MaterialDescription) -> Floats64:
@@ -109,6 +115,7 @@ def compile_materials(
     """
     count = len(materials) + len(emission)
     ambient, diffuse, specular, mirror, absorption, emitted = np.zeros((6, 3, max(count, 1)))
+    unlit = np.zeros((3, max(count, 1)))
     exponent, index = np.ones(max(count, 1)), np.zeros(max(count, 1))
     for column, material in enumerate(materials.values()):
         color = base_color(material)
@@ -116,7 +123,9 @@ def compile_materials(
         mirror[:, column] = rgb(material.mirror)
         emitted[:, column] = rgb(material.emission)
         exponent[column] = material.exponent
-        if has_body(material):
+        if rgb(material.unlit).any():
+            unlit[:, column] = color * rgb(material.unlit)
+        elif has_body(material):
             ambient[:, column] = ambient_color(material) * material.ambient
             diffuse[:, column] = color * material.diffuse
         if material.dielectric is not None:
@@ -138,6 +147,7 @@ def compile_materials(
         np.arange(max(count, 1)) >= len(materials),
         conductors=_conductors(materials, max(count, 1)),
         highlights=_highlights(materials, max(count, 1)),
+        unlit=unlit.astype(f) if unlit.any() else None,
     )
 
 
@@ -171,6 +181,8 @@ def check_growth(loaded: Loaded, used: Iterable[str], world: FullWorld) -> None:
 def _brightest(world: FullWorld) -> float:
     """The largest radiance, or irradiance at the size of the scene, of whatever shines."""
     colors = [world.ambient, world.materials.emission, *(light.color for light in world.lights)]
+    if isinstance(world.materials, FullMaterials) and world.materials.unlit is not None:
+        colors.append(world.materials.unlit)
     if isinstance(world.environment, CubeEnvironment):
         colors.append(world.environment.faces)
     elif isinstance(world.environment, ConstantEnvironment):

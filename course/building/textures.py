@@ -14,7 +14,7 @@ from course.extras.painting import Paint
 from course.extras.textures import Places, Texture, on_mesh, on_rectangle, on_sphere
 from course.formats.meshes import transforms
 from course.formats.yaml import description as d
-from course.formats.yaml.description import TextureDescription
+from course.formats.yaml.description import TextureDescription, rgb
 from course.formats.yaml.document import KeyPath
 from course.formats.yaml.loading import Loaded, read_named_picture
 
@@ -23,8 +23,15 @@ def shows_texture(material: d.MaterialDescription) -> bool:
     """True if a material has a texture or noise, and an ambient or diffuse term that it colours."""
     if (material.texture is None and material.noise is None) or not has_body(material):
         return False
+    if rgb(material.unlit).any():
+        return bool(base_color(material).any())
     colored = base_color(material) * material.diffuse + ambient_color(material) * material.ambient
     return bool(colored.any())
+
+
+def shows_specular_texture(material: d.MaterialDescription) -> bool:
+    """True if a material has a texture of its highlight, and one."""
+    return material.specular_texture is not None and bool(rgb(material.specular).any())
 
 
 def places_function(thing: d.Object) -> str:
@@ -62,8 +69,19 @@ class Painter:
         if material.noise is not None:
             return self._noise(material.noise, number, mesh)
         assert material.texture is not None
-        asked_by = ("materials", thing.material, "texture")
-        texture = self._texture(material.texture, (*asked_by, "image"))
+        return self._picture(material.texture, "texture", number, mesh)
+
+    def shine(self, number: int, mesh: Mesh) -> Paint | None:
+        """What colours the highlights of an object; None where nothing does. As ``paint``."""
+        thing = self._loaded.description.objects[number]
+        material = self._loaded.description.materials[thing.material]
+        if material.specular_texture is None or not shows_specular_texture(material):
+            return None
+        return self._picture(material.specular_texture, "specular_texture", number, mesh)
+
+    def _picture(self, described: TextureDescription, key: str, number: int, mesh: Mesh) -> Paint:
+        asked_by = ("materials", self._loaded.description.objects[number].material, key)
+        texture = self._texture(described, (*asked_by, "image"))
         corners, places = self._places(number, mesh, asked_by)
         return Paint(corners, lambda weights, own: texture(places(weights, own)))
 

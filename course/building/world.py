@@ -27,7 +27,7 @@ from course.building.small_objects import (
     frame_for,
     warn_of_small,
 )
-from course.building.textures import Painter, shows_texture
+from course.building.textures import Painter, shows_specular_texture, shows_texture
 from course.core.camera import Camera
 from course.core.triangles import Mesh
 from course.core.types import Floats64
@@ -99,12 +99,14 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
             isinstance(thing, CONVEX),
             None if painter is None else painter.paint(number, mesh),
             None if painter is None else painter.relief(number, mesh),
+            None if painter is None else painter.shine(number, mesh),
             thing.from_behind,
         )
         for number, (mesh, thing) in enumerate(zip(meshes, scene.objects, strict=True))
     ]
     for name, material in zip(columns.names, used.values(), strict=True):
         in_range(rgb(material.emission), loaded, ("materials", name, "emission"), "the emission")
+        in_range(rgb(material.unlit), loaded, ("materials", name, "unlit"), "the radiance")
     emitters, emission = emitter_parts(loaded, frame, shutter, first_material=len(used))
     materials = compile_materials(used, emission, frame)
     around = outsides(columns.names, scene.materials, len(materials.exponent))
@@ -187,7 +189,11 @@ def _painter(
     scale: float,
 ) -> Painter | None:
     """What paints the objects; None where no surface shows a texture."""
-    if not any(shows_texture(each) or each.normal_map or each.bump for each in used.values()):
+    painted = (
+        shows_texture(each) or shows_specular_texture(each) or each.normal_map or each.bump
+        for each in used.values()
+    )
+    if not any(painted):
         return None
     return Painter(loaded, bound, files, scale)
 

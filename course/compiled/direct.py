@@ -217,6 +217,7 @@ class CompiledDirectLight(FullDirectLight):
 
     def _reflected(self, hits: Hits, diffuse: Floats32, specular: Floats32 | None) -> Floats32:
         highlights = _NO_COLUMNS, _NO_COLUMNS
+        specular = self._painted(hits, specular)
         if specular is not None and self.specular is not None:
             highlights = self.specular.rows, specular
         tint = _NO_COLUMNS if hits.tint is None else hits.tint

@@ -113,7 +113,8 @@ def _fits_motion(motion: Motion | None) -> bool:
 
 
 def _fits_surface(surface: Any) -> bool:
-    extras = surface.painting, surface.relief, surface.turned, surface.kept, surface.through
+    seen = surface.turned, surface.kept, surface.through
+    extras = surface.painting, surface.relief, surface.shine, *seen
     known = type(surface.accelerator) in (StaticAccelerator, MovingAccelerator, SweptMovers)
     return isinstance(surface, FullSurface) and known and all(extra is None for extra in extras)
 

@@ -83,6 +83,14 @@ class FullDirectLight(DirectLight):
             highlight /= np.where(plain, np.maximum(cosine, np.float32(1e-20)), np.float32(1))
         return highlight
 
+    def _reflected(self, hits: Hits, diffuse: Floats32, specular: Floats32 | None) -> Floats32:
+        return super()._reflected(hits, diffuse, self._painted(hits, specular))
+
+    def _painted(self, hits: Hits, specular: Floats32 | None) -> Floats32 | None:
+        """The sum of the highlights, times what textures say of them."""
+        shine = getattr(hits, "shine", None)
+        return specular if specular is None or shine is None else specular * shine
+
     def _accumulated(
         self,
         total: Floats32 | None,

@@ -229,4 +229,4 @@ def some_of(hits: Hits, which: Indices) -> Hits:
     """Some (m,) of n hits."""
     arrays: Any = [getattr(hits, each.name) for each in fields(hits)]
     chosen: Any = [None if array is None else array.take(which, axis=-1) for array in arrays]
-    return Hits(*chosen)
+    return type(hits)(*chosen)

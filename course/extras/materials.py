@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from course.core.materials import MaterialTable
+from course.core.types import Floats32
 from course.extras.conductors import Conductors
 from course.extras.highlights import Highlights
 
@@ -15,7 +16,9 @@ class FullMaterials(MaterialTable):
     ----------
     conductors : the metals, None where there are none
     highlights : by other models than Blinn's with the cosine, None where there are none
+    unlit : (3, M) float32 radiance that textures colour, whatever the light [W/(m^2 sr)]; None where there is none
     """
 
     conductors: Conductors | None = None
     highlights: Highlights | None = None
+    unlit: Floats32 | None = None

@@ -56,6 +56,10 @@ def plan(
     diffuses = paths is not None and bool(world.materials.diffuses.any())
     depth = max_depth if scatter is not None or diffuses else 0
     integrator = plan_integrator(world, camera, depth, direct, scatter)
+    if isinstance(world.materials, FullMaterials) and world.materials.unlit is not None:
+        # Textures colour it as they do the ambient term, whose place it has.
+        ambient = world.materials.unlit + world.materials.ambient * world.ambient[:, None]
+        integrator = replace(integrator, ambient=Lookup(ambient))
     if world.backdrop:
         seen = min(integrator.environment_depth, 0)
         integrator = replace(integrator, environment_depth=seen)
@@ -116,7 +120,7 @@ def _direct_light(world: FullWorld, sky: Sky | None) -> DirectLight | None:
     direct = plan_direct_light(world, sky is not None)
     highlights = materials.highlights if isinstance(materials, FullMaterials) else None
     choice = world.choice if world.lights else None
-    extras = sky, highlights, choice
+    extras = sky, highlights, choice, getattr(world.surface, "shine", None)
     if direct is None or not (world.lifted or any(extra is not None for extra in extras)):
         return direct
     known = same_fields(direct) | {"sky": sky}

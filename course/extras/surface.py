@@ -27,13 +27,24 @@ from course.extras.tables import (
 
 @dataclass(frozen=True)
 class FullPart(Part):
-    """One object's mesh with its texture and its normal map, and how camera rays see it from behind
-    (``course.extras.behind``).
+    """One object's mesh with its texture, its normal map or bump map and the texture of its highlights, and how camera
+    rays see it from behind (``course.extras.behind``).
     """
 
     paint: Paint | None = None
     relief: Paint | None = None
+    shine: Paint | None = None
     behind: Behind = "turned"
+
+
+@dataclass(frozen=True)
+class ShinyHits(Hits):
+    """Hits whose highlights have textures.
+
+    ``shine``: (3, n) float32, colour factor of highlights, 1 where there is none; None if no hit has one.
+    """
+
+    shine: Floats32 | None = None
 
 
 @dataclass(frozen=True)
@@ -44,6 +55,7 @@ class FullSurface(Surface):
     ----------
     painting : the textures; None if there are none
     relief : the normal maps; None if there are none
+    shine : the textures of highlights; None if there are none
     turned : (M,) bool, materials whose shading normals are turned to the viewer (``turn_to_viewer``); None for all
     kept : (T,) bool, triangles whose normals are not turned where camera rays hit their backs; None if there are none
     through : accelerator for camera rays that pass through backs; None if they hit the same triangles as other rays
@@ -51,6 +63,7 @@ class FullSurface(Surface):
 
     painting: Painting | None = None
     relief: Any = None
+    shine: Painting | None = None
     turned: Mask | None = None
     kept: Mask | None = None
     through: SeenThrough | None = None
@@ -109,6 +122,9 @@ class FullSurface(Surface):
             hits.ns[:, some] = normals
         if of_camera and self.kept is not None:
             keep_normals(self.kept, hits)
+        if self.shine is not None:
+            shine = self.shine.tint(hits.triangle, hits.u, hits.v)
+            hits = ShinyHits(**{**vars(hits), "shine": shine})
         if self.painting is None:
             return hits
         return replace(hits, tint=self.painting.tint(hits.triangle, hits.u, hits.v))
@@ -156,6 +172,7 @@ def build_surface(
         accelerator=accelerator,
         painting=make_painting([(len(table.triangles), _paint(table)) for table in tables]),
         relief=_relief(tables),
+        shine=make_painting([(len(t.triangles), _paint(t, "shine")) for t in tables]),
         turned=turned,
         kept=_seen(tables, "kept"),
         through=through,

@@ -50,7 +50,7 @@ def _check_material(material: d.MaterialDescription, here: Place) -> None:
         raise here.at("texture").error(
             "expected null for radiosity, whose patches have one color each"
         )
-    for key in ("mirror", "specular"):
+    for key in ("mirror", "specular", "unlit"):
         here.check(not rgb(getattr(material, key)).any(), key, f"0 {diffuse_only}")
 
 

@@ -23,6 +23,7 @@ from course.core.lights.sample import Light
 from course.core.lights.sphere import SphereLight
 from course.core.types import Floats32, Floats64, Mask
 from course.errors import CourseWarning
+from course.extras.materials import FullMaterials
 from course.extras.mesh_light import MeshLight
 from course.extras.visible_sphere import VisibleSphereLight
 from course.extras.world import FullWorld
@@ -34,6 +35,8 @@ def why_black(scene: Scene) -> str:
     """Say why every picture of a scene is black for want of light; empty where there is some."""
     world, lights = scene.compiled.world, scene.loaded.description.lights
     seen = world.materials.ambient * world.ambient[:, None] + world.materials.emission
+    if isinstance(world.materials, FullMaterials) and world.materials.unlit is not None:
+        return ""
     if world.lights or seen.any() or world.environment is not None:
         return ""
     if not lights:

@@ -344,6 +344,9 @@ VARIANTS: dict[tuple[str, str], list[tuple[str, Changes]]] = {
         True,
         on=GRAZED | {"materials.ball.facets.refraction_index": 3},
     ),
+    ("MaterialDescription", "unlit"): _values(
+        "materials.ball.unlit", 0, 0.2, 1, on={"materials.ball.color": [0.75, 0.25, 0.15]}
+    ),
     ("MaterialDescription", "emission"): _values("materials.ball.emission", 0, [0.9, 0.5, 0.1]),
     ("MaterialDescription", "mirror"): _values(
         "materials.ball.mirror", 0, 0.3, 0.9, on={"materials.ball.color": 0.1}

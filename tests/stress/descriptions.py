@@ -216,6 +216,8 @@ def _repaired(description: dict[str, Any]) -> dict[str, Any]:
             material.pop("conductor")
         if material.get("texture") is not None:
             material.pop("noise", None)
+        if material.get("dielectric") is not None:
+            material.pop("unlit", None)
         if (bump := material.get("bump")) is not None:
             material.pop("normal_map", None)
             carved = bump.get("image") is None
@@ -233,7 +235,7 @@ def _repaired(description: dict[str, Any]) -> dict[str, Any]:
     for thing in description["objects"]:
         if thing["shape"] == "mesh":
             # Those that are drawn have no texture coordinates.
-            for key in ("normal_map", "bump"):
+            for key in ("normal_map", "bump", "specular_texture"):
                 materials[thing.get("material", MATERIALS[0])].pop(key, None)
     for thing in description["objects"]:
         for step in thing.get("transform", []):

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any
 
 from course.formats.metu.brdfs import FACETS, Brdf, brdf_of
@@ -24,6 +25,22 @@ DEGAMMA = 2.2
 """The power of reflectances that are given as codes of a screen."""
 
 
+@dataclass(frozen=True)
+class Body:
+    """What textures need of a material.
+
+    Attributes
+    ----------
+    diffuse : its diffuse reflectance
+    by : what that is multiplied by
+    highlight : the keys of its highlight where its specular reflectance is 1
+    """
+
+    diffuse: list[float]
+    by: float
+    highlight: dict[str, Any]
+
+
 def material_name(number: str) -> str:
     """Name of a material in the project's own scene files."""
     return f"material {number}"
@@ -31,24 +48,23 @@ def material_name(number: str) -> str:
 
 def read_materials(
     scene: Element, notes: Notes, brdfs: Mapping[str, Brdf], of_surfaces: bool
-) -> tuple[dict[str, dict[str, Any]], dict[str, tuple[list[float], float]]]:
-    """The materials of a scene by id; and of each its diffuse reflectance, and what that is multiplied by.
+) -> tuple[dict[str, dict[str, Any]], dict[str, Body]]:
+    """The materials of a scene by id, and what textures need of each.
 
     ``of_surfaces``: see ``brdfs.pi_is_of_surfaces``.
     """
     materials: dict[str, dict[str, Any]] = {}
-    bodies: dict[str, tuple[list[float], float]] = {}
+    bodies: dict[str, Body] = {}
     for element in scene.child("Materials", "materials for the objects").all("Material"):
         number = element.id(materials)
         brdf = brdf_of(element, brdfs)
-        materials[number], diffuse, by = _material(element, notes, brdf, of_surfaces)
-        bodies[number] = diffuse, by
+        materials[number], bodies[number] = _material(element, notes, brdf, of_surfaces)
     return materials, bodies
 
 
 def _material(
     element: Element, notes: Notes, brdf: Brdf, of_surfaces: bool
-) -> tuple[dict[str, Any], list[float], float]:
+) -> tuple[dict[str, Any], Body]:
     kind = element.attribute("type")
     if kind and kind not in TYPES:
         raise element.error(f"type is {kind!r}: expected {', '.join(TYPES)} or none")
@@ -59,14 +75,16 @@ def _material(
     )
     # A normalized model divides by pi, as this course does.
     by = math.pi if of_surfaces and not brdf.normalized else 1.0
-    body = diffuse, by
     material = _body(ambient, [by * value for value in diffuse])
     power = element.number_of("PhongExponent", 1.0)
     power = power if brdf.exponent is None else brdf.exponent
+    factor = by * brdf.highlight_factor(power)
+    shine = brdf.keys(element, power)
+    if any(specular):
+        material |= {"specular": [factor * value for value in specular]}
     if any(specular) or brdf.model == FACETS:
-        by *= brdf.highlight_factor(power)
-        specular = [by * value for value in specular]
-        material |= {"specular": specular} | brdf.keys(element, power)
+        material |= shine
+    body = Body(diffuse, by, {"specular": factor} | shine)
     if kind in ("mirror", "conductor"):
         material["mirror"] = list(
             element.child("MirrorReflectance", "such as 0.9 0.9 0.9").color(1)
@@ -98,7 +116,7 @@ def _material(
     elif edge:
         roughness = element.child("Roughness", "a number")
         notes.add(roughness, "counts only with a type, and was left out")
-    return material, *body
+    return material, body
 
 
 def _body(ambient: list[float], diffuse: list[float]) -> dict[str, Any]:

@@ -15,22 +15,37 @@ from course.core.triangles import Mesh
 from course.core.types import Floats64
 from course.errors import SceneError
 from course.formats.metu.element import Element
+from course.formats.metu.materials import Body
 from course.formats.metu.meshes import MeshTable
 from course.formats.pictures.reading import LINEAR, read_picture
 from course.formats.yaml.document import show, suggest
 
 REFUSED: Final = {
-    "replace_all": "an unlit picture is no reflectance",
-    "replace_ks": "highlights of this course have one colour for each material",
     "replace_background": "this course has no picture behind the scene that stands still",
 }
 """Decal modes that can't be converted, and why."""
 
 
-MODES: Final = ("replace_kd", "blend_kd", "replace_normal", "bump_normal")
-"""Those that can."""
+KINDS: Final = {
+    "replace_all": "color",
+    "replace_kd": "color",
+    "blend_kd": "color",
+    "replace_ks": "highlight",
+    "replace_normal": "normals",
+    "bump_normal": "normals",
+}
+"""Those that can, and what they paint; in that order they change a material."""
+
+OF_PERLIN: Final = ("replace_all", "replace_kd", "bump_normal")
+
+WHITE: Final = 255.0
+"""Radiance that is shown as white."""
 
 CONVERSIONS: Final = {"linear": "linear", "absval": "absolute"}
+
+
+PASTED: Final[dict[str, Any]] = {"color": 1.0, "unlit": WHITE}
+"""A material that shows its picture as it is."""
 
 
 @dataclass(frozen=True)
@@ -64,9 +79,9 @@ class Texture:
         return self.noise is None
 
     @property
-    def of_normals(self) -> bool:
-        """True for a normal map and for a bump map."""
-        return self.mode in ("replace_normal", "bump_normal")
+    def kind(self) -> str:
+        """What it paints: color, highlight or normals."""
+        return KINDS[self.mode]
 
     @property
     def linear(self) -> bool:
@@ -74,7 +89,7 @@ class Texture:
         return self.file.suffix.lower() in LINEAR
 
     def picture(self) -> Floats64:
-        """The values over the normalizer, or the colours of a normal map or a bump map, (H, W, 3)."""
+        """The values over the normalizer, or of normals, bumps and what is pasted as codes from 0 to 1, (H, W, 3)."""
         try:
             found = read_picture(self.file, codes=True)
         except (SceneError, ValueError) as error:
@@ -82,12 +97,12 @@ class Texture:
         # METU counts codes to 255, whatever the depth; in float32 the product is exact for 8 bits.
         codes = found if self.linear else found * np.float32(255)
         values: Floats64 = codes.astype(np.float64) / self.normalizer
-        if self.of_normals:
+        if self.kind == "normals" or self.mode == "replace_all":
             values = found.astype(np.float64)
         if self.mode == "replace_normal":
             # Green is along v, which goes down there, and up here.
             values[..., 1] = 1 - values[..., 1]
-        if values.max(initial=0) > 1:
+        if values.max(initial=0) > 1 and self.mode != "replace_all":
             raise self.element.error(
                 f"{show(self.file.name)} over its Normalizer, {self.normalizer:g}, goes up to {values.max():g}:"
                 " expected reflectances up to 1"
@@ -104,7 +119,7 @@ class Textures:
     maps : by id; an element stands for one that can't be converted, which is refused where it is used
     places : (P, 2) texture coordinates of the scene, as METU has them
     ambient : (3,) sum of the ambient lights
-    bodies : of each material its diffuse reflectance, and what that is multiplied by
+    bodies : of each material
     files : where pictures are written
     made : the materials by name
     """
@@ -112,7 +127,7 @@ class Textures:
     maps: dict[str, "Texture | Refused"]
     places: Floats64
     ambient: Floats64
-    bodies: dict[str, tuple[list[float], float]]
+    bodies: dict[str, Body]
     files: MeshTable
     made: dict[str, dict[str, Any]] = field(default_factory=dict)
     _sizes: dict[str, tuple[int, int]] = field(default_factory=dict)
@@ -130,25 +145,27 @@ class Textures:
             if isinstance(texture, Refused):
                 raise texture.error(f"; take it from {element.path} to render without it")
             found.append(texture)
-        if len({texture.of_normals for texture in found}) < len(found):
+        if len({texture.kind for texture in found}) < len(found):
             assert element is not None
             raise element.refused(
-                "an object of this course has one texture, and one normal map or bump map; leave one of each"
+                "an object of this course has one texture of its colour, one of its highlight, and one normal map or"
+                " bump map; leave one of each"
             )
-        return sorted(found, key=lambda texture: texture.of_normals)
+        return sorted(found, key=lambda texture: list(KINDS).index(texture.mode))
 
     def material(self, textures: list[Texture], number: str, keys: dict[str, Any]) -> str:
         """The name of a material with textures; ``keys`` are those that it has without."""
         numbers = " and ".join(texture.number for texture in textures)
         name = f"material {number} with texture {numbers}"
         if name not in self.made:
-            for texture in textures:
+            # What is pasted leaves nothing of the others.
+            for texture in textures[:1] if textures[0].mode == "replace_all" else textures:
                 keys = self._with(texture, number, keys)
             self.made[name] = keys
         return name
 
     def _with(self, texture: Texture, number: str, keys: dict[str, Any]) -> dict[str, Any]:
-        kd, by = self.bodies[number]
+        body = self.bodies[number]
         if texture.mode == "bump_normal":
             self.files.notes.add(
                 texture.element,
@@ -158,23 +175,32 @@ class Textures:
             if texture.noise is not None:
                 return keys | {"bump": {"noise": texture.noise, "height": texture.height}}
         elif texture.noise is not None:
-            return self._painted(keys, by) | {"noise": texture.noise}
+            pasted = texture.mode == "replace_all"
+            painted = PASTED if pasted else self._painted(keys, body.by)
+            return painted | {"noise": texture.noise}
         picture = texture.picture()
         self._sizes[texture.number] = picture.shape[1], picture.shape[0]
         stem = f"texture-{len(self.made) + 1}"
-        if texture.of_normals:
+        if texture.kind == "normals":
             file = self.files.add_picture(picture.astype(np.float32), f"{stem}-normals")
             if texture.mode == "replace_normal":
                 return keys | {"normal_map": {"image": file}}
             height = texture.height * (1.0 if texture.linear else 255.0) / texture.normalizer
             return keys | {"bump": {"image": file, "height": height}}
         if texture.mode == "blend_kd":
-            picture = (picture + np.array(kd)) / 2
+            picture = (picture + np.array(body.diffuse)) / 2
             if picture.max() > 1:
                 raise texture.element.error("blended with the DiffuseReflectance it goes above 1")
-        file = self.files.add_picture(picture.astype(np.float32), stem)
+        brightest = max(1.0, float(picture.max(initial=0)))
+        stem = f"{stem}-highlights" if texture.kind == "highlight" else stem
+        file = self.files.add_picture((picture / brightest).astype(np.float32), stem)
         drawn = {"image": file} | ({"interpolation": "nearest"} if texture.nearest else {})
-        return self._painted(keys, by) | {"texture": drawn}
+        if texture.kind == "highlight":
+            return keys | body.highlight | {"specular_texture": drawn}
+        if texture.mode == "replace_all":
+            white = brightest if texture.linear else WHITE
+            return PASTED | {"unlit": white, "texture": drawn}
+        return self._painted(keys, body.by) | {"texture": drawn}
 
     def _painted(self, keys: dict[str, Any], by: float) -> dict[str, Any]:
         """The keys of a material whose texture is all of its diffuse reflectance."""
@@ -196,7 +222,7 @@ class Textures:
         assert mesh.uv is not None
         u, v = mesh.uv.T
         width, height = self._sizes[texture.number]
-        half = 0.0 if texture.nearest and not texture.of_normals else 0.5
+        half = 0.0 if texture.nearest and texture.kind != "normals" else 0.5
         uv = np.stack((u + half / width, 1 - v - half / height), axis=1)
         return Mesh(mesh.vertices, mesh.triangles, mesh.normals, uv)
 
@@ -251,8 +277,8 @@ def _map(
     height = 1.0 if factor is None else factor.numbers(1, "10")[0]
     if kind not in ("image", "perlin"):
         return Refused(element, f"its type is {show(kind)}, and those known are image and perlin")
-    if mode not in MODES:
-        why = REFUSED.get(mode, f"{', '.join(MODES[:-1])} and {MODES[-1]} can be converted")
+    if mode not in KINDS:
+        why = REFUSED.get(mode, f"those that can be converted are {', '.join(KINDS)}")
         return Refused(element, f"its DecalMode is {show(mode)}: {why}")
     if kind == "perlin":
         return _noise(element, number, mode, height)
@@ -272,10 +298,10 @@ def _map(
 
 
 def _noise(element: Element, number: str, mode: str, height: float) -> Texture | Refused:
-    if mode not in ("replace_kd", "bump_normal"):
+    if mode not in OF_PERLIN:
         return Refused(
             element,
-            f"its type is perlin with DecalMode {mode}: replace_kd and bump_normal can be converted",
+            f"its type is perlin with DecalMode {mode}: {', '.join(OF_PERLIN)} can be converted",
         )
     conversion = _word(element, "NoiseConversion") or "linear"
     if conversion not in CONVERSIONS:

@@ -47,6 +47,8 @@ def check_consistency(description: d.SceneDescription, document: Document) -> No
             here.check(
                 material.exponent <= _SHARPEST, "exponent", f"at most {_SHARPEST:g} of facets"
             )
+        lit = material.dielectric is None or not any(rgb(material.unlit))
+        here.check(lit, "unlit", "0 of a dielectric")
         if (bump := material.bump) is not None:
             if material.normal_map is not None:
                 raise here.error("both normal_map and bump are given: expected one of them")

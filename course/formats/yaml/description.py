@@ -355,6 +355,14 @@ class MaterialDescription(Map, frozen=True, kw_only=True):
             "W/(m^2 sr)",
         ),
     ] = 0.0
+    unlit: Annotated[
+        Color,
+        about(
+            "Radiance of white that is seen whatever the light, times color and its texture or noise, in the place of"
+            " the ambient and the diffuse term; 0 for a surface that is lit.",
+            "W/(m^2 sr)",
+        ),
+    ] = 0.0
     mirror: Annotated[Reflectance, about("Share of the light that is mirrored.")] = 0.0
     gloss: Annotated[Gloss | None, about("Blurs what is mirrored; null for a perfect mirror.")] = (
         None
@@ -374,6 +382,10 @@ class MaterialDescription(Map, frozen=True, kw_only=True):
             "A picture that multiplies color and ambient_color from place to place; with one, color left out is all"
             " that the mirror leaves."
         ),
+    ] = None
+    specular_texture: Annotated[
+        TextureDescription | None,
+        about("A picture that multiplies specular from place to place; null for none."),
     ] = None
     noise: Annotated[
         NoiseDescription | None,

@@ -18,6 +18,9 @@ def with_files(scene: d.SceneDescription, change: Callable[[str], str]) -> d.Sce
         if (texture := materials[name].texture) is not None:
             texture = replace(texture, image=change(texture.image))
             materials[name] = replace(materials[name], texture=texture)
+        if (shine := materials[name].specular_texture) is not None:
+            shine = replace(shine, image=change(shine.image))
+            materials[name] = replace(materials[name], specular_texture=shine)
         if (normals := materials[name].normal_map) is not None:
             normals = replace(normals, image=change(normals.image))
             materials[name] = replace(materials[name], normal_map=normals)

@@ -187,6 +187,49 @@ def test_a_normal_map_turns_the_normal_along_metus_u_and_v(xml: Metu, also_a_pic
     np.testing.assert_allclose(xml.pixel(scene), expected, rtol=1e-3, atol=1e-3)
 
 
+@pytest.mark.parametrize("kind", ["image", "perlin"])
+def test_what_is_pasted_is_seen_as_its_codes_are(metu: Metu, kind: str) -> None:
+    """Whatever the light, the material and the Normalizer; and in a mirror's place."""
+    mirror = {"_type": "mirror", "MirrorReflectance": "1 1 1", "SpecularReflectance": "1 1 1"}
+    scene = textured(metu.folder, mode="replace_all", camera=look(*PLACES[1]))
+    scene["Materials"]["Material"] = [MATT | mirror]
+    if kind == "perlin":
+        pasted = {"_type": "perlin", "DecalMode": "replace_all", "NoiseScale": "0.1"}
+        scene["Textures"]["TextureMap"] = {"_id": "1"} | pasted
+        place = np.array([[18 * PLACES[1][0] - 9], [9 - 18 * PLACES[1][1]], [-4]]) * 0.1
+        value = (noise(place.astype(np.float32))[0] + 1) / 2 * 255
+        np.testing.assert_allclose(metu.pixel(scene), value, rtol=1e-3)
+        return
+    for normalizer in ("255", "1"):
+        scene["Textures"]["TextureMap"]["Normalizer"] = normalizer
+        np.testing.assert_allclose(metu.pixel(scene), 255 * nearest(*PLACES[1]), rtol=1e-5)
+
+
+@pytest.mark.parametrize("model", ["", "ModifiedPhong"])
+@pytest.mark.parametrize("chosen", ["1", "2 1"])
+def test_a_texture_of_ks_is_the_highlight(xml: Metu, model: str, chosen: str) -> None:
+    """Light and eye stand at one place, where every model of highlights is ks; beside a texture of kd, too."""
+    shiny = MATT | {"SpecularReflectance": "0 0 0"} | ({"_BRDF": "4"} if model else {})
+    u, v = 0.55, 0.45
+    scene = textured(xml.folder, mode="replace_ks", camera=look(u, v), materials=[shiny])
+    table = scene["Textures"]
+    table["TextureMap"] = [table["TextureMap"], table["TextureMap"] | {"_id": "2"}]
+    table["TextureMap"][1]["DecalMode"] = "replace_kd"
+    scene["Objects"]["Mesh"]["Textures"] = chosen
+    if model:
+        scene["BRDFs"] = {model: {"_id": "4", "_normalized": "true", "Exponent": "10"}}
+    way = np.array([18 * u - 9, 9 - 18 * v, -4])
+    cosine = 4 / np.linalg.norm(way)
+    light = {"_id": "1", "Direction": " ".join(map(str, way)), "Radiance": "100 100 100"}
+    scene["Lights"] = {"DirectionalLight": light}
+    towards_mirror = 2 * cosine**2 - 1 if model else cosine
+    kd = nearest(u, v) if "2" in chosen else np.array([0.5, 0.25, 0])
+    factor = (10 + 2) / 2 if model else 1
+    shine = nearest(u, v) * factor * towards_mirror ** (10 if model else 1)
+    expected = (kd + shine) * cosine / math.pi if model else kd * cosine + shine
+    np.testing.assert_allclose(xml.pixel(scene), 100 * expected, rtol=1e-4)
+
+
 BUMPS = {"_id": "1", "DecalMode": "bump_normal", "BumpFactor": "2"}
 
 
@@ -226,11 +269,13 @@ def test_bumps_of_perlin_noise_are_those_of_this_course(xml: Metu) -> None:
 @pytest.mark.parametrize(
     ("changed", "told"),
     [
-        ({"mode": "replace_all"}, 'its DecalMode is "replace_all": an unlit picture'),
-        ({"mode": "replace_ks"}, 'its DecalMode is "replace_ks": highlights'),
+        (
+            {"mode": "replace"},
+            'its DecalMode is "replace": those that can be converted are replace_all',
+        ),
         ({"mode": "replace_background"}, "this course has no picture behind the scene"),
         ({"between": "trilinear"}, 'its Interpolation is "trilinear": this course has no pyramids'),
-        ({"perlin": "blend_kd"}, "its type is perlin with DecalMode blend_kd: replace_kd and bump"),
+        ({"perlin": "blend_kd"}, "its type is perlin with DecalMode blend_kd: replace_all, "),
         (
             {"TexCoordData": "0 0 1 1"},
             "refers to texture coordinates 1 to 4: expected numbers from",
@@ -277,7 +322,7 @@ def test_an_instance_with_a_material_of_its_own_has_no_texture_and_a_warning(xml
 
 
 def test_a_texture_that_nothing_has_is_no_loss(metu: Metu) -> None:
-    scene = textured(metu.folder, mode="replace_ks")
+    scene = textured(metu.folder, between="trilinear")
     del scene["Objects"]["Mesh"]["Textures"]
     metu.load(scene)
     assert metu.warnings == []
