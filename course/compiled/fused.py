@@ -48,6 +48,7 @@ from course.extras.scatter import FullScatter
 from course.extras.sky import COST, NUMBERS, Sky
 from course.extras.surface import FullSurface
 from course.extras.swept_movers import SweptMovers
+from course.extras.visible_sphere import VisibleSphereLight
 
 _NO_COLUMNS, _NO_ROWS = np.empty((3, 0), np.float32), np.empty((0, 9), np.float32)
 _NONE, _NO_MASK = np.empty(0, np.float32), np.empty((0, 0), np.bool_)
@@ -192,6 +193,8 @@ def _lamp(light: Light) -> _Lamp | None:
             return None
         place = light.corner, light.edge_u, light.edge_v
         return _Lamp(lamp_kernels.RECTANGLE, *_emitting(light, place))
+    if type(light) is VisibleSphereLight:
+        return _Lamp(lamp_kernels.VISIBLE, (light.center, *[nowhere] * 3), radius=light.radius)
     if type(light) is not SphereLight or (light.emitter and light.samples != "sphere"):
         return None
     kind, name = _SPHERES[light.samples]
@@ -213,7 +216,7 @@ def _lights(lights: tuple[Light, ...], dimensions: Dimensions) -> lamp_kernels.L
     n = len(lamps)
     radius = np.array([lamp.radius for lamp in lamps])
     with np.errstate(divide="ignore"):
-        radii = np.stack((radius, 2 * radius, -1 / radius), axis=1)
+        radii = np.stack((radius, 2 * radius, -1 / radius, radius * radius), axis=1)
     return lamp_kernels.Lights(
         kind=np.array([lamp.kind for lamp in lamps], np.int64),
         emitter=np.array([lamp.emitter for lamp in lamps], np.int64),

@@ -54,11 +54,11 @@ from course.compiled.packet_kernels import V as HIT_V
 from course.core.lights.sample import CLOSEST, TO_THE_LIGHT
 from course.core.types import Floats32, Indices, Mask
 
-AT_A_POINT, FAR_AWAY, RECTANGLE, SPHERE, BALL, FACING_DISK = range(6)
+AT_A_POINT, FAR_AWAY, RECTANGLE, SPHERE, BALL, FACING_DISK, VISIBLE = range(7)
 """Kinds of lights."""
 
-_NOTHING, _ONE, _TWO = np.float32(0), np.float32(1), np.float32(2)
-_LEAST = np.float32(CLOSEST * CLOSEST)
+_NOTHING, _HALF, _ONE, _TWO = np.float32(0), np.float32(0.5), np.float32(1), np.float32(2)
+_CLOSEST, _LEAST = np.float32(CLOSEST), np.float32(CLOSEST * CLOSEST)
 _LEAST_HALF, _LEAST_COSINE = np.float32(1e-12), np.float32(1e-6)
 _TO_THE_LIGHT = np.float32(TO_THE_LIGHT)
 _Y, _Z = WIDTH, 2 * WIDTH
@@ -72,10 +72,10 @@ class Lights(NamedTuple):
 
     Attributes
     ----------
-    kind : (L,) AT_A_POINT ... FACING_DISK
+    kind : (L,) AT_A_POINT ... VISIBLE
     emitter : (L,) 0 for a light by intensity, 1 for one by radiance, 2 if both its sides shine
     place : (L, 4, 3) float32: position, centre, corner or direction to the light; edges; normal
-    radius : (L, 3) float32, the radius, its double, and -1 / radius
+    radius : (L, 4) float32, the radius, its double, -1 / radius, and its square
     color : (L, 3) float32
     limit : (L,) float32 length of the shadow rays, in lengths of the vector to the light
     velocity : (L, 3) float32; of no meaning where ``moves`` (L,) is false
@@ -126,6 +126,37 @@ def _on_facing_disk(call, s, radius, x0, y0, z0):
 
 
 @njit(**LEAN)
+def _towards_visible(call, s, squared_radius, x0, y0, z0):
+    """``VisibleSphereLight.sample``: fill ``SHADOW_TO``, ``INVERSE`` and ``FACTOR``."""
+    circle(call, s, U + WIDTH)
+    for i in range(WIDTH):
+        x, y, z = x0 - s[POINT + i], y0 - s[POINT + _Y + i], z0 - s[POINT + _Z + i]
+        squared = max(_NOTHING + x * x + y * y + z * z, _LEAST)
+        inverse, distance = _ONE / squared, np.sqrt(squared)
+        scale = np.sqrt(inverse)
+        x, y, z = x * scale, y * scale, z * scale
+        squared_sine = squared_radius * inverse
+        shines = _ONE if squared_sine < _ONE else _NOTHING
+        squared_sine = min(squared_sine, _ONE)
+        above = _ONE + np.sqrt(_ONE - squared_sine)
+        fallen = squared_sine / above * s[U + i]
+        bent = fallen * (_TWO - fallen)
+        sine, height = np.sqrt(bent), _ONE - fallen
+        p, q = sine * s[A + i], sine * s[B + i]
+        sign = np.float32(math.copysign(_ONE, z))
+        a = -_ONE / (sign + z)
+        b = x * y * a
+        length = distance * np.sqrt(_ONE - bent)
+        length -= np.sqrt(max(squared_radius - squared * bent, _NOTHING))
+        length = max(length, _CLOSEST)
+        s[SHADOW_TO + i] = (x * height + (p * (_ONE + sign * x * x * a) + q * b)) * length
+        s[SHADOW_TO + _Y + i] = (y * height + (p * (sign * b) + q * (sign + y * y * a))) * length
+        s[SHADOW_TO + _Z + i] = (z * height - (p * (sign * x) + q * y)) * length
+        s[INVERSE + i] = _ONE / length
+        s[FACTOR + i] = _HALF * inverse / above * shines
+
+
+@njit(**LEAN)
 def _sample(lights, k, call, s):
     """A point on light k for each hit: fill ``SHADOW_TO``, ``INVERSE`` and ``FACTOR`` as ``Light.sample`` does."""
     kind, emitter = lights.kind[k], lights.emitter[k]
@@ -134,6 +165,9 @@ def _sample(lights, k, call, s):
         for i in range(WIDTH):
             s[SHADOW_TO + i], s[SHADOW_TO + _Y + i], s[SHADOW_TO + _Z + i] = x0, y0, z0
             s[INVERSE + i] = s[FACTOR + i] = _ONE
+        return
+    if kind == VISIBLE:
+        _towards_visible(call, s, lights.radius[k, 3], x0, y0, z0)
         return
     radius, twice, inward = lights.radius[k, 0], lights.radius[k, 1], lights.radius[k, 2]
     if kind == AT_A_POINT:

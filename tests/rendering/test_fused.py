@@ -77,6 +77,11 @@ PARTS: dict[str, dict[str, Any]] = {
     "ball": {"lights": [SPHERE | {"intensity": 20, "samples": "ball"}]},
     "facing disk": {"lights": [SPHERE | {"intensity": 20, "samples": "facing disk"}]},
     "emitting sphere": {"lights": [SPHERE | {"radiance": 4}]},
+    "part of a sphere that is seen": {"lights": [SPHERE | {"radiance": 4, "samples": "visible"}]},
+    "seen part that moves": {"lights": [SPHERE | {"radiance": 4, "samples": "visible"} | MOTION]},
+    "around the floor": {
+        "lights": [SPHERE | {"center": [0, 0, 0], "radiance": 4, "samples": "visible"}]
+    },
     "moving light": {"lights": [POINT | MOTION, SPHERE | {"intensity": 9} | MOTION]},
     "two lights": {"lights": [POINT, SPHERE | {"radiance": 4}]},
     "highlights": {"ball": {"specular": 0.5, "exponent": 30}},
