@@ -32,6 +32,7 @@ from course.core.camera import Camera
 from course.core.triangles import Mesh
 from course.core.types import Floats64
 from course.effects import Bound, Effects, Need
+from course.extras.own_lamp import without_own_lamp
 from course.extras.surface import FullPart, build_surface
 from course.extras.world import FullWorld
 from course.formats.yaml import description as d
@@ -141,6 +142,11 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
             ambient += rgb(light.radiance)
     environment, sky = compile_environment(loaded, bound)
     choice = compile_choice(loaded, lights, bound)
+    if sky is None and choice is None:
+        of_lamp = surface.triangles.material >= len(used)
+        surface = replace(
+            surface, accelerator=without_own_lamp(surface.accelerator, of_lamp, lights)
+        )
     named = list(zip(columns.names, used.values(), strict=True))
     mirrors = [(name, reflecting(material)) for name, material in named]
     lobes = compile_lobes(mirrors, bound, scene.integrator)

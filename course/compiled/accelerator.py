@@ -22,6 +22,7 @@ from course.core.accelerator import (
 from course.core.motion import Mover, MovingAccelerator
 from course.core.types import Floats32, Indices, Mask
 from course.extras.own import courses_own
+from course.extras.own_lamp import LampAccelerator
 from course.extras.plan import same_fields
 
 WORTH_CHOOSING = 0.75
@@ -29,7 +30,7 @@ WORTH_CHOOSING = 0.75
 
 _FAR, _ALL = np.full(1, NO_HIT, np.float32), np.empty(0, np.bool_)
 
-_BUILT: WeakKeyDictionary[StaticAccelerator, tuple[PacketScene, ConvexObjects | None]]
+_BUILT: WeakKeyDictionary[StaticAccelerator, tuple[PacketScene, PacketScene, ConvexObjects | None]]
 _BUILT = WeakKeyDictionary()
 """What has been built: a scene is rendered more than once."""
 
@@ -41,24 +42,30 @@ class SceneTables:
     Attributes
     ----------
     scenes : (1 + K,) uint64, Embree's; 0 where there are no triangles
+    blockers : (1 + K,) uint64, those that shadow rays are asked of
     velocity, boxes : (K, 3) and (K, 2, 3) float32 of the movers
     """
 
     scenes: NDArray[np.uintp]
+    blockers: NDArray[np.uintp]
     velocity: Floats32
     boxes: Floats32
 
     @classmethod
     def of(
-        cls, static: PacketScene | None, movers: Sequence[tuple[PacketScene, Floats32]]
+        cls, static: "PacketAccelerator", movers: Sequence[tuple[PacketScene, Floats32]]
     ) -> "SceneTables":
         """Tables of scenes, of the movers with their velocities."""
-        scenes = [0 if static is None else static.scene, *(scene.scene for scene, _ in movers)]
+        moving = [scene.scene for scene, _ in movers]
+        scenes, blockers = (
+            np.array([0 if still is None else still.scene, *moving], np.uintp)
+            for still in (static.packets, static.blockers)
+        )
         velocity = np.zeros((len(movers), 3), np.float32)
         boxes = np.zeros((len(movers), 2, 3), np.float32)
         for number, (scene, each) in enumerate(movers):
             velocity[number], boxes[number] = each, scene.box
-        return cls(np.array(scenes, np.uintp), velocity, boxes)
+        return cls(scenes, blockers, velocity, boxes)
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,18 +75,20 @@ class PacketAccelerator(StaticAccelerator):
     Attributes
     ----------
     packets : None where there are no triangles
+    blockers : those of which shadow rays are asked
     convex : the objects that the triangles belong to, where looking at these spares queries
     apart : whether most rays pass by all triangles, so that their box is looked at first
     """
 
     packets: PacketScene | None
+    blockers: PacketScene | None = None
     convex: ConvexObjects | None = None
     apart: bool = False
 
     @property
     def tables(self) -> SceneTables:
         """For loops over packets."""
-        return SceneTables.of(self.packets, ())
+        return SceneTables.of(self, ())
 
     def intersect(
         self,
@@ -142,18 +151,18 @@ class PacketAccelerator(StaticAccelerator):
     ) -> Mask:
         """See ``StaticAccelerator``."""
         n = direction.shape[1]
-        if self.packets is None or n == 0:
+        if self.blockers is None or n == 0:
             return np.ones(n, np.bool_)
         start = perf_counter()
         which = None
         if self.apart:
-            which = self.packets.entering(origin, direction, np.full(1, limit, np.float32))
+            which = self.blockers.entering(origin, direction, np.full(1, limit, np.float32))
         if which is None or len(which) >= WORTH_CHOOSING * n:
-            free = self.packets.unoccluded(origin, direction, limit)
+            free = self.blockers.unoccluded(origin, direction, limit)
         else:
             free = np.ones(n, np.bool_)
             some = origin.take(which, axis=1), direction.take(which, axis=1)
-            free[which] = self.packets.unoccluded(*some, limit)
+            free[which] = self.blockers.unoccluded(*some, limit)
         stats.seconds += perf_counter() - start
         return free
 
@@ -213,7 +222,7 @@ class MovingPackets(MovingAccelerator):
         start, free = perf_counter(), np.empty(direction.shape[1], np.bool_)
         tables = self.tables
         moving_kernels.unoccluded(
-            *(tables.scenes, tables.velocity, tables.boxes),
+            *(tables.blockers, tables.velocity, tables.boxes),
             *map(np.ascontiguousarray, (origin, direction, time)),
             *(np.float32(limit), _ALL if active is None else active, free),
         )
@@ -262,7 +271,7 @@ def _moving_packets(
     ]
     return MovingPackets(
         **same_fields(accelerator),
-        tables=SceneTables.of(static.packets, [each[:2] for each in found]),
+        tables=SceneTables.of(static, [each[:2] for each in found]),
         numbers=np.array([0, *(first for _, _, first in found)], np.int64),
     )
 
@@ -274,5 +283,9 @@ def _packets(
         return PacketAccelerator(None)
     if accelerator not in _BUILT:
         convex = convex_objects(accelerator.vertices, accelerator.triangles, parts)
-        _BUILT[accelerator] = packets_of(accelerator), convex
+        packets = packets_of(accelerator)
+        blockers = packets
+        if isinstance(accelerator, LampAccelerator):
+            blockers = packets_of(accelerator.others)
+        _BUILT[accelerator] = packets, blockers, convex
     return PacketAccelerator(*_BUILT[accelerator], apart)

@@ -171,7 +171,7 @@ def shine(sky, scene, numbers, pair, same, timed, scratch, counts):
         return 0
     start = nanoseconds(scratch.call) if timed else 0
     occlude(
-        scene.scenes,
+        scene.blockers,
         scene.velocity,
         scene.boxes,
         s[TIME : TIME + WIDTH],

@@ -120,7 +120,7 @@ class CompiledDirectLight(FullDirectLight):
         places = hits.triangle, hits.u, hits.v, sample.to_light
         time = _UNASKED if hits.time is None else np.ascontiguousarray(hits.time)
         shadow_kernels.illuminate(
-            *(scenes.scenes, scenes.velocity, scenes.boxes, time),
+            *(scenes.blockers, scenes.velocity, scenes.boxes, time),
             *map(np.ascontiguousarray, (*arrays, *places, sample.inverse_length, sample.factor)),
             *(
                 (sample.normal, sample.two_sided)

@@ -194,7 +194,9 @@ def _lamp(light: Light) -> _Lamp | None:
         place = light.corner, light.edge_u, light.edge_v
         return _Lamp(lamp_kernels.RECTANGLE, *_emitting(light, place))
     if type(light) is VisibleSphereLight:
-        return _Lamp(lamp_kernels.VISIBLE, (light.center, *[nowhere] * 3), radius=light.radius)
+        return _Lamp(
+            lamp_kernels.VISIBLE, (light.center, nowhere, nowhere, nowhere), radius=light.radius
+        )
     if type(light) is not SphereLight or (light.emitter and light.samples != "sphere"):
         return None
     kind, name = _SPHERES[light.samples]
@@ -311,7 +313,7 @@ def _scene(integrator: Integrator) -> fused_kernels.Scene:
         objects = accelerator.convex.boxes
     normals, bulge = triangles.corner_normals, triangles.bulge
     return fused_kernels.Scene(
-        *(tables.scenes, tables.velocity, tables.boxes, first),
+        *(tables.scenes, tables.blockers, tables.velocity, tables.boxes, first),
         *(triangles.planes, triangles.edges, triangles.inset),
         _NO_ROWS if normals is None else normals,
         _NO_BOXES if bulge is None else bulge,

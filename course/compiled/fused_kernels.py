@@ -93,11 +93,13 @@ class Scene(NamedTuple):
 
     Attributes
     ----------
+    scenes, blockers : (1 + K,) addresses, of the latter shadow rays are asked
     first : (1 + K,) the first triangle of what stands still and of each mover
     objects : (2 K, 3) boxes of objects of which some are convex; (0, 3) where none is left out
     """
 
     scenes: NDArray[np.uintp]
+    blockers: NDArray[np.uintp]
     velocity: Floats32
     boxes: Floats32
     first: Indices

@@ -360,7 +360,7 @@ def illuminate(
         s[SHADOW_TFAR + i] = limit
     start = nanoseconds(call) if timed else 0
     time, others = s[TIME : TIME + WIDTH], whole[OTHERS : OTHERS + WIDTH]
-    scenes, velocity, boxes = scene.scenes, scene.velocity, scene.boxes
+    scenes, velocity, boxes = scene.blockers, scene.velocity, scene.boxes
     if raised:
         above, mask = s[ABOVE : ABOVE + PACKET], whole[RAISED : RAISED + WIDTH]
         occlude(scenes, velocity, boxes, time, 0, WIDTH, above, mask, others, arguments)
