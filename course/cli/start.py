@@ -1,5 +1,8 @@
 """`course start`: a folder to work in, beside an installed course."""
 
+import re
+import sys
+from importlib import import_module
 from pathlib import Path
 
 import click
@@ -7,6 +10,9 @@ import click
 from course.cli.tables import count
 from course.effects import PROJECT
 from course.errors import CourseError
+
+TEACHING = "docs/guides/teaching.md"
+"""The page for who plans a course; its tables are made, on the site and for instructors."""
 
 
 @click.command()
@@ -31,7 +37,29 @@ def start(folder: Path, instructor: bool) -> None:
     solutions = PROJECT / "solutions"
     folders = SCENES | PAGES | ({"solutions": {".py", ".md"}} if instructor else {})
     made = made_contents(solutions, copy=False, instructor=instructor)
-    files = write_folder(made | project_files(PROJECT, LICENSES, folders), folder)
+    contents = made | project_files(PROJECT, LICENSES, folders)
+    if instructor:
+        contents[TEACHING] = _with_tables(contents[TEACHING].decode()).encode()
+    files = write_folder(contents, folder)
     click.echo(f"{folder}: {count(files, 'file')}. Begin with README.md there:")
     click.echo(f"    cd {folder}")
     click.echo("    course check sampling")
+
+
+def _with_tables(page: str) -> str:
+    """The page with its tables of minutes, weeks and objectives, which the site's own program makes."""
+    if str(PROJECT / "docs") not in sys.path:
+        sys.path.append(str(PROJECT / "docs"))
+    plans, objectives = map(import_module, ("sitebuild.plans", "sitebuild.objectives"))
+    place = import_module("sitebuild.place").Place("", True, Path(), {})
+    parts = {
+        "minutes": plans.minutes_table,
+        "plan": plans.plan,
+        "objectives": objectives.objectives,
+    }
+
+    def table(found: re.Match[str]) -> str:
+        name, _, words = found[2].partition(" ")
+        return str(parts[found[1]](place, name, words))
+
+    return re.sub(rf"<!-- site: ({'|'.join(parts)}) ?(.*?) -->", table, page)

@@ -1,6 +1,7 @@
 """`course check`: which modules are checked, and what is said of those that can't be."""
 
 import json
+from html import unescape
 from pathlib import Path
 
 import pytest
@@ -201,6 +202,8 @@ def test_what_a_right_function_should_know_is_told(run: Run, folder: Path) -> No
 def test_a_module_that_may_not_be_imported_is_told_with_a_remedy(run: Run, folder: Path) -> None:
     (folder / "motion_blur.py").write_text(f"import matplotlib\n{SOLUTION}", encoding="utf-8")
     assert check(run, folder).count("NumPy and Python's own library") == 1
+    page = unescape((folder / "page.html").read_text(encoding="utf-8"))
+    assert page.count("NumPy and Python's own library") == 1
 
 
 def test_nothing_that_a_submission_writes_steers_the_terminal(run: Run, folder: Path) -> None:

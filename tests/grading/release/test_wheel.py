@@ -148,6 +148,11 @@ def test_links_of_the_folder_lead_somewhere(course: Course, tmp_path: Path) -> N
     pages = sorted((tmp_path / "mine").rglob("*.md"))
     assert tmp_path / "mine" / "solutions" / "answers" / "glossy.md" in pages
     assert len(pages) > 20
+    teaching = (tmp_path / "mine" / "docs" / "guides" / "teaching.md").read_text("utf-8")
+    assert teaching.count("| week | modules |") == 2
+    assert "| module | reading | writing |" in teaching
+    assert teaching.count("| objective | shown by |") == len(COURSE)
+    assert "<!-- site:" not in teaching
     for page in pages:
         for target in re.findall(r"\]\(([^)#\s]+)", page.read_text(encoding="utf-8")):
             if "://" not in target:
