@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from markupsafe import Markup
 from matplotlib.figure import Figure as Canvas
+from matplotlib.ticker import LogLocator
 from numpy.typing import NDArray
 from PIL import Image
 
@@ -413,6 +414,10 @@ def draw_curve(points: tuple[tuple[int, float], ...]) -> str:
     axes.plot(counts, errors, "o-", color="#2f7fd0")
     axes.set_xticks(counts, map(str, counts))
     axes.minorticks_off()
+    if axes.get_yscale() == "log":
+        # matplotlib itself labels powers of ten only, of which there may be one or none.
+        axes.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        axes.yaxis.set_major_formatter("{x:g}")
     axes.set_xlabel("samples a pixel")
     axes.set_ylabel("error [radiance]")
     return _svg(canvas)

@@ -163,8 +163,8 @@ def _rendered(
         (
             ("samples a pixel", f"{receipt.samples:g}"),
             ("rays", f"{rays:,}"),
-            ("in Embree", f"{receipt.embree_seconds:.2f} s"),
-            ("in all", f"{receipt.wall_seconds:.2f} s"),
+            ("in Embree, of all threads", f"{receipt.embree_seconds:.2f} s"),
+            ("by the clock", f"{receipt.wall_seconds:.2f} s"),
             ("functions called", ", ".join(receipt.effects["called"])),
         ),
         "",

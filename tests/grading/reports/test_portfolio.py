@@ -14,7 +14,7 @@ from PIL import Image
 from course.effects import PROJECT, Effects
 from course.grading.progress import Progress
 from course.grading.reports import portfolio as made
-from course.grading.reports.drawing import Panel
+from course.grading.reports.drawing import Panel, draw_curve
 from course.grading.reports.page import render as fill
 from course.grading.reports.portfolio import Shown, portfolio
 from course.scene.scene import load_scene
@@ -142,3 +142,9 @@ def test_modules_share_what_is_left_of_the_time(
     found = [[progress("soft_shadows", "a", "right")]] * 3
     portfolio(found, Effects(folder, filled=True), folder, seconds=60)
     assert shares == [20, 25, 40]
+
+
+@pytest.mark.parametrize("scale", [1.0, 0.3, 0.017])
+def test_an_error_can_be_read_from_the_axis_wherever_it_lies(scale: float) -> None:
+    svg = draw_curve(tuple((n, 0.031 * scale * n**-0.6) for n in (1, 4, 16, 64)))
+    assert len(set(re.findall(r"ytick_\d+", svg))) >= 3
