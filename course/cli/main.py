@@ -89,6 +89,12 @@ class Commands(click.Group):
                 warnings.simplefilter("always", CourseWarning)
                 warnings.showwarning = _told
                 return super().invoke(ctx)
+        except click.UsageError as error:
+            extra = "extra argument" in error.message and error.ctx
+            if not (extra and any("--modules" in one.opts for one in extra.command.params)):
+                raise
+            told = f"{error.message}. Modules are given by --modules."
+            raise click.UsageError(told, error.ctx) from None
         except (CourseError, NotImplementedError) as error:
             raise Refusal(str(error)) from error
         except OSError as error:

@@ -176,3 +176,10 @@ def test_a_command_that_is_misspelt_is_told_with_the_one_that_is_meant(run: Run)
     assert near.exit_code == far.exit_code == 2
     assert near.stderr.endswith("No such command 'chek'. Did you mean check?\n")
     assert far.stderr.endswith("No such command 'frobnicate'.\n")
+
+
+def test_modules_without_their_option_are_told_which_it_is(run: Run) -> None:
+    assert run("quiz", "out", "glossy").stderr.endswith(
+        "(glossy). Modules are given by --modules.\n"
+    )
+    assert run("schema", "glossy").stderr.endswith("(glossy)\n")
