@@ -64,7 +64,11 @@ def test_both_terms_may_have_textures(look: Any, kind: str) -> None:
 @pytest.mark.parametrize("kind", KINDS)
 def test_one_of_many_lights_finds_the_texture_of_the_highlight(look: Any, kind: str) -> None:
     light = {"type": "directional", "direction": [0, -1, 0], "irradiance": math.pi / 4}
-    choice = {"integrator": {"light_sampling": "power"}, "lights": [light] * 4}
+    choice = {
+        "integrator": {"light_sampling": "power"},
+        "lights": [light] * 4,
+        "sampler": {"samples": 16},
+    }
     found = look(SHINY | {"specular_texture": PICTURE}, kind, **choice)
     np.testing.assert_allclose(found, COLOR + SPECULAR * COLORS[1, 0], rtol=1e-4)
 
