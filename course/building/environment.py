@@ -1,6 +1,7 @@
 """From an environment description to the environment of the compiled scene."""
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
@@ -14,6 +15,7 @@ from course.extras.environment_hemispheres import WAYS, HemisphereSampling
 from course.extras.environment_light import PictureSampling, picture_sampling
 from course.extras.environment_sampling import product_sampling
 from course.extras.sky import CosineSampling, SkySampling
+from course.extras.textures import Texture
 from course.formats.yaml import description as d
 from course.formats.yaml.description import rgb
 from course.formats.yaml.loading import Loaded, read_named_picture
@@ -54,6 +56,8 @@ def compile_environment(
             return None, None
         even = ConstantEnvironment(radiance)
         return even, _sampling(environment.lights, _students(even, loaded, bound))
+    if isinstance(environment, d.BackdropEnvironment):
+        return _backdrop(environment, loaded, bound), None
     if isinstance(environment, d.CubeEnvironment):
         faces = _faces(environment, loaded)
     else:
@@ -85,6 +89,21 @@ def compile_environment(
     if chosen is None and environment.lights and _anything_diffuse(loaded):
         chosen = product_sampling(faces, seamless)
     return cube, _sampling(environment.lights, chosen)
+
+
+def _backdrop(environment: d.BackdropEnvironment, loaded: Loaded, bound: Bound) -> Any:
+    from course.extras.backdrop import Backdrop
+
+    image = read_named_picture(environment.image, ("environment", "image"), loaded)
+    scale = rgb(environment.scale)
+    brightest = image.max(axis=(0, 1)) * scale
+    in_range(brightest, loaded, ("environment", "scale"), "radiance")
+    if not brightest.any():
+        return None
+    lookup = bound.function("textures", "texture_lookup", ("environment", "type"))
+    nearest = environment.interpolation == "nearest"
+    picture = Texture(image, np.ones(2, np.float32), lookup, nearest)
+    return Backdrop(picture, scale.astype(np.float32))
 
 
 def _sampling(lights: bool, chosen: SkySampling | None) -> SkySampling | None:

@@ -41,6 +41,10 @@ def places_function(thing: d.Object) -> str:
     return "sphere_uv" if isinstance(thing, d.Sphere) else "triangle_uv"
 
 
+STEEPEST = 1e30
+"""Heights beyond it, in sizes of the scene, are as good as infinite, and their squares are numbers still."""
+
+
 class Painter:
     """Makes the paint of objects; each picture is read once, and those that nothing shows never.
 
@@ -116,8 +120,10 @@ class Painter:
         thing = self._loaded.description.objects[number]
         # Heights are in the object's own unit, which steps may change.
         matrix = transforms.compose(map(transforms.of_step, msgspec.to_builtins(thing.transform)))
-        unit = abs(np.linalg.det(matrix[:3, :3])) ** (1 / 3)
-        height = described.height * unit / self._scale
+        turned = matrix[:3, :3]
+        largest = np.abs(turned).max()
+        unit = abs(np.linalg.det(turned / largest)) ** (1 / 3) * (largest / self._scale)
+        height = float(np.clip(described.height * unit, -STEEPEST, STEEPEST))
         if described.noise is not None:
             carved = self._noise(described.noise, number, mesh)
             raised: Any = BumpMap(NoiseHeights(carved.color_at), height)  # type: ignore[arg-type]

@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
+from typing import Any
 
 from course.adaptive.costs import RowOfCosts
 from course.building.world import compile_camera
@@ -45,6 +46,10 @@ def bind(
     frame = scene.compiled.frame
     camera = compile_camera(scene.loaded, frame, settings.width, settings.height)
     camera = replace(camera, lens=world.lens)
+    shown: Any = world.environment
+    if hasattr(shown, "before"):
+        shown = shown.before(camera, settings.width, settings.height)
+        world = replace(world, environment=shown)
     arrays = settings.max_depth, settings.cutoff, sampler
     integrator, dimensions = plan(world, camera, *arrays)
     tracer = Tracer(

@@ -312,6 +312,17 @@ VARIANTS: dict[tuple[str, str], list[tuple[str, Changes]]] = {
         )
         for name in ("sky", "studio")
     ],
+    ("BackdropEnvironment", "image"): [
+        (
+            f"image: {name}.png",
+            {
+                "environment": {"type": "backdrop", "image": f"textures/{name}.png"},
+                "objects.0.material": "ball",
+                **POLISHED,
+            },
+        )
+        for name in ("weave", "globe")
+    ],
     ("LatLongEnvironment", "scale"): _values("environment.scale", 0.5, 2, on=SKYLIT),
     ("LatLongEnvironment", "lights"): _values("environment.lights", False, True, on=SKYLIT),
     ("LatLongEnvironment", "size"): _values("environment.size", 4, 16, None, on=SKYLIT),

@@ -15,6 +15,10 @@ WORDS: dict[tuple[str, str], str] = {
         ("IntegratorDescription", key): "It changes the noise and the time, not what is shown."
         for key in ("light_sampling", "gloss_sampling", "roulette")
     },
+    **{
+        ("BackdropEnvironment", key): "It shows as it does of a texture and of other environments."
+        for key in ("interpolation", "scale")
+    },
     (
         "TextureDescription",
         "interpolation",

@@ -53,7 +53,7 @@ position: [1, 2, 3], -> | 19: lights[1]: position is missing: expected 3 numbers
 material: mirror -> | 25: objects[1]: material is missing: expected a text that is not empty
 type: point, -> | 19: lights[1]: type is missing: expected ambient, point, spot, directional, rectangle,
     sphere or object
-type: constant, -> | 11: environment: type is missing: expected constant, cube, lat_long or angular
+type: constant, -> | 11: environment: type is missing: expected constant, cube, lat_long, angular or backdrop
 shape: disk, -> | 34: objects[3]: shape is missing: expected quad, box, sphere, disk, cylinder, cone, torus,
     torus_knot, displaced_sphere, height_field or mesh
 , degrees: 30 -> | 32: objects[1].transform[2].rotate: degrees is missing: expected a number [degree]
@@ -65,7 +65,7 @@ shape: disk -> shape: [disk] | 34: objects[3].shape is ["disk"]: expected quad, 
     torus, torus_knot, displaced_sphere, height_field or mesh
 type: point -> type: pint | 19: lights[1].type is "pint": expected ambient, point, spot, directional, rectangle,
     sphere or object; did you mean point?
-type: constant -> type: sky | 11: environment.type is "sky": expected constant, cube, lat_long or angular
+type: constant -> type: sky | 11: environment.type is "sky": expected constant, cube, lat_long, angular or backdrop
 type: jittered -> type: faure | 9: sampler.type is "faure": expected blue_noise, chained, dithered, halton,
     hammersley, jittered, random, regular, sobol or xorshift
 - scale: -2 -> - 3 | 31: objects[1].transform[1] is 3: expected a map with one key, translate, scale, rotate or matrix

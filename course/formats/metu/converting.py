@@ -175,7 +175,9 @@ def _common(
             "shading_normals": "interpolated",
             "surface_offset": scene.number_of("ShadowRayEpsilon", OFFSET),
         },
-        "environment": read_environment(scene, images, meshes.name_of, source.parent),
+        "environment": read_environment(
+            scene, images, meshes.name_of, source.parent, textures.background
+        ),
         "materials": {material_name(number): keys for number, keys in materials.items()}
         | objects.lamps
         | textures.made,

@@ -46,7 +46,11 @@ def read_lights(
 
 
 def read_environment(
-    scene: Element, images: Mapping[str, Element], name_of: Callable[[Path], str], folder: Path
+    scene: Element,
+    images: Mapping[str, Element],
+    name_of: Callable[[Path], str],
+    folder: Path,
+    pictured: Callable[[Element | None], dict[str, Any] | None],
 ) -> dict[str, Any]:
     """What rays see that hit nothing: the background, for camera rays only, or the environment, which sends light, too.
 
@@ -55,12 +59,14 @@ def read_environment(
     images : elements that name files, by id
     name_of : a file's name as seen from the converted scene
     folder : from which files are named
+    pictured : the background that is a picture, beside that element
     """
     background = scene.color_of("BackgroundColor")
     parent = scene.maybe("Lights")
     element = None if parent is None else parent.maybe("SphericalDirectionalLight")
+    drawn = pictured(element)
     if element is None:
-        return {"type": "constant", "radiance": background, "seen_by": "camera"}
+        return drawn or {"type": "constant", "radiance": background, "seen_by": "camera"}
     element.attribute("id")
     kind = element.attribute("type") or "latlong"
     if kind not in ENVIRONMENTS:

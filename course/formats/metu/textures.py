@@ -20,12 +20,6 @@ from course.formats.metu.meshes import MeshTable
 from course.formats.pictures.reading import LINEAR, read_picture
 from course.formats.yaml.document import show, suggest
 
-REFUSED: Final = {
-    "replace_background": "this course has no picture behind the scene that stands still",
-}
-"""Decal modes that can't be converted, and why."""
-
-
 KINDS: Final = {
     "replace_all": "color",
     "replace_kd": "color",
@@ -33,6 +27,7 @@ KINDS: Final = {
     "replace_ks": "highlight",
     "replace_normal": "normals",
     "bump_normal": "normals",
+    "replace_background": "background",
 }
 """Those that can, and what they paint; in that order they change a material."""
 
@@ -84,6 +79,11 @@ class Texture:
         return KINDS[self.mode]
 
     @property
+    def pasted(self) -> bool:
+        """True if its codes are seen as they are."""
+        return self.mode in ("replace_all", "replace_background")
+
+    @property
     def linear(self) -> bool:
         """True for a picture of numbers, which aren't codes up to 255."""
         return self.file.suffix.lower() in LINEAR
@@ -97,12 +97,12 @@ class Texture:
         # METU counts codes to 255, whatever the depth; in float32 the product is exact for 8 bits.
         codes = found if self.linear else found * np.float32(255)
         values: Floats64 = codes.astype(np.float64) / self.normalizer
-        if self.kind == "normals" or self.mode == "replace_all":
+        if self.kind == "normals" or self.pasted:
             values = found.astype(np.float64)
         if self.mode == "replace_normal":
             # Green is along v, which goes down there, and up here.
             values[..., 1] = 1 - values[..., 1]
-        if values.max(initial=0) > 1 and self.mode != "replace_all":
+        if values.max(initial=0) > 1 and not self.pasted:
             raise self.element.error(
                 f"{show(self.file.name)} over its Normalizer, {self.normalizer:g}, goes up to {values.max():g}:"
                 " expected reflectances up to 1"
@@ -144,6 +144,8 @@ class Textures:
             texture = self.maps[name]
             if isinstance(texture, Refused):
                 raise texture.error(f"; take it from {element.path} to render without it")
+            if texture.kind == "background":
+                raise element.refused(f"the texture {name} is the background of all objects")
             found.append(texture)
         if len({texture.kind for texture in found}) < len(found):
             assert element is not None
@@ -152,6 +154,27 @@ class Textures:
                 " bump map; leave one of each"
             )
         return sorted(found, key=lambda texture: list(KINDS).index(texture.mode))
+
+    def background(self, instead: Element | None) -> dict[str, Any] | None:
+        """The environment that a texture is for the camera; None where none is.
+
+        ``instead``: another environment, beside which there can't be one.
+        """
+        found = [
+            each
+            for each in self.maps.values()
+            if isinstance(each, Texture) and each.kind == "background"
+        ]
+        if not found:
+            return None
+        if len(found) > 1 or instead is not None:
+            other = found[1].element.path if len(found) > 1 else instead and instead.path
+            raise found[0].element.refused(f"its DecalMode is replace_background, beside {other}")
+        texture = found[0]
+        file = self.files.add_picture(texture.picture().astype(np.float32), "background")
+        scale = 1.0 if texture.linear else WHITE
+        drawn = {"image": file} | ({"interpolation": "nearest"} if texture.nearest else {})
+        return {"type": "backdrop", "scale": scale} | drawn
 
     def material(self, textures: list[Texture], number: str, keys: dict[str, Any]) -> str:
         """The name of a material with textures; ``keys`` are those that it has without."""
@@ -253,14 +276,9 @@ def read_maps(
     maps: dict[str, Texture | Refused] = {}
     for element in () if parent is None else parent.all("TextureMap"):
         number = element.id(maps)
-        maps[number] = _map(element, number, images, folder)
-        if (
-            isinstance(maps[number], Refused)
-            and _word(element, "DecalMode") == "replace_background"
-        ):
-            raise element.refused(
-                f"{REFUSED['replace_background']}; remove it to render without it"
-            )
+        texture = maps[number] = _map(element, number, images, folder)
+        if isinstance(texture, Refused) and _word(element, "DecalMode") == "replace_background":
+            raise texture.error("; remove it to render without it")
     return maps
 
 
@@ -278,8 +296,8 @@ def _map(
     if kind not in ("image", "perlin"):
         return Refused(element, f"its type is {show(kind)}, and those known are image and perlin")
     if mode not in KINDS:
-        why = REFUSED.get(mode, f"those that can be converted are {', '.join(KINDS)}")
-        return Refused(element, f"its DecalMode is {show(mode)}: {why}")
+        known = f"those that can be converted are {', '.join(KINDS)}"
+        return Refused(element, f"its DecalMode is {show(mode)}: {known}")
     if kind == "perlin":
         return _noise(element, number, mode, height)
     if between not in ("nearest", "bilinear"):

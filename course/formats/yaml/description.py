@@ -786,8 +786,41 @@ class AngularEnvironment(LatLongEnvironment, frozen=True, kw_only=True, tag="ang
     ] = None
 
 
+class BackdropEnvironment(EnvironmentDescription, frozen=True, kw_only=True, tag="backdrop"):
+    """A picture that fills what the camera sees behind everything, and moves with it; no other ray sees it."""
+
+    image: Annotated[
+        str,
+        about("File of the picture, of any proportions: PNG, JPEG, EXR or HDR.", min_length=1),
+    ]
+    interpolation: Annotated[
+        Literal["bilinear", "nearest"],
+        about("What is seen between the middles of pixels: a mixture, or the nearest pixel."),
+    ] = "bilinear"
+    scale: _Scale = 1.0
+
+    @property
+    def lights(self) -> bool:
+        """It lights nothing."""
+        return False
+
+    @property
+    def sampling(self) -> str:
+        """No direction towards it is chosen."""
+        return "automatic"
+
+    @property
+    def seen_by(self) -> str:
+        """Which rays see it."""
+        return "camera"
+
+
 Environment: TypeAlias = (
-    ConstantEnvironment | CubeEnvironment | LatLongEnvironment | AngularEnvironment
+    ConstantEnvironment
+    | CubeEnvironment
+    | LatLongEnvironment
+    | AngularEnvironment
+    | BackdropEnvironment
 )
 
 

@@ -28,7 +28,7 @@ def with_files(scene: d.SceneDescription, change: Callable[[str], str]) -> d.Sce
             materials[name] = replace(materials[name], bump=replace(bump, image=change(bump.image)))
     environment = scene.environment
     match environment:
-        case d.LatLongEnvironment():
+        case d.LatLongEnvironment() | d.BackdropEnvironment():
             environment = replace(environment, image=change(environment.image))
         case d.CubeEnvironment(faces=faces, cross=cross):
             environment = replace(

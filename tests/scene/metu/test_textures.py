@@ -230,6 +230,36 @@ def test_a_texture_of_ks_is_the_highlight(xml: Metu, model: str, chosen: str) ->
     np.testing.assert_allclose(xml.pixel(scene), 100 * expected, rtol=1e-4)
 
 
+@pytest.mark.parametrize("normalizer", ["255", "1"])
+def test_a_background_is_seen_as_its_codes_are_behind_everything(
+    metu: Metu, normalizer: str
+) -> None:
+    """A picture of 6 x 4 pixels shows it pixel by pixel, but for the wall's; a mirror shows none of it."""
+    scene = textured(metu.folder, mode="replace_background", camera={"ImageResolution": "6 4"})
+    scene["Textures"]["TextureMap"]["Normalizer"] = normalizer
+    mirror = {"_type": "mirror", "MirrorReflectance": "1 1 1", "DiffuseReflectance": "0 0 0"}
+    scene["Materials"]["Material"] = [MATT | {"AmbientReflectance": "0 0 0"} | mirror]
+    del scene["Objects"]["Mesh"]["Textures"]
+    scene["VertexData"] = "-9 -9 -4  0 -9 -4  0 9 -4  -9 9 -4"
+    scene["BackgroundColor"] = "3 3 3"
+    found = metu.picture(scene)
+    np.testing.assert_allclose(found[:, 3:], CODES[:, 3:], rtol=1e-6)
+    np.testing.assert_array_equal(found[:, :3], 0)
+
+
+def test_a_background_beside_another_is_refused(xml: Metu) -> None:
+    scene = textured(xml.folder, mode="replace_background")
+    del scene["Objects"]["Mesh"]["Textures"]
+    sky = {"_id": "1", "ImageId": "5"}
+    beside = scene | {"Lights": SUN | {"SphericalDirectionalLight": sky}}
+    with pytest.raises(SceneError, match="replace_background, beside Scene/Lights/Spherical"):
+        xml.load(beside)
+    table = scene["Textures"]
+    table["TextureMap"] = [table["TextureMap"], table["TextureMap"] | {"_id": "2"}]
+    with pytest.raises(SceneError, match=r"replace_background, beside .*TextureMap\[2\]"):
+        xml.load(scene)
+
+
 BUMPS = {"_id": "1", "DecalMode": "bump_normal", "BumpFactor": "2"}
 
 
@@ -273,7 +303,11 @@ def test_bumps_of_perlin_noise_are_those_of_this_course(xml: Metu) -> None:
             {"mode": "replace"},
             'its DecalMode is "replace": those that can be converted are replace_all',
         ),
-        ({"mode": "replace_background"}, "this course has no picture behind the scene"),
+        ({"mode": "replace_background"}, "the texture 1 is the background of all objects"),
+        (
+            {"perlin": "replace_background"},
+            "its type is perlin with DecalMode replace_background: ",
+        ),
         ({"between": "trilinear"}, 'its Interpolation is "trilinear": this course has no pyramids'),
         ({"perlin": "blend_kd"}, "its type is perlin with DecalMode blend_kd: replace_all, "),
         (
