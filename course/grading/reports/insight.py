@@ -99,6 +99,9 @@ def without_name(graded: Sequence[Report]) -> list[Alike]:
     for student, function in _functions(graded):
         if function.state != "wrong" or any(result.mistake for result in function.others):
             continue
+        # A file that can't be used says nothing of a function; it is among the remarks.
+        if function.results[0].module_wide:
+            continue
         checks = tuple(result.check for result in function.others)
         first = (function.told or function.others)[0]
         said = f"{first.title}: expected {first.expected or 'a value'}, found {first.found}"

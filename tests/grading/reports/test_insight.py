@@ -70,6 +70,7 @@ def test_what_has_no_name_is_grouped_by_the_checks_that_fail() -> None:
         report("cyd", UNKNOWN),
         report("dan", CROWDS, radius),
         report("eve", NOT_WRITTEN),
+        report("fay", replace(UNKNOWN, module_wide=True)),
     ]
     found = [(one.checks, one.students) for one in without_name(graded)]
     assert found == [(("uniform",), ("bob", "cyd")), (("uniform", "radius"), ("ada",))]
