@@ -75,7 +75,7 @@ class Texture:
 
     @property
     def kind(self) -> str:
-        """What it paints: color, highlight or normals."""
+        """What it paints: color, highlight, normals or background."""
         return KINDS[self.mode]
 
     @property
@@ -153,7 +153,15 @@ class Textures:
                 "an object of this course has one texture of its colour, one of its highlight, and one normal map or"
                 " bump map; leave one of each"
             )
-        return sorted(found, key=lambda texture: list(KINDS).index(texture.mode))
+        found.sort(key=lambda texture: list(KINDS).index(texture.mode))
+        if len(found) > 1 and found[0].mode == "replace_all":
+            assert element is not None
+            left = " and ".join(texture.number for texture in found[1:])
+            self.files.notes.add(
+                element, f"has one that replaces all, under which {left} is not seen"
+            )
+            return found[:1]
+        return found
 
     def background(self, instead: Element | None) -> dict[str, Any] | None:
         """The environment that a texture is for the camera; None where none is.
@@ -181,8 +189,7 @@ class Textures:
         numbers = " and ".join(texture.number for texture in textures)
         name = f"material {number} with texture {numbers}"
         if name not in self.made:
-            # What is pasted leaves nothing of the others.
-            for texture in textures[:1] if textures[0].mode == "replace_all" else textures:
+            for texture in textures:
                 keys = self._with(texture, number, keys)
             self.made[name] = keys
         return name

@@ -205,6 +205,16 @@ def test_what_is_pasted_is_seen_as_its_codes_are(metu: Metu, kind: str) -> None:
         np.testing.assert_allclose(metu.pixel(scene), 255 * nearest(*PLACES[1]), rtol=1e-5)
 
 
+def test_nothing_else_is_seen_under_what_is_pasted_and_a_warning_says_so(xml: Metu) -> None:
+    scene = textured(xml.folder, mode="bump_normal", camera=look(*PLACES[1]))
+    pasted = {"_id": "2", "_type": "perlin", "DecalMode": "replace_all", "NoiseScale": "1e-9"}
+    scene["Textures"]["TextureMap"] = [scene["Textures"]["TextureMap"], pasted]
+    scene["Objects"]["Mesh"]["Textures"] = "1 2"
+    np.testing.assert_allclose(xml.pixel(scene), 255 / 2, rtol=1e-4)
+    (warning,) = xml.warnings
+    assert "Textures has one that replaces all, under which 1 is not seen" in warning
+
+
 @pytest.mark.parametrize("model", ["", "ModifiedPhong"])
 @pytest.mark.parametrize("chosen", ["1", "2 1"])
 def test_a_texture_of_ks_is_the_highlight(xml: Metu, model: str, chosen: str) -> None:
