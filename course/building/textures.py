@@ -87,6 +87,13 @@ class Painter:
         asked_by = ("materials", self._loaded.description.objects[number].material, key)
         texture = self._texture(described, (*asked_by, "image"))
         corners, places = self._places(number, mesh, asked_by)
+        if described.interpolation == "trilinear":
+            from course.extras.normal_maps import NormalMap
+            from course.extras.pyramids import Pyramid, make_levels
+
+            wraps = places_function(self._loaded.description.objects[number]) == "sphere_uv"
+            levels = make_levels(texture.image, texture.repeat, texture.lookup)
+            return Paint(corners, Pyramid(levels, NormalMap(texture, places, wraps)))
         return Paint(corners, lambda weights, own: texture(places(weights, own)))
 
     def _noise(self, described: d.NoiseDescription, number: int, mesh: Mesh) -> Paint:

@@ -50,20 +50,36 @@ class Painting:
     number: NDArray[np.uint16]
     color_at: tuple[ColorAt, ...]
 
-    def tint(self, triangle: Numbers, u: Floats32, v: Floats32) -> Floats32 | None:
+    def tint(
+        self,
+        triangle: Numbers,
+        u: Floats32,
+        v: Floats32,
+        seen: Callable[[Indices], tuple[Floats32, Floats32]] | None = None,
+    ) -> Floats32 | None:
         """Colours (3, n) at hits, 1 where the surface has no texture; None where none of them has one.
 
         Parameters
         ----------
         triangle : (n,) of the surface
         u, v : (n,) barycentrics of the corners 1 and 2
+        seen : how large a pixel is at some hits (m,), and the edges (6, m) of their triangles; None if nobody asks
         """
         tint = None
         for which, color_at, weights, corners in self.painted(triangle, u, v):
             if tint is None:
                 tint = np.ones((3, len(triangle)), np.float32)
-            tint[:, which] = color_at(weights, corners)
+            at_size = None if seen is None else getattr(color_at, "at_size", None)
+            if at_size is None or seen is None:
+                tint[:, which] = color_at(weights, corners)
+            else:
+                tint[:, which] = at_size(weights, corners, *seen(which))
         return tint
+
+    @property
+    def sized(self) -> bool:
+        """True if a colour depends on how large a pixel is."""
+        return any(hasattr(color_at, "at_size") for color_at in self.color_at)
 
     def painted(
         self, triangle: Numbers, u: Floats32, v: Floats32

@@ -7,11 +7,12 @@ from typing import Any
 import numpy as np
 
 from course.core.accelerator import Accelerator, Intersections, QueryStats, StaticAccelerator
+from course.core.camera import Camera
 from course.core.hits import Hits, Surface, turn_to_viewer
 from course.core.ray_offset import OFFSET
 from course.core.rays import Rays
-from course.core.types import Floats32, Floats64, Functions, Mask
-from course.core.vectors import dot
+from course.core.types import Floats32, Floats64, Functions, Indices, Mask
+from course.core.vectors import dot, gather
 from course.extras.behind import Behind, SeenThrough, keep_normals
 from course.extras.hierarchy import HierarchyAccelerator
 from course.extras.painting import Paint, Painting, make_painting
@@ -59,6 +60,7 @@ class FullSurface(Surface):
     turned : (M,) bool, materials whose shading normals are turned to the viewer (``turn_to_viewer``); None for all
     kept : (T,) bool, triangles whose normals are not turned where camera rays hit their backs; None if there are none
     through : accelerator for camera rays that pass through backs; None if they hit the same triangles as other rays
+    spread : angle of a pixel of the picture [rad], if textures ask how large it is; 0 if none does
     """
 
     painting: Painting | None = None
@@ -67,6 +69,7 @@ class FullSurface(Surface):
     turned: Mask | None = None
     kept: Mask | None = None
     through: SeenThrough | None = None
+    spread: float = 0.0
 
     @property
     def turns_normals(self) -> bool:
@@ -123,11 +126,35 @@ class FullSurface(Surface):
         if of_camera and self.kept is not None:
             keep_normals(self.kept, hits)
         if self.shine is not None:
-            shine = self.shine.tint(hits.triangle, hits.u, hits.v)
+            shine = self.shine.tint(hits.triangle, hits.u, hits.v, self._seen(hits))
             hits = ShinyHits(**{**vars(hits), "shine": shine})
         if self.painting is None:
             return hits
-        return replace(hits, tint=self.painting.tint(hits.triangle, hits.u, hits.v))
+        tint = self.painting.tint(hits.triangle, hits.u, hits.v, self._seen(hits))
+        return replace(hits, tint=tint)
+
+    def seen_by(self, camera: Camera) -> "FullSurface":
+        """The same for one camera, whose pixels textures may ask for."""
+        paintings = self.painting, self.shine
+        if not any(painting is not None and painting.sized for painting in paintings):
+            return self
+        steps = camera.step_x.astype(np.float64), camera.step_y.astype(np.float64)
+        return replace(self, spread=float(np.sqrt(np.linalg.norm(np.cross(*steps)))))
+
+    def _seen(self, hits: Hits) -> Any:
+        """See ``Painting.tint``."""
+        if not self.spread:
+            return None
+
+        def seen(which: Indices) -> tuple[Floats32, Floats32]:
+            normal, direction = hits.ng.take(which, axis=1), hits.direction.take(which, axis=1)
+            cosine = np.maximum(np.abs(dot(normal, direction)), np.float32(1e-6))
+            size = hits.t.take(which) * np.float32(self.spread) / np.sqrt(cosine)
+            return size.astype(np.float32), gather(self.triangles.edges, hits.triangle.take(which))[
+                0:6
+            ]
+
+        return seen
 
 
 def build_surface(

@@ -15,6 +15,7 @@ from course.errors import EffectError, FunctionError
 from course.extras.path_tracing import PathIntegrator
 from course.extras.plan import plan
 from course.extras.samplers import FUNCTIONS, make_sampler
+from course.extras.surface import FullSurface
 from course.formats.yaml import description as d
 from course.scene.scene import Scene, Settings
 
@@ -50,6 +51,8 @@ def bind(
     if hasattr(shown, "before"):
         shown = shown.before(camera, settings.width, settings.height)
         world = replace(world, environment=shown)
+    if isinstance(world.surface, FullSurface):
+        world = replace(world, surface=world.surface.seen_by(camera))
     arrays = settings.max_depth, settings.cutoff, sampler
     integrator, dimensions = plan(world, camera, *arrays)
     tracer = Tracer(

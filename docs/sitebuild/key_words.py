@@ -22,7 +22,8 @@ WORDS: dict[tuple[str, str], str] = {
     (
         "TextureDescription",
         "interpolation",
-    ): "It shows where a pixel of the texture covers several of the picture.",
+    ): "The nearest pixel shows where one of the texture covers several of the picture, trilinear where it is the other"
+    " way round.",
     (
         "MeshFile",
         "normals",

@@ -53,7 +53,7 @@ class Texture:
     number : its id
     file : the picture
     mode : `DecalMode`
-    nearest : true for `Interpolation` nearest
+    between : `Interpolation`
     normalizer : what the picture's values are divided by
     noise : of type perlin, in the place of a picture, the keys of a material's `noise`
     height : of bumps, that of a code, or of a noise, of 1
@@ -63,7 +63,7 @@ class Texture:
     number: str
     file: Path
     mode: str
-    nearest: bool
+    between: str
     normalizer: float
     noise: dict[str, Any] | None = None
     height: float = 1.0
@@ -181,8 +181,8 @@ class Textures:
         texture = found[0]
         file = self.files.add_picture(texture.picture().astype(np.float32), "background")
         scale = 1.0 if texture.linear else WHITE
-        drawn = {"image": file} | ({"interpolation": "nearest"} if texture.nearest else {})
-        return {"type": "backdrop", "scale": scale} | drawn
+        drawn = {"interpolation": "nearest"} if texture.between == "nearest" else {}
+        return {"type": "backdrop", "image": file, "scale": scale} | drawn
 
     def material(self, textures: list[Texture], number: str, keys: dict[str, Any]) -> str:
         """The name of a material with textures; ``keys`` are those that it has without."""
@@ -224,7 +224,9 @@ class Textures:
         brightest = max(1.0, float(picture.max(initial=0)))
         stem = f"{stem}-highlights" if texture.kind == "highlight" else stem
         file = self.files.add_picture((picture / brightest).astype(np.float32), stem)
-        drawn = {"image": file} | ({"interpolation": "nearest"} if texture.nearest else {})
+        drawn = {"image": file}
+        if texture.between != "bilinear":
+            drawn["interpolation"] = texture.between
         if texture.kind == "highlight":
             return keys | body.highlight | {"specular_texture": drawn}
         if texture.mode == "replace_all":
@@ -252,7 +254,7 @@ class Textures:
         assert mesh.uv is not None
         u, v = mesh.uv.T
         width, height = self._sizes[texture.number]
-        half = 0.0 if texture.nearest and texture.kind != "normals" else 0.5
+        half = 0.0 if texture.between == "nearest" and texture.kind != "normals" else 0.5
         uv = np.stack((u + half / width, 1 - v - half / height), axis=1)
         return Mesh(mesh.vertices, mesh.triangles, mesh.normals, uv)
 
@@ -307,10 +309,10 @@ def _map(
         return Refused(element, f"its DecalMode is {show(mode)}: {known}")
     if kind == "perlin":
         return _noise(element, number, mode, height)
-    if between not in ("nearest", "bilinear"):
+    if between not in ("nearest", "bilinear", "trilinear"):
         return Refused(
             element,
-            f"its Interpolation is {show(between)}: this course has no pyramids of pictures",
+            f"its Interpolation is {show(between)}: expected nearest, bilinear or trilinear",
         )
     image = element.child("ImageId", "the id of an Image")
     name = " ".join(image.words())
@@ -318,8 +320,7 @@ def _map(
         raise image.unexpected(f"the id of an Image; {suggest(name, images)}")
     file = " ".join(images[name].words())
     path = folder / file.replace("\\", "/")
-    nearest = between == "nearest"
-    return Texture(element, number, path, mode, nearest, normalizer, height=height)
+    return Texture(element, number, path, mode, between, normalizer, height=height)
 
 
 def _noise(element: Element, number: str, mode: str, height: float) -> Texture | Refused:
@@ -336,7 +337,7 @@ def _noise(element: Element, number: str, mode: str, height: float) -> Texture |
         "scale": 1.0 if scale is None else scale.number(0, above=True),
         "conversion": CONVERSIONS[conversion],
     }
-    return Texture(element, number, Path(), mode, False, 1.0, keys, height)
+    return Texture(element, number, Path(), mode, "bilinear", 1.0, keys, height)
 
 
 def _word(element: Element, tag: str) -> str:

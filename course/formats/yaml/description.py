@@ -250,8 +250,11 @@ class TextureDescription(Map, frozen=True, kw_only=True):
         ),
     ] = (1.0, 1.0)
     interpolation: Annotated[
-        Literal["bilinear", "nearest"],
-        about("What is seen between the middles of pixels: a mixture, or the nearest pixel."),
+        Literal["bilinear", "nearest", "trilinear"],
+        about(
+            "What is seen between the middles of pixels: a mixture, or the nearest pixel; trilinear is a mixture of"
+            " smaller pictures, too, where a pixel of the render covers more than one of the texture."
+        ),
     ] = "bilinear"
 
 

@@ -79,13 +79,23 @@ def bilinear(u: float, v: float) -> Any:
 PLACES = [(0.1, 0.1), (0.45, 0.3), (0.7, 0.9), (0.97, 0.55)]
 
 
-@pytest.mark.parametrize(("between", "found"), [("nearest", nearest), ("bilinear", bilinear)])
+@pytest.mark.parametrize(
+    ("between", "found"),
+    [("nearest", nearest), ("bilinear", bilinear), ("trilinear", bilinear)],
+)
 @pytest.mark.parametrize("place", PLACES)
 def test_a_place_has_the_reflectance_of_its_texels(
     xml: Metu, between: str, found: Any, place: tuple[float, float]
 ) -> None:
     pixel = xml.pixel(textured(xml.folder, between=between, camera=look(*place)))
     np.testing.assert_allclose(pixel, AMBIENT + 100 * found(*place), rtol=1e-3, atol=0.05)
+
+
+def test_from_afar_a_trilinear_picture_is_its_mean(xml: Metu) -> None:
+    """A pixel covers 900 of it."""
+    camera = look(*PLACES[0]) | {"NearPlane": "-20 20 -20 20"}
+    pixel = xml.pixel(textured(xml.folder, between="trilinear", camera=camera))
+    np.testing.assert_allclose(pixel, AMBIENT + 100 * CODES.mean(axis=(0, 1)) / 255, rtol=1e-4)
 
 
 def test_blending_is_the_mean_with_the_material(metu: Metu) -> None:
@@ -318,7 +328,7 @@ def test_bumps_of_perlin_noise_are_those_of_this_course(xml: Metu) -> None:
             {"perlin": "replace_background"},
             "its type is perlin with DecalMode replace_background: ",
         ),
-        ({"between": "trilinear"}, 'its Interpolation is "trilinear": this course has no pyramids'),
+        ({"between": "cubic"}, 'its Interpolation is "cubic": expected nearest, bilinear or tri'),
         ({"perlin": "blend_kd"}, "its type is perlin with DecalMode blend_kd: replace_all, "),
         (
             {"TexCoordData": "0 0 1 1"},
@@ -366,7 +376,7 @@ def test_an_instance_with_a_material_of_its_own_has_no_texture_and_a_warning(xml
 
 
 def test_a_texture_that_nothing_has_is_no_loss(metu: Metu) -> None:
-    scene = textured(metu.folder, between="trilinear")
+    scene = textured(metu.folder, between="cubic")
     del scene["Objects"]["Mesh"]["Textures"]
     metu.load(scene)
     assert metu.warnings == []
