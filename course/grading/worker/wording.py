@@ -31,6 +31,9 @@ REMEDIES = {
         "While functions are checked they read and write no files, and start no programs: "
         "all that they need comes with their arguments."
     ),
+    r"codec can't decode|Non-UTF-8 code|null bytes": (
+        "The file is not saved as UTF-8: save it anew with that encoding, which editors ask for or show at the bottom."
+    ),
     r"EOF when reading a line|BdbQuit": (
         "Nobody can type while functions are checked: print shows values, and a file of your own that calls the "
         "function can be stopped in a debugger."

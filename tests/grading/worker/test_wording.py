@@ -157,3 +157,12 @@ def test_what_no_function_may_ask_for_has_a_remedy_wherever_it_stands(
         worker.call("f")
     assert error.value.module_wide != inside
     assert says in error.value.remedy
+
+
+@pytest.mark.parametrize("encoding", ["latin-1", "utf-16"])
+def test_a_file_of_another_encoding_is_told_which_to_choose(encoding: str) -> None:
+    source = "def f():\n    return 'ü'\n".encode(encoding)
+    with Worker("m", source) as worker, pytest.raises(StudentError) as error:
+        worker.call("f")
+    assert error.value.module_wide
+    assert "save it anew" in error.value.remedy
