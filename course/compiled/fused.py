@@ -429,7 +429,7 @@ class FusedTracer(Tracer):
         costs = self.costs(block.size) if self.costs is not None and parts > 1 else None
         sampler = self.sampler
         assert isinstance(sampler, SobolSampler)
-        points, salts = sampler.tables(block, self._pairs)
+        tables = sampler.tables(block, self._pairs)
         x, y = tile.corners()
         pixels = np.ascontiguousarray(block.pixels)
         weighted = self.reconstruction.sigma is not None
@@ -440,7 +440,7 @@ class FusedTracer(Tracer):
             np.array((0, 0, 0, 0) if costs is None else (*costs.prices, COST), np.float32),
             np.zeros(lanes.COUNTS, np.int64),
         )
-        numbers = number_kernels.Numbers(pixels, x, y, samples, points, salts)
+        numbers = number_kernels.Numbers(pixels, x, y, samples, *tables)
         fused_kernels.follow(numbers, *self._tables, film, self._scratch())
         self._count(block, film.counts, counters)
         counters.lap("trace")

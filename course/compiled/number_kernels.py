@@ -29,8 +29,7 @@ class Numbers(NamedTuple):
     pixels : (n,) uint32 of the block
     x, y : (n,) float32 their corners
     samples : of each pixel
-    points : (4, orders, samples) uint32, see ``course.extras.samplers.sobol``
-    salts : (pairs, 3) uint64
+    points, first, salts : see ``SobolSampler.tables``
     """
 
     pixels: Words
@@ -38,6 +37,7 @@ class Numbers(NamedTuple):
     y: Floats32
     samples: int
     points: Words
+    first: int
     salts: NDArray[np.uint64]
 
 
@@ -87,7 +87,7 @@ def find_pixels(whole, samples):
 
 @njit(**LEAN)
 def _draw_row(numbers, line, order, scramble, i, whole):
-    word = np.uint32(numbers.points[line, order, whole[SAMPLE + i]] ^ scramble)
+    word = np.uint32(numbers.points[line, order, numbers.first + whole[SAMPLE + i]] ^ scramble)
     return np.float32(np.int32(word >> _BYTE)) * TO_UNIT
 
 

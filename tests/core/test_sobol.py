@@ -6,8 +6,14 @@ import numpy as np
 import pytest
 from scipy.stats import qmc
 
+from course.core.samplers import Block
 from course.core.types import Words
+from course.extras.samplers import sobol
+from course.extras.samplers.hashing import hash_words
 from course.extras.samplers.sobol import (
+    KEPT,
+    TO_UNIT,
+    SobolSampler,
     net_indices,
     owen_scrambled,
     reversed_bits,
@@ -49,7 +55,7 @@ def test_points_have_the_shape_of_their_indices() -> None:
 def test_a_shuffled_order_permutes_every_block_within_a_block(m: int) -> None:
     n = 2**m
     for block in (0, 1, 3, 6):
-        for order in shuffled(indices(block * n, n), 16):
+        for order in shuffled(indices(block * n, n), indices(0, 16)):
             start = order.min()
             assert start % n == 0
             assert np.array_equal(np.sort(order), indices(int(start), n))
@@ -58,19 +64,19 @@ def test_a_shuffled_order_permutes_every_block_within_a_block(m: int) -> None:
 
 
 def test_an_index_has_its_place_whatever_else_is_asked_for() -> None:
-    whole = shuffled(indices(0, 300), 8)
-    assert np.array_equal(shuffled(indices(100, 50), 8), whole[:, 100:150])
+    whole = shuffled(indices(0, 300), indices(0, 8))
+    assert np.array_equal(shuffled(indices(100, 50), indices(0, 8)), whole[:, 100:150])
 
 
 def test_orders_differ() -> None:
-    orders = shuffled(indices(0, 64), 256)
+    orders = shuffled(indices(0, 64), indices(0, 256))
     assert len({tuple(order.tolist()) for order in orders}) == 256
 
 
 def test_shuffling_makes_every_place_equally_likely() -> None:
     # Index 11 of 16 keeps its highest bit and lands on each of 8..15 with probability 1/8: over 8192 orders the
     # statistic has 7 degrees of freedom and is over 50 with a probability of 1.4e-8.
-    landed = shuffled(indices(11, 1), 8192)[:, 0]
+    landed = shuffled(indices(11, 1), indices(0, 8192))[:, 0]
     counts = np.bincount(landed, minlength=16)[8:]
     assert counts.sum() == 8192
     assert (((counts - 1024) ** 2) / 1024).sum() < 50
@@ -128,7 +134,7 @@ def test_net_indices_permute_every_block(m: int) -> None:
 
 @pytest.mark.parametrize(("m", "t"), [(1, 0), (2, 1), (4, 1), (6, 1), (8, 3), (9, 2), (10, 3)])
 def test_the_first_four_dimensions_are_a_net(m: int, t: int) -> None:
-    index = shuffled(indices(0, 2**m), 1)[0]
+    index = shuffled(indices(0, 2**m), indices(0, 1))[0]
     words = np.concatenate([sobol_words(index), sobol_words(net_indices(index))]).astype(np.uint64)
     for digits in product(range(m - t + 1), repeat=4):
         if sum(digits) == m - t:
@@ -136,3 +142,38 @@ def test_the_first_four_dimensions_are_a_net(m: int, t: int) -> None:
             for row, count in zip(words, digits, strict=True):
                 box = (box << np.uint64(count)) + (row >> np.uint64(32 - count))
             assert (np.bincount(box.astype(np.int64), minlength=2 ** (m - t)) == 2**t).all(), digits
+
+
+@pytest.mark.parametrize("pixels", [[7], list(range(300))])
+@pytest.mark.parametrize(
+    ("first", "samples"), [(0, 4), (4, 12), (200, 100), (1000, 24), (1000, 25), (5000, 16)]
+)
+def test_points_that_are_kept_are_those_that_are_drawn(
+    first: int, samples: int, pixels: list[int], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(sobol, "_FIRST", sobol._FirstPoints())
+    sampler = SobolSampler(3)
+    block = Block(np.array(pixels, np.uint32), first, samples, 0)
+    # Kept points before and after: few pixels have points of their own until then.
+    for _ in range(2):
+        points, start, salts = sampler.tables(block, 3)
+        for pair in range(3):
+            line = 2 * pair if pair < 2 else 0
+            order, *scramble = hash_words(block.pixels, *salts[pair].tolist())
+            order %= points.shape[1]
+            words = points[line : line + 2, order, start : start + samples]
+            words = words ^ np.stack(scramble)[:, :, None]
+            drawn = sampler.draw(block, 2 * pair, 2).reshape(words.shape)
+            assert np.array_equal((words >> 8) * TO_UNIT, drawn)
+        sobol._FIRST.points(min(first + samples, KEPT))
+
+
+def test_points_are_kept_for_as_long_as_they_are_worth(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sobol, "_FIRST", sobol._FirstPoints())
+    few, many = (Block(np.arange(n, dtype=np.uint32), 64, 32, 0) for n in (2, 300))
+    sampler = SobolSampler(0)
+    sampler.tables(few, 4)
+    assert not sobol._FIRST.has(1)
+    sampler.tables(many, 4)
+    assert sobol._FIRST.has(96)
+    assert not sobol._FIRST.has(192)

@@ -5,6 +5,7 @@ don't depend on the number of samples, so a picture can be continued.
 """
 
 from functools import lru_cache
+from threading import Lock
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +18,15 @@ TO_UNIT = np.float32(2.0**-24)
 
 ORDERS = 1024
 """Number of orders of the points, each with a scramble. Two pairs of a pixel share one with probability 1 / ORDERS."""
+
+KEPT = 1024
+"""As many points are kept at most, in every order: 16 MB."""
+
+FEW = ORDERS // 8
+"""Of up to so many pixels times pairs of dimensions, points that aren't kept yet are made for their orders alone."""
+
+_LINE = 16
+"""Words in a line of the processor's cache."""
 
 _NET_PAIRS = 2
 """Number of first pairs of dimensions, which share one order."""
@@ -88,10 +98,28 @@ class SobolSampler(Sampler):
         rows = _points(block.first, block.samples)[2 * pair if pair < _NET_PAIRS else 0 :]
         return rows, _salts(self._seed, range(pair, pair + 1))
 
-    def tables(self, block: Block, pairs: int) -> tuple[Words, NDArray[np.uint64]]:
-        """All points (4, orders, samples) of a block's range, and the salts (pairs, 3) of the first pairs."""
-        salts = np.array(_salts(self._seed, range(pairs)), np.uint64)
-        return _points(block.first, block.samples), salts.reshape(pairs, 3)
+    def tables(self, block: Block, pairs: int) -> tuple[Words, int, NDArray[np.uint64]]:
+        """What the numbers of a block's first pairs of dimensions are made of.
+
+        Returns
+        -------
+        points : (4, orders, n) uint32, n >= samples; orders that none of the pixels has may be undefined
+        first : the place of the block's first point among them
+        salts : (pairs, 3)
+        """
+        known = _salts(self._seed, range(pairs))
+        salts = np.array(known, np.uint64).reshape(pairs, 3)
+        first, samples = block.first, block.samples
+        if samples > KEPT:
+            return _points(first, samples), 0, salts
+        if len(block.pixels) * pairs <= FEW and not _FIRST.has(first + samples):
+            order = np.unique(hash_words(block.pixels, *known[::3]) % np.uint32(ORDERS))
+            points = np.empty((4, ORDERS, samples), np.uint32)
+            points[:, order] = _made(first, samples, order)
+            return points, 0, salts
+        if first + samples > KEPT:
+            return _points(first, samples), 0, salts
+        return _FIRST.points(first + samples), first, salts
 
 
 def _places(block: Block, path: Indices) -> tuple[Indices, Indices]:
@@ -117,19 +145,58 @@ def _salts(seed: int, pairs: range) -> tuple[int, ...]:
     )
 
 
-@lru_cache(maxsize=64)
-def _points(first: int, samples: int) -> Words:
-    """(4, orders, samples) uint32: a range of the sequence in every order; each order has its own scramble.
+def _made(first: int, samples: int, order: Words) -> Words:
+    """(4, k, samples) uint32: a range of the sequence in some orders (k,); each order has its own scramble.
 
     Rows 2 and 3 are the second pair's, rows 0 and 1 every other pair's.
     """
-    index = np.arange(first, first + samples, dtype=np.uint32)
-    # The renderer uses 16 samples per call; fewer orders bound the memory of long ranges.
-    orders = min(ORDERS, max(2**20 // samples, 1))
-    order = shuffled(index, orders)
-    words = np.concatenate([sobol_words(order), sobol_words(net_indices(order))])
-    seeds = hash_words(np.arange(orders, dtype=np.uint32), *(combine(row) for row in range(1, 5)))
+    index = shuffled(np.arange(first, first + samples, dtype=np.uint32), order)
+    words = np.concatenate([sobol_words(index), sobol_words(net_indices(index))])
+    seeds = hash_words(order, *(combine(row) for row in range(1, 5)))
     return owen_scrambled(words, seeds[:, :, None])
+
+
+class _FirstPoints:
+    """The first points of the sequence in every order, as many as have been asked for.
+
+    Adaptive sampling asks for many ranges that overlap. To make each of them took a quarter of its time.
+    """
+
+    def __init__(self) -> None:
+        self._points = np.empty((4, ORDERS, 0), np.uint32)
+        self._lock = Lock()
+
+    def has(self, end: int) -> bool:
+        """Whether so many points are made."""
+        return self._points.shape[2] >= end
+
+    def points(self, end: int) -> Words:
+        """(4, ORDERS, n) with n >= end; end is at most KEPT."""
+        with self._lock:
+            known = self._points.shape[2]
+            if known < end:
+                # An odd number of lines, so that the orders' rows don't begin in a few sets of the cache.
+                lines = -(-max(end, 2 * known) // _LINE) | 1
+                more = _made(known, lines * _LINE - known, _every(ORDERS))
+                self._points = np.concatenate((self._points, more), axis=2)
+            return self._points
+
+
+_FIRST = _FirstPoints()
+
+
+def _every(orders: int) -> Words:
+    return np.arange(orders, dtype=np.uint32)
+
+
+@lru_cache(maxsize=16)
+def _points(first: int, samples: int) -> Words:
+    """(4, orders, samples) uint32: a range of the sequence in every order."""
+    if first + samples <= KEPT:
+        end = first + samples
+        return np.ascontiguousarray(_FIRST.points(end)[:, :, first:end])
+    # The renderer uses 16 samples per call; fewer orders bound the memory of long ranges.
+    return _made(first, samples, _every(min(ORDERS, max(2**20 // samples, 1))))
 
 
 BITS = 32
@@ -175,14 +242,13 @@ def net_indices(index: Words) -> Words:
     return words
 
 
-def shuffled(index: Words, orders: int) -> Words:
-    """Nested random permutations of indices (n,), (orders, n) uint32.
+def shuffled(index: Words, order: Words) -> Words:
+    """Nested random permutations of indices (n,), (k, n) uint32, one for each of k numbers.
 
     Bit j of an index is flipped at random, alike for all indices that agree in the bits above it. If all bits above are
     0, bit j is not flipped. So indices below 2^m stay below 2^m, for every m.
     """
-    order = np.arange(orders, dtype=np.uint32)
-    result = np.repeat(index[None], orders, axis=0)
+    result = np.repeat(index[None], len(order), axis=0)
     for bit in range(int(index.max(initial=0)).bit_length()):
         higher_bits = index >> np.uint32(bit + 1)
         keys = hash_words(order, combine(bit))[0][:, None] ^ higher_bits

@@ -158,7 +158,7 @@ def fitted(errors: list[float]) -> float:
 
 def _sobol(rng: np.random.Generator, number_of: int, rows: int) -> Array:
     """(rows, REPEATS * number_of): so many numbers after each other, each time scrambled anew."""
-    index = shuffled(np.arange(number_of, dtype=np.uint32), 1)[0]
+    index = shuffled(np.arange(number_of, dtype=np.uint32), np.zeros(1, np.uint32))[0]
     words: Words = np.concatenate([sobol_words(index), sobol_words(net_indices(index))])[
         :rows, None
     ]
