@@ -42,6 +42,7 @@ from course.extras.direct import FullDirectLight
 from course.extras.environment_sampling import ProductSampling
 from course.extras.near_plane import NearPlaneCamera
 from course.extras.own import courses_own
+from course.extras.own_lamp import LampAccelerator
 from course.extras.plan import same_fields
 from course.extras.samplers.sobol import SobolSampler
 from course.extras.scatter import FullScatter
@@ -116,7 +117,8 @@ def _fits_motion(motion: Motion | None) -> bool:
 def _fits_surface(surface: Any) -> bool:
     seen = surface.turned, surface.kept, surface.through
     extras = surface.painting, surface.relief, surface.shine, *seen
-    known = type(surface.accelerator) in (StaticAccelerator, MovingAccelerator, SweptMovers)
+    static, moving = (StaticAccelerator, LampAccelerator), (MovingAccelerator, SweptMovers)
+    known = type(surface.accelerator) in (*static, *moving)
     return isinstance(surface, FullSurface) and known and all(extra is None for extra in extras)
 
 
