@@ -29,24 +29,44 @@ def untroubled(browser: Any, **options: Any) -> Iterator[Any]:
     """A page without a network, for which nothing may fail, be asked of another host or be told as an error."""
     context = browser.new_context(offline=True, **options)
     page = context.new_page()
-    trouble: list[str] = []
-    page.on("pageerror", lambda error: trouble.append(str(error)))
-    page.on("console", lambda said: trouble.append(said.text) if said.type == "error" else None)
+    trouble = troubles(page)
+    yield page
+    context.close()
+    assert trouble == []
+
+
+def troubles(page: Any) -> list[str]:
+    """What goes wrong in a page, as it comes in."""
+    found: list[str] = []
+    page.on("pageerror", lambda error: found.append(str(error)))
+    page.on("console", lambda said: found.append(said.text) if said.type == "error" else None)
 
     def failed(request: Any) -> None:
         # Whoever goes on before all pictures are there gives up those that are on the way.
         if request.failure != "net::ERR_ABORTED":
-            trouble.append(f"failed: {request.url}")
+            found.append(f"failed: {request.url}")
 
     def asked(request: Any) -> None:
         if not request.url.startswith(("file:", "data:")):
-            trouble.append(f"asked: {request.url}")
+            found.append(f"asked: {request.url}")
 
     page.on("requestfailed", failed)
     page.on("request", asked)
-    yield page
-    context.close()
-    assert trouble == []
+    return found
+
+
+CUT_OFF = "[...document.querySelectorAll('.formula')].some((f) => f.scrollWidth > f.clientWidth)"
+
+
+def assert_fits(page: Any, width: int) -> None:
+    """Nothing is wider than the window, in the light and in the dark, which may be chosen while a page is open."""
+    for chosen in ("light", "dark"):
+        page.emulate_media(color_scheme=chosen)
+        wide = page.evaluate("document.documentElement.scrollWidth")
+        assert wide <= width, f"{page.url}: {wide} pixels"
+        assert width < 1280 or not page.evaluate(CUT_OFF), f"{page.url}: a formula scrolls"
+        behind = page.evaluate("getComputedStyle(document.body).backgroundColor")
+        assert (sum(map(int, behind.strip("rgb()").split(","))) < 300) == (chosen == "dark")
 
 
 def tab_to(page: Any, selector: str, presses: int = 150) -> None:

@@ -19,6 +19,7 @@ OUT = PROJECT / "docs" / "data" / "grading" / "attacks.json"
 @click.option(
     "--every", type=click.IntRange(1), default=1, help="Only each so manieth, with --behind."
 )
+@click.option("--first", type=click.IntRange(0), default=0, help="The first of them.")
 @click.option("--walls", multiple=True, type=click.Choice([*WALLS]), help="Only behind these.")
 @click.option("--users", multiple=True, type=click.Choice(["root", "another"]))
 @click.option("--out", type=click.Path(path_type=Path, dir_okay=False), default=OUT)
@@ -26,13 +27,14 @@ def main(
     behind: str | None,
     reaching: bool,
     every: int,
+    first: int,
     walls: tuple[str, ...],
     users: tuple[str, ...],
     out: Path,
 ) -> None:
     """Attack the grader, print what held and write it."""
     if behind is not None:
-        sys.exit(run_all(behind, reaching=reaching, every=every))
+        sys.exit(run_all(behind, reaching=reaching, every=every, first=first))
     rows: list[dict[str, object]] = []
     for user in users or ("root", "another"):
         scores = not reaching

@@ -1,14 +1,15 @@
 # ruff: noqa: E501 - programs in a line
 """Attacks that reach for something outside the worker: files, processes, the network, the kernel.
 
-Each is the body of a function of the submission. It gains if what it returns holds the token of a file that it must not
+Each is the body of a function of the submission; those of one worker are called one after the other. It gains if what it returns holds the token of a file that it must not
 read, or begins with DONE: that it has done what it must not. Apart from that, the stage is looked at afterwards.
 """
 
 MANY_THREADS = "more threads than a worker may have"
+OLD_CALLS = "old calls of 32 bits"
 
 PRELUDE = '''
-import ctypes, glob, json, os, socket, struct, sys, threading, time
+import ctypes, gc, glob, json, os, socket, struct, sys, threading, time
 import numpy as np
 
 STAGE = json.loads({stage!r})
@@ -68,17 +69,31 @@ def writable(path):
     except OSError:
         return False
 
-def run():
+def descriptors():
+    found = set()
+    for number in range(64):
+        try:
+            os.fstat(number)
+            found.add(number)
+        except OSError:
+            pass
+    return found
+
+ATTACKS = []
+
+def run(number):
+    before = descriptors()
     try:
-        found = attack()
+        found = ATTACKS[number]()
     except BaseException as error:
         found = f"refused: {{type(error).__name__}} {{error}}"
+    # The next one may open as many.
+    gc.collect()
+    for opened in descriptors() - before:
+        os.close(opened)
     return np.frombuffer(str(found).encode("utf-8", "replace")[:200000] or b" ", np.uint8).copy()
-
-def attack():
-{body}
 '''
-"""What stands before each; ``stage`` and ``body`` are put in."""
+"""What stands before all; ``stage`` is put in."""
 
 READING = {
     "opens the solutions": "return everywhere(lambda p: open(p).read())",
@@ -509,7 +524,7 @@ NETWORK = {
         s = libc.socket(2, 1, 0)
         address = struct.pack("=HH4s8x", 2, socket.htons(STAGE["tcp"]), bytes((127, 0, 0, 1)))
         return "DONE" if s >= 0 and libc.connect(s, address, 16) == 0 else "refused" """,
-    "old calls of 32 bits": """
+    OLD_CALLS: """
         import mmap
         # mov eax, 20 (getpid of i386); int 0x80; ret
         page = mmap.mmap(-1, 4096, prot=7)
@@ -566,3 +581,11 @@ REACHING = {
     for name, body in bodies.items()
 }
 """Name -> body."""
+
+ALONE = [
+    name
+    for name in REACHING
+    if name.startswith(("processes: ", "use up: ", f"network: {OLD_CALLS}"))
+]
+"""Those that start, signal, end or use up something, each in a worker of its own. The others share one: refused, they
+leave it as it was."""

@@ -3,7 +3,7 @@
 import json
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass
 from functools import cache
 from textwrap import dedent, indent
@@ -11,9 +11,9 @@ from textwrap import dedent, indent
 import numpy as np
 
 from benchmarks.attacks.forging import FORGING, MODULE, submission
-from benchmarks.attacks.reaching import MANY_THREADS, PRELUDE, REACHING
+from benchmarks.attacks.reaching import ALONE, MANY_THREADS, PRELUDE, REACHING
 from benchmarks.attacks.stage import Stage
-from benchmarks.attacks.walls import behind, python_for
+from benchmarks.attacks.walls import OPEN, behind, python_for
 from course.effects import PROJECT
 from course.grading.checks.check import Check
 from course.grading.checks.result import Status
@@ -25,10 +25,13 @@ from course.grading.worker.client import Worker
 from course.grading.worker.limits import Limits
 from course.grading.worker.sandbox import Sandbox
 
-LIMITS = Limits(call_seconds=2.0, memory=1 << 30)
+LIMITS = Limits(call_seconds=2.0, memory=1 << 30, deaths=2)
 
 ATTACKS = (*REACHING, *(f"score: {name}" for name in FORGING))
 """Names of all."""
+
+ENDED = "refused by the grader"
+"""What is said of an attack whose worker gave no value."""
 
 NOT_HELD = {
     ("user without Landlock", "read: command lines of others"): "they hold no secret of the grader",
@@ -62,7 +65,20 @@ class Outcome:
         return not self.gain and not self.effects
 
 
-def outcomes(user: str, wall: str, *, reaching: bool = False, every: int = 1) -> list[Outcome]:
+def chosen(wall: str, every: int = 1, first: int = 0) -> list[list[str]]:
+    """Names of attacks that reach for something outside, those of one worker together.
+
+    Of those that have a worker of their own each so manieth, and of all where there is no wall.
+    """
+    shared = [name for name in REACHING if name not in ALONE]
+    if wall == OPEN:
+        shared = shared[first::every]
+    return [shared, *([name] for name in ALONE[first::every])]
+
+
+def outcomes(
+    user: str, wall: str, *, reaching: bool = False, every: int = 1, first: int = 0
+) -> list[Outcome]:
     """Of all attacks, or of those that reach for something outside alone.
 
     Raises LookupError: this machine can't.
@@ -71,7 +87,7 @@ def outcomes(user: str, wall: str, *, reaching: bool = False, every: int = 1) ->
     ----------
     user : who grades: "root" or "another"
     wall : of ``WALLS``, or ``OPEN``
-    every : of those that reach, each so manieth
+    every, first : of ``chosen``
     """
     with python_for(user) as python:
         command = [
@@ -81,7 +97,7 @@ def outcomes(user: str, wall: str, *, reaching: bool = False, every: int = 1) ->
             "--behind",
             wall,
             *(["--reaching"] if reaching else []),
-            *("--every", str(every)),
+            *("--every", str(every), "--first", str(first)),
         ]
         ran = subprocess.run(command, check=False, capture_output=True, text=True, cwd=PROJECT)
     if ran.returncode == 3:
@@ -92,7 +108,7 @@ def outcomes(user: str, wall: str, *, reaching: bool = False, every: int = 1) ->
     return [Outcome(**line | {"effects": tuple(line["effects"])}) for line in lines]
 
 
-def run_all(wall: str, *, reaching: bool, every: int) -> int:
+def run_all(wall: str, *, reaching: bool, every: int, first: int) -> int:
     """Run them here and print each outcome as JSON; what to exit with."""
     with Stage() as stage:
         try:
@@ -100,7 +116,7 @@ def run_all(wall: str, *, reaching: bool, every: int) -> int:
         except LookupError as error:
             print(error, file=sys.stderr)
             return 3
-        for outcome in _reach(wall, stage, shut_in, every):
+        for outcome in _reach(wall, stage, shut_in, chosen(wall, every, first)):
             print(json.dumps(asdict(outcome)), flush=True)
         for name in () if reaching else FORGING:
             print(json.dumps(asdict(forged(name, shut_in, stage))), flush=True)
@@ -118,29 +134,44 @@ def forged(name: str, shut_in: Sandbox, stage: Stage) -> Outcome:
     return Outcome(f"score: {name}", gain, tuple(stage.effects()), said)
 
 
-def _reach(wall: str, stage: Stage, shut_in: Sandbox, every: int) -> Iterator[Outcome]:
-    for name, body in [*REACHING.items()][::every]:
-        if (wall, name) in NOT_HELD:
-            continue
-        source = PRELUDE.format(
-            stage=stage.described(), body=indent(dedent(body).strip("\n"), "    ")
-        )
-        said = _reached(source, shut_in)
-        gain = said if stage.token in said or said.startswith("DONE") else ""
-        if name.endswith(MANY_THREADS) and not shut_in.threads:
-            gain = ""  # Where they can't be counted, nobody says that they are.
-        yield Outcome(name, gain[:200], tuple(stage.effects()), said[:200])
+def _reach(
+    wall: str, stage: Stage, shut_in: Sandbox, groups: Iterable[Sequence[str]]
+) -> Iterator[Outcome]:
+    for group in groups:
+        rest = [name for name in group if (wall, name) not in NOT_HELD]
+        while rest:
+            with Worker("attack", _source(rest, stage).encode(), LIMITS, shut_in) as worker:
+                # What can't be imported attacks nothing: that is a fault of this program.
+                worker.load()
+                for number, name in enumerate(rest):
+                    outcome = _reached(worker, name, number, number + 1 == len(rest), stage)
+                    yield outcome
+                    # Whatever a worker has done, or has died of, it does no more.
+                    if not outcome.held or outcome.said.startswith(ENDED):
+                        break
+            del rest[: number + 1]
 
 
-def _reached(source: str, shut_in: Sandbox) -> str:
-    with Worker("attack", source.encode(), LIMITS, shut_in) as worker:
-        # What can't be imported attacks nothing: that is a fault of this program.
-        worker.load()
-        try:
-            value = worker.call("run")
-        except StudentError as error:
-            return f"refused: {error.kind} {error}"
-    return bytes(np.asarray(value).astype(np.uint8)).decode("utf-8", "replace")
+def _source(names: Iterable[str], stage: Stage) -> str:
+    bodies = (indent(dedent(REACHING[name]).strip("\n"), "    ") for name in names)
+    functions = (f"def attack():\n{body}\n\nATTACKS.append(attack)\n" for body in bodies)
+    return "\n".join([PRELUDE.format(stage=stage.described()), *functions])
+
+
+def _reached(worker: Worker, name: str, number: int, last: bool, stage: Stage) -> Outcome:
+    working = stage.workers()
+    try:
+        value = worker.call("run", number)
+        said = bytes(np.asarray(value).astype(np.uint8)).decode("utf-8", "replace")
+    except StudentError as error:
+        said, last = f"{ENDED}: {error.kind} {error}", True
+    if last:
+        worker.close()
+        working = frozenset()
+    gain = said if stage.token in said or said.startswith("DONE") else ""
+    if name.endswith(MANY_THREADS) and not worker.sandbox.threads:
+        gain = ""  # Where they can't be counted, nobody says that they are.
+    return Outcome(name, gain[:200], tuple(stage.effects(working)), said[:200])
 
 
 @cache

@@ -76,10 +76,19 @@ class Stage:
             }
         )
 
-    def effects(self) -> list[str]:
-        """What is not as it was, in words; all is put back."""
+    def workers(self) -> frozenset[int]:
+        """Processes that bear the mark now."""
+        return frozenset(_marked(self.mark))
+
+    def effects(self, working: frozenset[int] = frozenset()) -> list[str]:
+        """What is not as it was, in words; all is put back.
+
+        Parameters
+        ----------
+        working : processes of a worker that goes on
+        """
         found = []
-        if left := self._left():
+        if left := self._left(working):
             found.append(f"{len(left)} processes left behind")
             for number in left:
                 with contextlib.suppress(OSError):
@@ -149,10 +158,10 @@ class Stage:
         found = [path for folder in self._folders() for path in _matching(folder, f"*{self.mark}*")]
         return [*found, *_matching(self._root, "*-gone"), *_matching(self._root, "*.gone")]
 
-    def _left(self) -> set[int]:
+    def _left(self, working: frozenset[int]) -> frozenset[int]:
         """Processes that bear the mark and don't end by themselves at once."""
         deadline = monotonic() + GONE_WITHIN
-        while (left := {*_marked(self.mark)}) and monotonic() < deadline:
+        while (left := self.workers() - working) and monotonic() < deadline:
             sleep(0.02)
         return left
 

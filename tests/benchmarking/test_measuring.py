@@ -14,6 +14,7 @@ from course.benchmarking.errors import dissimilarity, relative_mse, rmse
 from course.benchmarking.estimators import Estimator, Module
 from course.benchmarking.measuring import Effort, Measured, measure
 from course.benchmarking.references import reference
+from course.compiled.library import available
 from course.scene.scene import load_variant
 
 SQUARE = {"type": "rectangle", "corner": [0.6, 3, 0.6], "edge_u": [0, 0, 0.8]}
@@ -80,6 +81,7 @@ def test_estimators_take_turns(module: Module, monkeypatch: pytest.MonkeyPatch) 
     def noted(scene: Any, **options: Any) -> Picture:
         if "seed" in options:
             calls.append((options["seed"], options["spp"], options["sampler"]))
+        assert options["compiled"] is available()
         return render(scene, **options)
 
     monkeypatch.setattr(measuring, "render", noted)

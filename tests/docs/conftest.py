@@ -13,9 +13,13 @@ from tests.once import Once
 sys.path.append(str(PROJECT / "docs"))
 
 
+SIZE, SMALL = "WIDTH = 360, HEIGHT = 270", "WIDTH = 120, HEIGHT = 90"
+"""Of pictures that pages compute: a ninth of the pixels, for there may be no graphics card."""
+
+
 @pytest.fixture(scope="session")
 def site(once: Once) -> Path:
-    """The folder of the built site, with grey pictures; a warning is an error."""
+    """The folder of the built site, with grey and with small pictures; a warning is an error."""
     for needed in ("sphinx", "myst_parser", "furo", "latex2mathml"):
         pytest.importorskip(needed, reason='the site needs: pip install -e ".[docs]"')
     return once("site", _build)
@@ -27,3 +31,7 @@ def _build(out: Path) -> None:
     options = ["-D", "pictures=blank", "-d", str(trees), str(PROJECT / "docs"), str(out)]
     built = subprocess.run([*command, *options], check=False, capture_output=True, text=True)
     assert built.returncode == 0, built.stderr
+    live = out / "_static" / "live.js"
+    script = live.read_text(encoding="utf-8")
+    assert SIZE in script
+    live.write_text(script.replace(SIZE, SMALL), encoding="utf-8")

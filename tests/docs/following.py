@@ -437,6 +437,8 @@ def _small(words: Sequence[str] = ()) -> Iterator[None]:
     with (
         mock.patch.object(measuring, "FULL", little),
         mock.patch.object(measuring, "QUICK", little),
+        # A copy of the course has no compiled loops; to compile them took longer than all else that pages say.
+        mock.patch.object(measuring, "available", return_value=False),
         mock.patch.object(estimators, "BENCHED", {name: known[name] for name in named}),
         mock.patch.object(estimators, "FURTHER_BENCHED", {}),
         mock.patch("course.cli.demo.SCENES", Path("few").absolute()),

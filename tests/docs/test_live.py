@@ -6,6 +6,7 @@ from typing import Any
 
 import pytest
 
+from course.effects import PROJECT
 from tests.browser import untroubled
 
 PAGES = {
@@ -20,19 +21,7 @@ CODES = """(figure) => [...figure.querySelectorAll("canvas")].map((canvas) =>
   [...canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data])"""
 
 
-SIZE = "WIDTH = 360, HEIGHT = 270"
-
-
 def opened(page: Any, site: Path, name: str) -> Any:
-    """A page whose pictures have a ninth of the pixels: there may be no graphics card."""
-    script = (site / "_static" / "live.js").read_text(encoding="utf-8")
-    assert SIZE in script
-    page.route(
-        re.compile(r"/live\.js"),
-        lambda route: route.fulfill(
-            body=script.replace(SIZE, "WIDTH = 120, HEIGHT = 90"), content_type="text/javascript"
-        ),
-    )
     page.goto((site / f"{name}.html").as_uri())
     figure = page.locator("figure.computed").first
     figure.evaluate("(figure) => figure.previousElementSibling.scrollIntoView()")
@@ -126,5 +115,12 @@ def test_without_webgl_the_page_has_its_other_pictures(browser: Any, site: Path)
 
 def test_a_phone_is_wide_enough(browser: Any, site: Path) -> None:
     with untroubled(browser, viewport={"width": 390, "height": 800}) as page:
+        # In their full size.
+        script = (PROJECT / "docs" / "_static" / "live.js").read_text(encoding="utf-8")
+        page.route(
+            re.compile(r"/live\.js"),
+            lambda route: route.fulfill(body=script, content_type="text/javascript"),
+        )
         opened(page, site, "index")
+        assert page.evaluate("document.querySelector('.computed canvas').width") == 360
         assert page.evaluate("document.documentElement.scrollWidth") <= 390
