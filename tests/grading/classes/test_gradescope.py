@@ -7,15 +7,15 @@ import stat
 import subprocess
 import sys
 import zipfile
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from time import sleep
 from typing import Any
 
 import pytest
-from click.testing import CliRunner
+from click.testing import Result
 
-from course.cli.main import commands
 from course.grading.catalog import module_checks
 from course.grading.classes import container
 from course.grading.classes.bundles import gradescope_contents
@@ -34,10 +34,9 @@ SLOW = (
 
 
 @pytest.fixture(scope="module")
-def bundle(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def bundle(tmp_path_factory: pytest.TempPathFactory, bundled: Callable[..., Result]) -> Path:
     path = tmp_path_factory.mktemp("bundle") / "autograder.zip"
-    arguments = ["bundle", "gradescope", "--out", str(path), "--modules", "motion_blur", "--seed=7"]
-    result = CliRunner().invoke(commands, arguments)
+    result = bundled("gradescope", "--out", str(path), "--modules", "motion_blur", "--seed=7")
     assert result.exit_code == 0, result.output
     return path
 

@@ -52,27 +52,6 @@ FILES = {
 }
 
 
-@pytest.fixture(scope="module")
-def made() -> dict[tuple[Sequence[str], int], bytes]:
-    return {}
-
-
-@pytest.fixture
-def references_once(
-    made: dict[tuple[Sequence[str], int], bytes], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """References that were made in another test."""
-    make = grading.make_references
-
-    def copied(modules: Sequence[str], seed: int, out: Path) -> None:
-        if (modules, seed) not in made:
-            make(modules, seed, out)
-            made[modules, seed] = out.read_bytes()
-        out.write_bytes(made[modules, seed])
-
-    monkeypatch.setattr(grading, "make_references", copied)
-
-
 def hand_in(folder: Path, **sources: str) -> Path:
     for student, source in sources.items():
         (folder / student).mkdir(parents=True, exist_ok=True)
@@ -176,7 +155,7 @@ def test_a_class_from_folders_and_zip_files(tmp_path: Path) -> None:
     assert (out / "class.html").exists()
 
 
-@pytest.mark.usefixtures("references_once")
+@pytest.mark.usefixtures("references_at_hand")
 def test_only_what_has_changed_is_graded_again(tmp_path: Path) -> None:
     folder = hand_in(tmp_path / "class", ada=STUB, bob=STUB, cleo=STUB)
     here = Here()
@@ -202,7 +181,7 @@ def test_only_what_has_changed_is_graded_again(tmp_path: Path) -> None:
     assert here.graded == ["ada", "bob", "cleo"]
 
 
-@pytest.mark.usefixtures("references_once")
+@pytest.mark.usefixtures("references_at_hand")
 def test_another_version_grades_anew(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     folder = hand_in(tmp_path / "class", ada=STUB)
     here = Here()
@@ -216,7 +195,7 @@ def test_another_version_grades_anew(tmp_path: Path, monkeypatch: pytest.MonkeyP
     assert grade(folder, here).faults == ["ada"]
 
 
-@pytest.mark.usefixtures("references_once")
+@pytest.mark.usefixtures("references_at_hand")
 def test_a_fault_of_the_grader_is_no_grade(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     folder = hand_in(tmp_path / "class", ada=STUB, bob=STUB)
     grade(folder, Here())
@@ -237,7 +216,7 @@ def test_a_fault_of_the_grader_is_no_grade(tmp_path: Path, monkeypatch: pytest.M
     assert here.graded == ["bob"]
 
 
-@pytest.mark.usefixtures("references_once")
+@pytest.mark.usefixtures("references_at_hand")
 def test_the_seconds_of_a_submission_are_an_option(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -261,7 +240,7 @@ def test_the_seconds_of_a_submission_are_an_option(
     assert (refused.exit_code, "a number of seconds > 0" in refused.output) == (2, True)
 
 
-@pytest.mark.usefixtures("references_once")
+@pytest.mark.usefixtures("references_at_hand")
 def test_a_check_with_an_error_of_its_own_is_run_again(tmp_path: Path) -> None:
     folder = hand_in(tmp_path / "class", ada=STUB)
 
@@ -353,7 +332,7 @@ def pools(process: subprocess.Popen[str]) -> Iterator[psutil.Process]:
             continue
 
 
-@pytest.mark.usefixtures("references_once")
+@pytest.mark.usefixtures("references_at_hand")
 def test_an_interruption_is_quick_and_keeps_what_is_done(tmp_path: Path) -> None:
     folder = hand_in(tmp_path / "class", ada=STUB, bob=LONG, cleo=LONG)
     out = tmp_path / "out"

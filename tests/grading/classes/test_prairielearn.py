@@ -5,14 +5,14 @@ import re
 import shlex
 import subprocess
 import uuid
+from collections.abc import Callable
 from math import fsum
 from pathlib import Path
 from typing import Any
 
 import pytest
-from click.testing import CliRunner, Result
+from click.testing import Result
 
-from course.cli.main import commands
 from course.grading.classes import container
 from course.grading.classes.bundles import HOME, totals
 from course.grading.known import known
@@ -22,13 +22,20 @@ RIGHT = (PROJECT / "solutions" / "motion_blur.py").read_text("utf-8")
 WRONG = next(one for one in known("motion_blur") if one.name == "accelerated")
 
 
-def bundle(system: str, out: Path, *arguments: str) -> Result:
-    options = ["--out", str(out), "--modules", "motion_blur", "--seed=7", *arguments]
-    return CliRunner().invoke(commands, ["bundle", system, *options])
+Bundle = Callable[..., Result]
 
 
 @pytest.fixture(scope="module")
-def question(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def bundle(bundled: Bundle) -> Bundle:
+    def run(system: str, out: Path, *arguments: str) -> Result:
+        options = ["--out", str(out), "--modules", "motion_blur", "--seed=7", *arguments]
+        return bundled(system, *options)
+
+    return run
+
+
+@pytest.fixture(scope="module")
+def question(tmp_path_factory: pytest.TempPathFactory, bundle: Bundle) -> Path:
     folder = tmp_path_factory.mktemp("bundle") / "question"
     made = bundle("prairielearn", folder, "--image", "registry.example.org/lens")
     assert made.exit_code == 0, made.output
@@ -108,7 +115,7 @@ def test_a_fault_of_the_grader_leaves_no_results(
     assert not (tmp_path / "results" / "results.json").exists()
 
 
-def test_points_are_told(tmp_path: Path) -> None:
+def test_points_are_told(tmp_path: Path, bundle: Bundle) -> None:
     made = bundle("docker", tmp_path / "image")
     assert made.exit_code == 0, made.output
     of = f"{totals(['motion_blur'])['motion_blur']:g}"
@@ -126,7 +133,7 @@ def test_points_are_told(tmp_path: Path) -> None:
     ],
 )
 def test_wrong_usage(
-    tmp_path: Path, system: str, out: str, arguments: list[str], told: str
+    bundle: Bundle, tmp_path: Path, system: str, out: str, arguments: list[str], told: str
 ) -> None:
     (tmp_path / "full").mkdir()
     (tmp_path / "full" / "mine").write_text("mine")
