@@ -159,7 +159,7 @@ class Process:
             except BlockingIOError:
                 continue
             except OSError:
-                raise self.lost("the process is gone") from None
+                raise self.lost("the process is gone", gone=True) from None
 
     def read(self, deadline: float) -> tuple[dict[str, Any], list[Any]]:
         """The head and the values of a reply.
@@ -178,12 +178,17 @@ class Process:
         except BrokenMessage as error:
             raise self.lost(f"what it wrote is no reply ({error})") from None
 
-    def lost(self, why: str) -> StudentError:
-        """The error of a process that can't be used any more, and is ended; with what has ended it, if it had."""
+    def lost(self, why: str, gone: bool = False) -> StudentError:
+        """The error of a process that can't be used any more, and is ended; with what has ended it, if it had.
+
+        Parameters
+        ----------
+        gone : whether it has let go of its pipes, so that it ends by itself, or has
+        """
         code = None
         if self._process is not None:
             with contextlib.suppress(subprocess.TimeoutExpired):
-                code = self._process.wait(0.5)
+                code = self._process.wait(0.5 if gone else 0.0)
         self.close()
         meaning = {
             -signal.SIGXCPU: f"; it used more than {self._limits.cpu_seconds} s of processor time",
@@ -210,7 +215,7 @@ class Process:
                 self._wait(clock, read=[self._replies])
                 got = os.readv(self._replies, [rest])
                 if not got:
-                    raise self.lost("the process has ended")
+                    raise self.lost("the process has ended", gone=True)
                 rest = rest[got:]
             return data
 

@@ -65,7 +65,7 @@ def test_a_worker_is_lost_and_no_result(cluster: Cluster, tmp_path: Path) -> Non
     folder, here, there = tmp_path / "class", tmp_path / "here", tmp_path / "there"
     collection = known("motion_blur")
     sources = {one.name: one.source for one in (collection[0], collection[-1])}
-    for number in range(5):
+    for number in range(3):
         sources[f"slow{number}"] = f"import time\ntime.sleep(0.7)\n{STUB}\n# {number}"
     for name, source in sources.items():
         (folder / name).mkdir(parents=True)
@@ -87,12 +87,12 @@ def test_a_worker_is_lost_and_no_result(cluster: Cluster, tmp_path: Path) -> Non
     done = len(results(there))
     output, errors = process.communicate(timeout=60)
     assert process.returncode == 0, errors
-    assert "8 graded now" in output
-    assert done < 8
+    assert "6 graded now" in output
+    assert done < 6
 
     local = CliRunner().invoke(commands, command(folder, here, "--jobs", "2"))
     assert local.exit_code == 0, local.output
-    assert len(results(here)) == 8
+    assert len(results(here)) == 6
     assert results(there) == results(here)
     assert (there / "grades.csv").read_bytes() == (here / "grades.csv").read_bytes()
 

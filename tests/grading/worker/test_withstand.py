@@ -47,7 +47,7 @@ def graded(source: str | bytes, bubblewrap: bool = True) -> Report:
         {MODULE: content},
         arrays(),
         modules=[MODULE],
-        limits=Limits(call_seconds=1.5, memory=1 << 30),
+        limits=Limits(call_seconds=1.5, memory=1 << 30, deaths=2),
         shut_in=sandbox(bubblewrap),
         only=quick,
     )
@@ -202,9 +202,19 @@ VALUES = {
     *("a comma after the result", "a list of rows", "a list of numbers", "texts", "a text", "NaN"),
     *("a number of 400 digits", "infinity", "an array that forges comparisons", "object arrays"),
     *("pickles", "a name of its own for None", "wrong shape", "wrong dtype", "patches NumPy"),
-    *("changes the random state", "an exception without words", "chatty but right"),
+    *("changes the random state", "an exception without words", "chatty but right", "sys.exit"),
+    *("an exception that is no exception", "a generator", "a generator of an impossible state"),
+    *(
+        "endless loop",
+        "endless recursion",
+        "flood of output",
+        "a head of 60 MB",
+        "brackets without end",
+    ),
+    *("arrays without end", "an array of nothing that is evaluated", "memory bomb"),
+    *("forged result on stdout", "forged result on every descriptor", "closed descriptors"),
 }
-"""What is seen in the reply or in the worker itself: the same behind any wall, and tried behind one."""
+"""What is seen in the pipes or in the worker itself: the same behind any wall, and tried behind one."""
 
 
 @pytest.mark.parametrize(
