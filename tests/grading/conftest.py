@@ -1,17 +1,16 @@
 """References of all modules, which take longer to make than most tests: made once for all processes of a run."""
 
-from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator
 from functools import cache, partial
 from pathlib import Path
 
-import numpy as np
 import pytest
 from click.testing import CliRunner, Result
 
 from course.cli.main import commands
 from course.grading.checks.check import References
 from course.grading.references import make_references, read_references
+from tests.grading.lent import ReferencesFile, at_hand
 from tests.once import Once
 
 SEED = 0
@@ -19,7 +18,7 @@ SEED = 0
 
 
 @pytest.fixture(scope="session")
-def references_file(once: Once) -> Callable[..., Path]:
+def references_file(once: Once) -> ReferencesFile:
     """The file of references of one module, made with a seed."""
 
     def file(module: str, seed: int = SEED) -> Path:
@@ -29,7 +28,7 @@ def references_file(once: Once) -> Callable[..., Path]:
 
 
 @pytest.fixture(scope="session")
-def usual_references(references_file: Callable[..., Path]) -> References:
+def usual_references(references_file: ReferencesFile) -> References:
     """The references of all modules."""
 
     @cache
@@ -39,34 +38,19 @@ def usual_references(references_file: Callable[..., Path]) -> References:
     return lambda module, check: of(module)(module, check) if check.prepare else {}
 
 
-@contextmanager
-def _at_hand(references_file: Callable[..., Path]) -> Iterator[None]:
-    def collected(modules: Iterable[str], seed: int, out: Path) -> None:
-        arrays: dict[str, np.ndarray] = {}  # type: ignore[type-arg]
-        for module in modules:
-            with np.load(references_file(module, seed)) as found:
-                arrays |= {name: found[name] for name in found if name != "seed"}
-        np.savez_compressed(out, **arrays, seed=np.array(seed))
-
-    with pytest.MonkeyPatch.context() as patch:
-        for place in ("classes.grading", "release.archive"):
-            patch.setattr(f"course.grading.{place}.make_references", collected)
-        yield
-
-
 @pytest.fixture
-def references_at_hand(references_file: Callable[..., Path]) -> Iterator[None]:
+def references_at_hand(references_file: ReferencesFile) -> Iterator[None]:
     """Give archives and classes the references that are made once: the same bytes as those made on the spot."""
-    with _at_hand(references_file):
+    with at_hand(references_file):
         yield
 
 
 @pytest.fixture(scope="session")
-def bundled(references_file: Callable[..., Path]) -> Callable[..., Result]:
+def bundled(references_file: ReferencesFile) -> Callable[..., Result]:
     """`course bundle` with these arguments, and with references that are made once."""
 
     def run(*arguments: str) -> Result:
-        with _at_hand(references_file):
+        with at_hand(references_file):
             return CliRunner().invoke(commands, ["bundle", *arguments])
 
     return run

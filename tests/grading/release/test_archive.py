@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from course.errors import OutputError
+from course.grading.references import make_references
 from course.grading.release.archive import (
     LICENSES,
     LeakError,
@@ -17,8 +18,14 @@ from course.grading.release.archive import (
     solution_lines,
     write_archive,
 )
+from course.modules import COURSE
+from tests.grading.lent import ReferencesFile
 
 ROOT = Path(__file__).parents[3]
+
+LONG = {"supersampling", "soft_shadows", "glossy", "motion_blur", "sampling", "environment_light"}
+LONG |= {"blurred_transparency", "many_lights", "path_tracing"}
+"""Modules whose references take more than a second."""
 
 
 def _bodies() -> set[str]:
@@ -80,10 +87,18 @@ def test_scenes_of_metu_are_handed_out_in_either_form(
 
 @pytest.mark.usefixtures("references_at_hand")
 def test_the_same_course_gives_the_same_archive(archive: Path, tmp_path: Path) -> None:
-    """Its references too: these were made apart from those in the archive."""
     again = tmp_path / "again.zip"
     write_archive(ROOT, again)
     assert again.read_bytes() == archive.read_bytes()
+
+
+@pytest.mark.parametrize("module", [one for one in COURSE if one not in LONG])
+def test_references_made_again_are_the_same(
+    references_file: ReferencesFile, tmp_path: Path, module: str
+) -> None:
+    again = tmp_path / "again.npz"
+    make_references((module,), 0, again)
+    assert again.read_bytes() == references_file(module).read_bytes()
 
 
 @pytest.mark.usefixtures("references_at_hand")
