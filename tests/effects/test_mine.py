@@ -220,7 +220,7 @@ def test_without_radiosity_only_lamps_are_bright(solver: str) -> None:
         "--method",
         solver,
         "--patches",
-        "200",
+        "60",
         "--split",
         ".5",
         "-o",
