@@ -67,6 +67,8 @@ check: $(STAMP)
 # Each process begins with half of the tests; who is done takes over. Bytecode is kept even where the environment says
 # otherwise: hundreds of processes would compile the same files again.
 test quick stress: export PYTHONDONTWRITEBYTECODE :=
+# Every core has a process already: threads of BLAS would only wait for each other.
+test quick stress: export OPENBLAS_NUM_THREADS := 1
 test: $(STAMP)
 	"$(RUN)" -m pytest -q -n auto --dist worksteal
 

@@ -45,6 +45,8 @@ def pytest_collection() -> Generator[None, object, object]:
     try:
         return (yield)
     finally:
+        # They stay to the end, and are looked through no more.
+        gc.freeze()
         gc.enable()
 
 
