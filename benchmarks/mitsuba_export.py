@@ -14,7 +14,7 @@ from typing import Any
 import msgspec
 import numpy as np
 
-from course.building.gloss import lobe_of
+from course.building.gloss import is_rough, lobe_of
 from course.building.materials import Columns, base_color, material_columns
 from course.building.motion import shutter_of
 from course.building.objects import object_mesh
@@ -31,20 +31,22 @@ LOBES = ("", "jitter_on_plane", "jitter_in_ball", "sample_phong_lobe")
 EXPORTED: dict[type[msgspec.Struct], frozenset[str]] = {
     d.MaterialDescription: frozenset(
         {"color", "ambient", "diffuse", "specular", "exponent", "mirror", "gloss", "dielectric"}
+        | {"conductor"}
     ),
-    d.Dielectric: frozenset({"refraction_index", "absorption"}),
+    d.Dielectric: frozenset({"refraction_index", "absorption", "roughness", "distribution"}),
+    d.Conductor: frozenset({"refraction_index", "absorption_index", "roughness"}),
     d.CameraDescription: frozenset(
         {"eye", "look_at", "up", "vertical_fov", "lens", "shutter", "motion"}
     ),
     d.RectangleLight: frozenset({"corner", "edge_u", "edge_v", "radiance", "samples", "motion"}),
     d.ConstantEnvironment: frozenset({"radiance", "lights"}),
-    d.CubeEnvironment: frozenset({"faces", "cross", "scale", "lookup", "lights"}),
-    d.LatLongEnvironment: frozenset({"image", "size", "scale", "lookup", "lights"}),
+    d.CubeEnvironment: frozenset({"faces", "cross", "scale", "lookup", "lights", "sampling"}),
+    d.LatLongEnvironment: frozenset({"image", "size", "scale", "lookup", "lights", "sampling"}),
 }
 """The keys that are exported; what any other one says beyond its default is refused by name."""
 
 LAT_LONG_COLUMNS = 4
-"""Columns of the latitude-longitude picture for each texel along a face of the cube."""
+"""Columns of the latitude-longitude picture for each texel along a face of the cube, unless more are asked for."""
 
 
 class NotExportableError(Exception):
@@ -81,6 +83,8 @@ class Materials:
     exponent : (M,) of the highlight
     lobe : (M,) index into LOBES; parameter : (M,) its roughness, glossiness or exponent
     refraction_index : (M,), 0 where opaque; absorption : (M, 3) [1 / unit of the scene file]
+    n, k : (M, 3) of metals, whose ``mirror`` their Fresnel reflectance multiplies; 0 where no metal
+    alpha : (M,) of GGX microfacets of metal or glass; 0 where smooth
     """
 
     ambient: np.ndarray
@@ -92,6 +96,15 @@ class Materials:
     parameter: np.ndarray
     refraction_index: np.ndarray
     absorption: np.ndarray
+    n: np.ndarray
+    k: np.ndarray
+    alpha: np.ndarray
+
+    @property
+    def metal(self) -> np.ndarray:
+        """(M,) which are metals by Fresnel's equations."""
+        found: np.ndarray = (self.n > 0).any(axis=1) | (self.k > 0).any(axis=1)
+        return found
 
 
 @dataclass(frozen=True)
@@ -135,11 +148,14 @@ class Exported:
         return sum(len(part.triangles) for part in self.parts)
 
 
-def export(scene: Scene, width: int, height: int) -> Exported:
+def export(scene: Scene, width: int, height: int, finer: int = LAT_LONG_COLUMNS) -> Exported:
     """Take a scene apart.
 
     Raises NotExportableError for what no benchmark scene has: lights by radiance that move, grids of lights, objects
-    that are lights and open or not black, apertures other than disks, glass that blurs, and keys that are not EXPORTED.
+    that are lights and open or not black, apertures other than disks, glass that blurs by a square or a lobe, and keys
+    that are not EXPORTED.
+
+    ``finer``: columns of the latitude-longitude picture for each texel along a face of the cube.
     """
     description = scene.loaded.description
     columns = material_columns(description)
@@ -156,6 +172,12 @@ def export(scene: Scene, width: int, height: int) -> Exported:
             _refuse_others(material.dielectric, f"materials.{name}.dielectric")
             if material.gloss is not None:
                 raise NotExportableError(f"materials.{name}.gloss of glass is not exported")
+            if is_rough(material):
+                raise NotExportableError(
+                    f"materials.{name}.dielectric.roughness is exported with distribution ggx alone"
+                )
+        if material.conductor is not None:
+            _refuse_others(material.conductor, f"materials.{name}.conductor")
     return Exported(
         width,
         height,
@@ -170,7 +192,7 @@ def export(scene: Scene, width: int, height: int) -> Exported:
         ),
         _camera(description.camera),
         shutter_of(scene.loaded).duration,
-        *_environment(scene),
+        *_environment(scene, finer),
         description.environment.lights,
         description.integrator.max_depth,
         description.integrator.cutoff,
@@ -259,7 +281,7 @@ def _materials(scene: Scene, names: list[str]) -> Materials:
     rows: dict[str, list[Any]] = {name: [] for name in Materials.__dataclass_fields__}
     for name in names:
         material = description.materials[name]
-        glass = material.dielectric
+        glass, metal = material.dielectric, material.conductor
         color = base_color(material) * (glass is None)
         _, lobe, parameter = lobe_of(material, description.integrator.cutoff) or ("", "", 0.0)
         rows["ambient"].append(color * material.ambient * arriving)
@@ -271,6 +293,10 @@ def _materials(scene: Scene, names: list[str]) -> Materials:
         rows["parameter"].append(parameter)
         rows["refraction_index"].append(glass.refraction_index if glass else 0.0)
         rows["absorption"].append(rgb(glass.absorption) if glass else np.zeros(3))
+        rows["n"].append(rgb(metal.refraction_index) if metal else np.zeros(3))
+        rows["k"].append(rgb(metal.absorption_index) if metal else np.zeros(3))
+        rough = metal or glass
+        rows["alpha"].append(rough.roughness if rough else 0.0)
     return Materials(**{key: np.array(values, np.float32) for key, values in rows.items()})
 
 
@@ -353,7 +379,9 @@ def _camera(camera: d.CameraDescription) -> dict[str, Any]:
     }
 
 
-def _environment(scene: Scene) -> tuple[tuple[float, float, float], np.ndarray, np.ndarray]:
+def _environment(
+    scene: Scene, finer: int
+) -> tuple[tuple[float, float, float], np.ndarray, np.ndarray]:
     """Background, cube and latitude-longitude picture."""
     environment = scene.compiled.world.environment
     described = scene.loaded.description.environment
@@ -380,7 +408,7 @@ def _environment(scene: Scene) -> tuple[tuple[float, float, float], np.ndarray, 
             + cube[:, row, inner_column]
             + cube[:, inner_row, inner_column]
         ) / 3
-    rows = LAT_LONG_COLUMNS * size // 2 + 1
+    rows = finer * size // 2 + 1
     return (0.0, 0.0, 0.0), cube, seen(lat_long_directions(rows))
 
 

@@ -114,6 +114,8 @@ def _integrator_class() -> type:
             self._depth = exported.max_depth if bounces else 0
             if ((m.refraction_index > 0) & ((m.mirror.max(1) > 0) | (m.lobe > 0))).any():
                 raise NotExportableError("glass that also mirrors is not exported")
+            if m.metal.any() or m.alpha.any():
+                raise NotExportableError("metals and microfacets are left to Mitsuba's own plugins")
 
         def sample(
             self, scene: Any, sampler: Any, ray: Any, medium: Any = None, active: Any = True

@@ -16,6 +16,7 @@ import numpy as np
 
 from benchmarks.mitsuba_export import LOBES, Exported, NotExportableError, Part
 from benchmarks.mitsuba_llvm import make_mesh
+from benchmarks.mitsuba_phong import register_phong_lobe
 from benchmarks.mitsuba_variants import Sensors
 from course.formats.yaml import description as d
 from course.formats.yaml.description import rgb
@@ -78,14 +79,19 @@ def native_overrides(path: Path) -> tuple[Overrides, list[str]]:
 class NativeScene:
     """A scene in whichever variant of Mitsuba is switched on, of Mitsuba's own plugins only.
 
-    ``exported``: the scene, loaded with ``native_overrides``.
+    Parameters
+    ----------
+    exported : the scene, loaded with ``native_overrides``
+    lobes : whether Phong's lobes are a plugin in Python, for the LLVM variant; else they are only as wide
     """
 
-    def __init__(self, exported: Exported) -> None:
+    def __init__(self, exported: Exported, lobes: bool = False) -> None:
         import mitsuba as mi
 
+        if lobes:
+            register_phong_lobe()
         self._exported = exported
-        self._scene = mi.load_dict(_scene_map(exported))
+        self._scene = mi.load_dict(_scene_map(exported, lobes))
         # What moves is rendered as stills.
         self._sensors = Sensors(exported, shutter=0.0)
         self._moving = len(exported.parts) > 1
@@ -129,7 +135,7 @@ class NativeScene:
         self._values.update()
 
 
-def _scene_map(e: Exported) -> dict[str, Any]:
+def _scene_map(e: Exported, lobes: bool) -> dict[str, Any]:
     """The whole scene but its sensor."""
     import mitsuba as mi
 
@@ -137,7 +143,7 @@ def _scene_map(e: Exported) -> dict[str, Any]:
     for number, part in enumerate(e.parts):
         group: dict[str, Any] = {"type": "shapegroup"} if number else content
         for material in np.unique(part.material):
-            group[f"mesh_{number}_{material}"] = _mesh(e, part, int(material), still=number == 0)
+            group[f"mesh_{number}_{material}"] = _mesh(e, part, int(material), number == 0, lobes)
         if number:
             content[f"group_{number}"] = group
             content[f"instance_{number}"] = {
@@ -148,7 +154,7 @@ def _scene_map(e: Exported) -> dict[str, Any]:
         content["environment"] = {"type": "envmap", "bitmap": mi.Bitmap(e.lat_long)}
     elif any(e.background):
         content["environment"] = {"type": "constant", "radiance": _color(e.background)}
-    if e.materials.diffuse.any():
+    if e.materials.diffuse.any() or e.paths:
         for number, light in enumerate(e.lights):
             # An object shines wherever it is seen, also where nothing reflects: see ``_mesh``.
             if light["type"] != "object":
@@ -176,13 +182,13 @@ def _glows_only(e: Exported) -> bool:
     return not any(np.any(row) for row in (m.diffuse, m.specular, m.mirror, m.refraction_index))
 
 
-def _mesh(e: Exported, part: Part, material: int, still: bool) -> Any:
+def _mesh(e: Exported, part: Part, material: int, still: bool, lobes: bool) -> Any:
     """The triangles of one material."""
     import mitsuba as mi
 
     chosen, numbers = np.unique(part.triangles[part.material == material], return_inverse=True)
     properties = mi.Properties()
-    properties["bsdf"] = mi.load_dict(_bsdf(e, material))
+    properties["bsdf"] = mi.load_dict(_bsdf(e, material, lobes))
     # Mitsuba refuses a scene whose lamps all have a weight of 0.
     emitted, weight = e.materials.ambient[material], float(_glows_only(e))
     for light in e.lights:
@@ -202,20 +208,28 @@ def _mesh(e: Exported, part: Part, material: int, still: bool) -> Any:
     )
 
 
-def _bsdf(e: Exported, material: int) -> dict[str, Any]:
-    m = e.materials
+def _bsdf(e: Exported, material: int, lobes: bool) -> dict[str, Any]:
+    m, alpha = e.materials, float(e.materials.alpha[material])
+    ggx = {"distribution": "ggx", "alpha": alpha} if alpha else {}
     mirror, diffuse = m.mirror[material], m.diffuse[material]
     if m.specular[material].any() or (mirror.any() and diffuse.any()):
         raise NotExportableError(f"{e.names[material]}: no plugin has these reflections together")
     if m.refraction_index[material]:
-        return {
-            "type": "dielectric",
+        return ggx | {
+            "type": "roughdielectric" if ggx else "dielectric",
             "int_ior": float(m.refraction_index[material]),
             "ext_ior": 1.0,
         }
     if not mirror.any():
         return {"type": "twosided", "bsdf": {"type": "diffuse", "reflectance": _color(diffuse)}}
+    if lobes and LOBES[int(m.lobe[material])] == "sample_phong_lobe":
+        exponent = float(m.parameter[material])
+        return {"type": "phong_lobe", "reflectance": _color(mirror), "exponent": exponent}
     metal = {"type": "conductor", "material": "none", "specular_reflectance": _color(mirror)}
+    if m.metal[material]:
+        del metal["material"]
+        metal |= {"eta": _color(m.n[material]), "k": _color(m.k[material])}
+        metal |= ggx | ({"type": "roughconductor"} if ggx else {})
     width = _width(LOBES[int(m.lobe[material])], float(m.parameter[material]))
     if width:
         metal |= {"type": "roughconductor", "distribution": "beckmann", "alpha": width}

@@ -1,23 +1,27 @@
 """Veach's plates: errors of lamps and lobes and both, over samples, over seconds, and for each plate and lamp.
 
-Of each plate under each lamp the variance of a sample is estimated from pictures of several seeds, with independent
-numbers: no converged picture is needed, and the error at any number of samples follows. A sample of both is two: a
-point on the lamp, and a direction of the lobe. So both are compared with the better strategy of twice as many samples.
+Each plate fills a picture of its own under each lamp, seen from where the scene's camera stands. The variance of a
+sample is estimated from pictures of several seeds, with independent numbers: no converged picture is needed, and the
+error at any number of samples follows, and with it that in any time. All ways are rendered in turn, by one thread, and
+seconds are the processor's.
 """
 
 import json
 from pathlib import Path
+from time import process_time
 from typing import Any
 
 import numpy as np
 
 from benchmarks.figures import Figure
 from benchmarks.ways import compare_ways
-from course import render
+from course import Scene, render
 from course.atomic import write_text
 from course.benchmarking.machine import machine
-from course.benchmarking.measuring import Effort
+from course.benchmarking.measuring import Effort, Measured
+from course.benchmarking.plot_data import rounded
 from course.benchmarking.tables import Table, print_tables
+from course.core.types import Floats64
 from course.effects import PROJECT
 from course.scene.scene import load_scene, load_variant
 
@@ -30,7 +34,13 @@ WAYS = {
     "balance": "both, balance heuristic",
     "power": "both, power heuristic",
 }
-SIZE, SAMPLES, SEEDS = (180, 120), 16, 24
+ROWS, SAMPLES, SEEDS = 16, 64, 16
+"""Of the picture of a plate: its height [pixels], samples a pixel, and pictures."""
+
+WITHIN = 0.9
+"""Share of a plate's height and width that its picture shows."""
+
+FIFTH = 5.0
 
 
 def measure_multiple_importance() -> list[Figure]:
@@ -38,74 +48,169 @@ def measure_multiple_importance() -> list[Figure]:
     key = ("integrator", "gloss_sampling")
     title = "four ways to find lamps in glossy plates, random numbers"
     ways = {name: way for way, name in WAYS.items()}
-    compare_ways("multiple_importance", "random", key, ways, title, CURVES)
-    write_plates()
-    return []
+    measured = compare_ways("multiple_importance", "random", key, ways, title, CURVES)
+    found = measure_plates()
+    write_plates(found)
+    return [*_whole(measured), *_cells(found)]
 
 
-def write_plates(samples: int = SAMPLES, seeds: int = SEEDS, path: Path = PLATES) -> None:
-    """Measure every plate under every lamp, print it, and write it."""
+def _whole(measured: Measured) -> list[Figure]:
+    """How many times the relative error of both each strategy has in equal time, at the most samples, seed by seed."""
+    curves = {curve.estimator.variant: curve for curve in measured.curves}
+
+    def error(way: str) -> Floats64:
+        curve = curves[WAYS[way]]
+        return np.sqrt(curve.relative_mse[-1] * np.median(curve.seconds[-1]))
+
+    worse = max(("lobe", "lamp"), key=lambda way: float(np.median(error(way))))
+    each = error(worse) / error("power")
+    name = "multiple_importance: relative error in equal time, the worse strategy / both"
+    values = float(np.median(each)), float(each.min()), float(each.max())
+    return [Figure(name, *values, FIFTH, at_least=True)]
+
+
+def _cells(found: dict[str, Any]) -> list[Figure]:
+    """Of all plates and lamps: both over the better strategy, and the share in which both are five times better."""
+    deviation, seconds = (
+        {way: np.array(found[name][way]) for way in WAYS}
+        for name in ("deviation of a sample", "seconds")
+    )
+    timed = {way: deviation[way] * np.sqrt(seconds[way]) for way in WAYS}
+    figures = []
+    for what, errors in (("at equal samples", deviation), ("in equal time", timed)):
+        ratio = errors["power"] / np.minimum(errors["lobe"], errors["lamp"])
+        name = f"multiple_importance: error {what}, both / the better strategy, worst of 20"
+        figures.append(
+            Figure(name, float(ratio.max()), float(ratio.min()), float(ratio.max()), 1.0)
+        )
+    worse = np.maximum(timed["lobe"], timed["lamp"])
+    share = float((worse >= FIFTH * timed["power"]).mean())
+    name = (
+        "multiple_importance: share of plates and lamps where both have a fifth of the worse error"
+    )
+    return [*figures, Figure(name, share, share, share, 0.75, at_least=True)]
+
+
+def measure_plates(samples: int = SAMPLES, seeds: int = SEEDS, rows: int = ROWS) -> dict[str, Any]:
+    """Deviations of a sample and seconds of a picture, by way, plate and lamp."""
     description = load_scene(SCENE).loaded.description
     plates = [thing.name for thing in description.objects if thing.name in description.materials]
-    masks = [_mask(plate) for plate in plates]
-    variances = {
-        way: np.array(
-            [
-                _variances(way, lamp, masks, samples, seeds)
-                for lamp in range(len(description.lights))
-            ]
-        ).T
-        for way in WAYS
-    }
-    found: dict[str, Any] = {
+    shape = len(plates), len(description.lights)
+    deviation, seconds = ({way: np.empty(shape) for way in WAYS} for _ in range(2))
+    for row, plate in enumerate(plates):
+        for column in range(len(description.lights)):
+            found = _cell(plate, column, samples, seeds, rows)
+            for way, (variance, time) in found.items():
+                deviation[way][row, column] = np.sqrt(variance)
+                seconds[way][row, column] = time
+
+    def plain(values: dict[str, Floats64]) -> dict[str, Any]:
+        return {
+            way: [[rounded(x) for x in line] for line in lines] for way, lines in values.items()
+        }
+
+    return {
         "command": "python -m benchmarks multiple_importance",
-        "about": f"{SIZE[0]} x {SIZE[1]} pixels, {samples} samples, {seeds} seeds",
+        "about": f"{rows} rows of pixels, {samples} samples, {seeds} seeds, one thread",
         "machine": machine(),
         "plates": plates,
         "exponents": [description.materials[plate].gloss.exponent for plate in plates],
         "radii": [lamp.radius for lamp in description.lights],
-        "deviation of a sample": {
-            way: [[float(f"{x:.4g}") for x in row] for row in np.sqrt(variance)]
-            for way, variance in variances.items()
-        },
+        "deviation of a sample": plain(deviation),
+        "seconds": plain(seconds),
     }
-    better = np.sqrt(np.minimum(variances["lobe"], variances["lamp"]))
-    tables = []
-    for way in ("balance", "power"):
-        # The better strategy has twice as many samples: its error is smaller by the root of 2.
-        ratio = np.sqrt(2 * variances[way]) / better
-        rows = [
-            (plate, *(f"{x:.2f}" for x in row)) for plate, row in zip(plates, ratio, strict=True)
+
+
+def write_plates(found: dict[str, Any], path: Path = PLATES) -> None:
+    """Print errors in equal time and write what was measured."""
+    errors = {
+        way: np.array(found["deviation of a sample"][way]) * np.sqrt(found["seconds"][way])
+        for way in WAYS
+    }
+    better = np.minimum(errors["lobe"], errors["lamp"])
+    columns = ("plate", *(f"lamp of radius {radius:g}" for radius in found["radii"]))
+    print_tables(
+        [
+            Table(
+                f"{WAYS[way]}: error in equal time over that of the better strategy",
+                columns,
+                tuple(
+                    (plate, *(f"{x:.2f}" for x in line))
+                    for plate, line in zip(found["plates"], errors[way] / better, strict=True)
+                ),
+            )
+            for way in ("balance", "power")
         ]
-        columns = ("plate", *(f"lamp of radius {lamp.radius:g}" for lamp in description.lights))
-        tables.append(
-            Table(f"{WAYS[way]}: error over that of the better strategy", columns, tuple(rows))
-        )
-    print_tables(tables)
+    )
     path.parent.mkdir(exist_ok=True)
     write_text(path, json.dumps(found, indent=1) + "\n")
 
 
-def _alone(lamp: int, changed: dict[Any, Any]) -> Any:
-    """The scene with one lamp, its walls black."""
-    lights = load_scene(SCENE).loaded.document.data["lights"]
-    dark = {("materials", "wall", "color"): 0, ("lights",): [lights[lamp]]}
-    return load_variant(SCENE, {**dark, **changed})
+def _cell(
+    plate: str, lamp: int, samples: int, seeds: int, rows: int
+) -> dict[str, tuple[float, float]]:
+    """Variance of one sample, the mean of all pixels and channels, and median seconds of a picture, by way."""
+    scenes = {way: _alone(plate, lamp, way) for way in WAYS}
+    film = next(iter(scenes.values())).loaded.description.film
+    size = max(round(rows * film.width / film.height), 1), rows
+
+    def picture(scene: Scene, seed: int) -> np.ndarray:
+        return render(
+            scene, size=size, spp=samples, seed=seed, threads=1, compiled=True
+        ).linear.astype(np.float64)
+
+    sums, squares, seconds = {}, {}, {way: np.empty(seeds) for way in WAYS}
+    for scene in scenes.values():
+        picture(scene, seeds)
+    for seed in range(seeds):
+        for way, scene in scenes.items():
+            began = process_time()
+            made = picture(scene, seed)
+            seconds[way][seed] = process_time() - began
+            sums[way] = sums.get(way, 0) + made
+            squares[way] = squares.get(way, 0) + made**2
+    return {
+        way: (
+            samples * float((squares[way] - sums[way] ** 2 / seeds).mean()) / (seeds - 1),
+            float(np.median(seconds[way])),
+        )
+        for way in WAYS
+    }
 
 
-def _mask(plate: str) -> np.ndarray[Any, Any]:
-    """Pixels (H, W) that show a plate and nothing else."""
-    glowing = {("materials", plate, "emission"): 1, ("integrator", "max_depth"): 0}
-    scene = _alone(0, {**glowing, ("lights",): []})
-    picture = render(scene, size=SIZE, spp=16).linear
-    return np.asarray(picture.min(axis=2) > 0.999)
+def _alone(plate: str, lamp: int, way: str) -> Scene:
+    """One plate under one lamp, which fills the picture."""
+    whole = load_scene(SCENE).loaded
+    data = whole.document.data
+    things = [thing for thing in data["objects"] if thing["name"] == plate]
+    eye = np.array(whole.description.camera.eye)
+    fov, aspect, middle = _view(things[0], eye)
+    return load_variant(
+        SCENE,
+        {
+            ("objects",): things,
+            ("lights",): [data["lights"][lamp]],
+            ("camera", "look_at"): middle.tolist(),
+            ("camera", "vertical_fov"): fov,
+            ("film", "width"): round(100 * aspect),
+            ("film", "height"): 100,
+            ("integrator", "gloss_sampling"): way,
+        },
+    )
 
 
-def _variances(way: str, lamp: int, masks: Any, samples: int, seeds: int) -> list[float]:
-    """Variance of one sample of a way, the mean of each plate's pixels and channels."""
-    scene = _alone(lamp, {("integrator", "gloss_sampling"): way})
-    pictures = np.stack(
-        [render(scene, size=SIZE, spp=samples, seed=seed).linear for seed in range(seeds)]
-    ).astype(np.float64)
-    variance = samples * pictures.var(axis=0, ddof=1)
-    return [float(variance[mask].mean()) for mask in masks]
+def _view(plate: dict[str, Any], eye: Floats64) -> tuple[float, float, Floats64]:
+    """Vertical angle [degree] and width over height of a view within a plate, and its middle (3,)."""
+    turn, moved = plate["transform"]
+    tilt = np.radians(turn["rotate"]["degrees"])
+    middle = np.array(moved["translate"], float)
+    down = np.array([0, -np.sin(tilt), np.cos(tilt)]) * plate["depth"] / 2
+    forward = middle - eye
+    forward /= np.linalg.norm(forward)
+    right = np.array([1.0, 0, 0])
+    up = np.cross(right, forward)
+    # Tangents of the nearer of both edges, above and below the middle, and of the corner that is farthest away.
+    ends = [middle + down - eye, middle - down - eye]
+    half = WITHIN * min(abs(end @ up / (end @ forward)) for end in ends)
+    wide = WITHIN * plate["width"] / 2 / max(end @ forward for end in ends)
+    return float(2 * np.degrees(np.arctan(half))), float(wide / half), middle

@@ -156,17 +156,19 @@ def keep_cases(new: Iterable[Measured], path: Path) -> list[Measured]:
     cases = {each.case: each for each in (*read_cases(path), *new)}
     names = [(form, effect) for form in FORMS for effect in (*EFFECTS, *FURTHER)]
     ordered = [cases[name] for name in names if name in cases]
-    text = msgspec.json.format(msgspec.json.encode([_rounded(asdict(case)) for case in ordered]))
+    text = msgspec.json.format(
+        msgspec.json.encode([rounded_deeply(asdict(case)) for case in ordered])
+    )
     write_text(path, text.decode() + "\n")
     return read_cases(path)
 
 
-def _rounded(value: Any) -> Any:
+def rounded_deeply(value: Any) -> Any:
     """The same with as many digits as the other files of numbers have."""
     if isinstance(value, float):
         return rounded(value)
     if isinstance(value, dict):
-        return {key: _rounded(each) for key, each in value.items()}
+        return {key: rounded_deeply(each) for key, each in value.items()}
     if isinstance(value, list | tuple):
-        return [_rounded(each) for each in value]
+        return [rounded_deeply(each) for each in value]
     return value

@@ -3,14 +3,17 @@
 All ways have the same mean, so they share one converged picture.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+import numpy as np
+
+from benchmarks.figures import Figure
 from benchmarks.report import report
 from course.benchmarking.estimators import Estimator, Module
-from course.benchmarking.measuring import Effort, measure
-from course.benchmarking.plot_data import comparisons
-from course.benchmarking.tables import summary_table
+from course.benchmarking.measuring import Effort, Measured, measure
+from course.benchmarking.plot_data import Plot, comparisons
+from course.benchmarking.tables import Table, summary_table
 from course.effects import PROJECT
 
 REFERENCES = Path("out/references")
@@ -23,7 +26,9 @@ def compare_ways(
     ways: Mapping[str, str],
     title: str,
     effort: Effort,
-) -> None:
+    tables: Sequence[Table] = (),
+    plots: Sequence[Plot] = (),
+) -> Measured:
     """Measure, print and draw the curves.
 
     Parameters
@@ -32,6 +37,7 @@ def compare_ways(
     key : of the scene file
     ways : what each is called -> the key's value
     title : of the plot
+    tables, plots : of other measurements, to be shown behind these
     """
     estimators = tuple(
         Estimator(name, sampler, "as the scene", ("ways",), {key: way})
@@ -42,4 +48,20 @@ def compare_ways(
     measured = measure(one, estimators, effort, folder=REFERENCES)
     width, height = measured.size
     about = f"{width} x {height} pixels, {effort.seeds} seeds"
-    report(module, about, [summary_table(measured)], comparisons(measured))
+    report(module, about, [summary_table(measured), *tables], [*comparisons(measured), *plots])
+    return measured
+
+
+def gain(measured: Measured, worse: str, better: str, samples: int, goal: float) -> Figure:
+    """How many times the error of a better way a worse one has in the time that the better takes, seed by seed.
+
+    The worse way's error falls with the root of its samples: independent numbers, or too few to be even.
+    """
+    curves = {curve.estimator.variant: curve for curve in measured.curves}
+    one, other = curves[worse], curves[better]
+    at = one.samples.tolist().index(samples)
+    shorter = np.median(other.seconds[at]) / np.median(one.seconds[at])
+    each = np.sqrt(one.mse[at] / other.mse[at] / shorter)
+    name = f"{measured.module.name}: error in equal time at {samples} samples, {worse} / {better}"
+    values = float(np.median(each)), float(each.min()), float(each.max())
+    return Figure(name, *values, goal, at_least=True)

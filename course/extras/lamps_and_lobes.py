@@ -5,11 +5,14 @@ are tried, and each counts by its weight (Veach and Guibas, "Optimally combining
 rendering", 1995). A ray of a lobe carries the density of its direction; where it meets a lamp, the lamp's light counts
 with the lobe's weight. The lamp's weight goes with a shadow ray from where the lobe is.
 
-What only one strategy finds is left to it: mirrors, point lights, and lobes and lamps of other kinds.
+What only one strategy finds is left to it: mirrors, point lights, and lobes and lamps of other kinds. So is a lamp that
+is far wider than a lobe (``ALONE``): both weights are decided there, and no point is looked for. Nor is one on a ball
+that the lobe doesn't reach.
 """
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -32,15 +35,29 @@ ONCE = np.array([1, 1])
 DELTA = np.float32(np.inf)
 """Density of directions that lamps can't be sampled for: what they meet counts in full."""
 
+ALONE = np.float32(8)
+"""A lobe that is this many times denser in its middle than the lamp's points finds the lamp alone.
+
+On Veach's plates the noise of both is up to an eighth above the lobe's own there, for the lobe's outermost directions
+are left to points that hardly ever lie there.
+"""
+
+NOTHING = np.float32(-104)
+"""The logarithm of a share that is 0 in float32."""
+
 
 @dataclass(frozen=True)
 class LobeRays(Rays):
     """Rays that know how dense the lobe is that they come from.
 
-    ``density`` : (n,) float32 [1/sr], DELTA where only the lobe finds lamps
+    Attributes
+    ----------
+    density : (n,) float32 [1/sr], DELTA where only the lobe finds lamps
+    peak : (n,) float32 [1/sr], in the middle of the lobe
     """
 
     density: Floats32 | None = None
+    peak: Floats32 | None = None
 
 
 @dataclass(frozen=True)
@@ -63,6 +80,13 @@ class Lamp(ABC):
     @abstractmethod
     def density(self, points: Floats32, to_light: Floats32) -> Floats32:
         """How dense the lamp's points are over directions (n,) [1/sr], for vectors (3, n) from shading points to it."""
+
+    def seen(self, points: Floats32) -> tuple[Floats32, Floats32, Floats32] | None:
+        """Where a ball lies as seen from shading points (3, n); None of lamps whose density is not even.
+
+        Density (n,) of its points [1/sr], unit vectors (3, n) to its middle, and sines (n,) of the cone that it fills.
+        """
+        return None
 
 
 @dataclass(frozen=True)
@@ -91,6 +115,14 @@ class RoundLamp(Lamp):
         axis = self.center[:, None] - points
         found: Floats32 = self.functions.cone_density(self.radius, np.sqrt(dot(axis, axis)))
         return found
+
+    def seen(self, points: Floats32) -> tuple[Floats32, Floats32, Floats32]:
+        """See ``Lamp``; a sine above 1 is that of a point within the ball."""
+        axis = self.center[:, None] - points
+        distance = np.sqrt(dot(axis, axis))
+        inverse = 1 / np.maximum(distance, np.float32(1e-30))
+        sine: Floats32 = np.float32(self.radius) * inverse
+        return self.functions.cone_density(self.radius, distance), axis * inverse, sine
 
 
 @dataclass(frozen=True)
@@ -136,13 +168,45 @@ class Combining:
         dense *= height > 0
         return dense
 
-    def weights(self, lamp: Floats32, lobe: Floats32) -> Floats32:
+    def peak(self, material: Materials) -> Floats32:
+        """The density (n,) of lobes in their middle [1/sr]."""
+        found: Floats32 = (self.exponents.take(material) + 1) / np.float32(2 * np.pi)
+        return found
+
+    def weights(self, lamp: Floats32, lobe: Floats32, peak: Floats32) -> Floats32:
         """Weights (2, n) of points on the lamp and of directions of the lobe, by their densities (n,)."""
         if self.power is None:
             return np.stack((lamp > 0, lamp <= 0)).astype(np.float32)
         densities = np.stack((lamp, lobe))
         found: Floats32 = self.functions.heuristic_weights(ONCE, densities, self.power)
+        alone = peak >= ALONE * lamp
+        return np.where(alone, np.array([[0], [1]], found.dtype), found)
+
+    @cached_property
+    def reach(self) -> Floats32:
+        """(M,) cosines to a lobe's axis from which on it is 0 in float32."""
+        found: Floats32 = np.exp(NOTHING / np.maximum(self.exponents, np.float32(1e-3)))
         return found
+
+    def asks(self, hits: Hits, axis: Floats32, lamp: Lamp) -> Indices | None:
+        """Hits (k,) at which points on a lamp are looked for; None where no hit is left out.
+
+        Weights know nothing of what is left out here: the lamp's own are 0 there, or its points send nothing.
+
+        ``axis``: (3, n) of the lobes.
+        """
+        found = lamp.seen(hits.near_origin)
+        if found is None:
+            return None
+        density, way, sine = found
+        # The cosine of the angle between the lobe's axis and the ball: 1 where the axis meets the ball.
+        between, cosine = dot(axis, way), np.sqrt(np.maximum(1 - sine * sine, 0))
+        across = np.sqrt(np.maximum(1 - between * between, 0))
+        asked = between * cosine + across * sine > self.reach.take(hits.material)
+        asked |= between >= cosine
+        if self.power is not None:
+            asked &= self.peak(hits.material) < ALONE * density
+        return np.flatnonzero(asked)
 
 
 @dataclass(frozen=True)
@@ -169,7 +233,8 @@ class LobeLight(DirectLight):
         arrays = of(hits.material), of(hits.direction), of(hits.ns), of(hits.ng)
         lobe = self.combining.lobe_density(*arrays, way)
         # The light's colour is its radiance times its area over pi.
-        sent = np.float32(np.pi / self.lamp.area) * lobe * self.combining.weights(lamp, lobe)[0]
+        share = self.combining.weights(lamp, lobe, self.combining.peak(arrays[0]))[0]
+        sent = np.float32(np.pi / self.lamp.area) * lobe * share
         sent *= (found.irradiance > 0) & (lamp > 0)
         sent /= np.where(lamp > 0, lamp, np.float32(1))
         # Outside of the lobe no shadow ray is needed.
@@ -189,10 +254,23 @@ class LobeLight(DirectLight):
         )
 
     def incident(
-        self, hits: Hits, path: Indices | None, depth: int, draws: Draws
+        self, hits: Hits, axis: Floats32, path: Indices | None, depth: int, draws: Draws
     ) -> Floats32 | None:
-        """Radiance (3, n), or None for 0."""
-        return self._from_lights(hits, path, depth, draws)[0]
+        """Radiance (3, n), or None for 0; ``axis`` (3, n) of the lobes."""
+        assert self.lamp is not None
+        assert self.combining is not None
+        asked = self.combining.asks(hits, axis, self.lamp)
+        if asked is None or len(asked) == hits.size:
+            return self._from_lights(hits, path, depth, draws)[0]
+        if len(asked) == 0:
+            return None
+        of = asked if path is None else path.take(asked)
+        found = self._from_lights(some_of(hits, asked), of, depth, draws)[0]
+        if found is None:
+            return None
+        radiance = np.zeros((3, hits.size), np.float32)
+        radiance[:, asked] = found
+        return radiance
 
 
 @dataclass(frozen=True)
@@ -231,10 +309,12 @@ class LampsAndLobes:
         glossy, reflectance = glossy.compress(worth), reflectance.compress(worth, axis=1)
         if len(glossy) == 0:
             return None
-        some, of = some_of(hits, glossy), glossy if path is None else path.take(glossy)
+        some = hits if len(glossy) == hits.size else some_of(hits, glossy)
+        of = glossy if path is None else path.take(glossy)
+        axis = kept_above(reflect(some.direction, some.ns), some.ng)
         total = None
         for stage in self.by_points:
-            found = stage.incident(some, of, depth, draws)
+            found = stage.incident(some, axis, of, depth, draws)
             if found is not None:
                 total = found if total is None else np.add(total, found, out=total)
         if total is None:
@@ -260,11 +340,12 @@ class LampsAndLobes:
         # Points on lamps are looked for above the shading normal's horizon alone.
         density[mine] = np.where(dot(way, ns) > 0, self.combining.lobe_density(*arrays), DELTA)
         known: dict[str, Any] = vars(rays)
-        return LobeRays(**known, density=density)
+        peak = self.combining.peak(hits.material.take(which))
+        return LobeRays(**known, density=density, peak=peak)
 
     def share(self, rays: Rays, hits: Hits) -> Floats32 | None:
         """Weights (n,) of the light that rays meet at hits; None where all of it counts."""
-        if not isinstance(rays, LobeRays) or rays.density is None:
+        if not isinstance(rays, LobeRays) or rays.density is None or rays.peak is None:
             return None
         density = rays.density if hits.ray is None else rays.density.take(hits.ray)
         share = np.ones(hits.size, np.float32)
@@ -276,7 +357,8 @@ class LampsAndLobes:
             ray = which if hits.ray is None else hits.ray.take(which)
             origin = rays.origin.take(ray, axis=1)
             of_lamp = lamp.density(origin, hits.p.take(which, axis=1) - origin)
-            share[which] = self.combining.weights(of_lamp, density.take(which))[1]
+            peak = rays.peak.take(ray)
+            share[which] = self.combining.weights(of_lamp, density.take(which), peak)[1]
         return share
 
 

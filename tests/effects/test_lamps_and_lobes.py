@@ -13,6 +13,7 @@ import pytest
 
 from course import Scene, load_scene, render
 from course.effects import PROJECT
+from course.extras.lamps_and_lobes import Combining
 from course.scene.scene import load_variant
 from tests.conftest import MakeScene
 from tests.estimates import estimate
@@ -134,6 +135,39 @@ def test_both_are_quiet_where_either_is_loud(make_scene: MakeScene) -> None:
             )
             noise[way] = float(render(scene, compiled=False).linear[..., 0].std())
         assert noise["power"] < noise[worse] / 5
+
+
+WIDE, NARROW = BALL | {"radius": 1.2}, {"lobe": "phong", "exponent": 4000}
+
+
+@pytest.mark.parametrize("kind", ["distribution", "path"])
+def test_a_lobe_finds_a_much_wider_lamp_alone(make_scene: MakeScene, kind: str) -> None:
+    """No shadow ray is cast, and nothing of the lamp is lost: all of the narrow lobe lies within it."""
+    glossy = {"glossy": {"color": 0, "mirror": MIRROR, "gloss": NARROW}}
+    for way in ("balance", "power"):
+        rules = {"type": kind, "max_depth": 1, "gloss_sampling": way}
+        scene = plate(make_scene, way, WIDE, materials=glossy, integrator=rules)
+        picture = render(scene, compiled=False)
+        np.testing.assert_allclose(picture.linear, MIRROR * RADIANCE, rtol=1e-5)
+        assert picture.receipt.rays["shadow"] == 0
+
+
+@pytest.mark.parametrize("way", ["lamp", "balance", "power"])
+def test_points_that_are_left_out_count_nothing(
+    make_scene: MakeScene, monkeypatch: pytest.MonkeyPatch, way: str
+) -> None:
+    """Where a lamp is wide, where a lobe doesn't reach it, and anywhere else, on a plate that is seen whole."""
+    camera = {"eye": [4, 4, 0], "look_at": [0, 0, 0], "vertical_fov": 20}
+    lamps = [BALL | {"center": [-1.2, 1, z], "radius": r} for z, r in ((-0.6, 0.5), (0.4, 0.05))]
+    means = []
+    for left_out in (True, False):
+        if not left_out:
+            monkeypatch.setattr(Combining, "asks", lambda *_: None)
+        glossy = {"glossy": {"color": 0, "mirror": MIRROR, "gloss": NARROW | {"exponent": 300}}}
+        scene = plate(make_scene, way, BALL, materials=glossy, camera=camera, lights=lamps)
+        means.append(render(scene, compiled=False).linear)
+    assert means[0].max() > 0
+    np.testing.assert_allclose(*means, rtol=1e-5, atol=1e-6)
 
 
 @pytest.mark.parametrize(
