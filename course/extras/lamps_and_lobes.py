@@ -120,7 +120,7 @@ class RoundLamp(Lamp):
         """See ``Lamp``; a sine above 1 is that of a point within the ball."""
         axis = self.center[:, None] - points
         distance = np.sqrt(dot(axis, axis))
-        inverse = 1 / np.maximum(distance, np.float32(1e-30))
+        inverse = np.float32(1) / np.maximum(distance, np.float32(1e-30))
         sine: Floats32 = np.float32(self.radius) * inverse
         return self.functions.cone_density(self.radius, distance), axis * inverse, sine
 
