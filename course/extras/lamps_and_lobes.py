@@ -119,8 +119,8 @@ class RoundLamp(Lamp):
     def seen(self, points: Floats32) -> tuple[Floats32, Floats32, Floats32]:
         """See ``Lamp``; a sine above 1 is that of a point within the ball."""
         axis = self.center[:, None] - points
-        distance = np.sqrt(dot(axis, axis))
-        inverse = np.float32(1) / np.maximum(distance, np.float32(1e-30))
+        distance = np.maximum(np.sqrt(dot(axis, axis)), np.float32(1e-30))
+        inverse: Floats32 = np.reciprocal(distance)
         sine: Floats32 = np.float32(self.radius) * inverse
         return self.functions.cone_density(self.radius, distance), axis * inverse, sine
 
