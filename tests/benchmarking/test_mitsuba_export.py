@@ -126,7 +126,9 @@ def test_what_is_not_exported_is_refused(make_scene: MakeScene, lamp: dict[str, 
 
 UNKNOWN = rows("""
 materials/grey/emission -> [0, 1, 0] | materials.grey.emission
-materials/grey/conductor -> {refraction_index: 1, absorption_index: 2} | materials.grey.conductor
+materials/grey/conductor -> {refraction_index: 1, absorption_index: 2, fresnel: approximate} |
+    materials.grey.conductor.fresnel
+materials/grey -> {dielectric: {roughness: 0.1}} | materials.grey.dielectric.roughness
 materials/grey/highlight -> plain | materials.grey.highlight
 materials/grey/ambient_color -> 0.2 | materials.grey.ambient_color
 materials/grey/dielectric -> {shaded: true} | materials.grey.dielectric.shaded

@@ -13,8 +13,8 @@ import numpy as np
 import pytest
 
 from benchmarks.mitsuba_variants import start_llvm
+from benchmarks.peer_agreement import with_mitsubas_masking
 from course import render
-from course.effects import PROJECT
 from course.scene.scene import load_variant
 from tests.conftest import MakeScene
 
@@ -104,13 +104,8 @@ def test_rough_materials_are_mitsubas_within_noise(
     make_scene: MakeScene, tmp_path: Path, kind: str
 ) -> None:
     pytest.importorskip("mitsuba", reason="needs Mitsuba: pip install .[peers]")
-    mine = tmp_path / "mine"
-    mine.mkdir()
-    for file in (PROJECT / "solutions").glob("*.py"):
-        (mine / file.name).write_bytes(file.read_bytes())
-    product = PROJECT / "solutions" / "wrong" / "microfacets" / "g2_product.py"
-    with (mine / "microfacets.py").open("a", encoding="utf-8") as file:
-        file.write("\n\n" + product.read_text(encoding="utf-8"))
+    (tmp_path / "mine").mkdir()
+    mine = with_mitsubas_masking(tmp_path / "mine")
     one, other = blocks(ours(make_scene, kind, mine)), blocks(theirs(kind))
     error = np.sqrt((one.var(axis=0, ddof=1) + other.var(axis=0, ddof=1)) / BATCHES)
     # Where both are the sky alone, nothing but rounding is left.

@@ -113,9 +113,9 @@ def plates() -> Figure:
     """What was measured of each plate under each lamp."""
     data = json.loads(PLATES.read_text(encoding="utf-8"))
     deviation = {way: np.array(rows) for way, rows in data["deviation of a sample"].items()}
-    better = np.minimum(deviation["lobe"], deviation["lamp"])
-    ratio = np.sqrt(2) * deviation["power"] / better
-    saved = np.maximum(deviation["lobe"], deviation["lamp"]) / (np.sqrt(2) * deviation["power"])
+    timed = {way: deviation[way] * np.sqrt(rows) for way, rows in data["seconds"].items()}
+    ratio = deviation["power"] / np.minimum(deviation["lobe"], deviation["lamp"])
+    saved = np.maximum(timed["lobe"], timed["lamp"]) / timed["power"]
     canvas = Canvas(350, 262, (-1.72, 4.06, 5.42, -0.86), 4, stretch=True)
     for column, radius in enumerate(data["radii"]):
         canvas.label((column + 0.5, 0), f"{radius:g}", "n", 5)
@@ -134,8 +134,8 @@ def plates() -> Figure:
                 (column + 0.5, row + 0.72), f"1/{digits(saved[row, column])}", "c", 6, "faint"
             )
     return Figure(
-        "Error with both (power heuristic) for each plate and lamp, at equal numbers of samples in all: above, over "
-        "that of the better strategy; below, over that of the worse one. Coloured where points on the lamp are the "
+        "Error with both (power heuristic) for each plate and lamp: above, over that of the better strategy at equal "
+        "samples a pixel; below, over that of the worse one in equal time. Coloured where points on the lamp are the "
         f"better strategy, white where the lobe is. Measured: {data['about']}.",
         (
             Panel(
