@@ -56,7 +56,7 @@ def measure_many_lights() -> list[Figure]:
         title,
         CURVES,
         [_table(squares, seconds, choices)],
-        [_plot(squares)],
+        _plots(squares, seconds, choices),
     )
     return [
         *gains(squares, seconds),
@@ -184,12 +184,24 @@ def _table(squares: Floats64, seconds: Floats64, choices: Floats64) -> Table:
     return Table(title, (*columns, "tree's choice for a hit [ns]"), tuple(rows))
 
 
-def _plot(squares: Floats64) -> Plot:
-    """Errors at equal samples, over lamps."""
-    rmse = np.sqrt(squares.mean(axis=2))
-    lines = [
-        Series(name, style, {"lamps": COUNTS}, tuple(rmse[:, column].tolist()))
-        for column, (name, style) in enumerate((("each as probable", 0), ("by a light tree", 2)))
-    ]
+def _plots(squares: Floats64, seconds: Floats64, choices: Floats64) -> list[Plot]:
+    """Errors at equal samples and seconds, over lamps."""
+    axes = {"lamps": "lamps"}
+    names = (("each as probable", 0), ("by a light tree", 2))
+
+    def lines(values: Floats64) -> list[Series]:
+        return [
+            Series(name, style, {"lamps": COUNTS}, tuple(values[:, column].tolist()))
+            for column, (name, style) in enumerate(names)
+        ]
+
+    errors = lines(np.sqrt(squares.mean(axis=2)))
+    times = lines(np.median(seconds, axis=2))
+    walk = Series(
+        f"the tree's choice for {TOGETHER:,} hits", 3, {"lamps": COUNTS}, tuple(choices.tolist())
+    )
     title = f"{SAMPLES} samples a pixel, 10 to 10,000 lamps of the same power together"
-    return Plot("lamps", title, {"lamps": "lamps"}, "RMSE", tuple(lines), slope=False)
+    return [
+        Plot("lamps", title, axes, "RMSE", tuple(errors), slope=False),
+        Plot("cost", title, axes, "seconds", (*times, walk), slope=False),
+    ]
