@@ -2,8 +2,8 @@
 
 Each plate fills a picture of its own under each lamp, seen from where the scene's camera stands. The variance of a
 sample is estimated from pictures of several seeds, with independent numbers: no converged picture is needed, and the
-error at any number of samples follows, and with it that in any time. All ways are rendered in turn, by one thread, and
-seconds are the processor's.
+error at any number of samples follows, and with it that in any time. To be timed all ways are rendered in turn, by one
+thread, and seconds are the processor's; variances are kept in a file.
 """
 
 import json
@@ -14,12 +14,13 @@ from typing import Any
 import numpy as np
 
 from benchmarks.figures import Figure
-from benchmarks.ways import compare_ways
+from benchmarks.ways import REFERENCES, compare_ways
 from course import Scene, render
 from course.atomic import write_text
 from course.benchmarking.machine import machine
 from course.benchmarking.measuring import Effort, Measured
 from course.benchmarking.plot_data import rounded
+from course.benchmarking.references import scene_hash
 from course.benchmarking.tables import Table, print_tables
 from course.core.types import Floats64
 from course.effects import PROJECT
@@ -34,8 +35,11 @@ WAYS = {
     "balance": "both, balance heuristic",
     "power": "both, power heuristic",
 }
-ROWS, SAMPLES, SEEDS = 16, 64, 16
-"""Of the picture of a plate: its height [pixels], samples a pixel, and pictures."""
+ROWS, SAMPLES, SEEDS = 16, 64, 64
+"""Of the picture of a plate: its height [pixels], samples a pixel, and pictures for its variance."""
+
+TIMED = 12
+"""Pictures of each way that are timed."""
 
 WITHIN = 0.9
 """Share of a plate's height and width that its picture shows."""
@@ -94,18 +98,33 @@ def _cells(found: dict[str, Any]) -> list[Figure]:
     return [*figures, Figure(name, share, share, share, 0.75, at_least=True)]
 
 
-def measure_plates(samples: int = SAMPLES, seeds: int = SEEDS, rows: int = ROWS) -> dict[str, Any]:
+def measure_plates(
+    samples: int = SAMPLES,
+    seeds: int = SEEDS,
+    rows: int = ROWS,
+    timed: int = TIMED,
+    folder: Path = REFERENCES,
+) -> dict[str, Any]:
     """Deviations of a sample and seconds of a picture, by way, plate and lamp."""
     description = load_scene(SCENE).loaded.description
     plates = [thing.name for thing in description.objects if thing.name in description.materials]
     shape = len(plates), len(description.lights)
-    deviation, seconds = ({way: np.empty(shape) for way in WAYS} for _ in range(2))
-    for row, plate in enumerate(plates):
-        for column in range(len(description.lights)):
-            found = _cell(plate, column, samples, seeds, rows)
-            for way, (variance, time) in found.items():
-                deviation[way][row, column] = np.sqrt(variance)
-                seconds[way][row, column] = time
+    cells = [(plate, lamp) for plate in plates for lamp in range(shape[1])]
+
+    def table_of(values: list[dict[str, float]]) -> dict[str, Floats64]:
+        return {way: np.array([each[way] for each in values]).reshape(shape) for way in WAYS}
+
+    whole = load_scene(SCENE)
+    key = scene_hash(whole.loaded, whole.effects, samples=samples, batches=seeds, of=rows)
+    path = folder / f"plates_{key[:24]}.npz"
+    if path.is_file():
+        with np.load(path) as kept:
+            deviation = {way: kept[way] for way in WAYS}
+    else:
+        deviation = table_of([_deviations(*cell, samples, seeds, rows) for cell in cells])
+        path.parent.mkdir(parents=True, exist_ok=True)
+        np.savez(path, **deviation)
+    seconds = table_of([_seconds(*cell, samples, timed, rows) for cell in cells])
 
     def plain(values: dict[str, Floats64]) -> dict[str, Any]:
         return {
@@ -149,36 +168,38 @@ def write_plates(found: dict[str, Any], path: Path = PLATES) -> None:
     write_text(path, json.dumps(found, indent=1) + "\n")
 
 
-def _cell(
-    plate: str, lamp: int, samples: int, seeds: int, rows: int
-) -> dict[str, tuple[float, float]]:
-    """Variance of one sample, the mean of all pixels and channels, and median seconds of a picture, by way."""
+def _deviations(plate: str, lamp: int, samples: int, seeds: int, rows: int) -> dict[str, float]:
+    """Standard deviation of one sample by way, over all pixels and channels."""
+    found = {}
+    for way in WAYS:
+        scene = _alone(plate, lamp, way)
+        total, squares = 0.0, 0.0
+        for seed in range(seeds):
+            made = _picture(scene, samples, rows, seed, threads=2)
+            total, squares = total + made, squares + made**2
+        variance = (squares - total**2 / seeds) / (seeds - 1)
+        found[way] = float(np.sqrt(samples * np.mean(variance)))
+    return found
+
+
+def _seconds(plate: str, lamp: int, samples: int, timed: int, rows: int) -> dict[str, float]:
+    """Median seconds of a picture by way, all in turn."""
     scenes = {way: _alone(plate, lamp, way) for way in WAYS}
-    film = next(iter(scenes.values())).loaded.description.film
-    size = max(round(rows * film.width / film.height), 1), rows
-
-    def picture(scene: Scene, seed: int) -> np.ndarray:
-        return render(
-            scene, size=size, spp=samples, seed=seed, threads=1, compiled=True
-        ).linear.astype(np.float64)
-
-    sums, squares, seconds = {}, {}, {way: np.empty(seeds) for way in WAYS}
-    for scene in scenes.values():
-        picture(scene, seeds)
-    for seed in range(seeds):
+    seconds = {way: np.empty(timed) for way in WAYS}
+    for turn in range(-1, timed):
         for way, scene in scenes.items():
             began = process_time()
-            made = picture(scene, seed)
-            seconds[way][seed] = process_time() - began
-            sums[way] = sums.get(way, 0) + made
-            squares[way] = squares.get(way, 0) + made**2
-    return {
-        way: (
-            samples * float((squares[way] - sums[way] ** 2 / seeds).mean()) / (seeds - 1),
-            float(np.median(seconds[way])),
-        )
-        for way in WAYS
-    }
+            _picture(scene, samples, rows, turn + 1, threads=1)
+            # The first time tables are made.
+            seconds[way][turn] = process_time() - began
+    return {way: float(np.median(times)) for way, times in seconds.items()}
+
+
+def _picture(scene: Scene, samples: int, rows: int, seed: int, threads: int) -> Floats64:
+    film = scene.loaded.description.film
+    size = max(round(rows * film.width / film.height), 1), rows
+    made = render(scene, size=size, spp=samples, seed=seed, threads=threads, compiled=True)
+    return made.linear.astype(np.float64)
 
 
 def _alone(plate: str, lamp: int, way: str) -> Scene:
