@@ -62,7 +62,7 @@ def measure_many_lights() -> list[Figure]:
         *gains(squares, seconds),
         summary(
             "many_lights: seconds of the tree's choice, 10,000 / 10 lamps",
-            [choices[-1] / choices[0]],
+            [float(choices[-1] / choices[0])],
             float(np.log(COUNTS[-1]) / np.log(COUNTS[0])),
         ),
         summary(

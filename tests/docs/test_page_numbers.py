@@ -621,6 +621,90 @@ def test_errors_and_levels_of_denoising(heading: str, names: tuple[str, ...]) ->
                 assert told(cell, share * kept.get(samples, 0.0)), (row[0], sampler, samples)
 
 
+# ---------------------------------------------------------------- what samplings gain
+
+
+def test_what_visible_normals_gain() -> None:
+    numbers = said(
+        "microfacets",
+        "it takes N times as many samples for the same error here, and N times as long",
+    )
+    for text, what in zip(numbers, ("samples", "seconds"), strict=True):
+        name = f"microfacets: {what} for the same error, all normals / visible ones"
+        assert told(text, figures("microfacets")[name]["value"]), name
+
+
+def test_what_directions_by_a_picture_gain() -> None:
+    numbers = said(
+        "environment_light",
+        r"In the time that each takes for N samples directions by the cosine have N times the error of inversion, "
+        r"N times that of the alias table and N times that of `automatic`\.",
+    )
+    ways = ("by inversion", "by an alias table", "by picture and cosine (automatic)")
+    for text, way in zip(numbers[1:], ways, strict=True):
+        name = (
+            f"environment_light: error in equal time at {numbers[0]} samples, by the cosine / {way}"
+        )
+        assert told(text, figures("environment_light")[name]["value"]), name
+
+
+def test_what_a_light_tree_gains_and_costs() -> None:
+    rows = table("many_lights", "RMSE, each as probable")
+    found, measured = plots("many_lights"), figures("many_lights")
+    errors, costs = (
+        {line.name: dict(zip(line.x["lamps"], line.y, strict=True)) for line in found[name].series}
+        for name in ("lamps", "cost")
+    )
+    walk = next(name for name in costs if name.startswith("the tree's choice"))
+    hits = value(re.findall(r"[\d,]+", walk)[0])
+    for row in rows:
+        lamps = int(value(row[0]))
+        each, tree = errors["each as probable"][lamps], errors["by a light tree"][lamps]
+        assert told(row[1], each)
+        assert told(row[2], tree)
+        assert told(row[3], costs["each as probable"][lamps])
+        assert told(row[4], costs["by a light tree"][lamps])
+        name = f"many_lights: error in equal time, one of {row[0]} as probable / by the tree"
+        assert told(row[5], measured[name]["value"])
+        assert told(row[6], 1e9 * costs[walk][lamps] / hits)
+    assert [row[0] for row in rows] == ["10", "100", "1,000", "10,000"]
+    ratio, largest = said(
+        "many_lights",
+        r"N times as long for 10,000 lamps as for 10, .* of the means of blocks of pixels the largest \$\|t\|\$ is N\.",
+    )
+    assert told(
+        ratio, measured["many_lights: seconds of the tree's choice, 10,000 / 10 lamps"]["value"]
+    )
+    t = "many_lights: largest |t| of a block, one by the tree against all of 1,000"
+    assert told(largest, measured[t]["value"])
+
+
+def test_what_lamps_and_lobes_together_gain() -> None:
+    numbers = said(
+        "multiple_importance",
+        r"At equal samples a pixel both have N to N times the error of the better strategy\. .* "
+        r"have up to N times its error in equal time.* less than a fifth of the worse strategy's error in N of the 20 "
+        r"cells\. .* relative MSE\) is N times smaller than that of the worse strategy, and N times smaller than "
+        r"that of the better one\.",
+    )
+    low, high, timed, cells, worse, better = numbers
+    found = {
+        name.partition(": ")[2]: figure for name, figure in figures("multiple_importance").items()
+    }
+    equal = found["error at equal samples, both / the better strategy, worst of 20"]
+    assert told(low, equal["low"])
+    assert told(high, equal["high"])
+    assert told(
+        timed, found["error in equal time, both / the better strategy, worst of 20"]["high"]
+    )
+    share = "share of plates and lamps where both have a fifth of the worse error"
+    assert value(cells) == round(20 * found[share]["value"])
+    for text, what in ((worse, "worse"), (better, "better")):
+        assert told(
+            text, found[f"relative error in equal time, the {what} strategy / both"]["value"]
+        )
+
+
 # ---------------------------------------------------------------- grading
 
 
