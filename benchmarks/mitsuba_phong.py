@@ -22,26 +22,31 @@ def _register(_variant: str) -> None:
     import mitsuba as mi
 
     class PhongLobe(mi.BSDF):  # type: ignore[misc,name-defined]
-        """One glossy lobe, on the front of a surface."""
+        """One glossy lobe, on both sides of a surface."""
 
         def __init__(self, properties: Any) -> None:
             super().__init__(properties)
             self._reflectance = mi.Color3f(properties["reflectance"])
             self._exponent = float(properties["exponent"])
-            flags = mi.BSDFFlags.GlossyReflection | mi.BSDFFlags.FrontSide
+            sides = mi.BSDFFlags.FrontSide | mi.BSDFFlags.BackSide
+            flags = mi.BSDFFlags.GlossyReflection | sides
             self.m_components = [flags]
             self.m_flags = flags
 
+        def _axis(self, si: Any) -> Any:
+            """The mirrored direction, as if the ray had come from the front."""
+            return mi.Vector3f(-si.wi.x, -si.wi.y, dr.abs(si.wi.z))
+
         def _density(self, si: Any, wo: Any) -> Any:
-            axis = mi.Vector3f(-si.wi.x, -si.wi.y, si.wi.z)
+            axis = self._axis(si)
+            height = dr.mulsign(wo.z, si.wi.z)
             total = mi.Float(0)
-            for way in (wo, mi.Vector3f(wo.x, wo.y, -wo.z)):
+            for way in (mi.Vector3f(wo.x, wo.y, height), mi.Vector3f(wo.x, wo.y, -height)):
                 # 1 - cos without its cancellation: a narrow lobe hangs on the last digits.
                 off = dr.squared_norm(way - axis) / 2
-                height = dr.exp(self._exponent * _log1m(dr.minimum(off, 1 - 1e-7)))
-                total += dr.select(off < 1, height, 0)
-            above = (si.wi.z > 0) & (wo.z > 0)
-            return dr.select(above, total * (self._exponent + 1) / (2 * math.pi), 0)
+                share = dr.exp(self._exponent * _log1m(dr.minimum(off, 1 - 1e-7)))
+                total += dr.select(off < 1, share, 0)
+            return dr.select(height > 0, total * (self._exponent + 1) / (2 * math.pi), 0)
 
         def sample(self, _ctx: Any, si: Any, _sample1: Any, u: Any, active: Any = True) -> Any:
             # log(1 - u) / (n + 1) is the logarithm of the cosine.
@@ -50,15 +55,13 @@ def _register(_variant: str) -> None:
             # 1 - cos^2, again without cancellation.
             ring = dr.safe_sqrt(-_expm1(2 * log_cos))
             sin, cos = dr.sincos(2 * math.pi * u.y)
-            axis = mi.Vector3f(-si.wi.x, -si.wi.y, si.wi.z)
-            wo = mi.Frame3f(axis).to_world(mi.Vector3f(ring * cos, ring * sin, height))
-            wo.z = dr.abs(wo.z)
+            wo = mi.Frame3f(self._axis(si)).to_world(mi.Vector3f(ring * cos, ring * sin, height))
+            wo.z = dr.mulsign(dr.abs(wo.z), si.wi.z)
             sampled = dr.zeros(mi.BSDFSample3f)
             sampled.wo, sampled.eta, sampled.pdf = wo, 1.0, self._density(si, wo)
             sampled.sampled_component = mi.UInt32(0)
             sampled.sampled_type = mi.UInt32(+mi.BSDFFlags.GlossyReflection)
-            active = mi.Bool(active) & (si.wi.z > 0) & (sampled.pdf > 0)
-            return sampled, dr.select(active, self._reflectance, 0)
+            return sampled, dr.select(mi.Bool(active) & (sampled.pdf > 0), self._reflectance, 0)
 
         def eval(self, _ctx: Any, si: Any, wo: Any, active: Any = True) -> Any:
             return dr.select(active, self._reflectance * self._density(si, wo), 0)
