@@ -670,8 +670,8 @@ def test_what_a_light_tree_gains_and_costs() -> None:
     assert [row[0] for row in rows] == ["10", "100", "1,000", "10,000"]
     scene, ratio, largest = said(
         "many_lights",
-        r"In the scene above the first choice has N times the tree's error in equal time, .* N times as long for 10,000 "
-        r"lamps as for 10, .* of the means of blocks of pixels the largest \$\|t\|\$ is N\.",
+        r"In the scene above the first choice has N times the tree's error in equal time, .* N times as long for "
+        r"10,000 lamps as for 10, .* of the means of blocks of pixels the largest \$\|t\|\$ is N\.",
     )
     name = "many_lights: error in equal time at 64 samples, each as probable / by a light tree"
     assert told(scene, measured[name]["value"])
