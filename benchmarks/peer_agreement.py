@@ -124,13 +124,6 @@ def cases() -> dict[str, Case]:
         "Veach's plates, Phong's lobes": Case(
             "multiple_importance", "multiple_importance", "all paths", path
         ),
-        "Veach's plates, points alone": Case(
-            "multiple_importance",
-            "multiple_importance",
-            "all paths, points on lamps alone",
-            {**path, ("integrator", "gloss_sampling"): "lamp"},
-            samples=512,
-        ),
         "Veach's plates, rough steel": Case(
             "multiple_importance",
             "multiple_importance",
@@ -140,18 +133,11 @@ def cases() -> dict[str, Case]:
             theirs=256,
             product=True,
         ),
-        "a clear sky by inversion": Case(
+        "a clear sky with its sun": Case(
             "environment_light",
             "environment_light",
             f"all paths, no mirror, {facets}",
             sky,
-            columns=16,
-        ),
-        "a clear sky by an alias table": Case(
-            "environment_light",
-            "environment_light",
-            f"all paths, no mirror, {facets}",
-            {**sky, ("environment", "sampling"): "alias"},
             columns=16,
         ),
         "a thousand lamps by the tree": Case(
