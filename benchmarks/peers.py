@@ -464,6 +464,8 @@ def main(
     if only_tables:
         write_document(read_cases(DATA), DOCUMENT)
         return
+    # As installed: whole processes would else compile Python's files anew.
+    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     effort = QUICK if quick else Effort()
     forms = tuple(forms) or FORMS
     if "llvm" in forms and find_llvm() is None:
