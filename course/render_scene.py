@@ -20,9 +20,10 @@ from course.errors import CourseError
 from course.jobs.job import Job, Mode, check_memory, chosen_settings
 from course.jobs.picture import Picture
 from course.jobs.receipt import Receipt
-from course.rendering.binding import bind, lines_named, skipped_modules
+from course.rendering.binding import bind, skipped_modules
 from course.rendering.developing import developing
 from course.rendering.memory import keep_freed_memory
+from course.rendering.not_written import lines_named
 from course.rendering.threads import Pool, ThreadedExecutor, default_threads
 from course.rendering.uniform import TIMED, UNIFORM
 from course.scene.scene import Denoising, Scene, Settings

@@ -23,7 +23,8 @@ from course.jobs.job import chosen_settings
 from course.recording.recorder import Recorder
 from course.recording.segments import Segment, segments_of
 from course.recording.stages import RecordedDraws, RecordedEffects, recorded
-from course.rendering.binding import bind, lines_named
+from course.rendering.binding import bind
+from course.rendering.not_written import lines_named
 from course.scene.scene import Scene, Settings
 
 MOST_SAMPLES = 16384

@@ -1,7 +1,6 @@
-"""A tracer for a scene and the settings of one render; functions that aren't written, and modules that it skips."""
+"""A tracer for a scene and the settings of one render; the functions that it needs, and modules that it skips."""
 
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any
 
@@ -11,7 +10,6 @@ from course.core.film import Reconstruction
 from course.core.tracer import Tracer
 from course.core.types import Functions
 from course.effects import Bound, Need
-from course.errors import EffectError, FunctionError
 from course.extras.path_tracing import PathIntegrator
 from course.extras.plan import plan
 from course.extras.samplers import FUNCTIONS, make_sampler
@@ -113,26 +111,6 @@ def needs_of(scene: Scene, settings: Settings) -> tuple[Need, ...]:
     for name, key in developed_by(scene).items():
         bound.function("film", name, ("film", key))
     return bound.needs
-
-
-@contextmanager
-def lines_named(scene: Scene, bound: Bound) -> Iterator[None]:
-    """Say of a function that fails, or isn't written yet, which line of the scene asks for it."""
-    where = scene.loaded.document.where
-    try:
-        yield
-    except FunctionError as error:
-        if (path := bound.asked_by(error.function)) is None:
-            raise
-        raise error.asked_by(where(path), path) from error.__cause__
-    except NotImplementedError as error:
-        function, folder = str(error).partition(":")[0], scene.effects.folder
-        if (path := bound.asked_by(function)) is None:
-            told = str(error) or "a function is not written yet"
-            raise EffectError(f"{told} (in {folder})") from error
-        file = folder / function.partition(".")[0]
-        unwritten = FunctionError(f"{error} ({file}.py)", function)
-        raise unwritten.asked_by(where(path), path) from error
 
 
 _REASONS = {

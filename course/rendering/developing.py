@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 from course.core.types import Floats32
 from course.effects import Bound
 from course.formats.pictures.display import BRIGHTEST, ROUNDING, Display, over_white
-from course.rendering.binding import developed_by, lines_named
+from course.rendering.binding import developed_by
+from course.rendering.not_written import lines_named
 from course.scene.scene import Scene, Settings
 
 _WHITE = (0.3127, 0.3290)

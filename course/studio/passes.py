@@ -19,7 +19,8 @@ from course.core.tiles import PASS, Tile, Work, spread_over_cache, tile_picture
 from course.core.types import Floats32
 from course.effects import Bound
 from course.render_scene import NO_COMPILER, render
-from course.rendering.binding import bind, lines_named
+from course.rendering.binding import bind
+from course.rendering.not_written import lines_named
 from course.rendering.threads import Pool, default_threads
 from course.scene.scene import Scene, Settings
 

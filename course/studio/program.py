@@ -37,8 +37,9 @@ from course.rendering.background_compile import (
     compile_stages,
     compiling_nothing,
 )
-from course.rendering.binding import developed_by, lines_named, needs_of
+from course.rendering.binding import developed_by, needs_of
 from course.rendering.developing import developing
+from course.rendering.not_written import lines_named
 from course.scene.scene import Scene, Settings
 from course.studio.engine import ENGINE, NO_REFERENCE, EngineEffects, engines_picture
 from course.studio.late import StudioEffects

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from course.formats.yaml.checking import SYNONYMS, meant_by
 from course.formats.yaml.loading import Loaded, load_description
 from course.formats.yaml.schema import json_schema
+from course.formats.yaml.suggestions import SYNONYMS, meant_by
 from tests.scene import mistakes
 
 

@@ -9,7 +9,8 @@ import yaml
 
 from course.errors import SceneError
 from course.formats.yaml import tree
-from course.formats.yaml.document import Document, show, spell, suggest
+from course.formats.yaml.document import Document, show, spell
+from course.formats.yaml.suggestions import suggest
 from course.formats.yaml.tree import parse_document, read_document
 
 

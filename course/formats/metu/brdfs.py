@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from course.formats.metu.element import Element
-from course.formats.yaml.document import suggest
+from course.formats.yaml.suggestions import suggest
 
 HIGHLIGHTS = {
     "OriginalBlinnPhong": "plain",

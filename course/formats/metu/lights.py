@@ -17,7 +17,8 @@ from course.core.types import Floats64
 from course.formats.metu.element import Element
 from course.formats.metu.transformations import matrix_of, point
 from course.formats.metu.transformations import normal as transformed_normal
-from course.formats.yaml.document import show, suggest
+from course.formats.yaml.document import show
+from course.formats.yaml.suggestions import suggest
 
 ENVIRONMENTS = {"latlong": "lat_long", "probe": "angular"}
 """Types of METU's environments, and those of this course."""

@@ -33,7 +33,8 @@ from course.formats.metu.textures import Texture, Textures
 from course.formats.metu.transformations import matrix_of, matrix_of_steps, transform_of
 from course.formats.metu.transformations import normal as transformed_normal
 from course.formats.metu.transformations import point as moved
-from course.formats.yaml.document import show, suggest
+from course.formats.yaml.document import show
+from course.formats.yaml.suggestions import suggest
 
 SEGMENTS = ((8, 512), (32, 256), (128, 128))
 """Spheres a scene may have at most for so many flat pieces around each: a million triangles, or two, in all."""

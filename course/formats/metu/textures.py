@@ -18,7 +18,8 @@ from course.formats.metu.element import Element
 from course.formats.metu.materials import Body
 from course.formats.metu.meshes import MeshTable
 from course.formats.pictures.reading import LINEAR, read_picture
-from course.formats.yaml.document import show, suggest
+from course.formats.yaml.document import show
+from course.formats.yaml.suggestions import suggest
 
 KINDS: Final = {
     "replace_all": "color",

@@ -8,7 +8,7 @@ from course.core.types import Floats64
 from course.formats.meshes import transforms
 from course.formats.metu.element import Element
 from course.formats.yaml.consistency import flattens
-from course.formats.yaml.document import suggest
+from course.formats.yaml.suggestions import suggest
 
 Steps = list[dict[str, Any]]
 """Steps of `transform` in the project's own scene files."""

@@ -7,7 +7,6 @@ as `a number > 0 [world unit]`, and by what a key or a value of another shape wa
 """
 
 import re
-from collections.abc import Iterable
 from typing import Any, Final, TypeVar
 
 import msgspec
@@ -15,7 +14,8 @@ from msgspec import inspect
 
 from course.errors import SceneError
 from course.formats.yaml.description import STEP
-from course.formats.yaml.document import Document, Key, KeyPath, suggest
+from course.formats.yaml.document import Document, Key, KeyPath
+from course.formats.yaml.suggestions import meant_by, suggest
 
 # Numbers by kind; the tuple kinds have items of one and the same type.
 Number = inspect.FloatType | inspect.IntType
@@ -27,48 +27,6 @@ EXAMPLES: Final = {
 }
 """By the name of a description class: how a map is written where a number or a list comes to mind."""
 
-_MOVED = "transform: [{translate: [0, 1, 0]}]"
-_TURNED = "transform: [{rotate: {axis: [0, 1, 0], degrees: 90}}]"
-_SCALED = "transform: [{scale: 2}]"
-_EMITTED = ("radiance", "intensity", "irradiance")
-SYNONYMS: Final[dict[str, tuple[str, ...]]] = {
-    "fov": ("vertical_fov",),
-    "fovy": ("vertical_fov",),
-    "field_of_view": ("vertical_fov",),
-    "target": ("look_at",),
-    "direction": ("look_at",),
-    "pos": ("eye", "position", "center", "corner", _MOVED),
-    "position": ("eye", "center", "corner", _MOVED),
-    "location": ("eye", "position", "center", "corner", _MOVED),
-    "center": ("position", "corner", _MOVED),
-    "translate": (_MOVED,),
-    "translation": (_MOVED, "translate"),
-    "rotate": (_TURNED,),
-    "rotation": (_TURNED, "rotate"),
-    "scale": (_SCALED,),
-    "color": _EMITTED,
-    "power": _EMITTED,
-    "brightness": _EMITTED,
-    "strength": _EMITTED,
-    "emission": _EMITTED,
-    "radiance": ("irradiance", "intensity", "emission"),
-    "emissive": ("emission",),
-    "intensity": ("irradiance", "radiance"),
-    "type": ("shape",),
-    "shape": ("type",),
-    "size": ("radius", "width", "depth", "height"),
-    "path": ("file",),
-    "albedo": ("color",),
-    "shininess": ("exponent",),
-    "reflectivity": ("mirror",),
-    "ior": ("refraction_index", "dielectric: {refraction_index: 1.5}"),
-    "background": ("environment",),
-    "resolution": ("width", "height"),
-    "spp": ("samples",),
-    "depth": ("max_depth",),
-}
-"""Other programs' names of keys: the keys here, each perhaps with a value as an example."""
-
 _NOUNS: Final = {inspect.FloatType: "number", inspect.IntType: "whole number"}
 
 
@@ -79,12 +37,6 @@ def describe(kind: inspect.Type, unit: str | None = None) -> str:
         kind = kind.type
     text = _a_map(kind) if isinstance(kind, inspect.StructType) else _describe(kind)
     return f"{text} [{unit}]" if unit else text
-
-
-def meant_by(word: object, known: Iterable[str]) -> list[str]:
-    """List those known keys that other programs call by this word, written as to be used."""
-    names = set(known)
-    return [use for use in SYNONYMS.get(str(word).lower(), ()) if use.partition(":")[0] in names]
 
 
 def item_type(kind: Sequence, index: int) -> inspect.Type:

@@ -11,7 +11,8 @@ import numpy as np
 from course.core.types import Floats64
 from course.formats.yaml import description as d
 from course.formats.yaml.description import MOST_KNOT_SEGMENTS, Vector, rgb
-from course.formats.yaml.document import Document, Place, suggest
+from course.formats.yaml.document import Document, Place
+from course.formats.yaml.suggestions import suggest
 from course.formats.yaml.surroundings import in_its_surroundings
 
 # Below these sines two directions are held to be one: a picture turned by a rounding error, or a

@@ -1,8 +1,7 @@
 """A scene file as plain data that still knows the line of each value; and what a misspelt word was meant to be."""
 
-import difflib
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
@@ -127,22 +126,3 @@ def show(value: object) -> str:
 
 def _cut(text: str) -> str:
     return text if len(text) <= LONGEST else text[: LONGEST - 3] + "..."
-
-
-def suggest(word: object, known: Iterable[str]) -> str:
-    """`did you mean look_at?`, or all that is known where nothing comes near."""
-    names = list(known)
-    # Comparing is quadratic in the length of the word, which the file decides.
-    folded = str(word)[:LONGEST].lower()
-    lower: dict[str, str] = {name[:LONGEST].lower(): name for name in names}
-    near = [lower[name] for name in difflib.get_close_matches(folded, lower, n=2, cutoff=0.6)]
-    if near:
-        return f"did you mean {' or '.join(map(_name, near))}?"
-    if not names:
-        return "there are none"
-    listed = ", ".join(map(_name, names[:30]))
-    return f"known are {listed}{', ...' if len(names) > 30 else ''}"
-
-
-def _name(name: str) -> str:
-    return name if PLAIN_KEY.fullmatch(name) and len(name) <= LONGEST else show(name)

@@ -3,7 +3,8 @@
 from collections.abc import Mapping
 from typing import Any
 
-from course.formats.yaml.document import Document, Key, KeyPath, Lines, suggest
+from course.formats.yaml.document import Document, Key, KeyPath, Lines
+from course.formats.yaml.suggestions import suggest
 
 Overrides = Mapping[KeyPath, Any]
 """Key path -> the value that stands there instead, as YAML would give it: maps, lists, texts, numbers."""

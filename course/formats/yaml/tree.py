@@ -19,7 +19,8 @@ from typing import Any, Final
 import yaml
 
 from course.errors import SceneError
-from course.formats.yaml.document import Document, Key, Lines, show, spell, suggest
+from course.formats.yaml.document import Document, Key, Lines, show, spell
+from course.formats.yaml.suggestions import suggest
 from course.inputs import LARGEST_SCENE, Bound, read_input, shown
 
 # The square of a number within these is finite and not zero in float64.

@@ -16,7 +16,8 @@ import msgspec
 from course.errors import CourseError
 from course.formats.yaml.checking import convert
 from course.formats.yaml.description import about
-from course.formats.yaml.document import Document, KeyPath, show, suggest
+from course.formats.yaml.document import Document, KeyPath, show
+from course.formats.yaml.suggestions import suggest
 from course.formats.yaml.tree import read_document
 from course.grading.classes.names import same_name
 from course.grading.classes.roster import read_table
