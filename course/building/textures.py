@@ -41,6 +41,9 @@ def places_function(thing: d.Object) -> str:
     return "sphere_uv" if isinstance(thing, d.Sphere) else "triangle_uv"
 
 
+FEWEST = 1e-6
+"""Pixels of a picture along a unit of u or v; where it has fewer, it is the same all over."""
+
 STEEPEST = 1e30
 """Heights beyond it, in sizes of the scene, are as good as infinite, and their squares are numbers still."""
 
@@ -138,7 +141,7 @@ class Painter:
         assert described.image is not None
         asked_by = ("materials", thing.material, "bump")
         corners, known = self._relief(described.image, described.repeat, number, mesh, asked_by)
-        size = np.array(known.color.image.shape[1::-1]) * described.repeat
+        size = np.maximum(np.array(known.color.image.shape[1::-1]) * described.repeat, FEWEST)
         raised = BumpMap(PictureHeights(known, (0.5 / size).astype(np.float32)), height)
         return Paint(corners, raised)
 

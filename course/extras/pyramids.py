@@ -44,8 +44,13 @@ class Pyramid:
         face = cross(edges[0:3].astype(np.float64), edges[3:6].astype(np.float64))
         of_picture = np.abs(first[0] * second[1] - first[1] * second[0])
         height, width = self.levels[0].image.shape[:2]
-        pixels = float(width * height * self.levels[0].repeat.prod())
-        covered = size**2 * pixels * of_picture / np.maximum(np.sqrt(dot(face, face)), 1e-290)
+        pixels = width * height * self.levels[0].repeat.astype(np.float64).prod()
+        covered = (
+            size.astype(np.float64) ** 2
+            * pixels
+            * of_picture
+            / np.maximum(np.sqrt(dot(face, face)), 1e-290)
+        )
         level = np.clip(np.log2(np.maximum(covered, 1)) / 2, 0, len(self.levels) - 1)
         lower = np.minimum(level.astype(np.intp), max(len(self.levels) - 2, 0))
         colors = np.zeros((3, len(level)), np.float32)
