@@ -167,3 +167,16 @@ def test_what_is_no_bump_map_is_refused(
 ) -> None:
     with pytest.raises(SceneError, match=told):
         make_scene(materials={"m": material}, objects=[QUAD | {"material": "m"}])
+
+
+@pytest.mark.parametrize("keys", [{"repeat": [1, 1e-148]}, {"height": 1e6}])
+def test_bumps_of_any_size_give_finite_pictures(
+    make_scene: MakeScene, tmp_path: Path, keys: dict[str, Any]
+) -> None:
+    """Enough of a height turns normals along the surface, where light from above doesn't reach."""
+    write_ramp(tmp_path)
+    bump = {"image": "ramp.exr", "height": H} | keys
+    thing = QUAD | {"transform": [{"scale": 1e30}]}
+    found = lit(make_scene, thing, (1e29, 0, 2e29), (0, 2e30, 0), bump=bump, image=None)
+    slope = keys.get("height", H) * (A * X - (B if "height" in keys else 0) * Z) / 2
+    assert_lit(found, unit(Y - slope), Y, atol=1e-3)
