@@ -176,7 +176,7 @@ class _FirstPoints:
             known = self._points.shape[2]
             if known < end:
                 # An odd number of lines, so that the orders' rows don't begin in a few sets of the cache.
-                lines = -(-max(end, 2 * known) // _LINE) | 1
+                lines = -(-max(end, known + known // 2) // _LINE) | 1
                 more = _made(known, lines * _LINE - known, _every(ORDERS))
                 self._points = np.concatenate((self._points, more), axis=2)
             return self._points
