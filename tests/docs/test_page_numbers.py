@@ -648,6 +648,43 @@ def test_what_directions_by_a_picture_gain() -> None:
         assert told(text, figures("environment_light")[name]["value"]), name
 
 
+def test_what_a_light_tree_gains_and_costs() -> None:
+    rows = table("many_lights", "RMSE, each as probable")
+    found, measured = plots("many_lights"), figures("many_lights")
+    errors, costs = (
+        {line.name: dict(zip(line.x["lamps"], line.y, strict=True)) for line in found[name].series}
+        for name in ("lamps", "cost")
+    )
+    walk = next(name for name in costs if name.startswith("the tree's choice"))
+    hits = value(re.findall(r"[\d,]+", walk)[0])
+    for row in rows:
+        lamps = int(value(row[0]))
+        each, tree = errors["each as probable"][lamps], errors["by a light tree"][lamps]
+        assert told(row[1], each)
+        assert told(row[2], tree)
+        assert told(row[3], costs["each as probable"][lamps])
+        assert told(row[4], costs["by a light tree"][lamps])
+        name = f"many_lights: error in equal time, one of {row[0]} as probable / by the tree"
+        assert told(row[5], measured[name]["value"])
+        assert told(row[6], 1e9 * costs[walk][lamps] / hits)
+    assert [row[0] for row in rows] == ["10", "100", "1,000", "10,000"]
+    scene, ratio, largest = said(
+        "many_lights",
+        r"In the scene above the first choice has N times the tree's error in equal time, .* N times as long for "
+        r"10,000 lamps as for 10, .* of the means of blocks of pixels the largest \$\|t\|\$ is N\.",
+    )
+    ways = {line.name: line for line in found["ways"].series}
+    one, other = ways["each as probable"], ways["by a light tree"]
+    at = one.x["samples"].index(64)
+    shorter = one.x["seconds"][at] / other.x["seconds"][at]
+    assert told(scene, one.y[at] / other.y[at] * math.sqrt(shorter))
+    assert told(
+        ratio, measured["many_lights: seconds of the tree's choice, 10,000 / 10 lamps"]["value"]
+    )
+    t = "many_lights: largest |t| of a block, one by the tree against all of 1,000"
+    assert told(largest, measured[t]["value"])
+
+
 def test_what_lamps_and_lobes_together_gain() -> None:
     numbers = said(
         "multiple_importance",
