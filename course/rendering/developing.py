@@ -85,7 +85,9 @@ class Development:
             encoded = film.encode_srgb(colors)
         else:
             gamma = description.tone.gamma if description.tone else None
-            encoded = np.clip(colors, 0, 1) ** np.float32(1 / (gamma or 1))
+            # Of less, what isn't white is black already.
+            power = 1 / max(gamma or 1, 1e-30)
+            encoded = np.clip(colors, 0, 1) ** np.float32(power)
         if "quantize" in self.functions:
             u = np.random.default_rng(self.seed).random(encoded.shape, np.float32)
             return np.asarray(film.quantize(encoded, u))

@@ -56,6 +56,9 @@ def test_a_gamma_takes_the_place_of_the_curve(tmp_path: Path) -> None:
     toned = _picture(tmp_path, {"tone": {"gamma": 2.2}})
     assert _called(toned) == {"film.photographic"}
     assert _codes(tmp_path, toned).max() == 255
+    # The least of all leaves black and white alone.
+    least = _picture(tmp_path, {"tone": {"gamma": 1e-150}})
+    assert set(np.unique(_codes(tmp_path, least))) <= {0, 255}
 
 
 def test_dithering_is_off_by_less_than_a_code_and_the_same_each_time(tmp_path: Path) -> None:
