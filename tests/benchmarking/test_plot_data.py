@@ -151,7 +151,7 @@ def test_a_part_s_figures_leave_the_others_in_the_table(tmp_path: Path) -> None:
 @pytest.mark.parametrize("path", sorted((PROJECT / "docs" / "data").glob("*.json")), ids=str)
 def test_the_files_of_the_documentation_are_small_and_whole(path: Path) -> None:
     assert path.stat().st_size < 64_000
-    if path.stem in ("ratios", "peers"):
+    if path.stem in ("ratios", "peers", "peer_agreement"):
         return
     for found in read_records(path).values():
         assert found.command

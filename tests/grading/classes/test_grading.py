@@ -100,7 +100,6 @@ def grade(
     )
 
 
-@pytest.mark.usefixtures("references_once")
 def test_a_file_of_which_nothing_can_be_called_is_remarked_on(tmp_path: Path) -> None:
     folder = hand_in(tmp_path / "class", ada=STUB, bob="1 / 0\n", eve="")
     grade(folder, Here())
