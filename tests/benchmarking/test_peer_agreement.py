@@ -1,7 +1,7 @@
 """Pictures of the further modules in Mitsuba and here: what the page says of them, and two of them again, small.
 
-Small ones are compared as in ``test_mitsuba_paths``: 12 batches, and a |t| of 15 that one of the blocks and channels of
-a right pair exceeds less than once in 10^6 times. Seeds are fixed.
+Small ones have 16 batches, and a |t| of 10 that one of the 72 blocks and channels of a right pair exceeds 4 times in
+10^6 (Student's distribution, 15 degrees of freedom). Seeds are fixed. Roughnesses that are 10% too large exceed it.
 """
 
 from dataclasses import replace
@@ -20,7 +20,7 @@ from benchmarks.peer_scenes import scene_path
 from course import load_scene
 from course.modules import COURSE
 
-LIMIT = 15.0
+LIMIT = 10.0
 
 
 @pytest.fixture
@@ -53,7 +53,7 @@ def test_the_page_has_the_table_of_what_is_kept() -> None:
 @pytest.mark.parametrize("name", ["Veach's plates, Phong's lobes", "rough metals"])
 def test_pictures_agree_again(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(peer_agreement, "SIZE", (48, 32))
-    found = measure(name, replace(cases()[name], samples=64, theirs=64), 12, tmp_path)
+    found = measure(name, replace(cases()[name], samples=64, theirs=64), 16, tmp_path)
     assert found.blocks == 72
     assert found.agreement.largest < LIMIT
     assert (found.correlated is None) == (name != "rough metals")
