@@ -102,7 +102,9 @@ def test_both_engines_agree(make_scene: MakeScene) -> None:
         pytest.skip("Numba is not installed (pip install .[fast])")
     scene = seen(make_scene, [SPOT])
     pictures = [render(scene, compiled=each).linear for each in (False, True)]
-    np.testing.assert_allclose(*pictures, rtol=1e-5, atol=1e-7)
+    # Rounding of a cosine, which depends on the processor, is large beside the fourth power of a small difference.
+    np.testing.assert_allclose(*pictures, rtol=1e-5, atol=1e-6)
+    assert pictures[0].max() > 0.1
 
 
 def test_it_sends_out_its_intensity_over_its_solid_angle() -> None:
