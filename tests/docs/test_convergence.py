@@ -31,7 +31,7 @@ STYLES = PROJECT / "docs" / "_static" / "plots.css"
 OWN = sorted(
     path.stem
     for path in (PROJECT / "docs" / "data").glob("*.json")
-    if path.stem not in ("bench", "ratios", "peers", "scaling")
+    if path.stem not in ("bench", "ratios", "peers", "peer_agreement", "scaling")
 )
 
 SAMPLES = (1, 4, 16, 64)
