@@ -53,7 +53,7 @@ def ready(page: Any, side: str = "mine") -> None:
 
 
 def pixels(page: Any, name: str) -> str:
-    """What a canvas shows."""
+    """What a canvas shows; pictures come a moment after what is told of them."""
     shown: str = page.evaluate("name => document.getElementById(name).toDataURL()", name)
     return shown
 
@@ -79,7 +79,7 @@ def test_a_student_saves_what_is_wrong_and_then_what_is_right(
         write(work, WRONG)
         until(lambda: "by more than noise" in text(page, "#verdict"))
         ready(page)
-        assert pixels(page, "mine") != first
+        until(lambda: pixels(page, "mine") != first)
         until(lambda: state(page) == "wrong")
         assert "course check soft_shadows --only point_on_sphere/" in text(page, "#modules")
         assert page.locator("#curve polyline").count() == 2
@@ -92,7 +92,7 @@ def test_a_student_saves_what_is_wrong_and_then_what_is_right(
         write(work, RIGHT)
         until(lambda: text(page, "#verdict") == "No difference from the reference but noise.")
         assert page.is_hidden("#mine-trouble")
-        assert pixels(page, "difference") != difference
+        until(lambda: pixels(page, "difference") != difference)
         until(lambda: state(page) == "right")
 
 
