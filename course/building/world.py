@@ -143,10 +143,7 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
     environment, sky = compile_environment(loaded, bound)
     choice = compile_choice(loaded, lights, bound)
     if sky is None and choice is None:
-        of_lamp = surface.triangles.material >= len(used)
-        surface = replace(
-            surface, accelerator=without_own_lamp(surface.accelerator, of_lamp, lights)
-        )
+        surface = replace(surface, accelerator=without_own_lamp(surface, len(used), lights))
     named = list(zip(columns.names, used.values(), strict=True))
     mirrors = [(name, reflecting(material)) for name, material in named]
     lobes = compile_lobes(mirrors, bound, scene.integrator)

@@ -8,15 +8,17 @@ a fifth to a half of the time.
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
-from course.core.accelerator import Accelerator, QueryStats, StaticAccelerator
+from course.core.accelerator import Accelerator, StaticAccelerator
 from course.core.lights.sample import TO_A_SURFACE, Light
 from course.core.lights.sphere import SphereLight
 from course.core.motion import MovingAccelerator
-from course.core.types import Floats32, Mask
+from course.core.types import Mask
 from course.extras.own import courses_own
+from course.extras.surface import FullSurface
 from course.extras.visible_sphere import VisibleSphereLight
 
 MOST = 200_000
@@ -35,34 +37,24 @@ class LampAccelerator(StaticAccelerator):
         super().__init__(whole.vertices, whole.triangles, whole.make)
         self.others = StaticAccelerator(whole.vertices, whole.triangles[~of_lamp], whole.make)
 
-    def unoccluded(
-        self,
-        origin: Floats32,
-        direction: Floats32,
-        limit: float,
-        stats: QueryStats,
-        time: Floats32 | None = None,
-        *,
-        active: Mask | None = None,
-    ) -> Mask:
+    def unoccluded(self, *rays: Any, **options: Any) -> Mask:
         """See ``StaticAccelerator``; for shadow rays to the lamp."""
-        return self.others.unoccluded(origin, direction, limit, stats, time, active=active)
+        return self.others.unoccluded(*rays, **options)
 
 
-def without_own_lamp(
-    accelerator: Accelerator, of_lamp: Mask, lights: Sequence[Light]
-) -> Accelerator:
-    """The same triangles, and shadow rays that leave the only lamp out if it is a sphere at rest; else as it is.
+def without_own_lamp(surface: FullSurface, first_lamp: int, lights: Sequence[Light]) -> Accelerator:
+    """The surface's accelerator, with shadow rays that leave the only lamp out if it is a sphere at rest.
 
     Parameters
     ----------
-    of_lamp : (T,) of all triangles, which are those of a lamp
+    first_lamp : materials from this number on are those of lamps
     lights : all that shadow rays lead to
     """
+    accelerator = surface.accelerator
     static = accelerator.static if isinstance(accelerator, MovingAccelerator) else accelerator
     if type(static) is not StaticAccelerator or len(lights) != 1 or not _spares(lights[0]):
         return accelerator
-    mine = of_lamp[: len(static.triangles)]
+    mine = surface.triangles.material[: len(static.triangles)] >= first_lamp
     if not 0 < np.count_nonzero(~mine) <= MOST or not mine.any():
         return accelerator
     lamp = LampAccelerator(static, mine)

@@ -78,7 +78,9 @@ def test_without_the_lamps_mesh_shadow_rays_see_the_same(
     assert isinstance(static, LampAccelerator)
     assert 0 < len(static.others.triangles) < len(static.triangles)
     found = render(spared, compiled=compiled)
-    monkeypatch.setattr(world, "without_own_lamp", lambda accelerator, _lamp, _lights: accelerator)
+    monkeypatch.setattr(
+        world, "without_own_lamp", lambda surface, _lamp, _lights: surface.accelerator
+    )
     whole = scene_of(make_scene, SPARED[name])
     assert not isinstance(static_of(whole), LampAccelerator)
     expected = render(whole, compiled=compiled)

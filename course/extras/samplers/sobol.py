@@ -110,16 +110,16 @@ class SobolSampler(Sampler):
         known = _salts(self._seed, range(pairs))
         salts = np.array(known, np.uint64).reshape(pairs, 3)
         first, samples = block.first, block.samples
-        if samples > KEPT:
-            return _points(first, samples), 0, salts
-        if len(block.pixels) * pairs <= FEW and not _FIRST.has(first + samples):
+        end = first + samples
+        few = len(block.pixels) * pairs <= FEW and samples <= KEPT
+        if few and not _FIRST.has(end):
             order = np.unique(hash_words(block.pixels, *known[::3]) % np.uint32(ORDERS))
             points = np.empty((4, ORDERS, samples), np.uint32)
             points[:, order] = _made(first, samples, order)
             return points, 0, salts
-        if first + samples > KEPT:
+        if end > KEPT:
             return _points(first, samples), 0, salts
-        return _FIRST.points(first + samples), first, salts
+        return _FIRST.points(end), first, salts
 
 
 def _places(block: Block, path: Indices) -> tuple[Indices, Indices]:
@@ -192,8 +192,7 @@ def _every(orders: int) -> Words:
 @lru_cache(maxsize=16)
 def _points(first: int, samples: int) -> Words:
     """(4, orders, samples) uint32: a range of the sequence in every order."""
-    if first + samples <= KEPT:
-        end = first + samples
+    if (end := first + samples) <= KEPT:
         return np.ascontiguousarray(_FIRST.points(end)[:, :, first:end])
     # The renderer uses 16 samples per call; fewer orders bound the memory of long ranges.
     return _made(first, samples, _every(min(ORDERS, max(2**20 // samples, 1))))

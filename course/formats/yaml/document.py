@@ -1,4 +1,4 @@
-"""A scene file as plain data that still knows the line of each value; and what a misspelt word was meant to be."""
+"""A scene file as plain data that still knows the line of each value."""
 
 import re
 from collections.abc import Mapping
