@@ -104,11 +104,10 @@ class FullDirectLight(DirectLight):
 
     def _under_facets(self, hits: Hits, candidates: Candidates, values: Floats32) -> Floats32:
         """Values (k,) of a sum: irradiance, which is the diffuse term's, less what facets over that reflect."""
-        covered = self.highlights is not None and self.highlights.covers is not None
-        if self.highlights is None or not covered or values is not candidates.irradiance:
+        models = self.highlights
+        if models is None or models.covers is None or values is not candidates.irradiance:
             return values
-        ways = self._ways(hits, candidates)
-        return values * self.highlights.left(*ways, candidates.of(hits.material))
+        return values * models.left(*self._ways(hits, candidates), candidates.of(hits.material))
 
     def _ways(self, hits: Hits, candidates: Candidates) -> tuple[Floats32, Floats32]:
         """Unit vectors to the light, (3, k) or (3, 1), and from the viewer, (3, k)."""

@@ -6,6 +6,8 @@ from typing import Any
 
 import pytest
 
+from benchmarks.mitsuba_variants import find_llvm, start_llvm
+
 SCENE: dict[str, Any] = {
     "title": "a penumbra",
     "camera": {"eye": [0, 3, 3], "look_at": [0, 0, 0]},
@@ -25,3 +27,12 @@ def penumbra(tmp_path: Path) -> Path:
     path = tmp_path / "penumbra.yaml"
     path.write_text(json.dumps(SCENE), encoding="utf-8")
     return path
+
+
+@pytest.fixture
+def llvm() -> None:
+    """Mitsuba's variant that LLVM compiles, in one thread."""
+    pytest.importorskip("mitsuba", reason="needs Mitsuba: pip install .[peers]")
+    if find_llvm() is None:
+        pytest.skip("needs LLVM 17 or newer, such as Debian's libllvm19")
+    start_llvm(1)

@@ -25,7 +25,7 @@ from benchmarks.mitsuba_export import (
 )
 from benchmarks.mitsuba_llvm import LlvmScene
 from benchmarks.mitsuba_scalar import NativeScene, native_overrides
-from benchmarks.mitsuba_variants import find_llvm, start_llvm, start_scalar
+from benchmarks.mitsuba_variants import start_scalar
 from course import Scene, render, shapes
 from course.core.triangles import Mesh
 from course.effects import PROJECT
@@ -50,14 +50,6 @@ SKY = {"type": "constant", "radiance": [0.1, 0.2, 0.3]}
 def scalar() -> None:
     pytest.importorskip("mitsuba", reason="needs Mitsuba: pip install .[peers]")
     start_scalar(1)
-
-
-@pytest.fixture
-def llvm() -> None:
-    pytest.importorskip("mitsuba", reason="needs Mitsuba: pip install .[peers]")
-    if find_llvm() is None:
-        pytest.skip("needs LLVM 17 or newer, such as Debian's libllvm19")
-    start_llvm(1)
 
 
 def test_blocks_beyond_the_limit_are_rare() -> None:

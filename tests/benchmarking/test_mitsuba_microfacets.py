@@ -99,11 +99,11 @@ def blocks(pictures: np.ndarray) -> np.ndarray:
     return pictures.reshape(BATCHES, HEIGHT // 8, 8, WIDTH // 8, 8, 3).mean(axis=(2, 4))
 
 
+@pytest.mark.usefixtures("llvm")
 @pytest.mark.parametrize("kind", ["gold", "glass"])
 def test_rough_materials_are_mitsubas_within_noise(
     make_scene: MakeScene, tmp_path: Path, kind: str
 ) -> None:
-    pytest.importorskip("mitsuba", reason="needs Mitsuba: pip install .[peers]")
     (tmp_path / "mine").mkdir()
     mine = with_mitsubas_masking(tmp_path / "mine")
     one, other = blocks(ours(make_scene, kind, mine)), blocks(theirs(kind))

@@ -14,21 +14,12 @@ from benchmarks import peer_agreement
 from benchmarks.mitsuba_agreement import FAR
 from benchmarks.mitsuba_export import NotExportableError, export
 from benchmarks.mitsuba_llvm import LlvmScene
-from benchmarks.mitsuba_variants import find_llvm, start_llvm
 from benchmarks.peer_agreement import DOCUMENT, cases, measure, read, table
 from benchmarks.peer_scenes import scene_path
 from course import load_scene
 from course.modules import COURSE
 
 LIMIT = 10.0
-
-
-@pytest.fixture
-def llvm() -> None:
-    pytest.importorskip("mitsuba", reason="needs Mitsuba: pip install .[peers]")
-    if find_llvm() is None:
-        pytest.skip("needs LLVM 17 or newer, such as Debian's libllvm19")
-    start_llvm(1)
 
 
 def test_every_case_that_is_kept_agrees() -> None:
