@@ -4,10 +4,12 @@ What is written goes to a hidden file in the same folder, which then takes the n
 the file system; after a failure, or Ctrl-C, neither remains.
 """
 
+import json
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 from course.errors import OutputError
 
@@ -56,6 +58,27 @@ def write_text(path: Path, text: str) -> None:
     """
     with replacing(path) as temporary:
         temporary.write_text(text, encoding="utf-8", newline="\n")
+
+
+def write_rows(path: Path, data: Any, depth: int) -> None:
+    """Write JSON whose objects and arrays are spread over lines, but those `depth` deep: each of them is one line.
+
+    Raises OutputError as `replacing` does.
+    """
+    write_text(path, f"{_spread(data, depth, '')}\n")
+
+
+def _spread(data: Any, depth: int, indent: str) -> str:
+    if depth == 0 or not data or not isinstance(data, dict | list | tuple):
+        return json.dumps(data)
+    inner = f"{indent} "
+    if isinstance(data, dict):
+        rows = [f"{json.dumps(k)}: {_spread(one, depth - 1, inner)}" for k, one in data.items()]
+        start, end = "{}"
+    else:
+        rows, (start, end) = [_spread(one, depth - 1, inner) for one in data], "[]"
+    text = f",\n{inner}".join(rows)
+    return f"{start}\n{inner}{text}\n{indent}{end}"
 
 
 def _target(path: Path) -> Path:

@@ -35,7 +35,7 @@ from benchmarks.mutants.judging import (
 from benchmarks.mutants.variants import variants
 from benchmarks.mutants.varied import gaps
 from benchmarks.mutants.varied import varied as varied_by_checks
-from course.atomic import write_text
+from course.atomic import write_rows
 from course.benchmarking.tables import NONE, Table
 from course.effects import PROJECT
 from course.grading.catalog import module_checks
@@ -128,9 +128,9 @@ def main(
         json_file.write_text(json.dumps([_plain(verdict) for verdict in verdicts], indent=1))
     found = recorded(verdicts)
     if record:
-        write_text(record, json.dumps(found, indent=1) + "\n")
+        write_rows(record, found, depth=3)
         if set(chosen) == set(COURSE):
-            write_text(EXPLAINED, json.dumps(explaining(found, submissions), indent=1) + "\n")
+            write_rows(EXPLAINED, explaining(found, submissions), depth=1)
     changed = changes(json.loads(compare.read_text()), found) if compare else []
     print(*changed, sep="\n", end="\n" if changed else "")
     sys.exit(1 if faults or changed else 0)
@@ -252,7 +252,7 @@ def _varied(modules: tuple[str, ...], json_file: Path | None) -> int:
     print(Table("", columns, tuple(rows)).markdown())
     print(*missing, sep="\n")
     if json_file:
-        json_file.write_text(json.dumps({"seen": rows, "never varied": missing}, indent=1) + "\n")
+        write_rows(json_file, {"seen": rows, "never varied": missing}, depth=2)
     return 1 if missing else 0
 
 

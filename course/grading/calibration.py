@@ -5,14 +5,13 @@ wrong ones that the picture can tell from them. The tolerance lies between: 1 - 
 A wrong submission that the picture can't tell is listed; other checks are there for it.
 """
 
-import json
 from collections.abc import Callable, Iterable, Mapping
 from math import sqrt
 from pathlib import Path
 from typing import Any
 
 from course import __version__
-from course.atomic import write_text
+from course.atomic import write_rows
 from course.grading.catalog import module_checks
 from course.grading.checks.check import Caller, Check, ModuleChecks
 from course.grading.checks.running import run_checks
@@ -65,7 +64,7 @@ def calibrate(
 def write_tolerances(found: dict[str, dict[str, Any]], seeds: int, path: Path) -> None:
     """Where the checks read them."""
     head = {"made by": f"course calibrate --seeds {seeds}", "version": __version__}
-    write_text(path, json.dumps(head | {"checks": found}, indent=1) + "\n")
+    write_rows(path, head | {"checks": found}, depth=2)
 
 
 def _calibrated(module: str, check: Check, submissions: list[Known], seeds: int) -> dict[str, Any]:

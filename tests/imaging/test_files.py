@@ -2,6 +2,7 @@
 
 import errno
 import io
+import json
 import os
 import sys
 from collections.abc import Callable
@@ -13,7 +14,7 @@ import pytest
 from numpy.typing import NDArray
 from PIL import Image
 
-from course.atomic import check_writable, replacing, write_text
+from course.atomic import check_writable, replacing, write_rows, write_text
 from course.errors import OutputError
 from course.formats.pictures.display import linear_to_srgb8
 from course.formats.pictures.files import check_picture_path, encode_png, save
@@ -164,6 +165,16 @@ def test_a_folder_that_cannot_be_written_is_named(
         with pytest.raises(OutputError, match=r"the folder .* can't be written") as caught:
             attempt(path)
         assert str(sealed_folder) in str(caught.value)
+
+
+def test_rows_of_data_are_a_line_each(tmp_path: Path) -> None:
+    path = tmp_path / "rows.json"
+    data = {"made by": "a test", "checks": {"a": {"right": 1.5, "unseen": ["b"]}, "c": []}}
+    write_rows(path, data, depth=2)
+    assert json.loads(path.read_text()) == data
+    assert len(path.read_text().splitlines()) == 7
+    write_rows(path, [("a", "b"), ("c", None)], depth=1)
+    assert path.read_text() == '[\n ["a", "b"],\n ["c", null]\n]\n'
 
 
 @pytest.mark.skipif(not Path("/dev/null").is_char_device(), reason="no such device")
