@@ -235,9 +235,7 @@ def in_packets(
 ) -> Accelerator:
     """The same triangles, asked by packets; another hierarchy, that of bounding_volumes, as it is.
 
-    Parameters
-    ----------
-    parts : of the objects that the triangles belong to, where they stand still: see ``Triangles``
+    ``parts``: of the objects that the triangles belong to, where they stand still: see ``Triangles``
     """
     if isinstance(accelerator, StaticAccelerator) and not isinstance(
         accelerator, PacketAccelerator

@@ -94,15 +94,12 @@ class PacketScene:
 class EmbreePackets(PacketScene):
     """Triangles in Embree's hierarchy.
 
+    Raises RuntimeError: embree can't build it.
+
     Parameters
     ----------
     vertices : (V, 3) float32
     triangles : (T, 3) int32, T > 0
-
-    Raises
-    ------
-    RuntimeError
-        Embree can't build it.
     """
 
     def __init__(self, vertices: Floats32, triangles: Numbers) -> None:

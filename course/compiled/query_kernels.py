@@ -77,9 +77,7 @@ def _found(packet, whole, i, triangle, uvt, j):
 def intersect(scene, origin, direction, limit, which, every, hint, triangle, uvt):
     """Nearest hits into ``triangle`` (N,) and ``uvt`` (3, N); see ``PacketScene.intersect``.
 
-    Parameters
-    ----------
-    which : (n,) the rays that are asked, in ascending order; of no meaning where ``every`` one is
+    ``which``: (n,) the rays that are asked, in ascending order; of no meaning where ``every`` one is
     """
     n = direction.shape[1] if every else len(which)
     packet = aligned(ALL_ROWS)

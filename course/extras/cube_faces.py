@@ -84,11 +84,7 @@ def cube_from_cross(image: Floats32) -> Floats32:
     """Faces (6, S, S, 3) from a cross: horizontal (3 S, 4 S, 3) or vertical (4 S, 3 S, 3).
 
     Both have -x, +z, +x side by side with +y above and -y below +z; -z stands right of +x, or upside down below -y.
-
-    Raises
-    ------
-    ValueError
-        The picture has other proportions.
+    Raises ValueError: the picture has other proportions.
     """
     height, width = image.shape[:2]
     if height * 4 == width * 3 and width % 4 == 0:

@@ -305,9 +305,7 @@ def _flux(squares: Floats64) -> float:
 def _means(padded: Floats64, parts: int) -> Floats64:
     """Means of the bilinear interpolation over parts x parts equal squares of each face.
 
-    Parameters
-    ----------
-    padded : (6, S + 2, S + 2), the faces with a border of one texel
+    ``padded``: (6, S + 2, S + 2), the faces with a border of one texel
     """
     size = padded.shape[1] - 2
     edge = np.arange(parts + 1) * (size / parts) + 0.5

@@ -57,10 +57,7 @@ class HierarchyAccelerator:
     ) -> Intersections:
         """Nearest hit of each ray; see ``Accelerator.intersect``.
 
-        Raises
-        ------
-        EffectError
-            A function returned something else than its contract says.
+        Raises EffectError: a function returned something else than its contract says.
         """
         n = direction.shape[1]
         u, v = np.zeros((2, n), np.float32)
@@ -84,10 +81,7 @@ class HierarchyAccelerator:
     ) -> Mask:
         """True where nothing lies between origin and origin + limit * direction; see ``Accelerator.unoccluded``.
 
-        Raises
-        ------
-        EffectError
-            A function returned something else than its contract says.
+        Raises EffectError: a function returned something else than its contract says.
         """
         if active is not None:
             which = np.flatnonzero(active)

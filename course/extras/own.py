@@ -11,9 +11,7 @@ from course.errors import CourseError
 class EngineForm:
     """Stands for a function where there are no solutions: compiled loops have their own form of it, nobody else has.
 
-    Parameters
-    ----------
-    name : "module.function"
+    ``name``: "module.function"
     """
 
     def __init__(self, name: str) -> None:

@@ -28,9 +28,7 @@ MOST = 200_000
 class LampAccelerator(StaticAccelerator):
     """Triangles of which some are the mesh of the only lamp.
 
-    Attributes
-    ----------
-    others : the triangles that may block the lamp's light
+    ``others``: the triangles that may block the lamp's light
     """
 
     def __init__(self, whole: StaticAccelerator, of_lamp: Mask) -> None:

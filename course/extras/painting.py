@@ -102,10 +102,8 @@ class Painting:
 def make_painting(parts: Sequence[tuple[int, Paint | None]]) -> Painting | None:
     """Join the paint of all parts of a surface; None where there is none.
 
-    Parameters
-    ----------
-    parts : of each part, in their order in the surface, how many triangles it has and its paint, whose corners are
-        those of just these triangles
+    ``parts``: of each part, in their order in the surface, how many triangles it has and its paint, whose corners are
+    those of just these triangles
     """
     paints = [paint for _, paint in parts if paint is not None]
     if not paints:

@@ -36,9 +36,7 @@ class Piece:
 class Pieces:
     """The pieces of a block, and those that wait for others.
 
-    Parameters
-    ----------
-    draws, path_radiance : of the whole block
+    ``draws``, ``path_radiance``: of the whole block
     """
 
     def __init__(self, draws: Draws, path_radiance: Floats32) -> None:

@@ -23,9 +23,7 @@ from course.extras.path_pieces import Piece, Pieces
 class Glow:
     """Light that M materials give off.
 
-    Parameters
-    ----------
-    radiance : (3, M) float32
+    ``radiance``: (3, M) float32
     """
 
     def __init__(self, radiance: Floats32) -> None:
@@ -111,9 +109,7 @@ class PathIntegrator(Integrator):
     ) -> tuple[Rays, Mask | None] | None:
         """Follow rays for one depth: add their radiance, and return the rays of the next depth.
 
-        Parameters
-        ----------
-        adds_lights : (n,) bool, rays whose light from lamps and the environment counts; None for none of them
+        ``adds_lights``: (n,) bool, rays whose light from lamps and the environment counts; None for none of them
         """
         counters = draws.counters
         hits, throughput, path, medium = self._intersect(

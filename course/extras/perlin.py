@@ -49,9 +49,7 @@ def noise(x: Floats32) -> Floats32:
 class Noise:
     """Grey values of noise at places that the corners of triangles carry.
 
-    Attributes
-    ----------
-    conversion : "linear" for (noise + 1) / 2, "absolute" for |noise|
+    ``conversion``: "linear" for (noise + 1) / 2, "absolute" for |noise|
     """
 
     conversion: str

@@ -74,9 +74,7 @@ class Sky:
     ) -> Floats32 | None:
         """Irradiance over pi (3, n) from the environment at the hits; None where none arrives.
 
-        Parameters
-        ----------
-        path : (n,) the path of each hit, or None for all paths of the block in order
+        ``path``: (n,) the path of each hit, or None for all paths of the block in order
         """
         which, ns, ng = np.arange(hits.size), hits.ns, hits.ng
         glass = bool((self.diffuses & self.refracts).any())

@@ -36,10 +36,7 @@ def divided_passes(
     """``passes``, whose tiles of several batches are divided when little work remains.
 
     So no thread waits long for another in the end.
-
-    Parameters
-    ----------
-    threads : number of threads that render
+    ``threads``: number of threads that render
     """
     size = pass_size(settings, sampler)
     pixels_of_batch = max(RAYS // size, 1)

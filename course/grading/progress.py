@@ -60,15 +60,12 @@ def progress(
 ) -> Iterator[list[Progress]]:
     """The functions of one module after the other.
 
+    Raises SubmissionError: a file can't be read.
+
     Parameters
     ----------
     folder : of the modules' files
     before : called with the name of each module that has to be checked
-
-    Raises
-    ------
-    SubmissionError
-        A file can't be read.
     """
     kept = _read(folder / KEPT)
     for module in modules:

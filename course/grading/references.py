@@ -86,10 +86,7 @@ def read_references(path: Path, seed: int) -> References:
 def references(seed: int = USUAL_SEED) -> References:
     """References for a seed: made on the spot where the solutions are, else those that came with this copy.
 
-    Raises
-    ------
-    CourseError
-        There are neither.
+    Raises CourseError: there are neither.
     """
     if SOLUTIONS.is_dir():
 

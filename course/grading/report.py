@@ -213,10 +213,8 @@ RUNGS = 3
 def findings(result: Result, rungs: int = RUNGS) -> list[tuple[str, str]]:
     """The findings of a check that didn't pass, as labels with their text; what is empty is left out.
 
-    Parameters
-    ----------
-    rungs : of the ladder, how many to go down: the first says which law is broken, the second shows the smallest
-        input that breaks it, the third says which known mistake it looks like
+    ``rungs``: of the ladder, how many to go down: the first says which law is broken, the second shows the smallest
+    input that breaks it, the third says which known mistake it looks like
     """
     smallest = "" if result.example in result.where else result.example
     ladder = (

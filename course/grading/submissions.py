@@ -55,10 +55,7 @@ def _meant(module: str, folder: Path | None) -> str:
 def find_modules(folder: Path, modules: Iterable[str] = tuple(COURSE)) -> dict[str, Path]:
     """Where the files of modules are: in a folder, or else below it; a module that isn't there is left out.
 
-    Raises
-    ------
-    SubmissionError
-        One isn't in the folder, and more than once below it; or the folder can't be read.
+    Raises SubmissionError: one isn't in the folder, and more than once below it; or the folder can't be read.
     """
     found: dict[str, Path] = {}
     for module in modules:
@@ -78,10 +75,7 @@ def find_modules(folder: Path, modules: Iterable[str] = tuple(COURSE)) -> dict[s
 def read_found(folder: Path, paths: Mapping[str, Path]) -> dict[str, bytes]:
     """Modules that `find_modules` has found in a folder.
 
-    Raises
-    ------
-    SubmissionError
-        One is a link, is no file, or can't be read.
+    Raises SubmissionError: one is a link, is no file, or can't be read.
     """
     found: dict[str, bytes] = {}
     with readable(folder):

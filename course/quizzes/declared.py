@@ -68,10 +68,7 @@ class Asked:
 def asked(module: str, folder: Path = PROJECT / "solutions") -> list[Asked]:
     """The questions of a module; none where nobody has declared any.
 
-    Raises
-    ------
-    CourseError
-        The file of them can't be read, is not as it should be, or names a submission that isn't there.
+    Raises CourseError: the file of them can't be read, is not as it should be, or names a submission that isn't there.
     """
     path = folder / "quizzes" / f"{module}.yaml"
     if not path.is_file():

@@ -91,14 +91,8 @@ class ThreadedExecutor(Executor):
     ) -> bool:
         """Do the work in order and add it to the film; returns true if all of it was done.
 
-        Parameters
-        ----------
-        tick : called every TICK seconds from this thread
-
-        Raises
-        ------
-        Exception
-            Raised by a thread or by a worker of a cluster.
+        Raises Exception: raised by a thread or by a worker of a cluster.
+        ``tick``: called every TICK seconds from this thread
         """
         run = Execution(work, film, self._servers)
         threads = [
@@ -169,9 +163,7 @@ class ThreadedExecutor(Executor):
 class Pool(ThreadedExecutor):
     """Threads of this process that take tiles one by one.
 
-    Attributes
-    ----------
-    tracer : of the next tiles; it may be exchanged for one that makes the same bits
+    ``tracer``: of the next tiles; it may be exchanged for one that makes the same bits
     """
 
     def __init__(self, tracer: Tracer, threads: int) -> None:
@@ -214,10 +206,7 @@ class InOrder:
 
     A pass of a tile is complete when all its pieces have been added, in any order.
     Any number of threads may add at once; they add different tiles concurrently.
-
-    Attributes
-    ----------
-    done, done_first : pieces of work added so far, and those of the first pass
+    ``done``, ``done_first``: pieces of work added so far, and those of the first pass
     """
 
     def __init__(self, film: AnyFilm) -> None:

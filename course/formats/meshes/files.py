@@ -45,19 +45,15 @@ def read_mesh(path: Path, weights: Weights = "angle", bound: Bound = USUAL) -> M
     crease of 40 degrees (`smooth_normals`), unless faces weigh by their areas (`area_normals`).
     Triangles without area are let through. Where the file has normals they say which side is out:
     triangles that are wound the other way are turned, and a `CourseWarning` says how many.
+    Raises GeometryError, naming the file and the trouble: missing, no regular file, too large, empty, unreadable, no
+    triangles, an index out of range, a vertex or a normal that is not finite; in a PLY or OBJ file a face of fewer than
+    three corners. Of text the line is told.
 
     Parameters
     ----------
     path : ends in .ply, .obj, .stl or .glb, in capitals or not. No other file is read.
     weights : "angle" or "area", by what faces count in normals that the file doesn't have
     bound : the most bytes that the file may have
-
-    Raises
-    ------
-    GeometryError
-        Naming the file and the trouble: missing, no regular file, too large, empty, unreadable, no triangles, an
-        index out of range, a vertex or a normal that is not finite; in a PLY or OBJ file a face of
-        fewer than three corners. Of text the line is told.
     """
     path = Path(path)
     parse = FORMATS.get(path.suffix.lower())

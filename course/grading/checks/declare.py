@@ -242,9 +242,7 @@ class Function:
     def call(self, trial: Trial, a: Arguments) -> Any:
         """The results, of right shapes and finite, floating ones in float64; a tuple if there are several.
 
-        Raises
-        ------
-        Failure, StudentError
+        Raises Failure, StudentError.
         """
         # Generators move when they are drawn from: each call gets one that hasn't.
         given = (deepcopy(v) if isinstance(v, np.random.Generator) else v for v in a.values())
@@ -253,13 +251,8 @@ class Function:
     def seen(self, value: Any, a: Arguments, dtype: Any = None) -> Any:
         """Results of a call, looked at: of right shapes and finite; floating ones in float64.
 
-        Parameters
-        ----------
-        dtype : of the batch arguments, to be looked at too; any floating one passes if not given
-
-        Raises
-        ------
-        Failure
+        Raises Failure.
+        ``dtype``: of the batch arguments, to be looked at too; any floating one passes if not given
         """
         several = len(self.results) > 1
         value = unstacked(value, len(self.results))

@@ -182,12 +182,7 @@ def means(
 
 
 def check_uniform(values: Array, cells: tuple[int, ...], what: str, hint: str = "") -> None:
-    """(d, N) values fill the unit cube evenly: Pearson's chi-squared test over a grid of cells.
-
-    Raises
-    ------
-    Failure
-    """
+    """(d, N) values fill the unit cube evenly: Pearson's chi-squared test over a grid of cells. Raises Failure."""
     counts = counted(values, cells)
     expected = values.shape[1] / counts.size
     chi_squared(counts.ravel(), np.full(counts.size, expected), what, hint)
@@ -202,12 +197,7 @@ def counted(values: Array, cells: tuple[int, ...]) -> Array:
 
 
 def chi_squared(counts: Array, expected: Array, what: str, hint: str = "") -> None:
-    """Counts are as probable as that.
-
-    Raises
-    ------
-    Failure
-    """
+    """Counts are as probable as that. Raises Failure."""
     statistic = float(((counts - expected) ** 2 / expected).sum())
     limit = float(chdtri(counts.size - 1, FALSE_FAIL))
     if not statistic < limit:
@@ -221,12 +211,7 @@ def chi_squared(counts: Array, expected: Array, what: str, hint: str = "") -> No
 
 
 def check_mean(values: Array, mean: float, variance: float, what: str, hint: str = "") -> None:
-    """Independent values have that mean: a two-sided z-test with their known variance.
-
-    Raises
-    ------
-    Failure
-    """
+    """Independent values have that mean: a two-sided z-test with their known variance. Raises Failure."""
     found = float(values.astype(np.float64).mean())
     bound = SIGMAS * sqrt(variance / values.size)
     if not abs(found - mean) <= bound:

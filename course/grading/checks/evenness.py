@@ -21,9 +21,7 @@ REPEATS = 32
 def smooth(limit: float, *, case: Case | None = None, u_name: str = "u") -> Law:
     """A small step of u is a small step of the point: angles in degrees make a step 57 times as long.
 
-    Parameters
-    ----------
-    limit : of the way that a point goes, over the step of u that makes it, for most u
+    ``limit``: of the way that a point goes, over the step of u that makes it, for most u
     """
     step = 2.0**-12
 
@@ -120,12 +118,7 @@ def _skew(errors: Array) -> tuple[float, float]:
 
 
 def check_order(errors: list[float], least: float, hint: str = "") -> None:
-    """Errors at ``COUNTS`` fall with that order at the least.
-
-    Raises
-    ------
-    Failure
-    """
+    """Errors at ``COUNTS`` fall with that order at the least. Raises Failure."""
     order = fitted(errors)
     if order >= least:
         return

@@ -328,9 +328,7 @@ def _by_dtype(other: Print, right: Print, names: Iterable[str]) -> bool:
 def _same(one: Mapping[str, Array], other: Mapping[str, Array], dtypes: bool) -> bool:
     """Whether two outcomes are alike: the same exception, or the same values to rounding.
 
-    Parameters
-    ----------
-    dtypes : whether those count as well
+    ``dtypes``: whether those count as well
     """
     ours, theirs = (
         {key: value for key, value in outcome.items() if dtypes or not key.endswith(".dtype")}
@@ -403,9 +401,7 @@ def mistake_of(
 ) -> tuple[str, str] | None:
     """Which known mistake somebody's function makes, and what the student is told; None for none.
 
-    Parameters
-    ----------
-    prints : as `Check.prepare` of ``ModuleChecks.prints`` made them; without any, nothing is known
+    ``prints``: as `Check.prepare` of ``ModuleChecks.prints`` made them; without any, nothing is known
     """
     if not prints:
         return None
@@ -448,9 +444,7 @@ def known_mistake(
 def explains(module: str, check: Check, mistake: str) -> bool:
     """Whether who makes that mistake fails this check for it.
 
-    Parameters
-    ----------
-    mistake : its name; one that nobody has recorded explains all that fails
+    ``mistake``: its name; one that nobody has recorded explains all that fails
     """
     checks = _recorded().get(f"{module}.{check.function}/{mistake}")
     return checks is None or check.name in checks

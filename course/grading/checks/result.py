@@ -115,9 +115,7 @@ def broken(module: str, check: Check, reference_too: bool | None, last: str) -> 
 def result_of(module: str, check: Check, status: Status, **more: Any) -> Result:
     """The result of a check, with the points that the status earns.
 
-    Parameters
-    ----------
-    more : further attributes of the result, by name
+    ``more``: further attributes of the result, by name
     """
     earned = check.points if status in (Status.PASSED, Status.GRADER_ERROR) else 0.0
     about = check.function, check.name, check.title, check.kind

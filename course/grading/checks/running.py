@@ -284,10 +284,7 @@ class Gate:
     def call(self, function: str, *arguments: Any, **named: Any) -> Any:
         """The function's value.
 
-        Raises
-        ------
-        StudentError
-            There is none, or ("bad value") it is not of the kind that it should be.
+        Raises StudentError: there is none, or ("bad value") it is not of the kind that it should be.
         """
         value = self._caller.call(function, *arguments, **named)
         return self._looked(function, value, arguments, named)

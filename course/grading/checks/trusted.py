@@ -11,9 +11,7 @@ from course.grading.errors import StudentError
 class TrustedModule:
     """A ``Caller`` in this process.
 
-    Parameters
-    ----------
-    functions : by name
+    ``functions``: by name
     """
 
     def __init__(self, functions: Mapping[str, Callable[..., Any]]) -> None:

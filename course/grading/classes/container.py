@@ -42,9 +42,7 @@ NOT_REACHED = "the time was over before this check"
 def main(arguments: Sequence[str] | None = None) -> int:
     """Grade the submission below ROOT into ROOT/results/results.json; 0, or 1 after a fault of the grader.
 
-    Parameters
-    ----------
-    arguments : of the command line; this process's if not given
+    ``arguments``: of the command line; this process's if not given
     """
     parser = argparse.ArgumentParser(prog="container", description="Grade one submission.")
     parser.add_argument("system", choices=["gradescope", "prairielearn"])

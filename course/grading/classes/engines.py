@@ -231,6 +231,9 @@ def on_cluster(
 ) -> Generator[Outcome[Item, Value], None, None]:
     """Call a function for each item on the workers of a dask cluster, which need the course installed.
 
+    Raises CourseError: ``distributed`` isn't installed, no scheduler answers, it has no workers, or it or all of them
+    have gone.
+
     Parameters
     ----------
     function : one that can be imported
@@ -241,11 +244,6 @@ def on_cluster(
     ------
     Outcome
         One for each item, as they end. Close the generator to cancel what is left.
-
-    Raises
-    ------
-    CourseError
-        ``distributed`` isn't installed, no scheduler answers, it has no workers, or it or all of them have gone.
     """
     from course.cluster.connection import Connection, arrived
 

@@ -149,10 +149,7 @@ def _unfolded(
 def archive_entries(name: str, content: bytes, budget: Budget) -> list[Entry]:
     """Files of an archive.
 
-    Raises
-    ------
-    SubmissionError
-        It is damaged, too large, of a kind that can't be read, or a path in it leads out.
+    Raises SubmissionError: it is damaged, too large, of a kind that can't be read, or a path in it leads out.
     """
     suffix = _MAGIC.get(content[:4], archive_suffix(name))
     if suffix in _CLOSED:

@@ -144,9 +144,7 @@ def grade_all(
 ) -> ClassResult:
     """Grade submissions, and write a folder for each student.
 
-    Parameters
-    ----------
-    code : what else a result that was kept must have been made with
+    ``code``: what else a result that was kept must have been made with
     """
     try:
         (out / INSTRUCTOR).mkdir(parents=True, exist_ok=True)

@@ -59,9 +59,7 @@ class Graded:
 def grade_job(job: Job, references: Path | bytes) -> Graded:
     """Grade one submission and write its reports, as bytes.
 
-    Parameters
-    ----------
-    references : a file of ``make_references``, or its content
+    ``references``: a file of ``make_references``, or its content
     """
     seed = job.settings.seed
     if job.trouble:

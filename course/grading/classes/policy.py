@@ -170,14 +170,8 @@ def _named(
 def read_policy(path: Path, modules: Sequence[str]) -> Rules:
     """Read a policy.
 
-    Parameters
-    ----------
-    modules : that are graded
-
-    Raises
-    ------
-    CourseError
-        For the first mistake, with file, line and key.
+    Raises CourseError for the first mistake, with file, line and key.
+    ``modules``: that are graded
     """
     document = read_document(path, "policy")
     policy = convert(document, Policy)

@@ -20,9 +20,7 @@ def parsed(text: str | bytes) -> ast.Module | None:
 def reachable(module: str, tree: ast.Module, imports: bool = False) -> Iterator[ast.stmt]:
     """Statements that the module's functions come to use; of definitions with one name the last.
 
-    Parameters
-    ----------
-    imports : whether imports are among them
+    ``imports``: whether imports are among them
     """
     defined: dict[str, ast.stmt] = {}
     for node in tree.body:

@@ -61,10 +61,7 @@ class Matched:
 def read_roster(path: Path) -> list[Listed]:
     """Students of a CSV file with a heading: names, or first and last names, and logins, numbers or addresses.
 
-    Raises
-    ------
-    CourseError
-        The file can't be read, or has no column that names anybody.
+    Raises CourseError: the file can't be read, or has no column that names anybody.
     """
     columns, rows = read_table(path, "roster")
     known = {*_NAMES, *_FIRST, *_LAST, *_NUMBERS, *_LOGINS, *_EMAILS}
@@ -94,9 +91,7 @@ def read_table(path: Path, what: str) -> tuple[list[str], list[tuple[int, dict[s
 def match(roster: Sequence[Listed], submissions: Mapping[str, Sequence[str]]) -> Matched:
     """Find whose submission each is: by numbers first, then by logins, then by names.
 
-    Parameters
-    ----------
-    submissions : the name of each -> all names that its student may go by
+    ``submissions``: the name of each -> all names that its student may go by
     """
     found: dict[str, int] = {}
     # A login is a word as it is written; names are written in many ways.

@@ -67,14 +67,8 @@ class Settings(msgspec.Struct, frozen=True):
 def read_settings(out: Path, submission_seconds: float | None = None) -> Settings:
     """The settings of what was graded into a folder.
 
-    Parameters
-    ----------
-    submission_seconds : in the place of those before; None to keep them
-
-    Raises
-    ------
-    CourseError
-        Nothing was graded into it.
+    Raises CourseError: nothing was graded into it.
+    ``submission_seconds``: in the place of those before; None to keep them
     """
     try:
         settings = msgspec.json.decode(_path(out).read_bytes(), type=Settings)

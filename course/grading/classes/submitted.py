@@ -96,14 +96,8 @@ class _Handed:
 def find_submissions(folder: Path, modules: Iterable[str] = tuple(COURSE)) -> list[Submission]:
     """Everything in a folder, in the order of the names, read.
 
-    Parameters
-    ----------
-    modules : of these; files of other modules are left alone
-
-    Raises
-    ------
-    CourseError
-        There is no such folder or nothing in it.
+    Raises CourseError: there is no such folder or nothing in it.
+    ``modules``: of these; files of other modules are left alone
     """
     modules = tuple(modules)
     try:
@@ -244,14 +238,8 @@ def _without_folders(text: str, handed: _Handed) -> str:
 def choose(entries: Sequence[Entry], modules: tuple[str, ...], remarks: list[str]) -> _Sources:
     """The modules among the files of a submission, by name.
 
-    Parameters
-    ----------
-    remarks : what is already known to be left out; gets what is guessed, and what else is left out
-
-    Raises
-    ------
-    SubmissionError
-        There are two files for one module, none for any, or one that can't be read.
+    Raises SubmissionError: there are two files for one module, none for any, or one that can't be read.
+    ``remarks``: what is already known to be left out; gets what is guessed, and what else is left out
     """
     sources: _Sources = {}
     named = [(entry, read_name(entry.path.name, modules)) for entry in entries]

@@ -245,9 +245,7 @@ def _panorama(draw: Draw) -> Mapping[str, Any]:
 def _lookup(name: str, seamless: bool, *more: Any) -> Function:
     """One of the lookups.
 
-    Parameters
-    ----------
-    more : laws of it alone, as arguments of `about`
+    ``more``: laws of it alone, as arguments of `about`
     """
 
     def compare(a: Arguments, r: Array) -> tuple[Any, ...]:

@@ -19,10 +19,7 @@ Hierarchy = tuple[Array, Array, Array, Array, Array]
 def walkable(value: Any) -> tuple[Hierarchy, list[Array]]:
     """A student's hierarchy, numbers of nodes and boxes as integers, and the nodes of each level.
 
-    Raises
-    ------
-    Failure
-        The walk from the root leaves the arrays, comes to a node twice, or misses one.
+    Raises Failure: the walk from the root leaves the arrays, comes to a node twice, or misses one.
     """
     lo, hi, *rest = value
     first, count, order = (array.astype(np.int64) for array in rest)

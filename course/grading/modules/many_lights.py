@@ -280,12 +280,7 @@ def _sorts(draw: Draw) -> Mapping[str, Any]:
 
 
 def _right_sizes(a: Arguments, r: Any) -> None:
-    """As many nodes as there are, and every lamp in one leaf.
-
-    Raises
-    ------
-    Failure
-    """
+    """As many nodes as there are, and every lamp in one leaf. Raises Failure."""
     count = a.power.size
     if r[4].size != 2 * count - 1:
         raise Failure(

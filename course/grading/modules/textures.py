@@ -19,9 +19,7 @@ SCALES = (1.0, 1e-3, 1e3)
 def _rectangle(low: float, high: float, off: float = 0.0) -> Case:
     """A rectangle anyhow in space, sides of different length, and points with u and v from low to high.
 
-    Parameters
-    ----------
-    off : how far they may lie beside the plane
+    ``off``: how far they may lie beside the plane
     """
 
     def case(draw: Draw) -> Mapping[str, Any]:

@@ -32,12 +32,7 @@ GRAZING = 0.02
 
 
 def _found(a: Arguments, r: Any) -> tuple[Array, Array]:
-    """Triangles and t, which are there together or not at all.
-
-    Raises
-    ------
-    Failure
-    """
+    """Triangles and t, which are there together or not at all. Raises Failure."""
     triangle, t = r[0].astype(np.int64), r[1]
     triangles = a.p0.shape[1]
     if triangle.size and (triangle.min() < -1 or triangle.max() >= triangles):

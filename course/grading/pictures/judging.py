@@ -46,12 +46,7 @@ UNCALIBRATED = 0.98
 
 
 def check_ssim(yours: Array, expected: Array, check: str) -> None:
-    """The picture looks like the reference.
-
-    Raises
-    ------
-    Failure
-    """
+    """The picture looks like the reference. Raises Failure."""
     tolerance = tolerances().get(check, {}).get("tolerance", UNCALIBRATED)
     found = ssim(yours, expected)
     if not found >= tolerance:
@@ -75,14 +70,12 @@ def block_means(picture: Array) -> Array:
 def check_bias(yours: list[Array], expected: Array) -> None:
     """Means of blocks agree with the reference's.
 
+    Raises Failure.
+
     Parameters
     ----------
     yours : pictures of several seeds
     expected : (seeds, down, across), the reference's means of blocks for other seeds
-
-    Raises
-    ------
-    Failure
     """
     means = np.stack([block_means(picture) for picture in yours])
     count = len(expected)

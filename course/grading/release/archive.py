@@ -60,10 +60,7 @@ class LeakError(CourseError):
 def archive_contents(project: Path) -> dict[str, bytes]:
     """Path in the archive -> content, for everything that students get.
 
-    Raises
-    ------
-    LeakError
-        A line of a solution stands somewhere in it; names the file and the line.
+    Raises LeakError: a line of a solution stands somewhere in it; names the file and the line.
     """
     contents = made_contents(project / "solutions", copy=True)
     contents |= project_files(project, FILES, FOLDERS)
@@ -135,10 +132,7 @@ def check_folder(out: Path) -> None:
 def write_folder(contents: Mapping[str, bytes], out: Path) -> int:
     """Write files into a folder that is new or empty, scripts so that they can be executed; the number of files.
 
-    Raises
-    ------
-    OutputError
-        The folder holds something, or can't be written.
+    Raises OutputError: the folder holds something, or can't be written.
     """
     check_folder(out)
     try:

@@ -76,15 +76,9 @@ class Stub:
 def find_regions(text: str, file: str) -> list[Region]:
     """Find the regions of a text, from top to bottom.
 
-    Parameters
-    ----------
-    file : what error messages call the text
-
-    Raises
-    ------
-    SolutionError
-        A region is not closed, begins within another or ends without having begun; its markers
-        are indented differently; or a marker is misspelt or shares its line.
+    Raises SolutionError: a region is not closed, begins within another or ends without having begun; its markers are
+    indented differently; or a marker is misspelt or shares its line.
+    ``file``: what error messages call the text
     """
     regions = []
     opened: tuple[int, str] | None = None
@@ -119,10 +113,7 @@ def find_regions(text: str, file: str) -> list[Region]:
 def make_stubs(folder: Path) -> list[Stub]:
     """Make the stub of each solution in a folder, in the order of their names.
 
-    Raises
-    ------
-    SolutionError
-        The folder isn't there or is empty, a file can't be read, or as `make_stub` does.
+    Raises SolutionError: the folder isn't there or is empty, a file can't be read, or as `make_stub` does.
     """
     files = [path for path in sorted(folder.glob("*.py")) if not path.stem.startswith("_")]
     if not files:
@@ -133,17 +124,14 @@ def make_stubs(folder: Path) -> list[Stub]:
 def make_stub(text: str, module: str, file: str) -> Stub:
     """Make a stub of a solution.
 
+    Raises SolutionError: a region is not as `find_regions` wants it, cuts a statement in two or stands where no task
+    is; or something of the solution would be published.
+
     Parameters
     ----------
     text : of the solution
     module : first half of the tasks' ids
     file : what error messages call the text
-
-    Raises
-    ------
-    SolutionError
-        A region is not as `find_regions` wants it, cuts a statement in two or stands where no task
-        is; or something of the solution would be published.
     """
     regions = find_regions(text, file)
     tree = _parse(text, file)

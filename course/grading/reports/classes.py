@@ -66,16 +66,12 @@ def write_grades(
     """Write grades.csv: student, score, points, of, which checks broke, remarks, then the points of each function.
 
     A submission that could not be graded has no numbers: a 0 would look like a grade.
+    Raises OutputError: the file can't be written.
 
     Parameters
     ----------
     lines : student -> what else there is to say
     total : score of who has earned all; with it come the columns raw, adjusted and final
-
-    Raises
-    ------
-    OutputError
-        The file can't be written.
     """
     points = [
         {
@@ -111,16 +107,13 @@ def write_gradebook(
 ) -> None:
     """Write what Canvas imports into its gradebook, or Moodle, also as an upload of a grading worksheet.
 
+    Raises OutputError: the file can't be written.
+
     Parameters
     ----------
     system : of ``SYSTEMS``; the table has its columns, as the roster says them, and one of grades
     total : points of who has earned all
     title : the assignment as the system calls it, such as "Lens (12345)"; on Canvas a new name makes a new assignment
-
-    Raises
-    ------
-    OutputError
-        The file can't be written.
     """
     columns = SYSTEMS[system]
     rows = [[*columns, clean(title)]]
@@ -164,6 +157,8 @@ def write_class_page(
 ) -> None:
     """Write the instructor's page; it links to each student's ``STUDENT/report.html`` beside it.
 
+    Raises OutputError: the file can't be written.
+
     Parameters
     ----------
     similar : student, student, module, and the share of it that the two have in common
@@ -171,11 +166,6 @@ def write_class_page(
     not_compared : student and module of files that were not looked at for likeness
     matched : whose submission is whose; None without a roster
     earlier : student -> what an earlier run had found
-
-    Raises
-    ------
-    OutputError
-        The file can't be written.
     """
     graded = [report for report in reports if not report.trouble]
     students = [

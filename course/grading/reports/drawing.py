@@ -134,10 +134,7 @@ class Drawing:
 def draw(figure: Figure) -> Drawing:
     """Draw a figure, whatever its arrays hold: they come from students.
 
-    Returns
-    -------
-    Drawing
-        Without panels, but with a sentence, where nothing can be drawn.
+    Returns Drawing: Without panels, but with a sentence, where nothing can be drawn.
     """
     try:
         return _BY_KIND[figure.kind](figure)

@@ -68,10 +68,7 @@ def clean(text: str, longest: int = LONGEST) -> str:
     """The text without terminal colours; what no file can hold is U+FFFD, the replacement character.
 
     The result encodes as UTF-8 and may stand in XML 1.0; it is not escaped for HTML, XML or a spreadsheet.
-
-    Parameters
-    ----------
-    longest : from how many characters on the middle of the text is left out
+    ``longest``: from how many characters on the middle of the text is left out
     """
     over = len(text) - longest
     if over > 0:

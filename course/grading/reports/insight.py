@@ -133,11 +133,7 @@ def write_lecture_page(graded: Sequence[Report], path: Path) -> None:
     """Write what can be shown in the lecture hall: mistakes, shares and pictures, and nobody's name.
 
     Pictures are those of the course's own wrong submissions, so nothing of a student's work is on the page.
-
-    Raises
-    ------
-    OutputError
-        The file can't be written.
+    Raises OutputError: the file can't be written.
     """
     from course.grading.reports.drawing import draw, with_own_ids
 

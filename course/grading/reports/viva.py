@@ -29,9 +29,7 @@ PANELS = 3
 def viva_page(student: str, asked: Sequence[Asked], unprotected: str) -> str:
     """HTML of the questions to one student.
 
-    Parameters
-    ----------
-    unprotected : the harm that the code could have done, as `Report.unprotected` says it; empty if none
+    ``unprotected``: the harm that the code could have done, as `Report.unprotected` says it; empty if none
     """
     plots = count(1)
     return render(

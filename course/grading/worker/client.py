@@ -121,10 +121,7 @@ class Worker:
     def lend(self, deadline: float, function: str, *arguments: Any, **named: Any) -> Any:
         """The function's value, for another worker whose call has to end at the deadline.
 
-        Raises
-        ------
-        StudentError
-            "timeout": it took longer; nobody's patience is lost.
+        Raises StudentError: "timeout": it took longer; nobody's patience is lost.
         """
         with self._lock:
             self._ready()

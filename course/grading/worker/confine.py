@@ -39,16 +39,10 @@ class _Program(ctypes.Structure):
 def confine(wall: dict[str, Any]) -> None:
     """Give up what the wall says; Linux only, if it says anything.
 
-    Parameters
-    ----------
-    wall : ``uid`` to become, or None; ``users``: whether to make a namespace of users, in which threads are counted
-        anew; ``threads``: how many there may be, 0 for no limit; ``landlock``: folders and files that may still be
-        read, or None; ``filter``: of system calls, in base 64, empty for none
-
-    Raises
-    ------
-    OSError
-        A step isn't possible here.
+    Raises OSError: a step isn't possible here.
+    ``wall``: ``uid`` to become, or None; ``users``: whether to make a namespace of users, in which threads are counted
+    anew; ``threads``: how many there may be, 0 for no limit; ``landlock``: folders and files that may still be read, or
+    None; ``filter``: of system calls, in base 64, empty for none
     """
     if not any(wall.values()):
         return

@@ -44,9 +44,7 @@ class BrokenMessage(Exception):  # noqa: N818 - the end of a conversation, not a
 class Passed:
     """A generator's state as a worker has sent it: the grader looks at none and only hands it on.
 
-    Parameters
-    ----------
-    state : of a bit generator, JSON
+    ``state``: of a bit generator, JSON
     """
 
     def __init__(self, state: Any) -> None:
@@ -56,11 +54,8 @@ class Passed:
 def pack(head: dict[str, Any], values: list[Any]) -> bytes:
     """A message of a head and values.
 
-    Raises
-    ------
-    TypeError
-        A value is neither an array of numbers nor a number, text, None, generator or a tuple of such; or there is more
-        of it than a message takes.
+    Raises TypeError: a value is neither an array of numbers nor a number, text, None, generator or a tuple of such; or
+    there is more of it than a message takes.
     """
     arrays: list[Any] = []
     described = [_describe(value, arrays, 0) for value in values]
@@ -95,16 +90,13 @@ def unpack(
 ) -> tuple[dict[str, Any], list[Any]]:
     """The next message: its head and values.
 
+    Raises BrokenMessage: whatever is wrong with it.
+
     Parameters
     ----------
     read : gives exactly that many bytes, or raises what its caller knows
     generators : whether to make generators of their states, and arrays of the memory layout that they had; if not,
         states come as ``Passed``, and arrays are contiguous and writable
-
-    Raises
-    ------
-    BrokenMessage
-        Whatever is wrong with it.
     """
     prefix = read(8)
     with _decoding():

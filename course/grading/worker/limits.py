@@ -71,14 +71,8 @@ class Patience:
     def limit(self, answered: bool) -> float:
         """How long the next call may take [s].
 
-        Parameters
-        ----------
-        answered : whether the function has given a value before
-
-        Raises
-        ------
-        StudentError
-            "timeout": no time is left.
+        Raises StudentError: "timeout": no time is left.
+        ``answered``: whether the function has given a value before
         """
         left, least = ALTOGETHER * self._longest - self._lost, LEAST * self._longest
         if left < least:
@@ -107,10 +101,7 @@ class Budget:
 
     Nothing that a worker says is believed: what its processes hold is asked of the system, in a thread that runs while
     there are any.
-
-    Parameters
-    ----------
-    limits : ``memory`` is what all may hold together, ``submission_seconds`` counts from now
+    ``limits``: ``memory`` is what all may hold together, ``submission_seconds`` counts from now
     """
 
     def __init__(self, limits: Limits) -> None:
@@ -139,9 +130,7 @@ class Budget:
     def watch(self, pid: int, end: Callable[[str], None]) -> None:
         """Count what a process and its children hold.
 
-        Parameters
-        ----------
-        end : is told why, and ends it
+        ``end``: is told why, and ends it
         """
         with self._lock:
             self._watched[pid] = end, []

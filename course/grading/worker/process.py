@@ -138,14 +138,8 @@ class Process:
     def write(self, message: bytes, deadline: float) -> None:
         """Send a message.
 
-        Parameters
-        ----------
-        deadline : ``time.monotonic()`` at which the process is ended
-
-        Raises
-        ------
-        StudentError
-            It was not taken in time, or the process has ended.
+        Raises StudentError: it was not taken in time, or the process has ended.
+        ``deadline``: ``time.monotonic()`` at which the process is ended
         """
         assert self._process is not None
         assert self._process.stdin is not None
@@ -164,14 +158,8 @@ class Process:
     def read(self, deadline: float) -> tuple[dict[str, Any], list[Any]]:
         """The head and the values of a reply.
 
-        Parameters
-        ----------
-        deadline : ``time.monotonic()`` at which the process is ended
-
-        Raises
-        ------
-        StudentError
-            There is none in time, or none that can be read.
+        Raises StudentError: there is none in time, or none that can be read.
+        ``deadline``: ``time.monotonic()`` at which the process is ended
         """
         try:
             return unpack(self._reader(deadline), generators=False)
@@ -181,9 +169,7 @@ class Process:
     def lost(self, why: str, gone: bool = False) -> StudentError:
         """The error of a process that can't be used any more, and is ended; with what has ended it, if it had.
 
-        Parameters
-        ----------
-        gone : whether it has let go of its pipes, so that it ends by itself, or has
+        ``gone``: whether it has let go of its pipes, so that it ends by itself, or has
         """
         code = None
         if self._process is not None:

@@ -95,9 +95,7 @@ class Sandbox:
     def starting(self, user: int) -> dict[str, Any]:
         """Arguments of ``subprocess`` beside the command.
 
-        Parameters
-        ----------
-        user : of this worker alone
+        ``user``: of this worker alone
         """
         starts_as = user if self.becomes == "command" else None
         return {
@@ -111,9 +109,7 @@ class Sandbox:
     def wall(self, user: int) -> dict[str, Any]:
         """The argument of ``confine``.
 
-        Parameters
-        ----------
-        user : of this worker alone
+        ``user``: of this worker alone
         """
         return {
             "uid": user if self.becomes == "worker" else None,
@@ -182,14 +178,8 @@ def sandbox(
 def protected(secrets: Iterable[Path] = ()) -> Sandbox:
     """The sandbox for other people's code.
 
-    Parameters
-    ----------
-    secrets : files and folders that the code must not read, besides the solutions
-
-    Raises
-    ------
-    NotProtected
-        A guarantee doesn't hold on this machine.
+    Raises NotProtected: a guarantee doesn't hold on this machine.
+    ``secrets``: files and folders that the code must not read, besides the solutions
     """
     shut_in = sandbox(secrets=tuple(path.resolve() for path in secrets))
     if shut_in.lacks:
@@ -208,9 +198,7 @@ def protected(secrets: Iterable[Path] = ()) -> Sandbox:
 def worker_user(number: int) -> int:
     """A user that owns nothing and is no other worker's.
 
-    Parameters
-    ----------
-    number : of the worker in this process
+    ``number``: of the worker in this process
     """
     mine = os.getpid() * 64 + number % 64
     try:

@@ -92,9 +92,7 @@ LONGEST_NUMBER = 24
 def replied(kind: Trouble, head: Mapping[str, Any], arguments: str = "") -> StudentError:
     """The error that a worker's reply tells.
 
-    Parameters
-    ----------
-    arguments : those of the call, as ``said``
+    ``arguments``: those of the call, as ``said``
     """
     lines = str(head.get("traceback", ""))[:LONGEST_TRACEBACK].splitlines()
     message = str(head.get("message", ""))
@@ -111,9 +109,7 @@ def replied(kind: Trouble, head: Mapping[str, Any], arguments: str = "") -> Stud
 def said(function: str, arguments: Sequence[Any], named: Mapping[str, Any]) -> str:
     """The arguments of a call in a line: ``center (3,) float64, radius 0.5, u (2, 17) float32``.
 
-    Parameters
-    ----------
-    function : "soft_shadows.point_on_sphere"
+    ``function``: "soft_shadows.point_on_sphere"
     """
     declared = declaration(*function.split(".", 1)) if "." in function else None
     names = [argument.name for argument in declared.arguments] if declared else []
@@ -145,9 +141,7 @@ def told(value: Any, depth: int = 1) -> str:
 def no_such(module: str, function: str, names: Any) -> StudentError:
     """That the file hasn't this function, and which one may have been meant.
 
-    Parameters
-    ----------
-    names : what the worker says that the file has; nothing of it is believed
+    ``names``: what the worker says that the file has; nothing of it is believed
     """
     others = [
         name
