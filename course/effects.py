@@ -77,11 +77,7 @@ class Effects:
     """
 
     def __init__(
-        self,
-        folder: str | Path | None = None,
-        trusted: bool | None = None,
-        *,
-        filled: bool = False,
+        self, folder: str | Path | None = None, trusted: bool | None = None, *, filled: bool = False
     ) -> None:
         if folder is None and not CHECKOUT and Path("assignments").is_dir():
             # In a folder made by `course start`.

@@ -23,13 +23,7 @@ def start(folder: Path, instructor: bool) -> None:
 
     FOLDER must be new or empty.
     """
-    from course.grading.release.archive import (
-        LICENSES,
-        PAGES,
-        SCENES,
-        project_files,
-        write_folder,
-    )
+    from course.grading.release.archive import LICENSES, PAGES, SCENES, project_files, write_folder
     from course.grading.release.folder import made_contents
 
     if not (PROJECT / "solutions").is_dir():

@@ -122,12 +122,7 @@ class PacketAccelerator(StaticAccelerator):
         return hits
 
     def _some(
-        self,
-        which: Indices,
-        origin: Floats32,
-        direction: Floats32,
-        limit: Floats32,
-        coherent: bool,
+        self, which: Indices, origin: Floats32, direction: Floats32, limit: Floats32, coherent: bool
     ) -> Intersections:
         """Nearest hits of some rays (m,) of (3, N): copies in one piece are faster than to pick them out."""
         assert self.packets is not None

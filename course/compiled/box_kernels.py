@@ -54,10 +54,7 @@ def _may_meet(origin, inverse, farthest, box, first, count, met):
         met[i] = not near * _LESS > far * _MORE
 
 
-@njit(
-    types.int64(COLUMNS, COLUMNS, ROW, COLUMNS, types.int64[::1]),
-    **OPTIONS,
-)
+@njit(types.int64(COLUMNS, COLUMNS, ROW, COLUMNS, types.int64[::1]), **OPTIONS)
 def entering(origin, direction, limit, box, which):
     """Which rays may meet a box, into the first places of ``which`` (N,), and how many.
 
@@ -77,10 +74,7 @@ def entering(origin, direction, limit, box, which):
     return found
 
 
-@njit(
-    types.int64(COLUMNS, COLUMNS, ROW, OBJECTS, COLUMNS, types.int64[::1]),
-    **OPTIONS,
-)
+@njit(types.int64(COLUMNS, COLUMNS, ROW, OBJECTS, COLUMNS, types.int64[::1]), **OPTIONS)
 def remaining(origin, direction, limit, left, boxes, which):
     """Which rays may meet anything, into the first places of ``which`` (N,), and how many.
 

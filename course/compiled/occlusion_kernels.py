@@ -8,12 +8,7 @@ import numpy as np
 from numba import njit, types
 
 from course.compiled.options import LEAN
-from course.compiled.packet_kernels import (
-    TFAR,
-    TO,
-    WIDTH,
-    occluded16,
-)
+from course.compiled.packet_kernels import TFAR, TO, WIDTH, occluded16
 
 # Rows of our own behind those of the packet: origins that are not shifted, 1 / direction, time.
 _ORIGIN, _INVERSE, _TIME = 24 * WIDTH, 27 * WIDTH, 30 * WIDTH

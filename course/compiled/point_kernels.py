@@ -54,11 +54,7 @@ def to_viewer(nx, ny, nz, side, dx, dy, dz):
     x, y, z = nx - away * dx, ny - away * dy, nz - away * dz
     scale = _ONE / np.sqrt(max(x * x + y * y + z * z, _LEAST))
     turns = away > 0
-    return (
-        x * scale if turns else nx,
-        y * scale if turns else ny,
-        z * scale if turns else nz,
-    )
+    return (x * scale if turns else nx, y * scale if turns else ny, z * scale if turns else nz)
 
 
 @njit(**LEAN)

@@ -7,13 +7,7 @@ import numpy as np
 from numba import njit, types
 
 from course.compiled.options import COLUMNS, OPTIONS, ROW
-from course.compiled.packet_kernels import (
-    WIDTH,
-    aligned,
-    arguments_of,
-    intersect16,
-    occluded16,
-)
+from course.compiled.packet_kernels import WIDTH, aligned, arguments_of, intersect16, occluded16
 
 _TNEAR, _TIME, _TFAR, _MASK, _ID, _FLAGS = 3, 7, 8, 9, 10, 11
 _U, _V, _PRIMITIVE, _GEOMETRY = 15, 16, 17, 18

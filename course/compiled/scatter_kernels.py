@@ -11,8 +11,7 @@ _NOTHING, _ONE = np.float32(0), np.float32(1)
 
 
 @njit(
-    types.void(types.int64[::1], *(COLUMNS,) * 2, *(ROW,) * 3, COLUMNS, types.int8[::1]),
-    **OPTIONS,
+    types.void(types.int64[::1], *(COLUMNS,) * 2, *(ROW,) * 3, COLUMNS, types.int8[::1]), **OPTIONS
 )
 def choose(other, beta, mirror, reflected, refracted, u, after, kind):
     """Choose among the ways of some hits as ``PathBounce`` does, in place.

@@ -29,11 +29,7 @@ class HierarchyAccelerator:
     """
 
     def __init__(
-        self,
-        vertices: Floats32,
-        triangles: Numbers,
-        bounding_volumes: Functions,
-        leaf_size: int,
+        self, vertices: Floats32, triangles: Numbers, bounding_volumes: Functions, leaf_size: int
     ) -> None:
         self._corners = [
             np.ascontiguousarray(vertices[triangles[:, corner]].T, np.float32)

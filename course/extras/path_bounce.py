@@ -131,13 +131,7 @@ class PathBounce:
         return rays, np.arange(len(which)) >= optical
 
     def _weigh(
-        self,
-        after: Floats32,
-        hits: Hits,
-        which: Indices,
-        way: Floats32,
-        depth: int,
-        through: bool,
+        self, after: Floats32, hits: Hits, which: Indices, way: Floats32, depth: int, through: bool
     ) -> None:
         """Multiply the throughput (3, m) of mirrored or refracted rays by what their directions count."""
         if isinstance(self.scatter, FullScatter):

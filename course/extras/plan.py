@@ -12,12 +12,7 @@ from course.core.materials import Lookup, MaterialTable
 from course.core.rays import Dimensions
 from course.core.samplers import Sampler
 from course.core.scatter import Scatter
-from course.core.scene import (
-    plan_dimensions,
-    plan_direct_light,
-    plan_integrator,
-    plan_scatter,
-)
+from course.core.scene import plan_dimensions, plan_direct_light, plan_integrator, plan_scatter
 from course.extras.absorption import Absorption
 from course.extras.conductors import Conductors
 from course.extras.direct import FullDirectLight

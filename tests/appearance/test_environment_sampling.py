@@ -15,11 +15,7 @@ from numpy.typing import NDArray
 
 from course.core.samplers import Block
 from course.effects import Effects
-from course.extras.cube_faces import (
-    cube_from_cross,
-    cube_from_lat_long,
-    texel_directions,
-)
+from course.extras.cube_faces import cube_from_cross, cube_from_lat_long, texel_directions
 from course.extras.environment_sampling import (
     CELLS,
     NORMALS,

@@ -49,13 +49,7 @@ def test_what_is_chosen_by_its_weight_is_uniform_by_area(name: str, distance: fl
     area = areas(light.edges)
     place = middles(light)
     functions = np.column_stack(
-        (
-            np.ones(len(area)),
-            place,
-            place**2,
-            light.planes[:, 3:6],
-            np.abs(light.planes[:, 3:6]),
-        )
+        (np.ones(len(area)), place, place**2, light.planes[:, 3:6], np.abs(light.planes[:, 3:6]))
     )
     expected = area @ functions / area.sum()
     number = np.random.default_rng(2).random(n, np.float32)

@@ -103,12 +103,7 @@ def test_what_decides_the_picture_decides_the_key(make: Make, options: dict[str,
 
 
 @pytest.mark.parametrize(
-    "change",
-    [
-        {"title": "another"},
-        {"seed": 5},
-        {"sampler": {"type": "random", "samples": 100}},
-    ],
+    "change", [{"title": "another"}, {"seed": 5}, {"sampler": {"type": "random", "samples": 100}}]
 )
 def test_what_it_does_not_depend_on_does_not(
     make: Make, renders: Renders, penumbra: Path, change: dict[str, Any]

@@ -11,10 +11,7 @@ from course.formats.pictures.files import save
 RECEIPT: dict[str, Any] = {
     "rays": {"camera": 4915200, "shadow": 4800000, "reflection": 0, "refraction": 12},
     "numbers": {"pixel": 9830400, "light": 9600000},
-    "effects": {
-        "called": ["supersampling.resolve"],
-        "skipped": {"thin_lens": "the aperture is 0"},
-    },
+    "effects": {"called": ["supersampling.resolve"], "skipped": {"thin_lens": "the aperture is 0"}},
     "seconds": {"camera": 0.05, "trace": 0.5, "film": 0.125},
     "caster": "embree",
     "embree_seconds": 0.5,

@@ -101,9 +101,7 @@ def test_files_beside_each_other_are_let_through(tmp_path: Path) -> None:
     check_outputs([("-o", a), ("--heat-map", b)], [("--receipt", None)], tmp_path / "a.yaml")
 
 
-def test_capitals_that_the_file_system_passes_over_are_one_file(
-    tmp_path: Path,
-) -> None:
+def test_capitals_that_the_file_system_passes_over_are_one_file(tmp_path: Path) -> None:
     """Where the two names lead to one file that is there, whatever they look like."""
     a, b = tmp_path / "a.png", tmp_path / "A.png"
     a.write_bytes(b"")

@@ -250,12 +250,7 @@ PLACE: Any = SimpleNamespace()
 @pytest.mark.usefixtures("data")
 @pytest.mark.parametrize(
     ("words", "figures", "plots"),
-    [
-        ("lights", 1, 2),
-        ("lights samples", 1, 1),
-        ("lights seconds", 1, 1),
-        ("seconds", 2, 2),
-    ],
+    [("lights", 1, 2), ("lights samples", 1, 1), ("lights seconds", 1, 1), ("seconds", 2, 2)],
 )
 def test_words_choose_comparisons_and_axes(words: str, figures: int, plots: int) -> None:
     html = convergence.convergence(PLACE, "glossy", words)

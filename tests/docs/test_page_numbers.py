@@ -411,8 +411,7 @@ def test_tests_a_ray_in_the_data() -> None:
 
 def test_tests_a_ray_of_the_scene() -> None:
     boxes, triangles, size = said(
-        "bounding_volumes",
-        r"tests: N with boxes and N with triangles a ray, of N triangles\.",
+        "bounding_volumes", r"tests: N with boxes and N with triangles a ray, of N triangles\."
     )
     scene = load_scene(PROJECT / "scenes" / "bounding_volumes.yaml")
     assert value(size) == sum(scene.compiled.triangles)

@@ -280,10 +280,7 @@ def test_only_rays_through_rough_glass_draw_and_call(make_scene: MakeScene, kind
     upright = {"rotate": {"axis": [1, 0, 0], "degrees": 90}}
     scene = make_scene(
         environment=WHITE,
-        materials={
-            "rough": glass(0.1, index=1)["glass"],
-            "clear": glass(None, index=1)["glass"],
-        },
+        materials={"rough": glass(0.1, index=1)["glass"], "clear": glass(None, index=1)["glass"]},
         objects=[
             half | {"material": name, "transform": [upright, {"translate": [side * 25, 0, 0]}]}
             for name, side in (("rough", -1), ("clear", 1))
@@ -300,10 +297,7 @@ def test_only_rays_through_rough_glass_draw_and_call(make_scene: MakeScene, kind
 
 def test_glass_without_a_bounce_calls_nothing(make_scene: MakeScene) -> None:
     scene = make_scene(
-        environment=WHITE,
-        materials=glass(0.1),
-        objects=[PLATE],
-        integrator={"max_depth": 0},
+        environment=WHITE, materials=glass(0.1), objects=[PLATE], integrator={"max_depth": 0}
     )
     assert not set(render(scene).receipt.effects["called"]) & FUNCTIONS
     assert MODULE not in scene.effects.imported

@@ -185,11 +185,7 @@ def test_it_says_which_functions_are_called(make_scene: MakeScene, way: str) -> 
 
 @pytest.mark.parametrize(
     "environment",
-    [
-        sky("automatic"),
-        sky("cosine", lights=False),
-        sky("cosine", radiance=0),
-    ],
+    [sky("automatic"), sky("cosine", lights=False), sky("cosine", radiance=0)],
     ids=["automatic", "lights nothing", "black"],
 )
 def test_where_no_direction_is_chosen_the_module_is_not_imported(

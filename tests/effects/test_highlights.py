@@ -64,11 +64,7 @@ def floor(make_scene: MakeScene, way: Any, slope: float, compiled: bool, **keys:
             {"shape": "quad", "material": "matt", "transform": [{"translate": [0, -9, 0]}]},
         ],
         lights=[
-            {
-                "type": "directional",
-                "direction": [-each for each in way],
-                "irradiance": math.pi,
-            }
+            {"type": "directional", "direction": [-each for each in way], "irradiance": math.pi}
         ],
     )
     return render(scene, compiled=compiled).linear[0, 0]

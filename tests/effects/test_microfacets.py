@@ -58,9 +58,7 @@ def test_hardly_anything_is_lost_at_a_small_roughness(
     check_mean(estimates(sheet(make_scene, metal(0.02), integrator)), 1.0, 1e-3)
 
 
-def test_rough_glass_shares_the_light_out_alike_by_both_integrators(
-    make_scene: MakeScene,
-) -> None:
+def test_rough_glass_shares_the_light_out_alike_by_both_integrators(make_scene: MakeScene) -> None:
     """Mirrored and refracted light come from the same sky, so most of it is there again."""
     one, other = (
         estimates(sheet(make_scene, glass(0.5), kind)) for kind in ("distribution", "path")

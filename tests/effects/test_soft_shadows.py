@@ -265,8 +265,7 @@ def cloud(method: str, c: Array, radius: float) -> Array:
     ["sphere", "ball", "facing disk", "sphere by polar", "ball by polar", "ball by rejection"],
 )
 @pytest.mark.parametrize(
-    ("center", "radius"),
-    [([0.3, 1.2, -0.4], 0.5), ([1.5, 0.6, 0.2], 0.5), ([0.5, 0.1, 0.4], 0.4)],
+    ("center", "radius"), [([0.3, 1.2, -0.4], 0.5), ([1.5, 0.6, 0.2], 0.5), ([0.5, 0.1, 0.4], 0.4)]
 )
 def test_a_sphere_by_intensity_is_the_mean_of_its_point_lights(
     make_scene: MakeScene, method: str, center: list[float], radius: float

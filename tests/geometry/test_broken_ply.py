@@ -178,10 +178,7 @@ BAD: dict[str, tuple[bytes, str]] = {
         ply(counts=("", 2)),
         "line 3 is 'element vertex': expected a name and how",
     ),
-    "an unknown type": (
-        ply(properties=(*XYZ[:2], "quux z")),
-        "line 6 is .*: 'quux' is no type of",
-    ),
+    "an unknown type": (ply(properties=(*XYZ[:2], "quux z")), "line 6 is .*: 'quux' is no type of"),
     "an unknown type of a list": (
         ply(BIG, corners="list quux int vertex_indices"),
         "line 8 is .*: 'quux' is no type of PLY: expected such as float",

@@ -153,10 +153,7 @@ def _returning(**replaced: object) -> HierarchyAccelerator:
     changed = {name: (lambda *_, value=value: value) for name, value in replaced.items()}
     mesh = shapes.sphere(1, 8)
     return HierarchyAccelerator(
-        mesh.vertices.astype(np.float32),
-        mesh.triangles.astype(np.int32),
-        functions(**changed),
-        4,
+        mesh.vertices.astype(np.float32), mesh.triangles.astype(np.int32), functions(**changed), 4
     )
 
 

@@ -34,9 +34,7 @@ v 0 1 0
 
 
 def ply_text(
-    vertices: Sequence[Sequence[object]],
-    faces: list[list[int]],
-    properties: str = "x y z",
+    vertices: Sequence[Sequence[object]], faces: list[list[int]], properties: str = "x y z"
 ) -> str:
     rows = [" ".join(str(x) for x in row) for row in vertices]
     return "\n".join(

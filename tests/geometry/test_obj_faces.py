@@ -146,11 +146,7 @@ def test_each_corner_has_the_uv_it_refers_to(tmp_path: Path) -> None:
     mesh = read(tmp_path, V + VT + "f 1/3 2/1 3/2 4/4\nf 1/3 2/2 5/1\n")
     assert mesh.uv is not None
     found = mesh.uv[mesh.triangles].tolist()
-    assert found == [
-        [[1, 1], [0, 0], [1, 0]],
-        [[1, 1], [1, 0], [0, 1]],
-        [[1, 1], [1, 0], [0, 0]],
-    ]
+    assert found == [[[1, 1], [0, 0], [1, 0]], [[1, 1], [1, 0], [0, 1]], [[1, 1], [1, 0], [0, 0]]]
     # The second vertex alone has two.
     assert len(mesh.vertices) == 6
 

@@ -113,11 +113,7 @@ READ: dict[str, Case] = {
         ONE,
     ),
     "one face whose uv are none": ((VERTICES, faces([CORNERS, UV], [TRIANGLE, ()])), ONE, None),
-    "two with uv": (
-        (VERTICES, faces([CORNERS, UV], [TRIANGLE, UV3], [OTHER, UV3B])),
-        FANNED,
-        TWO,
-    ),
+    "two with uv": ((VERTICES, faces([CORNERS, UV], [TRIANGLE, UV3], [OTHER, UV3B])), FANNED, TWO),
     "one of two has uv": (
         (VERTICES, faces([CORNERS, UV], [TRIANGLE, UV3], [OTHER, ()])),
         FANNED,

@@ -252,10 +252,7 @@ def torus_normals(p: NDArray[np.float64]) -> NDArray[np.float64]:
 
 @pytest.mark.parametrize(
     ("mesh", "exact"),
-    [
-        (shapes.sphere(2.0, 20), sphere_normals),
-        (shapes.torus(2.0, 0.5, 20, 10), torus_normals),
-    ],
+    [(shapes.sphere(2.0, 20), sphere_normals), (shapes.torus(2.0, 0.5, 20, 10), torus_normals)],
     ids=["sphere", "torus"],
 )
 def test_normals_equal_the_analytic_ones(

@@ -135,10 +135,7 @@ def test_image_of_a_vertex_has_the_same_bits_wherever_it_stands() -> None:
     assert mesh.normals is not None
     assert image.normals is not None
     for k in range(len(mesh.vertices)):
-        alone = apply(
-            Mesh(mesh.vertices[[k]], np.zeros((1, 3), int), mesh.normals[[k]]),
-            TILTED,
-        )
+        alone = apply(Mesh(mesh.vertices[[k]], np.zeros((1, 3), int), mesh.normals[[k]]), TILTED)
         np.testing.assert_array_equal(alone.vertices[0], image.vertices[k])
         np.testing.assert_array_equal(alone.normals, image.normals[[k]])
     assert len(np.unique(image.vertices + 0.0, axis=0)) == 2 * 13 + 2

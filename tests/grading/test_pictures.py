@@ -7,14 +7,7 @@ import numpy as np
 import pytest
 
 from course.effects import PROJECT, Effects
-from course.grading.checks.check import (
-    Check,
-    Failure,
-    ModuleChecks,
-    References,
-    Trial,
-    generator,
-)
+from course.grading.checks.check import Check, Failure, ModuleChecks, References, Trial, generator
 from course.grading.checks.result import Result, Status
 from course.grading.checks.running import run_checks
 from course.grading.checks.trusted import TrustedModule

@@ -12,13 +12,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from course.adaptive.variance import (
-    BELIEVED,
-    EXPECTED,
-    INDEPENDENT,
-    measured_order,
-    variance_share,
-)
+from course.adaptive.variance import BELIEVED, EXPECTED, INDEPENDENT, measured_order, variance_share
 
 ORDERS = (0.5, 0.55, 0.6, 0.75, 0.9, 1.0)
 SIZES = [(4, 4, 16), (8, 8, 16), (16, 8, 24), (24, 24, 48), (1024, 1024, 2048), (5, 11, 64)]

@@ -728,10 +728,7 @@ def test_a_time_limit_ends_the_rounds(
 @pytest.mark.usefixtures("small_groups")
 @pytest.mark.parametrize("begun", [16, 64])
 def test_ctrl_c_during_a_round_keeps_a_picture_that_is_right_for_its_samples(
-    every_stage: EveryStage,
-    monkeypatch: pytest.MonkeyPatch,
-    ctrl_c: Callable[[], None],
-    begun: int,
+    every_stage: EveryStage, monkeypatch: pytest.MonkeyPatch, ctrl_c: Callable[[], None], begun: int
 ) -> None:
     scene = every_stage()
     render_tile = Tracer.render_tile

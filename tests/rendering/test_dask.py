@@ -178,11 +178,7 @@ def lone(tmp_path: Path) -> Iterator[Cluster]:
     [("scheduler", "the scheduler has gone"), ("worker", "all workers have gone")],
 )
 def test_a_cluster_that_goes_is_told(
-    every_stage: EveryStage,
-    lone: Cluster,
-    monkeypatch: pytest.MonkeyPatch,
-    which: str,
-    told: str,
+    every_stage: EveryStage, lone: Cluster, monkeypatch: pytest.MonkeyPatch, which: str, told: str
 ) -> None:
     monkeypatch.setattr(connection_module, "ALONE", 0.3)
     goes = lone.scheduler if which == "scheduler" else lone.processes[-1]

@@ -139,9 +139,7 @@ def test_a_ball_in_a_huge_room(make_scene: MakeScene, pixel_rays: PixelRays, wid
     lifted = {"transform": [{"translate": [0, width / 2, 0]}]}
     room = {"shape": "box", "size": [width, width, width], "material": "grey"} | lifted
     scene = on_floor(
-        make_scene,
-        1.0,
-        objects=[room, ball | {"transform": [{"translate": BALL.tolist()}]}],
+        make_scene, 1.0, objects=[room, ball | {"transform": [{"translate": BALL.tolist()}]}]
     )
     agree(scene, False, closed_form(scene, pixel_rays, 0.0))
 

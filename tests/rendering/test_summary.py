@@ -15,9 +15,7 @@ MIRROR = {"color": 0, "mirror": 0.9}
 SKY = {"type": "constant", "radiance": 0.5}
 
 
-def test_each_object_is_listed_with_where_it_lies_in_the_files_units(
-    make_scene: MakeScene,
-) -> None:
+def test_each_object_is_listed_with_where_it_lies_in_the_files_units(make_scene: MakeScene) -> None:
     stand = [{"rotate": {"axis": [1, 0, 0], "degrees": 90}}, {"translate": [0, 1, 0]}]
     scene = make_scene(
         materials={"grey": {}, "red clay": {"color": [1, 0, 0]}},
@@ -83,10 +81,7 @@ def test_a_material_that_returns_more_light_than_it_gets_is_hinted_at(
             "(light 0: no material has a diffuse or specular term)",
         ),
         (
-            {
-                "lights": [{"type": "ambient", "radiance": 1}],
-                "materials": {"grey": {"ambient": 0}},
-            },
+            {"lights": [{"type": "ambient", "radiance": 1}], "materials": {"grey": {"ambient": 0}}},
             "(light 0: no material has an ambient term)",
         ),
         ({"lights": [POINT | {"intensity": 0}] * 5}, "light 2: it has no power; ...)"),

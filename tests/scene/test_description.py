@@ -10,13 +10,7 @@ import pytest
 from msgspec import inspect
 
 from course.formats.yaml import description
-from course.formats.yaml.description import (
-    MeshFile,
-    RectangleLight,
-    SceneDescription,
-    Sphere,
-    rgb,
-)
+from course.formats.yaml.description import MeshFile, RectangleLight, SceneDescription, Sphere, rgb
 from course.formats.yaml.loading import Loaded
 
 

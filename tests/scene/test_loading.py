@@ -19,9 +19,7 @@ def test_a_good_file_loads_with_its_document_and_path(good: str, tmp_path: Path)
     assert loaded.document.where(("objects", 1, "size")) == f"{path}:28"
 
 
-def test_a_shared_value_may_be_given_by_alias_and_merge(
-    load: Callable[[str], Loaded],
-) -> None:
+def test_a_shared_value_may_be_given_by_alias_and_merge(load: Callable[[str], Loaded]) -> None:
     scene = load(
         "camera: {eye: &far [0, 0, 1e2], look_at: [0, 0, 0]}\n"
         "materials: {red: &red {color: [1, 0, 0], mirror: 0.5}, dull: {<<: *red, mirror: 0}}\n"

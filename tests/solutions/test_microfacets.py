@@ -90,7 +90,6 @@ def test_metals_are_those_of_the_renderer() -> None:
     cos = np.linspace(0.01, 1, 300)
     n, k = np.array([0.18, 0.42, 1.37]), np.array([3.42, 2.35, 1.77])
     expected = conductor_reflectance(
-        cos.astype(np.float32),
-        *(np.repeat(x[:, None], 300, 1).astype(np.float32) for x in (n, k)),
+        cos.astype(np.float32), *(np.repeat(x[:, None], 300, 1).astype(np.float32) for x in (n, k))
     )
     np.testing.assert_allclose(reference.fresnel_complex(cos, n, k), expected, atol=2e-6)

@@ -169,11 +169,7 @@ def test_a_thin_plate_in_a_wide_scene_absorbs_by_its_whole_thickness(
     plate = {"shape": "box", "material": "glass", "size": [wide, thickness, wide]}
     floor = {"shape": "quad", "width": 2000, "depth": 2000, "material": "black"}
     scene = make_scene(
-        camera={
-            "eye": [away, 1.5, 0.9],
-            "look_at": [away, 0, 0],
-            "vertical_fov": 30,
-        },
+        camera={"eye": [away, 1.5, 0.9], "look_at": [away, 0, 0], "vertical_fov": 30},
         sampler={"type": "regular", "samples": 1},
         objects=[
             plate | {"transform": [{"translate": [away, 0, 0]}]},

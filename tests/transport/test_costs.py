@@ -26,10 +26,7 @@ def adaptive(scene: Any, compiled: bool, **settings: Any) -> Picture:
     [
         ({"objects": [], "environment": SKY}, 1),
         ({"materials": {"floor": {"color": 0.5}}}, 1 + costs.HIT),
-        (
-            {"materials": {"floor": {"color": 0, "mirror": 0.5}}},
-            1 + costs.HIT + costs.FURTHER_RAY,
-        ),
+        ({"materials": {"floor": {"color": 0, "mirror": 0.5}}}, 1 + costs.HIT + costs.FURTHER_RAY),
         (
             {
                 "materials": {"floor": {"color": 0.5}},
@@ -38,10 +35,7 @@ def adaptive(scene: Any, compiled: bool, **settings: Any) -> Picture:
             1 + costs.HIT + 2 * costs.SHADOW_RAY,
         ),
         (
-            {
-                "materials": {"floor": {"color": 0.5}},
-                "environment": {**SKY, "lights": True},
-            },
+            {"materials": {"floor": {"color": 0.5}}, "environment": {**SKY, "lights": True}},
             1 + costs.HIT + sky.COST,
         ),
     ],

@@ -20,9 +20,7 @@ def drawn(make_scene: MakeScene) -> list[tuple[int, int]]:
     scene = make_scene(
         film={"width": 16, "height": 16},
         camera={"eye": [0.1, 0.2, 0.3], "look_at": [1, 0, 0], "vertical_fov": 90},
-        materials={
-            "m": {"color": 0.5, "mirror": 0.4, "gloss": {"lobe": "phong", "exponent": 9}},
-        },
+        materials={"m": {"color": 0.5, "mirror": 0.4, "gloss": {"lobe": "phong", "exponent": 9}}},
         objects=[{"shape": "box", "material": "m", "size": [2, 2, 2]}],
         lights=[{"type": "sphere", "center": [0, 0.5, 0], "radius": 0.2, "radiance": 1}],
         environment={"type": "constant", "radiance": 1, "lights": True},

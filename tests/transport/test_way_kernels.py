@@ -11,12 +11,7 @@ from course.compiled import library
 from course.compiled.scatter import CompiledPathBounce, CompiledScatter
 from course.core.materials import Lookup
 from course.core.scatter import Scatter
-from course.extras.path_bounce import (
-    DIFFUSE,
-    MIRRORED,
-    REFRACTED,
-    PathBounce,
-)
+from course.extras.path_bounce import DIFFUSE, MIRRORED, REFRACTED, PathBounce
 from course.extras.plan import same_fields
 from tests.conftest import MakeScene
 from tests.transport.coarse_sphere import hits_on_a_coarse_sphere

@@ -7,13 +7,7 @@ A sampler has a ``name``, says whether its points may be extended from n to 2n s
 from collections.abc import Callable
 from typing import Any
 
-from course.core.samplers import (
-    Block,
-    JitteredSampler,
-    RandomSampler,
-    RegularSampler,
-    Sampler,
-)
+from course.core.samplers import Block, JitteredSampler, RandomSampler, RegularSampler, Sampler
 from course.core.types import Functions
 from course.extras.samplers.low_discrepancy import ChainedSampler, HaltonSampler, HammersleySampler
 from course.extras.samplers.sobol import SobolSampler

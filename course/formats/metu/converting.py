@@ -153,14 +153,7 @@ def _common(
         meshes,
     )
     objects = Objects(
-        read_vertices(scene),
-        materials,
-        steps,
-        source.parent,
-        meshes,
-        notes,
-        eyes,
-        textures,
+        read_vertices(scene), materials, steps, source.parent, meshes, notes, eyes, textures
     )
     things = objects.read(scene)
     return {

@@ -161,14 +161,7 @@ class Objects:
                 mesh = self.textures.placed(placed[0], mesh)
             count = len(self._bases if stem == "mesh" else self.lamps)
             path = self.meshes.add_own(mesh, f"{stem}-{count + 1}", faces)
-        return {
-            "shape": "mesh",
-            "name": name,
-            "file": path,
-            "shading": mode,
-            **normals,
-            **common,
-        }
+        return {"shape": "mesh", "name": name, "file": path, "shading": mode, **normals, **common}
 
     def _with_uv(self, file: Path, faces: Element) -> Mesh:
         """A mesh of a file that has texture coordinates; SceneError where it has none."""

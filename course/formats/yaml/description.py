@@ -780,8 +780,7 @@ class AngularEnvironment(LatLongEnvironment, frozen=True, kw_only=True, tag="ang
     """A light probe: all directions in a disk, -z in its middle, +x right, +y up, and +z all around its rim."""
 
     image: Annotated[
-        str,
-        about("File of the picture, as wide as high: PNG, JPEG, EXR or HDR.", min_length=1),
+        str, about("File of the picture, as wide as high: PNG, JPEG, EXR or HDR.", min_length=1)
     ]
     size: Annotated[
         Annotated[int, msgspec.Meta(ge=1, le=8192)] | None,
@@ -793,8 +792,7 @@ class BackdropEnvironment(EnvironmentDescription, frozen=True, kw_only=True, tag
     """A picture that fills what the camera sees behind everything, and moves with it; no other ray sees it."""
 
     image: Annotated[
-        str,
-        about("File of the picture, of any proportions: PNG, JPEG, EXR or HDR.", min_length=1),
+        str, about("File of the picture, of any proportions: PNG, JPEG, EXR or HDR.", min_length=1)
     ]
     interpolation: Annotated[
         Literal["bilinear", "nearest"],
@@ -1007,8 +1005,7 @@ class FilmDescription(Map, frozen=True, kw_only=True):
         ),
     ] = "srgb"
     exposure: Annotated[
-        float,
-        about("A PNG shows 2 to this power times as much light.", "stop", ge=-60, le=60),
+        float, about("A PNG shows 2 to this power times as much light.", "stop", ge=-60, le=60)
     ] = 0.0
     gamut: Annotated[
         Literal["srgb", "display_p3", "rec2020"],

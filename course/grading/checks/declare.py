@@ -310,12 +310,7 @@ def _is_batch(argument: Argument, value: Any) -> bool:
 
 
 def function(
-    path: str,
-    made: Mapping[str, Made],
-    laws: tuple[Law, ...],
-    *,
-    contract: str = "",
-    **how: Any,
+    path: str, made: Mapping[str, Made], laws: tuple[Law, ...], *, contract: str = "", **how: Any
 ) -> Function:
     """A function, with the arguments and results of its contract.
 

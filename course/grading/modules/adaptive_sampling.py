@@ -187,12 +187,7 @@ def _middles(a: Arguments) -> tuple[Array, Array]:
 def _quarters(a: Arguments) -> Array:
     """(4, 4, N): x0, y0, x1, y1 of the four children."""
     x, y = _middles(a)
-    quarters = [
-        (a.x0, a.y0, x, y),
-        (x, a.y0, a.x1, y),
-        (a.x0, y, x, a.y1),
-        (x, y, a.x1, a.y1),
-    ]
+    quarters = [(a.x0, a.y0, x, y), (x, a.y0, a.x1, y), (a.x0, y, x, a.y1), (x, y, a.x1, a.y1)]
     return np.stack([np.stack(quarter) for quarter in quarters], axis=1)
 
 

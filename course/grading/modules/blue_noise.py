@@ -11,14 +11,7 @@ from typing import Any
 import numpy as np
 
 from course.grading.checks.check import Array, Failure, Trial
-from course.grading.checks.declare import (
-    WHOLE,
-    Arguments,
-    Function,
-    Law,
-    Made,
-    function,
-)
+from course.grading.checks.declare import WHOLE, Arguments, Function, Law, Made, function
 from course.grading.checks.distributions import FALSE_FAIL, chi_squared
 from course.grading.checks.drawing import Draw
 from course.grading.checks.laws import close, holds, law

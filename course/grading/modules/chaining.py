@@ -143,10 +143,10 @@ CHAIN = function(
                     "ids": np.zeros(2, int),
                 }
                 for shapes in (((3,),), ((2, 3), (1, 2)), ((1, 2, 3),))
-            ),
+            )
         ),
         "ids": Made(
-            wrong=(np.zeros(4, np.float32), np.array([0, 1, -1, 0]), np.array([0, 1, 99, 0])),
+            wrong=(np.zeros(4, np.float32), np.array([0, 1, -1, 0]), np.array([0, 1, 99, 0]))
         ),
     },
     (

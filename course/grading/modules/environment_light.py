@@ -223,10 +223,7 @@ def _inside(draw: Draw) -> Mapping[str, Any]:
         "rows": rows,
         "columns": columns,
         "u": np.stack(
-            (
-                low + place[0] * (rows[row] - low),
-                left + place[1] * (columns[row, column] - left),
-            )
+            (low + place[0] * (rows[row] - low), left + place[1] * (columns[row, column] - left))
         ),
     }
 
@@ -289,11 +286,7 @@ def _bright(a: Arguments, r: Array) -> Array:
 def _borders(draw: Draw) -> Mapping[str, Any]:
     """Numbers that are sums themselves, and 0: the texel behind them counts."""
     rows, columns = _shares(np.array([[0, 0, 0], [0, 1, 3], [0, 0, 0], [2, 0, 2.0]]))
-    return {
-        "rows": rows,
-        "columns": columns,
-        "u": draw.rng.choice([0.0, 0.25, 0.5], (2, draw.n)),
-    }
+    return {"rows": rows, "columns": columns, "u": draw.rng.choice([0.0, 0.25, 0.5], (2, draw.n))}
 
 
 CUMULATED = Made(batch=False)

@@ -443,9 +443,7 @@ def _mean_codes(a: Arguments, r: Array) -> Iterator[tuple[str, Array, float, flo
 
 QUANTIZE = function(
     "film.quantize",
-    {
-        "encoded": Made(lambda d: d.uniform(0, 1, 3, d.n)),
-    },
+    {"encoded": Made(lambda d: d.uniform(0, 1, 3, d.n))},
     (
         holds(
             "ends",

@@ -30,9 +30,7 @@ WRONG = tuple(np.array([1, wrong, 2, 3], np.float32) for wrong in (-1, nan))
 """Densities that none has."""
 
 DENSITIES = Made(
-    lambda d: d.lengths(0.05, 20, d.n),
-    WRONG,
-    lambda dtype: np.array([0, 1e-6, 1, 1e6], dtype),
+    lambda d: d.lengths(0.05, 20, d.n), WRONG, lambda dtype: np.array([0, 1e-6, 1, 1e6], dtype)
 )
 
 NONE: Mapping[str, Made] = {}

@@ -418,12 +418,7 @@ LIGHT_TREE = function(
     {"lo": Made(wrong=(np.zeros((3, 0)),))},
     (
         law(
-            "order",
-            "Every lamp is in one leaf",
-            _right_sizes,
-            case=_sorts,
-            scales=(1.0,) * 8,
-            n=9,
+            "order", "Every lamp is in one leaf", _right_sizes, case=_sorts, scales=(1.0,) * 8, n=9
         ),
         law(
             "boxes",
@@ -443,13 +438,7 @@ LIGHT_TREE = function(
             n=9,
         ),
         law(
-            "small",
-            "Nodes are small",
-            _small,
-            case=_spread,
-            n=MANY,
-            scales=(1.0,) * 4,
-            role="core",
+            "small", "Nodes are small", _small, case=_spread, n=MANY, scales=(1.0,) * 4, role="core"
         ),
         law("tree", "Boxes, cones and powers are right together", _all_of_it, n=50, whole=True),
     ),

@@ -116,10 +116,7 @@ def _covered(function: Function, trial: Trial) -> None:
 
 
 _dense = partial(
-    close,
-    compare=lambda a, r: (r, *2 * (_d(a.cos, a.alpha),)),
-    what="a value of",
-    within=64,
+    close, compare=lambda a, r: (r, *2 * (_d(a.cos, a.alpha),)), what="a value of", within=64
 )
 
 GGX = function(
@@ -499,12 +496,7 @@ FRESNEL_COMPLEX = function(
 PERFECT = {"n": np.zeros(3), "k": np.ones(3)}
 """An index of a metal that mirrors all light."""
 
-FURNACE = (
-    (1.0, 1.0, 1 - log(2)),
-    (0.8, 0.7, 0.48192),
-    (0.5, 0.5, 0.69825),
-    (0.3, 0.2, 0.83851),
-)
+FURNACE = ((1.0, 1.0, 1 - log(2)), (0.8, 0.7, 0.48192), (0.5, 0.5, 0.69825), (0.3, 0.2, 0.83851))
 """alpha, wo_z, and the share of the light that microfacets mirror once: the mean of G2 / G1 over visible normals."""
 
 

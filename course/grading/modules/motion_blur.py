@@ -57,10 +57,7 @@ def _histogram(trial: Trial, a: Arguments, r: Array) -> None:
 
 SHUTTER_TIMES = function(
     "motion_blur.shutter_times",
-    {
-        "open": Made(wrong=(nan, -inf, {"open": 2.0, "close": 1.0})),
-        "close": Made(wrong=(nan, inf)),
-    },
+    {"open": Made(wrong=(nan, -inf, {"open": 2.0, "close": 1.0})), "close": Made(wrong=(nan, inf))},
     (
         close(
             "instant",

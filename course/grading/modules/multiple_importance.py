@@ -444,11 +444,7 @@ def _chosen(draw: Draw) -> Mapping[str, Any]:
     odds = draw.uniform(0.5, 3, several)
     densities = draw.uniform(0.2, 3, several, draw.n) / draw.scale
     densities[1:][draw.rng.random(densities[1:].shape) < 0.15] = 0
-    return {
-        "odds": odds / odds.sum(),
-        "f": draw.lengths(-2, 4, 3, draw.n),
-        "densities": densities,
-    }
+    return {"odds": odds / odds.sum(), "f": draw.lengths(-2, 4, 3, draw.n), "densities": densities}
 
 
 def _one_each(a: Arguments, r: Array) -> tuple[Any, ...]:
@@ -507,11 +503,4 @@ ONE_SAMPLE = function(
     scales=LENGTHS,
 )
 
-FUNCTIONS = (
-    AREA_DENSITY,
-    CONE_DENSITY,
-    HEURISTIC_WEIGHTS,
-    DELTA_WEIGHTS,
-    MULTI_SAMPLE,
-    ONE_SAMPLE,
-)
+FUNCTIONS = (AREA_DENSITY, CONE_DENSITY, HEURISTIC_WEIGHTS, DELTA_WEIGHTS, MULTI_SAMPLE, ONE_SAMPLE)

@@ -11,15 +11,7 @@ from typing import Any
 import numpy as np
 
 from course.grading.checks.check import Array, Failure, Role, Trial
-from course.grading.checks.declare import (
-    Arguments,
-    Case,
-    Function,
-    Law,
-    Made,
-    count,
-    function,
-)
+from course.grading.checks.declare import Arguments, Case, Function, Law, Made, count, function
 from course.grading.checks.drawing import Draw
 from course.grading.checks.evenness import COUNTS, REPEATS, check_order
 from course.grading.checks.laws import close, law

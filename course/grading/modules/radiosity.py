@@ -100,12 +100,7 @@ HEMICUBE = function(
             case=_sizes,
             scales=(1.0,) * 4,
         ),
-        _cells(
-            "cells",
-            "All cells have their form factors, but for their size",
-            _all,
-            role="core",
-        ),
+        _cells("cells", "All cells have their form factors, but for their size", _all, role="core"),
     ),
     corners=(lambda _: {"k": 2}, lambda _: {"k": 64}),
     speed=0,

@@ -205,11 +205,7 @@ XORSHIFT = function(
             points=0.5,
         ),
         law(
-            "streams",
-            "Each stream takes its own step",
-            _streams,
-            dtypes=(np.float32,),
-            role="core",
+            "streams", "Each stream takes its own step", _streams, dtypes=(np.float32,), role="core"
         ),
     ),
 )

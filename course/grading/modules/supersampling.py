@@ -8,15 +8,7 @@ from typing import Any
 import numpy as np
 
 from course.grading.checks.check import Array, Failure, Trial
-from course.grading.checks.declare import (
-    Arguments,
-    Function,
-    Law,
-    Made,
-    count,
-    function,
-    number,
-)
+from course.grading.checks.declare import Arguments, Function, Law, Made, count, function, number
 from course.grading.checks.distributions import uniform
 from course.grading.checks.drawing import Draw, worst_units
 from course.grading.checks.laws import EPSILON, close, exact, from_generator, law, within
@@ -98,13 +90,7 @@ INSIDE = within(
     n=FEW,
 )
 
-ORDER = law(
-    "order",
-    "Cells come row by row, x fastest",
-    _in_order,
-    case=_some_k,
-    n=FEW,
-)
+ORDER = law("order", "Cells come row by row, x fastest", _in_order, case=_some_k, n=FEW)
 
 # ---------------------------------------------------------------- regular
 

@@ -83,10 +83,7 @@ def reflections(rng: np.random.Generator, gloss: dict[str, Any], samples: int = 
     return _scene(
         camera=_camera([0, 2.4, 6], [0, 0.4, 0], 34),
         sampler={"samples": samples},
-        materials={
-            "floor": {"color": 0, "mirror": 0.9, "gloss": gloss},
-            **_bright("post", colors),
-        },
+        materials={"floor": {"color": 0, "mirror": 0.9, "gloss": gloss}, **_bright("post", colors)},
         lights=[AMBIENT],
         objects=[
             FLOOR,

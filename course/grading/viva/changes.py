@@ -208,10 +208,7 @@ def _order(node: ast.AST, text: _Text) -> Iterator[tuple[Span, str]]:
     if len(pair) == 2:
         one, other = (text.span(each) for each in pair)
         between = text.source[one[1] : other[0]]
-        yield (
-            (one[0], other[1]),
-            text.source[slice(*other)] + between + text.source[slice(*one)],
-        )
+        yield ((one[0], other[1]), text.source[slice(*other)] + between + text.source[slice(*one)])
     if isinstance(node, ast.Subscript) and isinstance(node.slice, ast.Constant):
         other_row = {0: "1", 1: "0"}.get(node.slice.value)  # type: ignore[arg-type]
         if other_row is not None and type(node.slice.value) is int:

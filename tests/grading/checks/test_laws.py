@@ -25,10 +25,7 @@ def run(law: Law, function: Callable[..., Any], seed: int = 0) -> None:
 
 
 SAME: dict[str, tuple[Law, Callable[[Any], Any]]] = {
-    "close": (
-        close("it", "", lambda a, r: (r, a.u)),
-        lambda u: u + u.dtype.type(1e-5),
-    ),
+    "close": (close("it", "", lambda a, r: (r, a.u)), lambda u: u + u.dtype.type(1e-5)),
     "close to infinity": (
         close("it", "", lambda a, r: (np.where(r == a.u, np.inf, r), np.inf)),
         lambda u: u + u.dtype.type(1e-3),

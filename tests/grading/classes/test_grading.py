@@ -43,13 +43,7 @@ LONG = STUB + "".join(
 )
 ENGINE = "course.cli.classes.ClassOptions.class_engine"
 WORTH = pytest.approx(totals(["motion_blur"])["motion_blur"])
-FILES = {
-    "report.html",
-    "results.json",
-    "gradescope.json",
-    "prairielearn.json",
-    "junit.xml",
-}
+FILES = {"report.html", "results.json", "gradescope.json", "prairielearn.json", "junit.xml"}
 
 
 def hand_in(folder: Path, **sources: str) -> Path:

@@ -83,11 +83,7 @@ def test_what_a_file_s_name_says(name: str, module: str, owner: str) -> None:
     [
         ("leeann_12345_67890_thin_lens-1.py", "leeann_12345", "thin_lens-1.py"),
         ("leeann_LATE_12345_67890_thin_lens.py", "leeann_12345", "thin_lens.py"),
-        (
-            "Ann Lee_12345_assignsubmission_file_thin_lens.py",
-            "Ann Lee_12345",
-            "thin_lens.py",
-        ),
+        ("Ann Lee_12345_assignsubmission_file_thin_lens.py", "Ann Lee_12345", "thin_lens.py"),
         ("Ann Lee_12345_assignsubmission_file_", "Ann Lee_12345", ""),
         ("Ann Lee_12345_assignsubmission_file", "Ann Lee_12345", ""),
     ],

@@ -37,11 +37,7 @@ def names(tmp_path: Path, text: str, **submissions: tuple[str, ...]) -> dict[str
 
 def test_numbers_logins_and_names(tmp_path: Path) -> None:
     found = names(
-        tmp_path,
-        CANVAS,
-        leeann_11=("leeann_11", "leeann", "11"),
-        bwu=("bwu",),
-        zoe=("Zoe Muller",),
+        tmp_path, CANVAS, leeann_11=("leeann_11", "leeann", "11"), bwu=("bwu",), zoe=("Zoe Muller",)
     )
     assert found == {"leeann_11": "Lee, Ann", "bwu": "Wu, Bo", "zoe": "Müller, Zoë"}
 

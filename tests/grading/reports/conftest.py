@@ -114,9 +114,7 @@ def hostile_report(report: Report) -> Report:
         version=HOSTILE,
         results=tuple(
             replace(
-                result,
-                **dict.fromkeys(texts, HOSTILE),
-                figures=(Figure("points", HOSTILE, {}),),
+                result, **dict.fromkeys(texts, HOSTILE), figures=(Figure("points", HOSTILE, {}),)
             )
             for result in ALL
         ),

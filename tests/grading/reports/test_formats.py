@@ -100,12 +100,7 @@ PRAIRIELEARN = exactly(
     images=listing(exactly(label=TEXT, url={"type": "string", "pattern": "^data:image/"})),
     tests=listing(
         exactly(
-            name=TEXT,
-            description=TEXT,
-            points=NUMBER,
-            max_points=NUMBER,
-            message=TEXT,
-            output=TEXT,
+            name=TEXT, description=TEXT, points=NUMBER, max_points=NUMBER, message=TEXT, output=TEXT
         )
     ),
 )

@@ -24,8 +24,7 @@ from tests.grading.worker.graded import arrays, quick, solution
 MODULE = "motion_blur"
 # No function of it calls another.
 SOLUTION = solution(MODULE).replace(
-    "gone = displacement(velocity, ",
-    "gone = np.multiply.outer(np.asarray(velocity, time.dtype), ",
+    "gone = displacement(velocity, ", "gone = np.multiply.outer(np.asarray(velocity, time.dtype), "
 )
 LIMITS = Limits(call_seconds=2.0)
 LOOP = "while True: pass"

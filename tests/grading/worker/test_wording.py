@@ -56,8 +56,7 @@ def test_what_everybody_does_once_has_a_remedy(name: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "text",
-    ["", "division by zero", "could not be broadcast", "name 'np' is not defined", "(" * 50],
+    "text", ["", "division by zero", "could not be broadcast", "name 'np' is not defined", "(" * 50]
 )
 def test_what_nobody_knows_has_none_or_a_general_one(text: str) -> None:
     assert remedy(text) == "" or text == "could not be broadcast"
@@ -97,10 +96,7 @@ def test_of_any_value_something_short_can_be_told(value: object) -> None:
 def test_an_exception_comes_with_arguments_and_remedy() -> None:
     source = b"def point_on_sphere(center, radius, u):\n    return center + radius * u\n"
     u = np.zeros((3, 5), np.float32)
-    with (
-        Worker("soft_shadows", source) as worker,
-        pytest.raises(StudentError) as error,
-    ):
+    with Worker("soft_shadows", source) as worker, pytest.raises(StudentError) as error:
         worker.call("point_on_sphere", np.zeros(3), 0.5, u)
     check = Check("point_on_sphere", "contract", "", lambda _: None)
     result = troubled("soft_shadows", check, error.value)

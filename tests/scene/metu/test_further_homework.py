@@ -134,11 +134,7 @@ def ball(center: str, **more: Any) -> Tree:
     lamp = {"_id": "1", "Material": "2", "Center": "5", "Radius": "1", "Radiance": "30 20 90"}
     objects = {"Mesh": WALL_MESH, "LightSphere": lamp}
     return tree(
-        vertices=f"{WALL} {center}",
-        objects=objects,
-        materials=[MATT, DARK],
-        lights=BLACK,
-        **more,
+        vertices=f"{WALL} {center}", objects=objects, materials=[MATT, DARK], lights=BLACK, **more
     )
 
 
@@ -322,11 +318,7 @@ REFUSED: dict[str, tuple[Tree, tuple[str, ...]]] = {
         ('Image: names "sky.exr": no such file in',),
     ),
     "dark lamp": (
-        {
-            "objects": {
-                "LightMesh": WALL_MESH | {"Radiance": "0 0 0"},
-            }
-        },
+        {"objects": {"LightMesh": WALL_MESH | {"Radiance": "0 0 0"}}},
         ("Scene/Objects/LightMesh: Radiance is 0 0 0: expected a light that shines",),
     ),
 }

@@ -87,10 +87,7 @@ def test_mirrored_rays_start_there_too(
         camera={"eye": [0, 0.03, 0], "look_at": [1, -0.5, 0], "vertical_fov": 1},
         film={"width": 8, "height": 8},
         environment={"type": "constant", "radiance": 1},
-        materials={
-            "mirror": {"color": 0, "mirror": 1},
-            "lamp": {"color": 0, "emission": 0.25},
-        },
+        materials={"mirror": {"color": 0, "mirror": 1}, "lamp": {"color": 0, "emission": 0.25}},
         objects=[quad(0, (-2, 2, -2, 2), "mirror"), quad(0.05, (-2, 2, -2, 2), "lamp")],
         integrator={"type": kind, "max_depth": 1, "surface_offset": offset},
     )

@@ -80,8 +80,7 @@ PLACES = [(0.1, 0.1), (0.45, 0.3), (0.7, 0.9), (0.97, 0.55)]
 
 
 @pytest.mark.parametrize(
-    ("between", "found"),
-    [("nearest", nearest), ("bilinear", bilinear), ("trilinear", bilinear)],
+    ("between", "found"), [("nearest", nearest), ("bilinear", bilinear), ("trilinear", bilinear)]
 )
 @pytest.mark.parametrize("place", PLACES)
 def test_a_place_has_the_reflectance_of_its_texels(
