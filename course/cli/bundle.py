@@ -7,7 +7,7 @@ from pathlib import Path
 import click
 
 from course.cli.classes import trust_option
-from course.cli.options import choice_options
+from course.cli.options import PATH, choice_options
 from course.cli.outputs import check_outputs
 from course.cli.tables import count, print_sections
 from course.effects import PROJECT
@@ -18,7 +18,7 @@ from course.errors import CourseError
 @click.argument("system", type=click.Choice(["gradescope", "prairielearn", "docker"]))
 @click.option(
     "--out",
-    type=click.Path(path_type=Path),
+    type=PATH,
     required=True,
     help="For Gradescope the .zip file to upload, else a folder that is new or empty.",
 )

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import click
 
-from course.cli.options import modules_argument
+from course.cli.options import OUT_FILE, modules_argument
 from course.cli.outputs import check_outputs
 from course.effects import PACKAGE
 
@@ -20,7 +20,7 @@ from course.effects import PACKAGE
 )
 @click.option(
     "--out",
-    type=click.Path(path_type=Path, dir_okay=False),
+    type=OUT_FILE,
     default=PACKAGE / "grading" / "data" / "tolerances.json",
     show_default="where the checks read them",
 )

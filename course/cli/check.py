@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import click
 
 from course.atomic import write_text
-from course.cli.options import FAILED, folder_option, modules_argument
+from course.cli.options import FAILED, OUT_FILE, folder_option, modules_argument
 from course.cli.outputs import check_outputs
 from course.cli.tables import count
 from course.cli.watching import await_change, times
@@ -52,17 +52,8 @@ SHORT = 100
     help="Print a line for each function that isn't right, as compilers do: FILE:LINE: MESSAGE. Editors read it.",
 )
 @click.option("--watch", is_flag=True, help="Check again whenever a file is saved, until Ctrl-C.")
-@click.option(
-    "--html",
-    type=click.Path(path_type=Path, dir_okay=False),
-    help="Write a page with pictures and plots.",
-)
-@click.option(
-    "--json",
-    "json_file",
-    type=click.Path(path_type=Path, dir_okay=False),
-    help="Write the results.",
-)
+@click.option("--html", type=OUT_FILE, help="Write a page with pictures and plots.")
+@click.option("--json", "json_file", type=OUT_FILE, help="Write the results.")
 @click.pass_context
 def check(
     ctx: click.Context,

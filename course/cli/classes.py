@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from course.cli.options import seconds
+from course.cli.options import FOLDER, seconds
 from course.cli.progress import progress_bar
 from course.cli.tables import count
 
@@ -33,7 +33,7 @@ trust_option = click.option(
 )
 
 _OPTIONS = (
-    click.argument("submissions", type=click.Path(path_type=Path, exists=True, file_okay=False)),
+    click.argument("submissions", type=FOLDER),
     click.option(
         "--policy",
         type=_FILE,

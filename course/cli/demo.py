@@ -12,7 +12,7 @@ import click
 from course import __version__
 from course.atomic import make_folder, write_text
 from course.cli.metu import check_not_metu
-from course.cli.options import INTERRUPTED
+from course.cli.options import INTERRUPTED, PATH
 from course.cli.outputs import check_distinct, check_outputs
 from course.cli.progress import progress_bar
 from course.cli.tables import Section, count, print_sections, receipt_sections
@@ -164,13 +164,13 @@ PAGE = "index.html"
 
 
 @click.command()
-@click.argument("scenes", metavar="[SCENE]...", nargs=-1, type=click.Path(path_type=Path))
+@click.argument("scenes", metavar="[SCENE]...", nargs=-1, type=PATH)
 @click.option(
     "-o",
     "--out",
     default=Path("out", "demo"),
     show_default=True,
-    type=click.Path(path_type=Path),
+    type=PATH,
     help="Folder for the pictures and the page; made if it isn't there.",
 )
 def demo(scenes: tuple[Path, ...], out: Path) -> None:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from course.cli.classes import ClassOptions, class_options, tell_finished, tell_submissions
-from course.cli.options import FAILED, choice_options
+from course.cli.options import FAILED, OUT_FOLDER, choice_options
 from course.cli.tables import count
 from course.errors import CourseError
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 @click.command()
 @click.option(
     "--out",
-    type=click.Path(path_type=Path, file_okay=False),
+    type=OUT_FOLDER,
     required=True,
     help="Folder for the results; what an earlier run has left there is kept.",
 )

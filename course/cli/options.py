@@ -97,6 +97,10 @@ def _instead(ctx: click.Context, name: str) -> str:
 
 
 PATH = click.Path(path_type=Path)
+FOLDER = click.Path(path_type=Path, exists=True, file_okay=False)
+OUT_FILE = click.Path(path_type=Path, dir_okay=False)
+OUT_FOLDER = click.Path(path_type=Path, file_okay=False)
+"""Kinds of paths; what is written may be there already."""
 
 scene_argument = click.argument("scene", metavar="SCENE", type=PATH)
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import click
 
 from course.atomic import write_text
-from course.cli.options import folder_option, modules_argument, seconds
+from course.cli.options import FOLDER, PATH, folder_option, modules_argument, seconds
 from course.cli.outputs import check_outputs
 from course.effects import PROJECT
 
@@ -15,13 +15,9 @@ from course.effects import PROJECT
 @click.command()
 @modules_argument
 @folder_option
+@click.option("-o", "--output", type=PATH, default="portfolio.html", show_default=True)
 @click.option(
-    "-o", "--output", type=click.Path(path_type=Path), default="portfolio.html", show_default=True
-)
-@click.option(
-    "--scenes",
-    type=click.Path(path_type=Path, file_okay=False, exists=True),
-    help="A folder with a scene for each module.  [default: scenes]",
+    "--scenes", type=FOLDER, help="A folder with a scene for each module.  [default: scenes]"
 )
 @click.option(
     "--time-limit",

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import click
 
-from course.cli.options import modules_from
+from course.cli.options import OUT_FOLDER, modules_from
 from course.cli.tables import count
 from course.effects import CHECKOUT, PROJECT
 from course.errors import CourseError
@@ -18,7 +18,7 @@ DRAWN_BY = PROJECT / "docs"
 
 
 @click.command()
-@click.argument("out", type=click.Path(path_type=Path, file_okay=False))
+@click.argument("out", type=OUT_FOLDER)
 @click.option(
     "--modules",
     multiple=True,

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import click
 
+from course.cli.options import OUT_FILE
 from course.cli.outputs import check_outputs
 from course.cli.tables import count
 from course.effects import PACKAGE
@@ -16,7 +17,7 @@ from course.modules import COURSE
 )
 @click.option(
     "--out",
-    type=click.Path(path_type=Path, dir_okay=False),
+    type=OUT_FILE,
     default=PACKAGE / "grading" / "data" / "references.npz",
     show_default="where `course check` reads them",
 )

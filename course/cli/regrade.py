@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from course.cli.classes import ClassOptions, class_options, tell_finished, tell_submissions
+from course.cli.options import FOLDER
 from course.cli.tables import count
 from course.errors import CourseError
 
@@ -18,12 +19,7 @@ if TYPE_CHECKING:
 
 
 @click.command()
-@click.option(
-    "--out",
-    type=click.Path(path_type=Path, file_okay=False, exists=True),
-    required=True,
-    help="Folder that `course grade` has written.",
-)
+@click.option("--out", type=FOLDER, required=True, help="Folder that `course grade` has written.")
 @click.option(
     "--dry-run", is_flag=True, help="Tell who would change, and leave the grades as they are."
 )

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from course.atomic import make_folder, write_text
+from course.cli.options import PATH
 from course.cli.outputs import check_outputs
 from course.cli.tables import count
 from course.effects import ASSIGNMENTS, PROJECT
@@ -27,9 +28,7 @@ SHOWN = 16
 @click.option("--check", is_flag=True, help="Write nothing; fail if a stub is not up to date.")
 @click.option("--force", is_flag=True, help="Write over functions that somebody has written.")
 @click.option(
-    "--out",
-    type=click.Path(path_type=Path),
-    help="Write the whole student archive there, a folder or a .zip file.",
+    "--out", type=PATH, help="Write the whole student archive there, a folder or a .zip file."
 )
 def release(check: bool, force: bool, out: Path | None) -> None:
     """Make the stubs in assignments/ from solutions/, or with --out all that students get.

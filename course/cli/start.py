@@ -7,6 +7,7 @@ from pathlib import Path
 
 import click
 
+from course.cli.options import PATH
 from course.cli.tables import count
 from course.effects import PROJECT
 from course.errors import CourseError
@@ -16,7 +17,7 @@ TEACHING = "docs/guides/teaching.md"
 
 
 @click.command()
-@click.argument("folder", type=click.Path(path_type=Path))
+@click.argument("folder", type=PATH)
 @click.option("--instructor", is_flag=True, help="Add the solutions, and how to grade a class.")
 def start(folder: Path, instructor: bool) -> None:
     """Make FOLDER with all that a student works on: stubs, scenes, pages, and settings of VS Code.

@@ -6,7 +6,7 @@ import click
 
 from course.atomic import write_text
 from course.cli.classes import trust_option
-from course.cli.options import modules_from
+from course.cli.options import FOLDER, OUT_FILE, modules_from
 from course.cli.outputs import check_outputs
 from course.cli.tables import count
 from course.effects import PROJECT
@@ -16,12 +16,8 @@ QUESTIONS = 3
 
 
 @click.command()
-@click.argument("folder", type=click.Path(path_type=Path, exists=True, file_okay=False))
-@click.option(
-    "--html",
-    type=click.Path(path_type=Path, dir_okay=False),
-    help="Write a page with the pictures before and after.",
-)
+@click.argument("folder", type=FOLDER)
+@click.option("--html", type=OUT_FILE, help="Write a page with the pictures before and after.")
 @click.option(
     "--modules",
     multiple=True,
