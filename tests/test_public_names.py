@@ -9,18 +9,8 @@ import pytest
 import course
 
 PUBLIC = {
-    "CourseError",
-    "EffectError",
-    "GeometryError",
-    "OutputError",
-    "Picture",
-    "Scene",
-    "SceneError",
-    "Story",
-    "__version__",
-    "load_scene",
-    "pixel",
-    "render",
+    *("CourseError", "EffectError", "GeometryError", "OutputError", "Picture", "Scene"),
+    *("SceneError", "Story", "__version__", "load_scene", "pixel", "render"),
 }
 
 

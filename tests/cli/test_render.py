@@ -24,16 +24,8 @@ def test_what_options_leave_open_is_left_to_the_scene(run: Run, engine: Engine) 
     run("render", "box.yaml")
     (options,) = engine.rendered
     assert set(options) == {
-        "spp",
-        "size",
-        "sampler",
-        "seed",
-        "threads",
-        "time_limit",
-        "error",
-        "progress",
-        "address",
-        "denoise",
+        *("spp", "size", "sampler", "seed", "threads", "time_limit"),
+        *("error", "progress", "address", "denoise"),
     }
     assert set(options.values()) == {None}
 
@@ -77,54 +69,41 @@ def test_the_address_of_a_cluster_reaches_the_renderer(run: Run, engine: Engine)
         ("--address tcp://far:1", "--address is for --engine dask"),
         ("--engine threads --address tcp://far:1", "--address is for --engine dask"),
         ("--engine dask --address tcp://far:1 --threads 2", "--threads is for --engine threads"),
+        *((to, "must end in .png or .exr") for to in ("-o a.gif", "-o .", "--heat-map a.gif")),
     ],
 )
-def test_what_a_cluster_needs_and_does_not_take_is_told_before_the_work(
+def test_what_can_not_be_done_is_told_before_the_work(
     run: Run, engine: Engine, tmp_path: Path, options: str, told: str
 ) -> None:
     result = run("render", "box.yaml", *options.split())
     assert result.exit_code == 1
-    assert result.stderr.startswith(f"error: {told}")
+    assert result.stderr.startswith("error: ")
+    assert told in result.stderr
     assert not engine.loaded
     assert not files(tmp_path)
 
 
-@pytest.mark.parametrize(
-    "options",
-    [
-        "--engine cloud",
-        "--spp 0",
-        "--spp 65537",
-        "--spp many",
-        "--size 640",
-        "--size 640x0",
-        "--size 65537x1",
-        "--size -1x5",
-        "--size 1e2x5",
-        "--sampler latin",
-        "--seed -1",
-        "--seed 4294967296",
-        "--threads 0",
-        "--time-limit 0",
-        "--time-limit -1",
-        "--time-limit nan",
-        "--time-limit inf",
-        "--time-limit soon",
-        "--error 0",
-        "--error -0.1",
-        "--error nan",
-        "--error inf",
-        "--error little",
-        "--receipt box.yaml",
-        "--no-such-option",
-    ],
-)
+WRONG = {
+    "--engine": ("cloud",),
+    "--spp": ("0", "65537", "many"),
+    "--size": ("640", "640x0", "65537x1", "-1x5", "1e2x5"),
+    "--sampler": ("latin",),
+    "--seed": ("-1", "4294967296"),
+    "--threads": ("0",),
+    "--time-limit": ("0", "-1", "nan", "inf", "soon"),
+    "--error": ("0", "-0.1", "nan", "inf", "little"),
+    "--receipt": ("box.yaml",),
+    "--no-such-option": ("",),
+}
+
+
+@pytest.mark.parametrize(("option", "value"), [(name, v) for name, of in WRONG.items() for v in of])
 def test_wrong_usage_exits_2_and_renders_nothing(
-    run: Run, engine: Engine, tmp_path: Path, options: str
+    run: Run, engine: Engine, tmp_path: Path, option: str, value: str
 ) -> None:
-    result = run("render", "box.yaml", *options.split())
+    result = run("render", "box.yaml", option, value)
     assert result.exit_code == 2
-    assert options.split()[0] in result.stderr
+    assert option in result.stderr
     assert not engine.loaded
     assert not files(tmp_path)
 
@@ -136,25 +115,6 @@ def test_the_limits_of_the_options_are_allowed(run: Run) -> None:
         "--spp 65536 --size 1x65536 --seed 4294967295",
     ):
         assert run("render", "box.yaml", *options.split()).exit_code == 0
-
-
-@pytest.mark.parametrize(
-    ("options", "told"),
-    [
-        ("-o a.gif", "must end in .png or .exr"),
-        ("-o .", "must end in .png or .exr"),
-        ("--heat-map a.gif", "must end in .png or .exr"),
-    ],
-)
-def test_a_place_of_another_kind_is_told_before_the_work(
-    run: Run, engine: Engine, tmp_path: Path, options: str, told: str
-) -> None:
-    result = run("render", "box.yaml", *options.split())
-    assert result.exit_code == 1
-    assert result.stderr.startswith("error: ")
-    assert told in result.stderr
-    assert not engine.loaded
-    assert not files(tmp_path)
 
 
 @pytest.mark.parametrize(

@@ -20,17 +20,8 @@ PAPER = (PROJECT / "paper" / "paper.md").read_text(encoding="utf-8")
 BIBLIOGRAPHY = (PROJECT / "paper" / "paper.bib").read_text(encoding="utf-8")
 
 KNOWN_KEYS = {
-    *(
-        "abstract",
-        "authors",
-        "cff-version",
-        "date-released",
-        "doi",
-        "keywords",
-        "license",
-        "message",
-    ),
-    *("references", "repository-code", "title", "type", "url", "version"),
+    *("abstract", "authors", "cff-version", "date-released", "doi", "keywords", "license"),
+    *("message", "references", "repository-code", "title", "type", "url", "version"),
 }
 """Of the format 1.2.0, those that this file may need."""
 

@@ -296,15 +296,9 @@ def test_groups_in_any_order_give_the_same_bits(monkeypatch: pytest.MonkeyPatch)
         assert (film.order, film.error) == (other.order, other.error)
     assert len(sums) == 4 * len(groups)
     assert sums == sums[: len(groups)] * 4
-    assert film.samples.ravel()[pixels[[0, 800, 1000, 3000, 4500, 6000, 7999]]].tolist() == [
-        48,
-        48,
-        48,
-        48,
-        32,
-        24,
-        16,
-    ]
+    assert film.samples.ravel()[pixels[[0, 800, 1000, 3000, 4500, 6000, 7999]]].tolist() == (
+        [48] * 4 + [32, 24, 16]
+    )
 
 
 def test_a_preview_shows_and_leaves_no_trace() -> None:

@@ -26,22 +26,8 @@ FACES = [f"face{number}.exr" for number in range(6)]
 ORDINARY = st.floats(-4, 4).map(lambda x: round(x, 3)).filter(bool)
 EXTREME = st.sampled_from(
     [
-        0.0,
-        1e-150,
-        1e-60,
-        1e-45,
-        1e-38,
-        1e-20,
-        1e-10,
-        1e-7,
-        1e-4,
-        1e4,
-        1e7,
-        1e10,
-        1e20,
-        1e38,
-        1e60,
-        1e150,
+        *(0.0, 1e-150, 1e-60, 1e-45, 1e-38, 1e-20, 1e-10, 1e-7),
+        *(1e-4, 1e4, 1e7, 1e10, 1e20, 1e38, 1e60, 1e150),
     ]
 )
 """Sizes at which something may happen: the ends of float32 and of its square, and those of the format."""

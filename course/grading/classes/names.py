@@ -25,13 +25,8 @@ _DEVICES = {
     *(f"{p}{n}" for p in ("com", "lpt") for n in range(1, 10)),
 }
 _OUTPUTS = (
-    "grades.csv",
-    "canvas.csv",
-    "moodle.csv",
-    "class.html",
-    "lecture.html",
-    "references_",
-    "instructor",
+    *("grades.csv", "canvas.csv", "moodle.csv", "class.html"),
+    *("lecture.html", "references_", "instructor"),
 )
 
 

@@ -92,20 +92,11 @@ def test_a_folder_to_work_in_is_made_rendered_and_checked(
 
 def test_a_picture_shows_what_is_written_so_far(course: Course, site: Path, tmp_path: Path) -> None:
     course("start", "mine")
-    line = (
-        "render",
-        "scenes/soft_shadows.yaml",
-        "--size",
-        "30x20",
-        "--spp",
-        "4",
-        "--receipt",
-        "a.json",
-    )
+    options = ("--size", "30x20", "--spp", "4", "--receipt", "a.json")
     shutil.copy(
         site / "penumbra_course_files/solutions/soft_shadows.py", tmp_path / "mine/assignments"
     )
-    rendered = course(*line, folder="mine")
+    rendered = course("render", "scenes/soft_shadows.yaml", *options, folder="mine")
     assert rendered.returncode == 0, rendered.stderr
     receipt = json.loads((tmp_path / "mine" / "a.json").read_text("utf-8"))
     assert receipt["effects"]["yours"] == ["soft_shadows.point_on_sphere"]

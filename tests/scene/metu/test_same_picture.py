@@ -17,13 +17,8 @@ Array = NDArray[np.float64]
 
 EPSILON = 0.004
 RULES = (
-    "offset",
-    "light at the surface",
-    "whole shadow rays",
-    "no near plane",
-    "backs unseen",
-    "normals kept",
-    "approximate metals",
+    *("offset", "light at the surface", "whole shadow rays", "no near plane"),
+    *("backs unseen", "normals kept", "approximate metals"),
 )
 EYE, NEAR = np.array([0.01, 0.02, 0.4]), 0.35
 LIGHTS = (
