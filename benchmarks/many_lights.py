@@ -7,6 +7,8 @@ and whether a thousand by the tree are a thousand that are all asked, by Welch's
 
 from pathlib import Path
 from time import process_time
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 
@@ -19,8 +21,9 @@ from course.benchmarking.measuring import Effort
 from course.benchmarking.plot_data import Plot, Series
 from course.benchmarking.references import scene_hash
 from course.benchmarking.tables import Table, digits
+from course.compiled.light_tree import compiled_choice
 from course.core.types import Floats64
-from course.effects import PROJECT, Effects
+from course.effects import PROJECT
 from course.extras.light_tree import TOGETHER, TreeChoice
 from course.formats.yaml.loading import load_description
 from course.scene.scene import load_variant
@@ -36,7 +39,7 @@ AT, GOAL = 64, 10.0
 ENOUGH = 1000
 """Lamps from which on the goal is meant; with fewer, the tree only has to gain."""
 
-SIZE, SAMPLES, CONVERGED, ROUNDS = (60, 40), 16, 64, 9
+SIZE, SAMPLES, CONVERGED, ROUNDS = (60, 40), 16, 64, 25
 CHOICES = 41
 """Rounds in which the choices alone are timed."""
 
@@ -108,12 +111,12 @@ def growth() -> tuple[Floats64, Floats64, Floats64]:
     ways = WAYS["each as probable"], WAYS["by a light tree"]
     squares = np.empty((len(COUNTS), 2, ROUNDS))
     seconds = np.empty_like(squares)
-    trees = []
+    trees: list[TreeChoice] = []
     for row, count in enumerate(COUNTS):
         scenes = [candles(count, way) for way in ways]
         choice = scenes[1].compiled.world.choice
         assert isinstance(choice, TreeChoice)
-        trees.append(choice.tree)
+        trees.append(choice)
         exact = _converged(scenes[1], SIZE, CONVERGED)
         for scene in scenes:
             render(scene, size=SIZE, spp=1, threads=1, compiled=True)
@@ -128,16 +131,18 @@ def growth() -> tuple[Floats64, Floats64, Floats64]:
     return squares, seconds, _choices(trees)
 
 
-def _choices(trees: list[object]) -> Floats64:
+def _choices(trees: list[TreeChoice]) -> Floats64:
     """Seconds (counts,) of a choice for TOGETHER points on the floor, medians of rounds in turn."""
-    walk = Effects(PROJECT / "solutions").function("many_lights", "tree_choice")
     rng = np.random.default_rng(5)
     p = rng.uniform(-0.5, 0.5, (3, TOGETHER)).astype(np.float32)
     p[1] = 0
     n = np.repeat(np.array([[0], [1], [0]], np.float32), TOGETHER, axis=1)
     u = rng.random(TOGETHER, dtype=np.float32)
+    hits: Any = SimpleNamespace(near_origin=p, ns=n)
     ways = {
-        str(k): lambda _n, _turn, tree=tree: walk(tree, p, n, u) for k, tree in enumerate(trees)
+        str(k): lambda _n, _turn, choose=choice.choose: choose(hits, u)
+        for k, choice in enumerate(map(compiled_choice, trees))
+        if choice is not None
     }
     return np.array([time for (time,) in median_seconds(ways, [1], CHOICES).values()])
 

@@ -9,12 +9,14 @@ from course.compiled import direct_kernels, draw_kernels
 from course.compiled.accelerator import in_packets
 from course.compiled.direct import CompiledDirectLight
 from course.compiled.environment import compiled_environment
+from course.compiled.light_tree import compiled_choice
 from course.compiled.surface import CompiledSurface
 from course.core.hits import Surface
 from course.core.integrator import Integrator
 from course.core.samplers import Block, Sampler
 from course.core.tracer import Tracer
 from course.core.types import Floats32, Indices
+from course.extras.direct import FullDirectLight
 from course.extras.environment_sampling import ProductSampling
 from course.extras.lamps_and_lobes import CombiningIntegrator
 from course.extras.path_tracing import PathIntegrator
@@ -35,6 +37,8 @@ def compiled(tracer: Tracer) -> Tracer:
         if isinstance(direct.sky, Sky):
             seen = {"surface": surface, "environment": compiled_environment(direct.sky.environment)}
             known["sky"] = CompiledSky(**same_fields(direct.sky) | seen)
+        if isinstance(direct, FullDirectLight):
+            known["choice"] = compiled_choice(direct.choice)
         changed["direct"] = CompiledDirectLight(**known)
     # Loops are compiled when they are imported: a machine's first render waits for those of its scene alone.
     if (scatter := integrator.scatter) is not None:
