@@ -3,13 +3,12 @@
 import ast
 import json
 import re
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
 from course.modules import MODULES
+from tests.processes import python
 
 ROOT = Path(__file__).parents[1]
 COURSE = ROOT / "course"
@@ -109,9 +108,7 @@ def test_a_function_of_the_course_is_called_by_its_own_name_on_one_line(function
 
 
 def test_one_picture_runs_few_files() -> None:
-    done = subprocess.run(
-        [sys.executable, "-c", RUN], cwd=ROOT, capture_output=True, text=True, check=True
-    )
+    done = python("-c", RUN)
     files = [file for file in json.loads(done.stdout) if Path(file).is_relative_to(COURSE)]
     assert CORE / "lights" / "sphere.py" in map(Path, files)
     assert len(files) <= 40

@@ -2,8 +2,6 @@
 
 import json
 import os
-import subprocess
-import sys
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +12,7 @@ from course import load_scene, render
 from course.casters import choice
 from course.errors import CourseError
 from tests.forms import needs_numba
+from tests.processes import python
 
 ROOT = Path(__file__).parents[2]
 
@@ -40,16 +39,8 @@ print(json.dumps(picture.receipt.to_dict()))
 def rendered(folder: Path, hidden: str, scene: str, compiled: bool, **environment: str) -> Any:
     """The picture (H, W, 3) and the receipt of a process that doesn't find some libraries."""
     file = folder / "picture.npy"
-    arguments = hidden, f"scenes/{scene}.yaml", json.dumps(compiled), str(file)
-    done = subprocess.run(
-        [sys.executable, "-c", HIDE + RENDER, *arguments],
-        cwd=ROOT,
-        env={**os.environ, "PYTHONPATH": str(ROOT), **environment},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert done.returncode == 0, done.stderr
+    arguments = hidden, f"scenes/{scene}.yaml", json.dumps(compiled), file
+    done = python("-c", HIDE + RENDER, *arguments, environment=os.environ | environment)
     return np.load(file), json.loads(done.stdout)
 
 

@@ -4,7 +4,6 @@ import os
 import re
 import shutil
 import subprocess
-import sys
 import zipfile
 from pathlib import Path
 
@@ -13,6 +12,7 @@ import pytest
 from course.effects import PROJECT
 from tests.docs.blocks import Block, blocks
 from tests.docs.following import ONCE
+from tests.processes import python
 
 PARTS = ("assignments", "benchmarks", "course", "docs", "scenes", "solutions")
 FILES = ("CONTRIBUTING.md", "LICENSE", "Makefile", "README.md", "pyproject.toml")
@@ -101,15 +101,9 @@ def _coarse(line: str) -> str:
 
 def _follow(pages: list[str], folder: Path) -> subprocess.CompletedProcess[str]:
     path = os.pathsep.join([str(folder), str(PROJECT)])
-    return subprocess.run(
-        [sys.executable, "-m", "tests.docs.following", *pages],
-        check=False,
-        cwd=folder,
-        env=os.environ | {"PYTHONPATH": path, "COLUMNS": "120"},
-        capture_output=True,
-        text=True,
-        timeout=280,
-    )
+    wide = os.environ | {"COLUMNS": "120"}
+    line = ("-m", "tests.docs.following", *pages)
+    return python(*line, folder=folder, path=path, environment=wide, may_fail=True)
 
 
 @pytest.mark.parametrize("pages", TOGETHER, ids=" ".join)

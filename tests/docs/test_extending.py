@@ -1,16 +1,14 @@
 """The page "Add a light, a material or an option" is true: its light is built from it, and its files are there."""
 
 import json
-import os
 import re
 import shutil
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
 
 from course.effects import PROJECT
+from tests.processes import python
 
 PAGE = PROJECT / "docs" / "guides" / "extend.md"
 BLOCK = re.compile(r"^`([\w/]+\.py)`(?:, before `([^`]+)`)?:\n\n```python\n(.*?)^```$", re.M | re.S)
@@ -63,16 +61,7 @@ def test_the_light_of_the_page_fades_from_its_axis_as_it_says(tmp_path: Path) ->
         }
         names.append(tmp_path / f"{name}.yaml")
         names[-1].write_text(json.dumps(scene), encoding="utf-8")
-    done = subprocess.run(
-        [sys.executable, "-c", RENDER, *map(str, names)],
-        cwd=tmp_path,
-        env={**os.environ, "PYTHONPATH": str(tmp_path)},
-        capture_output=True,
-        text=True,
-        check=False,
-        timeout=200,
-    )
-    assert done.returncode == 0, done.stderr
+    done = python("-c", RENDER, *names, folder=tmp_path, path=tmp_path)
     point, reflector = map(np.array, json.loads(done.stdout))
     half = 8 * np.tan(np.radians(FIELD / 2))
     x = half * (2 * (np.arange(SIZE) + 0.5) / SIZE - 1)

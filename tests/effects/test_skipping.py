@@ -1,8 +1,6 @@
 """A scene pays for the effects it has: no number, no ray and no import for any other, and the receipt says why."""
 
 import json
-import subprocess
-import sys
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +9,7 @@ import pytest
 
 from course import render
 from tests.conftest import MakeScene
+from tests.processes import python
 
 PATHS = 32 * 32 * 4
 CAMERA = {"eye": [0, 0, 4], "look_at": [0, 0, 0]}
@@ -204,14 +203,7 @@ def test_a_process_imports_the_modules_of_its_scene_only(tmp_path: Path) -> None
     }
     for name, (parts, _) in scenes.items():
         (tmp_path / name).write_text(json.dumps(description(**parts) | one), encoding="utf-8")
-    done = subprocess.run(
-        [sys.executable, "-c", RENDERED, *scenes],
-        cwd=tmp_path,
-        env={"PYTHONPATH": str(Path(__file__).parents[2]), "PATH": ""},
-        capture_output=True,
-        text=True,
-        check=True,
-    )
+    done = python("-c", RENDERED, *scenes, folder=tmp_path, environment={"PATH": ""})
     for (name, (_, functions)), line in zip(scenes.items(), done.stdout.splitlines(), strict=True):
         found = {each.rpartition(".")[2] for each in json.loads(line)}
         assert found == {function.partition(".")[0] for function in functions}, name

@@ -1,16 +1,14 @@
 """The page "Add a module" is complete: the module that it shows is built from it, and graded."""
 
-import os
 import re
 import shutil
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
 from course.cli.options import FAILED
 from course.effects import PROJECT
+from tests.processes import python
 
 PAGE = PROJECT / "docs" / "guides" / "new_module.md"
 
@@ -30,16 +28,7 @@ def shown() -> dict[str, str]:
 
 def run(folder: Path, *arguments: str) -> str:
     """What a command says in a copy of the project."""
-    environment = {**os.environ, "PYTHONPATH": str(folder)}
-    done = subprocess.run(
-        [sys.executable, "-m", *arguments],
-        cwd=folder,
-        env=environment,
-        check=False,
-        capture_output=True,
-        text=True,
-        timeout=300,
-    )
+    done = python("-m", *arguments, folder=folder, path=folder, may_fail=True)
     assert done.returncode in (0, FAILED), done.stdout + done.stderr
     return done.stdout + done.stderr
 

@@ -1,13 +1,13 @@
 """What a picture takes while it is read: measured as the most memory of a process of its own."""
 
-import os
 import struct
-import subprocess
 import sys
 import zlib
 from pathlib import Path
 
 import pytest
+
+from tests.processes import python
 
 ROOT = Path(__file__).parents[2]
 SIDE = 4000
@@ -56,12 +56,6 @@ def test_reading_takes_less_than_twice_the_picture(
         pytest.skip("only Linux tells the most memory that a process has had")
     small = black_png(tmp_path / "small.png", 1, channels, bits)
     large = black_png(tmp_path / "large.png", SIDE, channels, bits)
-    done = subprocess.run(
-        [sys.executable, "-c", PROGRAM, str(small), str(large)],
-        env={**os.environ, "PYTHONPATH": str(ROOT)},
-        capture_output=True,
-        text=True,
-        check=True,
-    )
+    done = python("-c", PROGRAM, small, large)
     # At least the picture itself; its codes are 1/12 to 1/3 of it, and strips of them take as much here.
     assert 1 <= float(done.stdout) < 2

@@ -9,6 +9,8 @@ from typing import Any
 
 import pytest
 
+from tests.processes import python
+
 ROOT = Path(__file__).parents[2]
 THIS_CHECKOUT = {**os.environ, "PYTHONPATH": str(ROOT)}
 NEVER = {"skimage", "scipy", "trimesh", "psutil", "rich", "networkx", "hypothesis"}
@@ -39,14 +41,8 @@ OF_A_KEY = {
 
 def imported(folder: Path, scene: str, *options: str) -> set[str]:
     """Every module that `python -m course render` of a scene file imports, by its full name."""
-    done = subprocess.run(
-        [sys.executable, "-X", "importtime", "-m", "course", "render", scene, *options],
-        cwd=folder,
-        env=THIS_CHECKOUT,
-        capture_output=True,
-        text=True,
-        check=True,
-    )
+    line = ("-X", "importtime", "-m", "course", "render", scene, *options)
+    done = python(*line, folder=folder)
     lines = [line for line in done.stderr.splitlines() if line.startswith("import time:")]
     return {line.rpartition("|")[2].strip() for line in lines}
 

@@ -2,7 +2,6 @@
 
 import os
 import platform
-import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -10,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from course import Scene
+from tests.processes import python
 
 ROOT = Path(__file__).parents[2]
 
@@ -36,14 +36,8 @@ KEEP = (
 
 def page_faults(before: str) -> tuple[int, int]:
     """Of what is done before, and of a row of arrays after it, in a process of its own."""
-    done = subprocess.run(
-        [sys.executable, "-c", PROGRAM.format(before=before)],
-        env={name: value for name, value in os.environ.items() if "MALLOC" not in name}
-        | {"PYTHONPATH": str(ROOT)},
-        capture_output=True,
-        text=True,
-        check=True,
-    )
+    usual = {name: value for name, value in os.environ.items() if "MALLOC" not in name}
+    done = python("-c", PROGRAM.format(before=before), environment=usual)
     own, after = done.stdout.split()
     return int(own), int(after)
 

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from course.formats.meshes.parts import same
 
 CREASE_DEGREES = 40.0
+"""Vertices at one place whose own normals differ by more keep them apart."""
 
 # Work at a place grows with the square of the vertices there. The tip of a fan finer than this is
 # left as it is: facets so narrow need no smoothing.
@@ -20,9 +21,7 @@ MOST_COPIES = 64
 
 
 def smooth_normals(
-    vertices: NDArray[np.float64],
-    triangles: NDArray[np.integer],
-    crease_degrees: float = CREASE_DEGREES,
+    vertices: NDArray[np.float64], triangles: NDArray[np.integer]
 ) -> NDArray[np.float64]:
     """Return unit normals (V, 3), finite for every finite mesh.
 
@@ -34,12 +33,11 @@ def smooth_normals(
     ----------
     vertices : (V, 3) float64
     triangles : (T, 3) integer, indices in range
-    crease_degrees : vertices at one place whose own normals differ by more keep them apart
     """
     faces, weights = _faces_and_angles(vertices, triangles)
     sums = _sums(len(vertices), triangles, faces, weights)
     own = unit(sums)
-    normals = unit(_lend(vertices, own, sums, math.cos(math.radians(crease_degrees))))
+    normals = unit(_lend(vertices, own, sums, math.cos(math.radians(CREASE_DEGREES))))
     return _filled(normals, own, faces, triangles)
 
 

@@ -155,7 +155,6 @@ def means(
     *,
     comparisons: int,
     case: Case | None = None,
-    n: int = MANY,
 ) -> Law:
     """Means of independent values are what they should be: z-tests with known variances.
 
@@ -166,7 +165,7 @@ def means(
     """
 
     def run(function: Function, trial: Trial) -> None:
-        a = function.make(Draw(trial.rng, n, np.float32), case)
+        a = function.make(Draw(trial.rng, MANY, np.float32), case)
         for what, some, mean, variance in values(exact(a), function.call(trial, a)):
             try:
                 check_mean(np.asarray(some), mean, variance, what, hint)

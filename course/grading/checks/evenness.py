@@ -17,8 +17,11 @@ COUNTS = (16, 64, 256, 1024)
 
 REPEATS = 32
 
+LEAST_ORDER = 0.65
+"""Of the error of a mean over evenly placed points; independent ones have 0.5."""
 
-def smooth(limit: float, *, case: Case | None = None, u_name: str = "u") -> Law:
+
+def smooth(limit: float, *, case: Case | None = None) -> Law:
     """A small step of u is a small step of the point: angles in degrees make a step 57 times as long.
 
     ``limit``: of the way that a point goes, over the step of u that makes it, for most u
@@ -27,14 +30,13 @@ def smooth(limit: float, *, case: Case | None = None, u_name: str = "u") -> Law:
 
     def run(function: Function, trial: Trial) -> None:
         a = function.make(Draw(trial.rng, 600, np.float64), case)
-        numbers = a[u_name] * (1 - 2 * step)
+        a["u"] = numbers = a.u * (1 - 2 * step)
         rows = range(numbers.shape[0] if numbers.ndim == 2 else 1)
-        a[u_name] = numbers
         first = np.asarray(first_result(function.call(trial, a)))
         for row in rows:
             moved = numbers.copy()
             (moved[row] if numbers.ndim == 2 else moved)[...] += step
-            a[u_name] = moved
+            a["u"] = moved
             way = np.abs(np.asarray(first_result(function.call(trial, a))) - first)
             far = (np.linalg.norm(way, axis=0) if way.ndim == 2 else way) / step
             # Where a warp has a seam some points jump; half of them never do.
@@ -42,7 +44,7 @@ def smooth(limit: float, *, case: Case | None = None, u_name: str = "u") -> Law:
             if not typical <= limit:
                 k = int(np.argsort(far)[far.size // 2])
                 raise Failure(
-                    f"a small step of {u_name} to move a point at most {limit:g} times as far",
+                    f"a small step of u to move a point at most {limit:g} times as far",
                     f"{typical:.4g} times as far for most points",
                     f"{where(a, (k,), (numbers.shape[-1],))}, and {step:.2g} less in row {row}",
                     "Are all angles in radians, and used once?",
@@ -52,34 +54,26 @@ def smooth(limit: float, *, case: Case | None = None, u_name: str = "u") -> Law:
 
 
 def evenly(
-    value: Callable[[Arguments, Any], Array],
-    exact_mean: float,
-    *,
-    case: Case | None = None,
-    least: float = 0.65,
-    u_name: str = "u",
+    value: Callable[[Arguments, Any], Array], exact_mean: float, *, case: Case | None = None
 ) -> Law:
     """Evenly placed numbers give evenly placed points: with Sobol's the error of a mean falls faster than with N^-0.5.
 
-    Parameters
-    ----------
-    value : (N,) smooth values, whose mean is ``exact_mean``
-    least : the order that is asked for
+    ``value``: (N,) smooth values, whose mean is ``exact_mean``
     """
 
     def run(function: Function, trial: Trial) -> None:
         errors, off = [], []
         for number_of in COUNTS:
-            word = function.argument(u_name).sizes[0]
+            word = function.argument("u").sizes[0]
             rows = int(word) if word.isdigit() else 1
             numbers = _sobol(trial.rng, number_of, rows)
             a = function.make(Draw(trial.rng, numbers.shape[1], np.float32), case)
-            a[u_name] = numbers if word.isdigit() else numbers[0]
+            a["u"] = numbers if word.isdigit() else numbers[0]
             found = np.asarray(value(exact(a), function.call(trial, a)))
             off.append(found.reshape(REPEATS, number_of).mean(axis=1) - exact_mean)
             errors.append(float(np.sqrt((off[-1] ** 2).mean())))
         _check_centred(off, exact_mean)
-        check_order(errors, least)
+        check_order(errors, LEAST_ORDER)
 
     title = "Evenly placed numbers give evenly placed points"
     chance = 1e-7 + SKEWED_BY_CHANCE

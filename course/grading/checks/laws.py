@@ -194,12 +194,10 @@ def within(
     )
 
 
-def unit_length(
-    vectors: Callable[[Arguments, Any], Any] = lambda _, r: r, name: str = "unit_length"
-) -> Law:
+def unit_length(vectors: Callable[[Arguments, Any], Any] = lambda _, r: r) -> Law:
     """Directions are unit length to 1e-5."""
     return close(
-        name,
+        "unit_length",
         "Directions are unit length",
         lambda a, r: (np.linalg.norm(vectors(a, r), axis=0), 1.0),
         "Normalise at the end.",
@@ -214,14 +212,14 @@ def first_result(r: Any) -> Any:
     return r[0] if isinstance(r, tuple) else r
 
 
-def from_generator(argument: str = "rng") -> Law:
+def from_generator() -> Law:
     """All that is random comes from the generator that is handed in."""
 
     def run(function: Function, trial: Trial) -> None:
         a = function.make(Draw(trial.rng, 20, np.float32))
         seed = int(trial.rng.integers(2**62))
         first, again, other = (
-            function.call(trial, Arguments(a | {argument: np.random.default_rng(s)}))
+            function.call(trial, Arguments(a | {"rng": np.random.default_rng(s)}))
             for s in (seed, seed, seed + 1)
         )
         if not _equal(first, again):

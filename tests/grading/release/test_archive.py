@@ -2,8 +2,6 @@
 
 import re
 import shutil
-import subprocess
-import sys
 import zipfile
 from pathlib import Path
 
@@ -20,6 +18,7 @@ from course.grading.release.archive import (
 )
 from course.modules import COURSE
 from tests.grading.lent import ReferencesFile
+from tests.processes import python
 
 ROOT = Path(__file__).parents[3]
 
@@ -136,21 +135,23 @@ def test_a_line_that_says_what_numpy_warns_of_is_nobodys_solution() -> None:
     assert 'with np.errstate(over="ignore"):' not in lines
 
 
-def test_a_students_copy_asks_for_the_function_that_is_not_written(
-    archive: Path, tmp_path: Path
-) -> None:
+@pytest.fixture
+def copy(archive: Path, tmp_path: Path) -> Path:
+    """The archive, unpacked."""
     with zipfile.ZipFile(archive) as file:
         file.extractall(tmp_path)
-    copy = tmp_path / "penumbra"
-    command = [sys.executable, "-m", "course", "render", "scenes/cornell_box.yaml"]
-    done = subprocess.run(
-        [*command, "--size", "16x16", "--effects", "assignments"],
-        cwd=copy,
-        env={"PYTHONPATH": str(copy), "PATH": ""},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    return tmp_path / "penumbra"
+
+
+RENDER = ("-m", "course", "render", "scenes/cornell_box.yaml")
+
+
+def test_a_students_copy_asks_for_the_function_that_is_not_written(
+    copy: Path,
+) -> None:
+    options = ("--size", "16x16", "--effects", "assignments")
+    alone = {"PATH": ""}
+    done = python(*RENDER, *options, folder=copy, path=copy, environment=alone, may_fail=True)
     assert done.returncode == 1
     assert "not written yet" in done.stderr
     assert "asks for it" in done.stderr
@@ -158,21 +159,9 @@ def test_a_students_copy_asks_for_the_function_that_is_not_written(
     assert not list(copy.glob("*.png"))
 
 
-def test_a_students_copy_shows_pictures_before_the_first_function(
-    archive: Path, tmp_path: Path
-) -> None:
-    with zipfile.ZipFile(archive) as file:
-        file.extractall(tmp_path)
-    copy = tmp_path / "penumbra"
-    command = [sys.executable, "-m", "course", "render", "scenes/cornell_box.yaml"]
-    done = subprocess.run(
-        [*command, "--size", "16x16", "--spp", "4", "-o", "box.png"],
-        cwd=copy,
-        env={"PYTHONPATH": str(copy), "PATH": "", "COURSE_NO_COMPILER": "1"},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert done.returncode == 0, done.stderr
+def test_a_students_copy_shows_pictures_before_the_first_function(copy: Path) -> None:
+    options = ("--size", "16x16", "--spp", "4", "-o", "box.png")
+    alone = {"PATH": "", "COURSE_NO_COMPILER": "1"}
+    done = python(*RENDER, *options, folder=copy, path=copy, environment=alone)
     assert (copy / "box.png").is_file()
     assert "soft_shadows.point_on_rectangle: the lamp is a point" in done.stdout

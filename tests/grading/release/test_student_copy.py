@@ -2,7 +2,6 @@
 
 import os
 import subprocess
-import sys
 import zipfile
 from pathlib import Path
 
@@ -14,6 +13,7 @@ from course.grading.checks.result import Status, result_of
 from course.grading.pictures.whole import NAME
 from course.grading.report import docs_page, reproduce
 from course.modules import COURSE
+from tests.processes import python
 
 
 @pytest.fixture(scope="module")
@@ -25,15 +25,7 @@ def copy(archive: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def check(copy: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, "-m", "course", "check", *arguments],
-        check=False,
-        cwd=copy,
-        env=os.environ | {"PYTHONPATH": str(copy)},
-        capture_output=True,
-        text=True,
-        timeout=120,
-    )
+    return python("-m", "course", "check", *arguments, folder=copy, path=copy, may_fail=True)
 
 
 def test_stubs_are_to_do(copy: Path) -> None:
@@ -97,14 +89,7 @@ def test_its_own_tests_are_found_with_what_its_makefile_installs(copy: Path) -> 
     first, *plugins = packages.split()
     assert first == "pytest"
     given = [word for name in plugins for word in ("-p", name.replace("-", "_"))]
-    ended = subprocess.run(
-        [sys.executable, "-m", "pytest", "-q", "--collect-only", "tests", *given],
-        check=False,
-        cwd=copy,
-        # The plugins of this environment are not those of the student's.
-        env=os.environ | {"PYTHONPATH": str(copy), "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1"},
-        capture_output=True,
-        text=True,
-        timeout=120,
-    )
-    assert ended.returncode == 0, ended.stdout + ended.stderr
+    line = ("-m", "pytest", "-q", "--collect-only", "tests", *given)
+    # The plugins of this environment are not those of the student's.
+    alone = os.environ | {"PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1"}
+    python(*line, folder=copy, path=copy, environment=alone)

@@ -4,7 +4,6 @@ It is built by way of the source distribution and unpacked beside the libraries;
 """
 
 import json
-import os
 import re
 import shutil
 import subprocess
@@ -20,6 +19,7 @@ from course.effects import PROJECT
 from course.grading.release.archive import LICENSES
 from course.modules import COURSE
 from tests.once import Once
+from tests.processes import python
 
 Course = Callable[..., subprocess.CompletedProcess[str]]
 
@@ -55,15 +55,8 @@ def course(site: Path, tmp_path: Path) -> Course:
     """Run `course` as it is installed, in an empty folder or one of its folders."""
 
     def run(*arguments: str, folder: str = ".") -> subprocess.CompletedProcess[str]:
-        return subprocess.run(
-            [sys.executable, "-P", "-m", "course", *arguments],
-            cwd=tmp_path / folder,
-            env=os.environ | {"PYTHONPATH": str(site)},
-            check=False,
-            capture_output=True,
-            text=True,
-            timeout=240,
-        )
+        line = ("-P", "-m", "course", *arguments)
+        return python(*line, folder=tmp_path / folder, path=site, may_fail=True)
 
     return run
 
