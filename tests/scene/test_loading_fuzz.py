@@ -3,7 +3,6 @@
 import copy
 import json
 from pathlib import Path
-from typing import Any
 
 import jsonschema
 import pytest
@@ -14,6 +13,7 @@ from course.errors import SceneError
 from course.formats.yaml.loading import load_description
 from course.formats.yaml.schema import json_schema
 from course.formats.yaml.tree import parse_document
+from tests.changed_trees import change
 
 VALIDATOR = jsonschema.Draft202012Validator(json_schema())
 FUZZ = settings(
@@ -54,7 +54,7 @@ def test_a_scene_with_changed_values_loads_or_is_refused(
 ) -> None:
     tree = copy.deepcopy(parse_document(good.encode(), "good.yaml").data)
     for _ in range(data.draw(st.integers(1, 3), label="changes")):
-        _change(tree, data)
+        change(tree, data, VALUES, WORDS)
     # JSON is YAML, but for characters that YAML refuses as such.
     _load_or_refuse(json.dumps(tree, ensure_ascii=True).encode(), tmp_path)
 
@@ -98,33 +98,6 @@ def _load_or_refuse(content: bytes, folder: Path) -> bool:
         return False
     VALIDATOR.validate(loaded.document.data)
     return True
-
-
-def _change(tree: Any, data: st.DataObject) -> None:
-    """Replace, remove, rename or add one value at a random place."""
-    place: Any = tree
-    while True:
-        keys = list(place) if isinstance(place, dict) else list(range(len(place)))
-        if not keys:
-            return
-        key = data.draw(st.sampled_from(keys))
-        inner = place[key]
-        if not isinstance(inner, dict | list) or not inner or data.draw(st.integers(0, 4)) == 0:
-            break
-        place = inner
-    match data.draw(st.sampled_from(["replace", "remove", "add", "rename"])):
-        case "replace":
-            place[key] = data.draw(VALUES)
-        case "remove":
-            del place[key]
-        case "add" if isinstance(place, dict):
-            place[data.draw(st.sampled_from(WORDS) | st.text(max_size=6))] = data.draw(VALUES)
-        case "add":
-            place.append(data.draw(VALUES))
-        case "rename" if isinstance(place, dict):
-            place[f"{key}{data.draw(st.text(max_size=2))}"] = place.pop(key)
-        case _:
-            place.insert(0, place[key])
 
 
 @pytest.fixture(autouse=True)

@@ -23,6 +23,7 @@ from course import CourseError, load_scene, render
 from course.errors import CourseWarning
 from course.formats.pictures.files import save
 from course.formats.yaml.description import Light, Object
+from tests.changed_trees import change
 from tests.stress.descriptions import FACES, FILES, descriptions
 from tests.stress.examples import LONG, examples
 
@@ -129,17 +130,6 @@ def kinds(description: dict[str, Any]) -> Iterator[str]:
     yield from ("camera motion" for _ in [0] if camera.get("motion"))
 
 
-@examples(short=40, long=2000)
-@given(data=st.data())
-def test_random_scenes_with_mistakes_render_finite_or_are_refused_by_their_line(
-    data: st.DataObject, folder: Path
-) -> None:
-    description = copy.deepcopy(data.draw(descriptions()))
-    for _ in range(data.draw(st.integers(1, 3))):
-        spoil(description, data)
-    outcome(written(description), folder)
-
-
 WRONG = st.one_of(
     st.none(),
     st.booleans(),
@@ -150,25 +140,12 @@ WRONG = st.one_of(
 )
 
 
-def spoil(description: Any, data: st.DataObject) -> None:
-    """Replace, remove, add or double a value somewhere in the tree."""
-    place = description
-    while True:
-        keys = list(place) if isinstance(place, dict) else list(range(len(place)))
-        if not keys:
-            return
-        key = data.draw(st.sampled_from(keys))
-        if not isinstance(place[key], dict | list) or data.draw(st.integers(0, 5)) == 0:
-            break
-        place = place[key]
-    match data.draw(st.sampled_from(["replace", "remove", "add", "double"])):
-        case "replace":
-            place[key] = data.draw(WRONG)
-        case "remove":
-            del place[key]
-        case "add" if isinstance(place, dict):
-            place[data.draw(st.sampled_from(["radius", "lens", "gloss", "colour"]))] = data.draw(
-                WRONG
-            )
-        case _ if isinstance(place, list):
-            place.append(copy.deepcopy(place[key]))
+@examples(short=40, long=2000)
+@given(data=st.data())
+def test_random_scenes_with_mistakes_render_finite_or_are_refused_by_their_line(
+    data: st.DataObject, folder: Path
+) -> None:
+    description = copy.deepcopy(data.draw(descriptions()))
+    for _ in range(data.draw(st.integers(1, 3))):
+        change(description, data, WRONG, ["radius", "lens", "gloss", "colour"])
+    outcome(written(description), folder)

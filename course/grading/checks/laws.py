@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from course.grading.checks.check import Failure, Kind, Role, Trial
+from course.grading.checks.check import Array, Failure, Kind, Role, Trial
 from course.grading.checks.declare import WHOLE, Arguments, Case, Function, Law
 from course.grading.checks.drawing import Draw
 from course.grading.checks.examples import call, example, where
@@ -168,6 +168,33 @@ def shown(values: Any) -> str:
     numbers = np.ravel(values).tolist()
     text = ", ".join(f"{number:.6g}" for number in numbers[:12])
     return f"({text})" if np.ndim(values) else text
+
+
+def over_threshold(
+    name: str,
+    title: str,
+    value: Callable[[Arguments], Array],
+    hint: str,
+    *,
+    what: str,
+    **how: Any,
+) -> Law:
+    """Columns are chosen whose value (N,) is over ``a.threshold``; ``what`` says what that is of what."""
+
+    def look(a: Arguments, r: Array) -> None:
+        values = value(a)
+        expected = values > a.threshold
+        wrong = np.flatnonzero(r != expected)
+        if wrong.size:
+            k = int(wrong[0])
+            raise Failure(
+                f"{bool(expected[k])} where {what} is {values[k]:.6g} and the threshold {a.threshold:.6g}",
+                f"{bool(r[k])}",
+                f"{where(a, (k,), r.shape)}; {wrong.size} of {r.size} are wrong",
+                hint,
+            )
+
+    return law(name, title, look, **how)
 
 
 def within(

@@ -5,6 +5,7 @@ above the threshold can be told from the threshold itself.
 """
 
 from collections.abc import Mapping
+from functools import partial
 from itertools import combinations
 from math import inf, nan
 from typing import Any
@@ -12,10 +13,10 @@ from typing import Any
 import numpy as np
 
 from course.grading.checks.check import Array, Failure
-from course.grading.checks.declare import Arguments, Case, Law, Made, function
+from course.grading.checks.declare import Arguments, Made, function
 from course.grading.checks.drawing import Draw
 from course.grading.checks.examples import where
-from course.grading.checks.laws import close, holds, law
+from course.grading.checks.laws import close, holds, law, over_threshold
 
 DIM, BRIGHT = (1.0, 2.0**-10), (1.0, 2.0**10)
 """Factors of all colours and thresholds, which keep differences exact."""
@@ -83,31 +84,7 @@ def _contrast(a: Arguments) -> Array:
     return np.asarray(np.max(differences, axis=0))
 
 
-def _decisions(
-    name: str,
-    title: str,
-    hint: str,
-    case: Case | None = None,
-    scales: tuple[float, ...] = DIM,
-    **how: Any,
-) -> Law:
-    """Cells are divided where they should be."""
-
-    def look(a: Arguments, r: Array) -> None:
-        contrast = _contrast(a)
-        expected = contrast > a.threshold
-        wrong = np.flatnonzero(r != expected)
-        if wrong.size:
-            k = int(wrong[0])
-            raise Failure(
-                f"{bool(expected[k])} where the largest difference is {contrast[k]:.6g} "
-                f"and the threshold {a.threshold:.6g}",
-                f"{bool(r[k])}",
-                f"{where(a, (k,), r.shape)}; {wrong.size} of {r.size} cells",
-                hint,
-            )
-
-    return law(name, title, look, case=case, scales=scales, **how)
+_divided = partial(over_threshold, value=_contrast, what="the largest difference")
 
 
 NEEDS_SUBDIVISION = function(
@@ -117,32 +94,35 @@ NEEDS_SUBDIVISION = function(
         "threshold": Made(lambda d: d.scale / 2, (-0.5, -1e-9, nan)),
     },
     (
-        _decisions(
+        _divided(
             "plain",
             "Cells of one colour are left alone",
-            "Cells of one colour are smooth, and red need not be as bright as green; "
+            hint="Cells of one colour are smooth, and red need not be as bright as green; "
             "with threshold 0 the smallest difference counts.",
-            _plain,
+            case=_plain,
+            scales=DIM,
         ),
-        _decisions(
+        _divided(
             "threshold",
             "Every pair of corners counts in every channel, just above the threshold and not at it",
-            "A difference has to be over the threshold: as large is not enough. All pairs count.",
-            _at_threshold,
+            hint="A difference has to be over the threshold: as large is not enough. All pairs count.",
+            case=_at_threshold,
+            scales=DIM,
         ),
-        _decisions(
+        _divided(
             "bright",
             "Radiance may have any size and sign",
-            "Radiance may be larger than 1; each cell is decided on its own.",
-            _bright,
-            BRIGHT,
+            hint="Radiance may be larger than 1; each cell is decided on its own.",
+            case=_bright,
+            scales=BRIGHT,
             points=0.5,
             role="core",
         ),
-        _decisions(
+        _divided(
             "any",
             "Cells are divided where the largest difference is over the threshold",
-            "Any two corners, in any channel, are enough.",
+            hint="Any two corners, in any channel, are enough.",
+            scales=DIM,
             role="core",
         ),
     ),

@@ -6,15 +6,15 @@ the light that two patches exchange. So rows and columns differ, and whoever mix
 
 import math
 from collections.abc import Mapping
+from functools import partial
 from typing import Any
 
 import numpy as np
 
-from course.grading.checks.check import Array, Failure
-from course.grading.checks.declare import Arguments, Case, Law, Made, function
+from course.grading.checks.check import Array
+from course.grading.checks.declare import Arguments, Law, Made, function
 from course.grading.checks.drawing import Draw
-from course.grading.checks.examples import where
-from course.grading.checks.laws import close, holds, law
+from course.grading.checks.laws import close, holds, over_threshold
 
 LIGHT = (1.0, 1e-3, 1e3)
 """Factors of all radiosities."""
@@ -315,21 +315,9 @@ def _even(draw: Draw) -> Mapping[str, Any]:
     return {"patch_radiosity": values, "threshold": 0.0}
 
 
-def _decisions(name: str, title: str, hint: str, case: Case | None = None, **how: Any) -> Law:
-    def look(a: Arguments, r: Array) -> None:
-        contrast = _contrast(a.patch_radiosity)
-        expected = contrast > a.threshold
-        wrong = np.flatnonzero(r != expected)
-        if wrong.size:
-            k = int(wrong[0])
-            raise Failure(
-                f"{bool(expected[k])} where the contrast is {contrast[k]:.5g} and the threshold {a.threshold:.5g}",
-                f"{bool(r[k])}",
-                f"{where(a, (k,), r.shape)}; {wrong.size} of {r.size} patches",
-                hint,
-            )
-
-    return law(name, title, look, case=case, **how)
+_divided = partial(
+    over_threshold, value=lambda a: _contrast(a.patch_radiosity), what="the contrast"
+)
 
 
 NEEDS_SPLIT = function(
@@ -341,28 +329,28 @@ NEEDS_SPLIT = function(
         "threshold": Made(lambda _: 0.3, (-0.5, -1e-9, math.nan)),
     },
     (
-        _decisions(
+        _divided(
             "threshold",
             "Just over the threshold, not just under",
-            "The contrast has to be over the threshold: as much is not enough.",
-            _at_threshold,
+            hint="The contrast has to be over the threshold: as much is not enough.",
+            case=_at_threshold,
         ),
-        _decisions(
+        _divided(
             "dark",
             "Black and even patches are left alone",
-            "Black patches and even ones are left alone.",
-            _even,
+            hint="Black patches and even ones are left alone.",
+            case=_even,
         ),
-        _decisions(
+        _divided(
             "scale",
             "Dim patches are as those in bright light",
-            "Contrast is a ratio: in dim light as in bright light the same patches are divided.",
+            hint="Contrast is a ratio: in dim light as in bright light the same patches are divided.",
             scales=(2.0**-20, 2.0**20),
         ),
-        _decisions(
+        _divided(
             "contrast",
             "Patches with enough contrast",
-            "The largest difference in any channel, as a share of the patch's largest value.",
+            hint="The largest difference in any channel, as a share of the patch's largest value.",
             scales=(1.0,) * 3,
             role="core",
         ),
