@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from course import Scene, render
+from course import Picture, Scene, render
 from course.modules import COURSE
 from tests.conftest import MakeScene
 from tests.drawn import numbers_drawn, rows
@@ -211,21 +211,28 @@ def test_total_reflection_inside_is_spread_as_refraction_is(
     shows_the_share_of_the_square(scene, roughness, alpha, 1)
 
 
+def caught(
+    make_scene: MakeScene, material: dict[str, Any], up: int, kind: str, depth: int
+) -> Picture:
+    """A camera below glass, 75 degrees off its normal, where all is caught; a red ball is mirrored in it, or behind."""
+    x, y = math.sin(math.radians(75)), math.cos(math.radians(75))
+    ball = {"type": "sphere", "center": [100 * x, up * 100 * y, 0], "radius": 20}
+    scene = make_scene(
+        camera={"eye": [-x, -y, 0], "look_at": [0, 0, 0], "vertical_fov": 1},
+        environment={"type": "constant", "radiance": [0, 1, 0]},
+        materials=material,
+        objects=[PLATE],
+        lights=[ball | {"radiance": [1, 0, 0]}],
+        integrator={"type": kind, "max_depth": depth, "cutoff": 0},
+    )
+    return render(scene)
+
+
 @pytest.mark.parametrize("kind", TRACERS)
 def test_gloss_takes_the_place_of_the_roughness_inside(make_scene: MakeScene, kind: str) -> None:
-    # A lobe as good as a mirror's: all of it shows the red ball, 75 degrees off the normal as the camera is.
-    angle = math.radians(75)
-    center = [100 * math.sin(angle), -100 * math.cos(angle), 0]
-    scene = make_scene(
-        camera={"eye": [-math.sin(angle), -math.cos(angle), 0], "look_at": [0, 0, 0]}
-        | {"vertical_fov": 1},
-        environment={"type": "constant", "radiance": [0, 1, 0]},
-        materials=glass(0.5, gloss={"lobe": "plane", "roughness": 1e-3}),
-        objects=[PLATE],
-        lights=[{"type": "sphere", "center": center, "radius": 20, "radiance": [1, 0, 0]}],
-        integrator={"type": kind, "max_depth": 2, "cutoff": 0},
-    )
-    picture = render(scene)
+    # A lobe as good as a mirror's: all of it shows the red ball.
+    sharp = glass(0.5, gloss={"lobe": "plane", "roughness": 1e-3})
+    picture = caught(make_scene, sharp, -1, kind, 2)
     assert picture.receipt.rays["refraction"] == 0
     assert "refraction" not in picture.receipt.numbers
     assert np.allclose(picture.linear, [1, 0, 0], rtol=0, atol=1e-6)
@@ -235,19 +242,8 @@ def test_gloss_takes_the_place_of_the_roughness_inside(make_scene: MakeScene, ki
 def test_at_the_last_bounce_what_is_caught_inside_goes_straight_on(
     make_scene: MakeScene, kind: str
 ) -> None:
-    # As above, but the ball stands where the camera looks, beyond the glass.
-    angle = math.radians(75)
-    center = [100 * math.sin(angle), 100 * math.cos(angle), 0]
-    scene = make_scene(
-        camera={"eye": [-math.sin(angle), -math.cos(angle), 0], "look_at": [0, 0, 0]}
-        | {"vertical_fov": 1},
-        environment={"type": "constant", "radiance": [0, 1, 0]},
-        materials=glass(0.05),
-        objects=[PLATE],
-        lights=[{"type": "sphere", "center": center, "radius": 20, "radiance": [1, 0, 0]}],
-        integrator={"type": kind, "max_depth": 1, "cutoff": 0},
-    )
-    assert np.allclose(render(scene).linear, [1, 0, 0], rtol=0, atol=1e-6)
+    picture = caught(make_scene, glass(0.05), 1, kind, 1)
+    assert np.allclose(picture.linear, [1, 0, 0], rtol=0, atol=1e-6)
 
 
 @pytest.mark.parametrize("kind", TRACERS)

@@ -280,36 +280,34 @@ SOLIDS: list[dict[str, Any]] = [
 ]
 
 
+def seen_within(
+    make_scene: MakeScene, thing: dict[str, Any], look_at: list[float], samples: int
+) -> NDArray[np.float32]:
+    scene = make_scene(
+        camera={"eye": [0, 0.05, 0.02], "look_at": look_at, "vertical_fov": 140},
+        film={"width": 64, "height": 64},
+        sampler={"type": "random", "samples": samples},
+        materials=WHITE,
+        objects=[thing],
+        lights=points(*AROUND),
+    )
+    return render(scene).linear
+
+
 @pytest.mark.parametrize("solid", SOLIDS)
 @pytest.mark.parametrize("look_at", [[1, 0.3, 0.2], [0.2, -1, 0.3]])
 def test_inside_a_closed_mesh_no_light_from_outside_is_seen(
     make_scene: MakeScene, solid: dict[str, Any], look_at: list[float]
 ) -> None:
-    scene = make_scene(
-        camera={"eye": [0, 0.05, 0.02], "look_at": look_at, "vertical_fov": 140},
-        film={"width": 64, "height": 64},
-        sampler={"type": "random", "samples": 64},
-        materials=WHITE,
-        objects=[solid | {"material": "white"}],
-        lights=points(*AROUND),
-    )
-    assert not render(scene).linear.any()
+    assert not seen_within(make_scene, solid | {"material": "white"}, look_at, 64).any()
 
 
 @pytest.mark.parametrize("look_at", [[-1, -0.4, 0.3], [0.2, -1, 0.3]])
 def test_inside_a_tetrahedron_no_light_from_outside_is_seen(
     make_scene: MakeScene, obj: Callable[[Mesh], dict[str, Any]], look_at: list[float]
 ) -> None:
-    scene = make_scene(
-        camera={"eye": [0, 0.05, 0.02], "look_at": look_at, "vertical_fov": 140},
-        film={"width": 64, "height": 64},
-        sampler={"type": "random", "samples": 512},
-        materials=WHITE,
-        objects=[obj(tetrahedron())],
-        lights=points(*AROUND),
-    )
     # 2 million samples; without pulling points off the edges one or two of them leak.
-    assert not render(scene).linear.any()
+    assert not seen_within(make_scene, obj(tetrahedron()), look_at, 512).any()
 
 
 @pytest.mark.parametrize("solid", SOLIDS)

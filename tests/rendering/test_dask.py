@@ -36,14 +36,11 @@ ROOT = Path(__file__).parents[2]
 def cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Cluster]:
     """A scheduler with two workers of one thread each."""
     pytest.importorskip("distributed", reason='the engine dask is an extra: pip install ".[dask]"')
-    started = Cluster(tmp_path_factory.mktemp("cluster"))
-    try:
+    with closing(Cluster(tmp_path_factory.mktemp("cluster"))) as started:
         started.add_worker()
         started.add_worker()
         started.wait_for_workers(2)
         yield started
-    finally:
-        started.close()
 
 
 def film_of(kind: str) -> dict[str, Any]:
@@ -164,13 +161,10 @@ def test_a_worker_lost_half_way_loses_nothing(
 def lone(tmp_path: Path) -> Iterator[Cluster]:
     """A scheduler with a single worker, which may be killed."""
     pytest.importorskip("distributed", reason='the engine dask is an extra: pip install ".[dask]"')
-    started = Cluster(tmp_path)
-    try:
+    with closing(Cluster(tmp_path)) as started:
         started.add_worker()
         started.wait_for_workers(1)
         yield started
-    finally:
-        started.close()
 
 
 @pytest.mark.parametrize(

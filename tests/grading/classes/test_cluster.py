@@ -5,6 +5,7 @@ import socket
 import subprocess
 import sys
 from collections.abc import Iterator
+from contextlib import closing
 from importlib.util import find_spec
 from pathlib import Path
 from time import sleep
@@ -32,13 +33,10 @@ needs_distributed = pytest.mark.skipif(
 def cluster(tmp_path: Path) -> Iterator[Cluster]:
     folder = tmp_path / "cluster"
     folder.mkdir()
-    started = Cluster(folder)
-    try:
+    with closing(Cluster(folder)) as started:
         for _ in range(2):
             started.add_worker()
         yield started
-    finally:
-        started.close()
 
 
 def command(folder: Path, out: Path, *arguments: str) -> list[str]:
