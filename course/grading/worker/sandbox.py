@@ -120,6 +120,9 @@ class Sandbox:
         }
 
 
+_INSTALLED = ("site-packages", "dist-packages")
+"""Folders of Python's library that hold what was installed."""
+
 _ALWAYS = (
     "separate process without the grader's data",
     "limits on processor time, wall clock, memory and output",
@@ -131,8 +134,10 @@ def plain() -> Sandbox:
     """A process with limits and nothing else: for one's own code, and the quickest to start."""
     site = Path(np.__file__).resolve().parents[1]
     python = getattr(sys, "_base_executable", None) or sys.executable
+    # Python knows the names in its library from its start. What is installed there may be the course.
+    library = Path(os.__file__).resolve().parent
     readable = {
-        str(Path(os.__file__).resolve().parent),
+        *(str(path) for path in library.iterdir() if path.name not in _INSTALLED),
         *(str(site / name) for name in ("numpy", "numpy.libs")),
         *(str(Path(name).resolve()) for name in ("/usr/lib", "/lib", "/lib64")),
         *map(str, Path(sys.base_prefix).resolve().glob("lib/libpython*")),
@@ -186,7 +191,7 @@ def protected(secrets: Iterable[Path] = ()) -> Sandbox:
         remedy = (
             "install bubblewrap (apt install bubblewrap) and libseccomp (apt install libseccomp2), "
             "or grade in a Linux container as root, with solutions, submissions and results in folders "
-            "that only root can read (chmod 700)"
+            "that only root can read (chmod 700), such as the image of `course bundle docker`"
         )
         raise NotProtected(
             f"on this machine student code could {_and(COULD[name] for name in shut_in.lacks)}: {remedy}; "
@@ -282,6 +287,9 @@ def _bubblewrap_options(isolated: Sequence[str], shown: Mapping[str, str]) -> li
     for inside, outside in shown.items():
         if Path(outside).exists():
             options += ["--ro-bind", outside, inside]
+    for folder in (Path(os.__file__).resolve().parent / name for name in _INSTALLED):
+        if folder.is_dir():
+            options += ["--tmpfs", str(folder), "--remount-ro", str(folder)]
     options += ["--proc", "/proc", "--dev", "/dev"]
     # Without the last, root outside could still write what root may in /proc/sys, capabilities or not.
     options += ["--remount-ro", "/dev", "--remount-ro", "/", "--remount-ro", "/proc"]

@@ -166,6 +166,22 @@ def test_what_lies_where_the_code_can_read_it_is_found_before_grading(tmp_path: 
     assert sandbox(secrets=(tmp_path,)).lacks == ()
 
 
+@needs_filter
+@pytest.mark.parametrize("wall", ["bubblewrap", "bubblewrap alone", "Landlock"])
+def test_what_is_installed_into_python_itself_is_closed(wall: str) -> None:
+    # There the course with its solutions lies in a container, in conda, or without a virtual environment.
+    installed = Path(json.__file__).parents[1] / "site-packages"
+    secrets = tuple(installed.glob("*/*.py"))
+    if not secrets:
+        pytest.skip("nothing is installed there")
+    shut_in = sandbox(**WALLS[wall], secrets=secrets)
+    if wall != "Landlock" and not shut_in.own_world:
+        pytest.skip("bubblewrap doesn't work here")
+    if wall == "Landlock" and not shut_in.landlock:
+        pytest.skip("the kernel has no Landlock")
+    assert "read" not in shut_in.lacks
+
+
 @pytest.mark.skipif(not LINUX, reason="the walls are Linux's")
 @pytest.mark.parametrize("user", ["root", "another"])
 @pytest.mark.parametrize("wall", WALLS)
