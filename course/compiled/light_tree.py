@@ -11,6 +11,8 @@ from course.extras.light_tree import Tree, TreeChoice
 from course.extras.own import courses_own
 from course.extras.plan import same_fields
 
+KEPT = "compiled choice"
+
 
 @dataclass(frozen=True, kw_only=True)
 class CompiledTreeChoice(TreeChoice):
@@ -42,7 +44,12 @@ def compiled_choice(choice: LightChoice | None) -> LightChoice | None:
         return choice
     if not courses_own(choice.many_lights.tree_choice) or not _single(choice.tree):
         return choice
-    return CompiledTreeChoice(**same_fields(choice))
+    # Kept beside the choice, as cached properties are: what is worked out of all lights is worked out once for a scene.
+    kept = vars(choice)
+    if KEPT not in kept:
+        kept[KEPT] = CompiledTreeChoice(**same_fields(choice))
+    found: CompiledTreeChoice = kept[KEPT]
+    return found
 
 
 def _single(tree: Tree) -> bool:

@@ -9,6 +9,7 @@ from course.compiled import direct_kernels, draw_kernels
 from course.compiled.accelerator import in_packets
 from course.compiled.direct import CompiledDirectLight
 from course.compiled.environment import compiled_environment
+from course.compiled.lamps_and_lobes import compiled_lamps_and_lobes
 from course.compiled.light_tree import compiled_choice
 from course.compiled.surface import CompiledSurface
 from course.core.hits import Surface
@@ -57,7 +58,8 @@ def compiled(tracer: Tracer) -> Tracer:
         cls = CompiledIntegrator
     both = getattr(integrator, "lamps_and_lobes", None)
     if both is not None:
-        changed["lamps_and_lobes"] = both.seen_by(surface, changed["scatter"])
+        both = both.seen_by(surface, changed["scatter"])
+        changed["lamps_and_lobes"] = compiled_lamps_and_lobes(both)
     integrator = cls(**same_fields(integrator) | changed)
     return replace(tracer, integrator=integrator, sampler=_sampler(tracer.sampler))
 

@@ -93,6 +93,11 @@ def test_a_student_s_walk_and_a_tree_in_double_precision_are_left_alone() -> Non
     assert compiled_choice(None) is None
 
 
+def test_renders_of_a_scene_share_what_is_known_of_its_lights() -> None:
+    choice = choice_of(tree_of(7, "boxes"))
+    assert compiled_choice(choice) is compiled_choice(choice)
+
+
 def test_pictures_keep_their_bits(make_scene: MakeScene, monkeypatch: pytest.MonkeyPatch) -> None:
     """Beside the other compiled stages with the walk in NumPy."""
     for lights in (POINTS, POINTS + WITH_A_SIZE + SUNS):
