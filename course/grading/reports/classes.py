@@ -26,7 +26,13 @@ MARKS = ("raw", "adjusted", "final")
 BARS = 10
 """Of the histogram of scores."""
 
+PAIRS = 200
+"""Submissions that are alike are listed up to this many pairs, the most alike first."""
+
 _BAR_HEIGHT = 165
+_LONG = 20
+"""Rows of a table beyond which it is folded."""
+
 _FORMULA = tuple("=+-@\t\r\n\uff1d\uff0b\uff0d\uff20")
 """What makes a spreadsheet take a text for a formula: the four signs, full-width ones too, and blanks before them."""
 
@@ -194,6 +200,8 @@ def write_class_page(
             if (number := sum(report.count(status) for report in graded))
         ],
         similar=sorted(similar, key=lambda pair: -pair[3]),
+        pairs=PAIRS,
+        long=_LONG,
         students=students,
         remarked=[
             (student, (*(line.mark.why if line.mark else ()), *line.remarks))

@@ -10,7 +10,7 @@ import pytest
 from course.grading.checks.result import Result, Status
 from course.grading.known import known
 from course.grading.report import Report
-from course.grading.reports.classes import write_class_page
+from course.grading.reports.classes import PAIRS, write_class_page
 from course.grading.reports.insight import (
     Changed,
     changes,
@@ -127,3 +127,20 @@ def test_a_page_of_500_students_is_small_and_leads_to_each(tmp_path: Path) -> No
     for k in range(500):
         assert f'href="./student%20{k}/report.html"' in text
     assert "<h2>Misconceptions</h2>" in text
+
+
+def test_long_tables_do_not_bury_what_a_lecturer_looks_for(tmp_path: Path) -> None:
+    def graded(passed: bool) -> list[Report]:
+        one = result("glossy.keep_above", "check", passed=passed)
+        return [report(f"student {k}", one) for k in range(30)]
+
+    similar = [(f"a{k}", f"b{k}", "glossy", k / 1000) for k in range(PAIRS + 7)]
+    earlier = {one.student: one for one in graded(False)}
+    write_class_page(graded(True), similar, tmp_path / "class.html", earlier=earlier)
+    text = (tmp_path / "class.html").read_text(encoding="utf-8")
+    assert text.index("Misconceptions</h2>") < text.index("Handed in again</h2>")
+    assert "<details><summary>30 students</summary>" in text
+    # The most alike are those that are listed.
+    assert "And 7 pairs less alike." in text
+    assert "./a7/" in text
+    assert "./a6/" not in text
