@@ -122,27 +122,30 @@ def render(
         )
     bound = Bound(scene.effects, scene.compiled.needs)
     began = monotonic()
-    with lines_named(scene, bound):
+    with lines_named(scene, bound), ExitStack() as closed:
+        if packets and not later and compiled is None and address is None:
+            from course.rendering.background_compile import compiling_told
+
+            closed.enter_context(compiling_told())
         tracer = bind(scene, settings, bound, packets and not later and address is None)
         display = developing(scene, settings, bound)
         film, schedule = mode.make(job, tracer, bound)
-        with ExitStack() as closed:
-            executor: ThreadedExecutor
-            if address is None:
-                executor = pool = Pool(tracer, threads or default_threads())
-                if later:
-                    from course.rendering.background_compile import BackgroundCompiler
+        executor: ThreadedExecutor
+        if address is None:
+            executor = pool = Pool(tracer, threads or default_threads())
+            if later:
+                from course.rendering.background_compile import BackgroundCompiler
 
-                    make = partial(bind, scene, settings, None, True)
-                    closed.enter_context(closing(BackgroundCompiler(pool, make, scene, settings)))
-            else:
-                from course.cluster.executor import Cluster
+                make = partial(bind, scene, settings, None, True)
+                closed.enter_context(closing(BackgroundCompiler(pool, make, scene, settings)))
+        else:
+            from course.cluster.executor import Cluster
 
-                executor = Cluster(address, scene, settings, packets)
-            closed.enter_context(closing(executor))
-            if time_limit is not None:
-                executor.limit_time(time_limit, since)
-            complete = render_film(film, schedule, executor, progress)
+            executor = Cluster(address, scene, settings, packets)
+        closed.enter_context(closing(executor))
+        if time_limit is not None:
+            executor.limit_time(time_limit, since)
+        complete = render_film(film, schedule, executor, progress)
     receipt = _receipt(job, bound, tracer, film, schedule, executor, monotonic() - began)
     settings = replace(settings, display=display)
     return Picture(film, settings, receipt, complete, executor.interrupted)

@@ -13,7 +13,14 @@ if TYPE_CHECKING:
     from course.studio.studio import Studio
 
 
-def serve(studio: Studio, no_browser: bool) -> None:
+port_option = click.option(
+    "--port",
+    type=click.IntRange(1024, 65535),
+    help="Of the page, where one has to be forwarded to another machine.  [default: one of chance]",
+)
+
+
+def serve(studio: Studio, no_browser: bool, port: int | None) -> None:
     """Start it, print its address, open a browser, and wait."""
     from course.studio.server import Server
 
@@ -23,7 +30,7 @@ def serve(studio: Studio, no_browser: bool) -> None:
         ended.set()
 
     before = signal.signal(signal.SIGTERM, end)
-    server = Server(studio)
+    server = Server(studio, port or 0)
     studio.start()
     try:
         click.echo(f"{server.address}\nThe page follows {studio.scene}; Ctrl-C ends it.")

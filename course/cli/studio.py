@@ -8,7 +8,7 @@ import click
 
 from course.cli import options
 from course.cli.metu import check_not_metu
-from course.cli.serving import serve
+from course.cli.serving import port_option, serve
 from course.effects import PROJECT
 from course.errors import CourseError
 from course.modules import COURSE
@@ -24,7 +24,10 @@ from course.modules import COURSE
 )
 @click.option("--effects", default="mine", show_default=True, help="Folder of your functions.")
 @click.option("--no-browser", is_flag=True, help="Only print the page's address.")
-def studio(scene: Path | None, module: str | None, effects: str, no_browser: bool) -> None:
+@port_option
+def studio(
+    scene: Path | None, module: str | None, effects: str, no_browser: bool, port: int | None
+) -> None:
     """See what your functions do to a picture, while you write them.
 
     Opens a page on this machine. Whenever you save a file, the picture is rendered again with your
@@ -36,7 +39,7 @@ def studio(scene: Path | None, module: str | None, effects: str, no_browser: boo
     if scene is None:
         scene = _scene_of(module or "soft_shadows")
     check_not_metu(scene, "studio")
-    serve(Studio(scene, effects, module), no_browser)
+    serve(Studio(scene, effects, module), no_browser, port)
 
 
 def _scene_of(module: str) -> Path:

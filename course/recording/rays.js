@@ -394,16 +394,18 @@ penumbra.rays = function (root, data) {
       pen.fillText(text, p[0] + 8, p[1] - 8);
     };
     label(camera.eye, "camera");
+    // Names of a thousand lamps would hide them.
+    const few = data.lamps.length <= 12;
     for (const lamp of data.lamps) {
       const at = lamp.around ? mix(lamp.around[0], lamp.around[2], 0.5) : lamp.at;
       const p = seen(at);
       if (p && !lamp.around && !lamp.radius) {
         pen.fillStyle = color("shadow");
         pen.beginPath();
-        pen.arc(p[0], p[1], 5, 0, 7);
+        pen.arc(p[0], p[1], few ? 5 : 1.5, 0, 7);
         pen.fill();
       }
-      label(at, lamp.name);
+      if (few) label(at, lamp.name);
     }
   }
 

@@ -6,12 +6,18 @@ from weakref import ref
 import numpy as np
 from numpy.typing import NDArray
 
-from course.core.types import Floats32, Floats64
+from course.core.types import Floats32, Floats64, Indices
 from course.recording.recording import Recording
 from course.recording.segments import Names
 
 MOST_TRIANGLES = 400
 """Of an object; finer ones are made coarser."""
+
+FEWER = (MOST_TRIANGLES, 200, 100, 50, 25)
+"""The same where there are many objects, so that all together have at most ``ALL_TRIANGLES``; after that, boxes."""
+
+ALL_TRIANGLES = 6000
+"""Of a scene, so that a page stays below a megabyte; of more boxes the largest are shown."""
 
 COARSEST = 6
 """Cells across an object that is made coarser; if it still has more triangles, it is shown as its box."""
@@ -65,11 +71,14 @@ def _objects(recording: Recording) -> list[dict[str, Any]]:
     color = materials.diffuse + 0.7 * materials.mirror + materials.emission
     found = []
     first = 0
+    counts = np.diff(names.ends, prepend=0)
+    most = next((n for n in FEWER if np.minimum(counts, n).sum() <= ALL_TRIANGLES), len(_BOX))
+    shown = np.minimum(counts, most).astype(np.intp)
+    least = _least_shown(triangles, names.ends.astype(np.intp), shown)
     for name, end in zip(names.parts, names.ends.tolist(), strict=True):
-        if end > first:
-            rows = slice(first, end)
-            corners = _corners(triangles.planes[rows], triangles.edges[rows])
-            corners = _cut(_coarser(corners)) * frame.scale + frame.center
+        corners = _corners(triangles.planes[first:end], triangles.edges[first:end])
+        if end > first and _extent(corners) >= least:
+            corners = _cut(_coarser(corners, most)) * frame.scale + frame.center
             shade = np.clip(color[:, int(triangles.material[first])], 0.05, 1) ** (1 / 2.2)
             found.append(
                 {
@@ -89,11 +98,32 @@ def _corners(planes: Floats32, edges: Floats32) -> Floats64:
     return np.concatenate((p0, p0 + edges[:, None, :3], p0 + edges[:, None, 3:6]), axis=1)
 
 
-def _coarser(corners: Floats64) -> Floats64:
+def _extent(corners: Floats64) -> float:
+    """The longest side of the box around triangles."""
+    return float(np.ptp(corners.reshape(-1, 3), axis=0).max())
+
+
+def _least_shown(triangles: Any, ends: Indices, shown: Indices) -> float:
+    """The extent from which on objects are shown: all, unless they have more triangles than a page holds."""
+    if shown.sum() <= ALL_TRIANGLES:
+        return 0.0
+    starts = np.concatenate(([0], ends[:-1]))
+    there = np.flatnonzero(ends > starts)
+    corners = (
+        _corners(triangles.planes[a:b], triangles.edges[a:b])
+        for a, b in zip(starts[there], ends[there], strict=True)
+    )
+    extents = np.array([_extent(each) for each in corners])
+    order = np.argsort(-extents, kind="stable")
+    fitting = np.cumsum(shown[there][order]) <= ALL_TRIANGLES
+    return float(extents[order][fitting].min())
+
+
+def _coarser(corners: Floats64, most: int = MOST_TRIANGLES) -> Floats64:
     """Fewer triangles (t, 3, 3): corners in one cell of a grid become one; a box if there are still too many."""
     low, high = corners.min(axis=(0, 1)), corners.max(axis=(0, 1))
     for cells in (32, 24, 16, 12, 9, COARSEST):
-        if len(corners) <= MOST_TRIANGLES:
+        if len(corners) <= most:
             return corners
         size = max(float((high - low).max()) / cells, 1e-12)
         cell = np.round((corners - low) / size).astype(np.int64)
@@ -108,7 +138,7 @@ def _coarser(corners: Floats64) -> Floats64:
         a, b, c = np.sort(distinct, axis=1).T
         _, first = np.unique((a * len(mean) + b) * len(mean) + c, return_index=True)
         coarse: Floats64 = mean[distinct[first]]
-        if 0 < len(coarse) <= MOST_TRIANGLES:
+        if 0 < len(coarse) <= most:
             return coarse
     bits = np.arange(8)[:, None] >> np.arange(3) & 1
     box: Floats64 = np.where(bits, high, low)[_BOX]

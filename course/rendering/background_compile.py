@@ -4,6 +4,7 @@ Then pieces of work change over to the loops, for both make the same bits. In th
 interpreter's lock, which rendering threads need. The other one is ``python -m course.rendering.background_compile``.
 """
 
+import logging
 import os
 import pickle
 import subprocess
@@ -31,6 +32,8 @@ POLL = 0.05
 MODULE = "course.rendering.background_compile"
 """The program of the process that compiles. A user has one of them at a time."""
 
+COMPILING = "compiling loops that this machine has not compiled yet, which takes some 15 s, once"
+
 _COMPILING: list[subprocess.Popen[bytes]] = []
 """Kept, for Python warns of a process that runs on when its object goes."""
 
@@ -52,6 +55,26 @@ def compiling_nothing() -> Iterator[None]:
             pass
 
     with event.install_listener("numba:compile", Refusal()):
+        yield
+
+
+@contextmanager
+def compiling_told() -> Iterator[None]:
+    """Log one line where the first loop is compiled that is not on disk: a picture then begins many seconds later."""
+    from numba.core import event
+
+    class Telling(event.Listener):  # type: ignore[misc]
+        told = False
+
+        def on_start(self, event: Any) -> None:
+            if not self.told:
+                self.told = True
+                logging.getLogger("course").warning(COMPILING)
+
+        def on_end(self, event: Any) -> None:
+            pass
+
+    with event.install_listener("numba:compile", Telling()):
         yield
 
 

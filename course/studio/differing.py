@@ -64,7 +64,9 @@ def deviations(a: Shot, b: Shot) -> Floats32:
     # Sums that slide over a row may end a little below 0.
     noise = np.sqrt(np.maximum(uniform_filter(variance, WINDOW, mode="nearest"), 0.0)) / WINDOW
     result = mean / np.maximum(noise, LEAST / CERTAIN)
-    result = np.where(a.there & b.there, result, 0.0)
+    # A window that isn't there as a whole has no mean.
+    both: Floats32 = uniform_filter((a.there & b.there).astype(np.float32), WINDOW, mode="nearest")
+    result = np.where(both > 1 - 0.5 / WINDOW**2, result, 0.0)
     if a.codes is not None and b.codes is not None and np.allclose(a.linear, b.linear, atol=1e-5):
         # The same light: what differs is how it is shown, and has no noise.
         shown = (a.codes.astype(np.float64) - b.codes).mean(axis=2)

@@ -25,6 +25,13 @@ ABOUT: Mapping[str, tuple[str, ...]] = {
     "importance_sampling": ("materials.*.exponent",),
     "bounding_volumes": ("acceleration.leaf_size",),
     "film": ("film.exposure", "film.tone.key", "film.tone.burn", "film.tone.saturation"),
+    "multiple_importance": ("lights.*.radius", "materials.*.gloss.exponent"),
+    "microfacets": ("materials.*.conductor.roughness", "materials.*.dielectric.roughness"),
+    "environment_light": ("environment.scale",),
+    "cube_map": ("environment.scale", "integrator.max_depth"),
+    "quasi_monte_carlo": ("camera.lens.aperture_radius", "lights.*.radius"),
+    "blue_noise": ("lights.*.radius",),
+    "many_lights": ("integrator.max_depth",),
     "sampling": ("camera.lens.aperture_radius", "lights.*.radius"),
 }
 """Module -> key paths; * is any key or item. The number of samples has a slider in any case."""
@@ -130,7 +137,10 @@ def _slider(path: KeyPath, value: float, meta: Any, loaded: Loaded) -> Slider:
     if whole:
         return Slider(path, spell(path), *about, value, low, max(high, value), 1)
     step = 10.0 ** (floor(log10(max(high - low, 1e-9))) - 2)
-    if getattr(meta, "gt", None) is not None:
+    light = loaded.description.lights[int(path[1])] if path[0] == "lights" else None
+    # Of a light by radiance a point has no area to emit from.
+    shines = path[-1] == "radius" and getattr(light, "radiance", None) is not None
+    if getattr(meta, "gt", None) is not None or shines:
         low += step
     if getattr(meta, "lt", None) is not None and high == meta.lt:
         high -= step

@@ -200,8 +200,10 @@ class Program:
             self._display = self._developing(settings)
             if self._folder == ENGINE:
                 self.note = COMPILING
-                self._picture = engines_picture(self.scene, settings)
-                self.note = ""
+                try:
+                    self._picture = engines_picture(self.scene, settings)
+                finally:
+                    self.note = ""
             else:
                 self._picture = picture_of(self.scene, settings, self._compiled)
         self._job = job
@@ -306,11 +308,15 @@ def main() -> None:
     # What was the standard output is for answers; whatever else is written goes where errors go.
     answers = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)
+    # So are commands: a function that asks for input gets none, and takes none of them.
+    asked = os.fdopen(os.dup(0), "rb")
+    with open(os.devnull, "rb") as nothing:  # noqa: PTH123
+        os.dup2(nothing.fileno(), 0)
     program = Program(Channel(answers))
     program.channel.send({"ready": True})
 
     def listen() -> None:
-        for command, _ in messages(sys.stdin.buffer):
+        for command, _ in messages(asked):
             program.commands.put(command)
         # Nobody asks any more, whatever a function does.
         os._exit(0)

@@ -19,6 +19,7 @@ from queue import Empty
 from typing import Any
 from urllib.parse import parse_qs, urlsplit
 
+from course.errors import CourseError
 from course.recording import view
 from course.studio.saving import write_view, yaml_of_view
 from course.studio.studio import Studio
@@ -44,16 +45,25 @@ WISHES: dict[str, dict[str, type | tuple[type, ...]]] = {
 
 
 class Server:
-    """Serves the page of a studio.
+    """Serves the page of a studio; CourseError where the port can't be had.
+
+    Parameters
+    ----------
+    port : that it answers on; 0 for one of chance
 
     Attributes
     ----------
     address : where the page is, with its token
     """
 
-    def __init__(self, studio: Studio) -> None:
+    def __init__(self, studio: Studio, port: int = 0) -> None:
         self.token = secrets.token_urlsafe(24)
-        self._server = _HTTP((HOST, 0), _Handler)
+        try:
+            self._server = _HTTP((HOST, port), _Handler)
+        except OSError as error:
+            raise CourseError(
+                f"port {port} can't be had: {error.strerror}; choose another"
+            ) from error
         self._server.studio, self._server.token = studio, self.token
         self.port = int(self._server.server_address[1])
         self.address = f"http://{HOST}:{self.port}/?token={self.token}"
@@ -199,6 +209,8 @@ class _Handler(BaseHTTPRequestHandler):
                     waiting = [events.get(timeout=QUIET)]
                     while not events.empty():
                         waiting.append(events.get())
+                    if any(name == "gone" for name, _ in waiting):
+                        break
                     # Of several of a kind that wait only the last one counts.
                     text = "".join(
                         f"event: {name}\ndata: {json.dumps(data)}\n\n"

@@ -36,6 +36,7 @@ class Side:
     trouble : why it can't go on, until something changes; empty if it can
     note : what is going on, for the page
     ready : whether it has its functions; before, it may be silent while it reads files
+    awaiting : whether it builds the scene, and reads its functions only then: saves until then need no other process
     """
 
     name: str
@@ -59,6 +60,7 @@ class Side:
     heard: float = field(default_factory=monotonic)
     version: int = 0
     ready: bool = False
+    awaiting: bool = False
     called: list[str] = field(default_factory=list)
 
     def command(self, file: str, values: list[Any]) -> dict[str, Any]:
@@ -69,22 +71,34 @@ class Side:
         """Have a worker with the scene; with the functions as they are now if ``fresh``."""
         knows = file, values
         self.ready = self.ready and self.worker is not None and not fresh
-        if fresh and self.worker is not None:
+        waits = fresh and self.awaiting
+        if fresh and self.worker is not None and not waits:
             self.worker.end("closed")
             self.worker = None
         if self.worker is None:
             # Where the engine's loops have to be compiled, one's own picture comes first.
             nice = LAST if self.effects == ENGINE else 0
             self.worker, self.spare = self.spare or Worker(self.event, nice), None
+            built = self.spare_ready and self.spare_knows == knows
             if self.spare_knows != knows:
                 self.worker.send(do="scene", **self.command(file, values))
             self.spare_knows, self.spare_ready = None, False
-            if self.late:
-                self.worker.send(do="load")
-        else:
+            self.awaiting = self.late
+            if built:
+                self.load()
+            else:
+                # Whatever is sent says that somebody waits.
+                self.worker.send(do="pause")
+        elif not waits:
             self.worker.send(do="scene", **self.command(file, values))
         self.heard = monotonic()
         self.trouble = self.function = self.note = self.printed = ""
+
+    def load(self) -> None:
+        """Have the functions read that the worker has waited for; the scene is there."""
+        if self.awaiting and self.worker is not None:
+            self.awaiting = False
+            self.worker.send(do="load")
 
     def keep_spare(self, file: str, values: list[Any]) -> None:
         """Have a process ready to take the worker's place."""
@@ -110,6 +124,7 @@ class Side:
     def fail(self, why: str, function: str = "") -> None:
         """It can't go on as it is."""
         self.trouble, self.function, self.note, self.goal = why, function, "", 0
+        self.awaiting = False
 
     def close(self) -> None:
         """End its processes."""
@@ -117,3 +132,4 @@ class Side:
             if worker is not None:
                 worker.close()
         self.worker = self.spare = self.spare_knows = None
+        self.awaiting = self.spare_ready = False

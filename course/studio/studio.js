@@ -10,9 +10,17 @@
     return element;
   };
   const put = (id, text) => { if ($(id).textContent !== text) $(id).textContent = text; };
-  const ask = (wish, told = {}) => fetch(`/${wish}`, {
-    method: "POST", headers: { "X-Token": token, "Content-Type": "application/json" }, body: JSON.stringify(told),
-  });
+  const AWAY = "The studio doesn't answer: it has ended, or this machine slept. The page goes on when it answers; a studio that was started anew has an address of its own, which it prints.";
+  const ask = async (wish, told = {}) => {
+    try {
+      return await fetch(`/${wish}`, {
+        method: "POST", headers: { "X-Token": token, "Content-Type": "application/json" }, body: JSON.stringify(told),
+      });
+    } catch {
+      put("status", AWAY);
+      return null;
+    }
+  };
   const main = viewing ? "course" : "mine";
   let state = null, size = [3, 2];
 
@@ -32,6 +40,8 @@
         canvas.getContext("2d").clearRect(0, 0, canvas.width, canvas.height);
         shown[name] = key;
       }
+    } catch {
+      // Whatever is told next asks for it again.
     } finally {
       const next = loading[name];
       loading[name] = null;
@@ -75,7 +85,7 @@
     }
     const mine = told.sides.mine;
     const doing = Object.entries(told.sides).filter(([, side]) => side.rendering).map(([name]) => (name === "mine" ? "your picture" : viewing ? "the picture" : "the reference"));
-    put("status", told.trouble ? `The scene has a mistake: ${told.trouble}` : doing.length ? `rendering ${doing.join(" and ")}` : "ready");
+    put("status", told.own ? `The studio failed at something, and goes on: ${told.own}` : told.trouble ? `The scene has a mistake: ${told.trouble}` : doing.length ? `rendering ${doing.join(" and ")}` : "ready");
     document.body.dataset.state = doing.length ? "rendering" : "ready";
     if (mine) {
       const key = $("which").value;
@@ -94,7 +104,7 @@
     const what = change ? "the picture before the last save" : "the reference";
     if (share === null) put("verdict", change ? "Nothing was saved yet." : "");
     else if (share < 0.0005) put("verdict", `No difference from ${what} but noise.`);
-    else put("verdict", `${(100 * share).toFixed(share < 0.1 ? 1 : 0)} % of the picture differs from ${what} by more than noise.`);
+    else put("verdict", `${(100 * share).toFixed(share < 0.1 ? 1 : 0)} % of the picture differs from ${what} by more than noise${told.sides.course.rendering && !change ? ", so far" : ""}.`);
   }
 
   function curve(told) {
@@ -192,7 +202,7 @@
   }
   const orbit = (turn, tilt, zoom = 1) => wish("orbit", { turn, tilt, zoom });
 
-  for (const name of ["mine", "course"]) {
+  for (const name of ["mine", "course", "difference"]) {
     const canvas = $(name);
     let from = null, moved = 0;
     canvas.addEventListener("pointerdown", (event) => {
@@ -212,7 +222,7 @@
       if (from && moved < 4) {
         const box = canvas.getBoundingClientRect();
         const [x, y] = [(event.clientX - box.left) / box.width * size[0], (event.clientY - box.top) / box.height * size[1]].map(Math.floor);
-        pixel(Math.max(0, Math.min(size[0] - 1, x)), Math.max(0, Math.min(size[1] - 1, y)), name);
+        pixel(Math.max(0, Math.min(size[0] - 1, x)), Math.max(0, Math.min(size[1] - 1, y)), name === "difference" ? main : name);
       }
       from = null;
     });
@@ -256,8 +266,12 @@
     return [make("div", { class: "beside" }, make("p", {}, lead), make("ul", {}, ...lines.map((line) => make("li", {}, line))))];
   }
   const tree = (lines) => make("ul", {}, ...lines.map(([text, below]) => make("li", {}, text, ...(below.length ? [tree(below)] : []))));
+  let storyKey = "";
   function story(told) {
-    const root = $("story");
+    const root = $("story"), key = JSON.stringify(told);
+    // Whoever comes back is told the last one again: what was chosen in its view stays.
+    if (key === storyKey) return;
+    storyKey = key;
     root.dataset.pixel = told.story.join(",");
     if (told.failed) {
       root.replaceChildren(make("p", { class: "trouble" }, told.failed));
@@ -274,7 +288,9 @@
   function functions(told) {
     if (viewing) return;
     const points = (n) => Number(n.toFixed(2));
-    put("points", `${points(told.points)} of ${points(told.of)} points`);
+    const all = told.modules.length, done = all - told.waiting;
+    const sofar = `${points(told.points)} of ${points(told.of)} points`;
+    put("points", !told.waiting ? sofar : `Checking: ${done} of ${all} modules are done${done ? `, ${sofar} so far` : ""}.`);
     $("next").replaceChildren();
     if (told.next) {
       const place = told.where.split(/[\\/]/).slice(-2).join("/");
@@ -302,7 +318,11 @@
   $("reset").addEventListener("click", () => ask("reset"));
   $("again").addEventListener("click", () => ask("again"));
   $("yaml").addEventListener("click", async () => {
-    const answer = await fetch("/view.yaml", { headers: { "X-Token": token } });
+    const answer = await fetch("/view.yaml", { headers: { "X-Token": token } }).catch(() => null);
+    if (!answer) {
+      put("status", AWAY);
+      return;
+    }
     $("view-yaml").textContent = await answer.text();
     put("view-told", "");
     $("view").hidden = false;
@@ -317,12 +337,15 @@
       put("view-told", "selected; copy it with your keyboard");
     }
   });
-  $("save").addEventListener("click", async () => put("view-told", await (await ask("save")).text()));
+  $("save").addEventListener("click", async () => {
+    const answer = await ask("save");
+    put("view-told", answer ? await answer.text() : "The studio doesn't answer: nothing was written.");
+  });
   if (viewing) put("course-name", "Picture");
 
   const events = new EventSource(`/events?token=${encodeURIComponent(token)}`);
   events.addEventListener("state", (event) => show(JSON.parse(event.data)));
   events.addEventListener("functions", (event) => functions(JSON.parse(event.data)));
   events.addEventListener("story", (event) => { story(JSON.parse(event.data)); if (state) show(state); });
-  events.onerror = () => put("status", "The studio isn't there: it has ended, or is busy. The page goes on when it is back.");
+  events.onerror = () => put("status", AWAY);
 })();

@@ -9,6 +9,7 @@ from __future__ import annotations
 import itertools
 import queue
 import threading
+import traceback
 from collections.abc import Iterable
 from pathlib import Path
 from time import monotonic
@@ -45,6 +46,9 @@ REFERENCE = 4
 
 MOST = 256
 
+GONE = 1.0
+"""Seconds after which a file that isn't there is gone: editors that save take it away for a moment."""
+
 CHECKS_WAIT = 4.0
 """Seconds after a save after which checks no longer wait for the picture."""
 
@@ -74,6 +78,9 @@ class Studio:
         self._guard = threading.Lock()
         self._needs: list[str] = []
         self._wanted_pixel: tuple[int, int] | None = None
+        self._asked: Side | None = None
+        self._asked_early: dict[str, Any] | None = None
+        self._told_again: tuple[int, int] | None = None
         self._story: dict[str, Any] | None = None
         self._beside: dict[str, Any] | None = None
         self._saved = monotonic()
@@ -81,7 +88,7 @@ class Studio:
         self._curve_before: list[tuple[float, int, float]] = []
         self._differing: float | None = None
         self._changed: float | None = None
-        self._scene_trouble = ""
+        self._scene_trouble = self._own_trouble = ""
         self._functions: dict[str, dict[str, Any]] = {}
         self._to_check: list[str] = []
         self._under_check: list[str] = []
@@ -93,7 +100,8 @@ class Studio:
             self.folder = Effects(folder).folder
             self._checker = Checker(self.folder, lambda told: self._queue.put(("check", told)))
         self.course = Side("course", self._courses(), False, self._event)
-        self._seen: dict[Path, int] = {}
+        self._seen: dict[Path, tuple[int, int]] = {}
+        self._missing: dict[Path, float] = {}
         self._thread = threading.Thread(target=self._run, name="studio", daemon=True)
         self._stopped = False
 
@@ -120,6 +128,7 @@ class Studio:
     def close(self) -> None:
         """End everything; waits for that."""
         self._stopped = True
+        self._say("gone", None)
         self._queue.put(("stop",))
         self._thread.join()
         for side in self.sides:
@@ -189,11 +198,15 @@ class Studio:
                 what, *more = self._queue.get(timeout=POLL)
             except queue.Empty:
                 what, more = "", []
-            if what:
-                getattr(self, f"_on_{what}", lambda *_: None)(*more)
-            if monotonic() - looked >= POLL:
-                self._look()
-                looked = monotonic()
+            try:
+                if what:
+                    getattr(self, f"_on_{what}", lambda *_: None)(*more)
+                if monotonic() - looked >= POLL:
+                    looked = monotonic()
+                    self._look()
+            except Exception:  # noqa: BLE001 - the page goes on, and tells
+                self._own_trouble = traceback.format_exc(limit=-3)
+                self._say_state()
 
     def _say(self, name: str, data: Any) -> None:
         with self._guard:
@@ -224,7 +237,7 @@ class Studio:
         self._differing = self._changed = None
         if self.mine is not None:
             self.mine.before = None
-        self._story = None
+        self._story = self._told_again = None
         self._go()
 
     def _save(self) -> None:
@@ -234,6 +247,12 @@ class Studio:
         values = [[list(path), value] for path, value in self.values.items()]
         if mine.shots:
             mine.before = mine.shots[-1]
+        # The story follows a save, as the picture does; whoever was telling one is ended.
+        if self._asked is mine:
+            self._told_again, self._wanted_pixel, self._asked = self._wanted_pixel, None, None
+        elif self._story is not None and self._story["side"] == "mine":
+            x, y = self._story["story"]
+            self._told_again = x, y
         mine.anew(next(self._jobs))
         self._saved = monotonic()
         mine.start(str(self.scene), values, True)
@@ -271,6 +290,7 @@ class Studio:
                 for other in self.sides:
                     if other.goal and other.worker is not None and not other.note:
                         other.worker.send(do="pause")
+            if not side.goal and not side.awaiting:
                 side.render(goal, max(each for other, each in goals if other is side))
             return
 
@@ -299,6 +319,9 @@ class Studio:
             # Some samplers stop before.
             side.reached, side.goal = max(side.reached, side.goal), 0
             self._check_soon()
+            if side is self.mine and self._told_again is not None:
+                x, y = self._told_again
+                self._on_pixel({"x": x, "y": y})
             self._go()
         elif "interrupted" in told and told["interrupted"] == side.job:
             side.goal = 0
@@ -307,10 +330,15 @@ class Studio:
                 self._needs = told["needs"]
                 self._to_check.sort(key=self._modules().index)
             self._say("functions", self._told_functions())
+            if side.awaiting:
+                side.load()
+                if self._asked_early is not None and side is self.mine:
+                    self._on_pixel(self._asked_early)
+                self._go()
         elif "loaded" in told:
             side.called, side.ready = told["loaded"], True
         elif "story" in told:
-            self._wanted_pixel = None
+            self._wanted_pixel = self._asked = None
             self._story = told = told | {"side": side.name, "is_right": self._is_right(told)}
             self._say("story", told)
             self._put_beside()
@@ -348,7 +376,7 @@ class Studio:
     def _lost_pixel(self, why: str = "") -> None:
         if self._wanted_pixel is not None:
             x, y = self._wanted_pixel
-            self._wanted_pixel = None
+            self._wanted_pixel = self._asked = None
             self._say("story", {"story": [x, y], "failed": why or "the process has ended"})
 
     def _on_alive(self, side: Side, told: dict[str, Any]) -> None:
@@ -410,20 +438,22 @@ class Studio:
         if self.mine is not None:
             yield from self.folder.glob("*.py")
 
-    def _times(self) -> dict[Path, int]:
+    def _times(self) -> dict[Path, tuple[int, int]]:
+        """When each file was saved [ns], and its bytes."""
         found = {}
         for file in self._files():
             try:
-                found[file] = file.stat().st_mtime_ns
+                told = file.stat()
             except OSError:
                 continue
+            found[file] = told.st_mtime_ns, told.st_size
         return found
 
     def _look(self) -> None:
         """Look at the files, and at who hasn't been heard of."""
         now = self._times()
-        # What is gone for a moment is being saved.
         changed = [file for file, time in now.items() if self._seen.get(file) != time]
+        changed += self._gone(now)
         self._seen |= now
         if self.scene in changed:
             self._reload()
@@ -446,6 +476,15 @@ class Studio:
                     self._go()
         self._start_checks()
 
+    def _gone(self, now: Iterable[Path]) -> list[Path]:
+        """Files that were there and have been away for a while."""
+        away = self._seen.keys() - set(now)
+        self._missing = {file: self._missing.get(file, monotonic()) for file in away}
+        gone = [file for file, since in self._missing.items() if monotonic() - since > GONE]
+        for file in gone:
+            del self._seen[file], self._missing[file]
+        return gone
+
     def _reload(self) -> None:
         try:
             self.loaded = load_description(self.scene)
@@ -458,6 +497,7 @@ class Studio:
         self.values, self._orbit = {}, [0.0, 0.0, 1.0]
         for side in self.sides:
             side.close()
+        self._lost_pixel("the scene was saved meanwhile")
         self._begin(fresh=True)
         self._say("functions", self._told_functions())
         self._say_state()
@@ -504,7 +544,13 @@ class Studio:
             self._checking = ""
             if told["module"] in self._under_check:
                 self._under_check.remove(told["module"])
+            story = self._story
+            if story is not None and story["is_right"] != self._is_right(story):
+                self._story = story | {"is_right": not story["is_right"]}
+                self._say("story", self._story)
         else:
+            for module in self._under_check:
+                self._functions[module] = {"trouble": "The checks ended before they came to it."}
             self._checking, self._under_check = "", []
         self._say("functions", self._told_functions())
 
@@ -538,7 +584,7 @@ class Studio:
                     "name": module,
                     "here": here,
                     "checking": checking,
-                    "trouble": known.get("trouble", ""),
+                    "trouble": known.get("trouble") or (self._hint(module) if here else ""),
                     "functions": functions,
                 }
             )
@@ -546,12 +592,24 @@ class Studio:
         return {
             "modules": modules,
             "needs": self._needs,
+            "waiting": len(waiting),
             "points": sum(one.points for one in every),
             "of": sum(10 * len(names) for names in COURSE.values()),
             "next": None if coming is None else f"{coming.module}.{coming.name}",
             "where": None if coming is None else f"{coming.file}:{coming.line}",
             "page": None if coming is None else coming.page,
         }
+
+    def _hint(self, module: str) -> str:
+        """What is said of a module whose file was deleted or renamed, or of which the picture shows nothing."""
+        file = self.folder / f"{module}.py"
+        if not file.is_file():
+            return f"There is no {file}: none of it is yours."
+        if self._needs and not any(need.startswith(f"{module}.") for need in self._needs):
+            return (
+                "This picture calls none of them: what the checks say is all there is of them here."
+            )
+        return ""
 
     # ---------------------------------------------------------------- wishes of the page
 
@@ -595,10 +653,16 @@ class Studio:
         without = "there is no picture that it could be told of"
         if side.effects == ENGINE:
             without = NO_RAYS
+        self._told_again = None
+        # A story is told with the functions as they are.
+        self._asked_early = told if side.awaiting and not side.trouble else None
+        if self._asked_early is not None:
+            return
         if side.worker is None or side.trouble or side.effects == ENGINE:
             self._say("story", {"story": [x, y], "failed": without})
             return
         self._wanted_pixel, self._beside, self._story = (x, y), None, None
+        self._asked = side
         side.worker.send(do="pixel", x=x, y=y, job=side.job)
         known = self.course.worker is not None and self.course.effects != ENGINE
         if side is self.mine and side.called and known:
@@ -638,6 +702,7 @@ class Studio:
             "file": self.scene.name,
             "title": self.loaded.description.title or self.scene.stem,
             "trouble": self._scene_trouble,
+            "own": self._own_trouble,
             "size": self._size(),
             "sides": {side.name: self._told(side) for side in self.sides},
             "curve": self._curve,
@@ -663,7 +728,7 @@ class Studio:
             "version": side.version,
             "samples": side.reached,
             "seconds": side.shot.seconds if side.shot is not None else 0,
-            "rendering": bool(side.goal),
+            "rendering": bool(side.goal) or side.awaiting,
             "trouble": side.trouble,
             "function": side.function,
             "note": side.note,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import signal
 import subprocess
 import sys
 import threading
@@ -71,9 +72,11 @@ class Worker:
             self._channel.send(command)
 
     def end(self, why: str) -> None:
-        """End it; the first reason is told."""
+        """End it, and what a function has started; the first reason is told."""
         self._why = self._why or why
         with contextlib.suppress(OSError):
+            if os.name == "posix" and self._process.returncode is None:
+                os.killpg(self._process.pid, signal.SIGKILL)
             self._process.kill()
 
     def close(self) -> None:

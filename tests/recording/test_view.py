@@ -14,6 +14,7 @@ from course.core.types import Floats64
 from course.effects import PROJECT
 from course.recording import scenery, view
 from course.recording.view import page, view_data
+from tests.browser import untroubled
 
 CliRunner = pytest.importorskip("click.testing").CliRunner
 
@@ -32,6 +33,34 @@ def test_200_paths_are_less_than_a_megabyte(name: str) -> None:
     assert len(data["samples"]) == view.MOST_PATHS
     assert data["all"] == 256
     assert len(page(told).encode()) < 1e6
+
+
+@pytest.mark.parametrize("balls", [150, 900])
+def test_a_scene_of_many_objects_is_less_than_a_megabyte_too(tmp_path: Path, balls: int) -> None:
+    """Skittles of 2 MB each would be 300 MB; of too many the largest are shown."""
+    scene = tmp_path / "many.yaml"
+    rows = "".join(
+        f"  - {{shape: sphere, material: grey, radius: {0.02 + 0.0001 * n}, segments: 64,"
+        f" transform: [{{translate: [{n % 30 - 15}, {n // 30}, 0]}}]}}\n"
+        for n in range(balls)
+    )
+    scene.write_text(
+        "camera: {eye: [0, 5, 40], look_at: [0, 5, 0]}\nfilm: {width: 60, height: 40}\n"
+        "materials: {grey: {color: 0.7}}\nlights: [{type: point, position: [0, 9, 9], intensity: 90}]\n"
+        "objects:\n  - {shape: quad, material: grey, width: 90, depth: 90}\n" + rows,
+        encoding="utf-8",
+    )
+    told = pixel(scene, 30, 30, spp=256)
+    shown = view_data(told)["objects"]
+    assert len(page(told).encode()) < 1e6
+    assert shown[0]["name"] == "quad"
+    if balls == 150:
+        assert len(shown) == balls + 1
+    else:
+        # Boxes of the largest, which are the last.
+        assert 400 < len(shown) < balls
+        assert f"objects.{balls}" in shown[-1]["name"]
+        assert "objects.1)" not in str([each["name"] for each in shown])
 
 
 def test_every_segment_of_what_is_shown_is_there_in_place(story: Story) -> None:
@@ -186,6 +215,29 @@ def test_a_ray_is_black_behind_its_blocker(opened: Any, story: Story) -> None:
         _settle(opened)
         found[name] = opened.evaluate(BLACK)
     assert found["blocked"] > found["free"] + 50
+
+
+def test_depths_are_stepped_through_and_a_dot_lights_its_ray(browser: Any, tmp_path: Path) -> None:
+    file = tmp_path / "rays.html"
+    file.write_text(page(pixel(SCENES / "glossy.yaml", 540, 408, spp=8)), encoding="utf-8")
+    with untroubled(browser, viewport={"width": 1200, "height": 900}) as tab:
+        tab.goto(file.as_uri())
+        depth = tab.locator("label", has_text="Bounces shown:").locator("input")
+        assert depth.get_attribute("max") != "0"
+        whole = _picture(tab)
+        depth.focus()
+        tab.keyboard.press("Home")
+        camera = _picture(tab)
+        tab.keyboard.press("ArrowRight")
+        first = _picture(tab)
+        assert camera not in (whole, first)
+        lit = []
+        for number in (2, 5):
+            tab.locator(".rays circle.sample").nth(number).click()
+            assert tab.locator("circle.sample.chosen").count() == 1
+            assert f"Sample {number}:" in tab.inner_text(".told")
+            lit.append(_picture(tab))
+        assert len({first, *lit}) == 3
 
 
 def test_a_click_on_a_ray_chooses_its_sample(opened: Any) -> None:

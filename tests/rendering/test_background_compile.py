@@ -1,19 +1,22 @@
 """Loops that get ready while NumPy renders: this process compiles nothing meanwhile, and the bits stay the same."""
 
 import pickle
+import shutil
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from io import BytesIO
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from course import Scene, render
+from course import Scene, load_scene, render
 from course import render_scene as rendering
 from course.compiled import library
 from course.core.tracer import Tracer
+from course.effects import PROJECT
 from course.rendering.binding import bind
 from course.rendering.threads import Pool
 
@@ -55,6 +58,40 @@ def test_loops_are_read_but_not_compiled() -> None:
     with background_compile.compiling_nothing(), pytest.raises(background_compile.NotCompiledError):
         numba.njit("int64(int64)")(lambda x: x + 1)
     assert numba.njit("int64(int64)")(lambda x: x + 1)(1) == 2
+
+
+def test_what_is_compiled_is_told_in_one_line(caplog: pytest.LogCaptureFixture) -> None:
+    import numba
+
+    with background_compile.compiling_told():
+        assert caplog.messages == []
+        for doubled in (lambda x: x + x, lambda x: 2 * x):
+            assert numba.njit("int64(int64)")(doubled)(4) == 8
+    numba.njit("int64(int64)")(lambda x: x + 3)
+    assert caplog.messages == [background_compile.COMPILING]
+
+
+@pytest.mark.parametrize(("folder", "asked"), [("solutions", None), ("own", None), ("own", True)])
+def test_only_a_render_that_waits_for_loops_tells_of_them(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, folder: str, asked: bool | None
+) -> None:
+    """The course's own functions wait for none, and who asks for loops knows of them."""
+    if folder == "own":
+        folder = str(tmp_path)
+        shutil.copy(PROJECT / "solutions" / "supersampling.py", tmp_path)
+        shutil.copy(PROJECT / "solutions" / "soft_shadows.py", tmp_path)
+    monkeypatch.delenv(rendering.NO_COMPILER, raising=False)
+    told: list[int] = []
+
+    @contextmanager
+    def telling() -> Iterator[None]:
+        told.append(1)
+        yield
+
+    monkeypatch.setattr(background_compile, "compiling_told", telling)
+    scene = load_scene(PROJECT / "scenes" / "soft_shadows.yaml", effects=folder)
+    render(scene, spp=1, size=(12, 8), compiled=asked)
+    assert bool(told) == (folder != "solutions" and asked is None)
 
 
 @pytest.mark.parametrize("status", [None, 0, 1])

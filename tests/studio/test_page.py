@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -10,6 +11,7 @@ from typing import Any
 
 import pytest
 
+from course.modules import COURSE
 from course.studio.server import Server
 from course.studio.studio import Studio
 from tests.browser import tab_to
@@ -71,6 +73,8 @@ def test_a_student_saves_what_is_wrong_and_then_what_is_right(
     browser: Any, studio: Studio, work: Path
 ) -> None:
     with opened(browser, studio) as page:
+        modules = len(COURSE)
+        until(lambda: f"Checking: 0 of {modules} modules are done" in text(page, "#points"))
         ready(page)
         assert text(page, "#title") == "A ball (ball.yaml)"
         assert text(page, "#verdict") == "No difference from the reference but noise."
@@ -94,6 +98,11 @@ def test_a_student_saves_what_is_wrong_and_then_what_is_right(
         assert page.is_hidden("#mine-trouble")
         until(lambda: pixels(page, "difference") != difference)
         until(lambda: state(page) == "right")
+        # While some are being checked the sum isn't told as if it were one of all.
+        assert re.fullmatch(
+            r"Checking: [1-9][0-9]* of [0-9]+ modules are done, [1-9].* points so far\.|[1-9].* points",
+            text(page, "#points"),
+        )
 
 
 GOES_WRONG = {
@@ -182,6 +191,61 @@ def test_a_pixel_shows_the_courses_rays_beside_wrong_ones(
         before = page.evaluate(canvas)
         both.nth(2).check()
         until(lambda: page.evaluate(canvas) != before)
+        # Where the difference is red or blue, one clicks: it is the same pixel.
+        page.locator("#difference").click(position={"x": 120, "y": 100})
+        place = page.evaluate(
+            "(box => [Math.floor(120 / box.width * 72), Math.floor(100 / box.height * 48)].join())"
+            "(document.getElementById('difference').getBoundingClientRect())"
+        )
+        until(lambda: page.get_attribute("#story", "data-pixel") == place)
+        # A save is told of by the same pixel.
+        write(work, RIGHT)
+        until(lambda: "The course's functions send the same rays." in text(page, "#story"))
+        assert page.get_attribute("#story", "data-pixel") == place
+
+
+def test_two_tabs_show_the_same(browser: Any, studio: Studio, work: Path) -> None:
+    with opened(browser, studio) as page:
+        other = page.context.new_page()
+        other.goto(page.url)
+        for each in (page, other):
+            ready(each)
+        write(work, WRONG)
+        for each in (page, other):
+            until(lambda each=each: "by more than noise" in text(each, "#verdict"))
+            ready(each)
+        label = other.locator("label", has_text="lights[0].radius")
+        label.locator("input").focus()
+        for _ in range(5):
+            other.keyboard.press("ArrowLeft")
+        moved = until(lambda: label.locator("output").inner_text() != "0.8" and label.inner_text())
+        until(lambda: page.locator("label", has_text="lights[0].radius").inner_text() == moved)
+        other.close()
+        ready(page)
+        page.click("#reset")
+        until(lambda: page.is_disabled("#reset"))
+
+
+def test_a_page_that_slept_catches_up(browser: Any, studio: Studio, work: Path) -> None:
+    with opened(browser, studio) as page:
+        ready(page)
+        page.locator("#mine").click(position={"x": 80, "y": 150})
+        page.locator("#story .rays circle.sample").nth(3).click()
+        # As where a machine sleeps: the stream of what happens ends, and the browser asks for another one.
+        studio._say("gone", None)
+        until(lambda: "doesn't answer" in text(page, "#status"))
+        write(work, WRONG)
+        until(lambda: "by more than noise" in text(page, "#verdict"))
+        ready(page)
+        # The pixel is told anew, for the functions are; otherwise what was chosen stays.
+        until(lambda: page.locator("#story .beside li").count() > 0)
+        page.locator("#story .rays circle.sample").nth(3).click()
+        seen = text(page, "#story .told")
+        studio._say("gone", None)
+        until(lambda: "doesn't answer" in text(page, "#status"))
+        until(lambda: text(page, "#status") == "ready")
+        assert text(page, "#story .told") == seen
+        assert page.locator("#story circle.sample.chosen").count() == 1
 
 
 def test_the_keyboard_does_everything(browser: Any, studio: Studio) -> None:

@@ -81,6 +81,12 @@ def test_every_module_has_sliders_for_what_it_is_about(module: str) -> None:
         ("motion_blur", "camera.shutter.close"),
         ("supersampling", "sampler.samples"),
         ("film", "film.exposure"),
+        ("multiple_importance", "materials.satin.gloss.exponent"),
+        ("microfacets", "materials.gold.conductor.roughness"),
+        ("microfacets", "materials.glass.dielectric.roughness"),
+        ("cube_map", "environment.scale"),
+        ("quasi_monte_carlo", "lights[0].radius"),
+        ("blue_noise", "lights[0].radius"),
         ("film", "film.tone.key"),
     ],
 )
@@ -122,6 +128,16 @@ def test_noise_alone_is_no_difference_and_a_patch_is_one() -> None:
     codes = coloured(z).astype(int)
     assert codes[75, 75, 0] > codes[75, 75, 2] + 50
     assert (codes[150, 150] == codes[150, 151]).all()
+
+
+def test_where_a_picture_ends_that_is_not_whole_yet_is_no_difference() -> None:
+    light = 0.5 + np.random.default_rng(8).normal(scale=0.01, size=(3, 60, 60))
+    a = shot(light, 4, 0.0004)
+    part = np.arange(60)[:, None] < 30
+    b = replace(a, linear=a.linear * part, there=part & np.ones((60, 60), bool))
+    assert share_differing(deviations(a, b)) == 0
+    brighter = replace(b, linear=b.linear * np.float32(1.5))
+    assert share_differing(deviations(a, brighter)) == pytest.approx(0.5, abs=0.06)
 
 
 def test_the_same_light_that_is_shown_otherwise_is_a_difference() -> None:

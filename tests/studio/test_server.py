@@ -13,6 +13,7 @@ from urllib.parse import urlsplit
 
 import pytest
 
+from course.errors import CourseError
 from course.studio.server import LARGEST, Server, _Handler
 from course.studio.studio import Studio
 
@@ -165,3 +166,15 @@ def test_a_page_that_is_closed_while_it_is_answered_is_no_error(
     with pytest.raises(http.client.RemoteDisconnected):
         ask(server, "/")
     assert capfd.readouterr().err == ""
+
+
+def test_a_port_can_be_chosen_and_one_that_is_taken_is_told(server: Server) -> None:
+    studio = server._server.studio
+    with pytest.raises(CourseError, match=f"port {server.port} can't be had"):
+        Server(studio, server.port)
+    first = Server(studio)
+    first.close()
+    second = Server(studio, first.port)
+    assert second.address.startswith(f"http://127.0.0.1:{first.port}/?token=")
+    assert second.token != first.token
+    second.close()

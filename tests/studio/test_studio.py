@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import time
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
+from course.studio import sides
 from course.studio.studio import MOST, Studio
+from course.studio.worker import Worker
 from tests.studio.conftest import RIGHT, WRONG, until, write
 
 DONE = 16
@@ -75,6 +78,8 @@ WRONGS = {
     "return center / radius['a']\n": "soft_shadows.point_on_sphere",
     "return ((\n": "can't be imported",
     "exit()\n": "soft_shadows.point_on_sphere",
+    # Nobody is there to answer, and what is read is no command of the studio's.
+    "input('radius? ')\n": "raised EOFError",
 }
 """What a function may do, and what is said of it."""
 
@@ -252,3 +257,154 @@ def test_nothing_runs_on_when_it_is_closed(work: Path) -> None:
     processes = [side.worker._process for side in studio.sides if side.worker is not None]
     studio.close()
     assert all(process.poll() is not None for process in processes)
+
+
+def everything(studio: Studio) -> str:
+    """What is known of the functions."""
+    return str(studio._told_functions())
+
+
+def test_a_file_that_is_deleted_or_renamed_is_noticed(studio: Studio, work: Path) -> None:
+    write(work, WRONG)
+    until(lambda: mine(studio)["yours"] and whole(studio) and studio.state()["differing"])
+    file = work / "assignments" / "soft_shadows.py"
+    file.rename(work / "assignments" / "soft_shadow.py")
+    until(lambda: "There is no" in everything(studio) and "soft_shadows.py" in everything(studio))
+    # None of it is one's own any more.
+    until(lambda: not mine(studio)["yours"] and whole(studio))
+    assert studio.state()["differing"] == 0
+    (work / "assignments" / "soft_shadow.py").rename(file)
+    until(lambda: mine(studio)["yours"] and whole(studio) and studio.state()["differing"])
+    assert "There is no" not in everything(studio)
+
+
+def test_a_function_that_is_deleted_is_the_courses_again(studio: Studio, work: Path) -> None:
+    write(work, WRONG)
+    until(lambda: mine(studio)["yours"] and whole(studio) and studio.state()["differing"])
+    file = work / "assignments" / "soft_shadows.py"
+    text = file.read_text(encoding="utf-8")
+    file.write_text(text.replace("def point_on_sphere(", "def point_on_spere("), encoding="utf-8")
+    until(lambda: not mine(studio)["yours"] and whole(studio))
+    assert not mine(studio)["trouble"]
+    assert studio.state()["differing"] == 0
+
+
+def test_a_scene_that_is_gone_is_told_and_comes_back(studio: Studio, work: Path) -> None:
+    until(lambda: mine(studio)["samples"] == DONE)
+    scene = work / "ball.yaml"
+    scene.rename(work / "elsewhere.yaml")
+    assert "ball.yaml" in until(lambda: studio.state()["trouble"])
+    (work / "elsewhere.yaml").rename(scene)
+    until(lambda: not studio.state()["trouble"] and whole(studio))
+
+
+def test_saves_in_quick_succession_start_few_processes_and_the_last_one_counts(
+    studio: Studio, work: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    until(lambda: studio.mine is not None and studio.mine.spare_ready)
+    started: list[float] = []
+
+    class Counted(Worker):
+        def __init__(self, *arguments: Any) -> None:
+            started.append(time.monotonic())
+            super().__init__(*arguments)
+
+    monkeypatch.setattr(sides, "Worker", Counted)
+    saves = 40
+    for n in range(saves):
+        # Every other one can't be imported: an editor saves what is half written.
+        write(work, "return ((\n" if n % 2 else RIGHT.replace("radius *", f"0.{n + 1} * radius *"))
+        time.sleep(0.1)
+    # Each of them had one of its own before, and there are those that wait.
+    assert len(started) < 0.7 * saves
+    write(work, WRONG)
+    until(lambda: mine(studio)["yours"] and whole(studio) and (studio.state()["differing"] or 0))
+    assert not mine(studio)["trouble"]
+    storm = linear(studio).copy()
+    studio.ask("again")
+    until(lambda: not mine(studio)["samples"])
+    until(lambda: mine(studio)["samples"] == DONE)
+    np.testing.assert_array_equal(linear(studio), storm)
+
+
+def test_a_save_while_a_pixel_is_told_has_it_told_again(studio: Studio, work: Path) -> None:
+    write(work, f"import time\ntime.sleep(0.3)\n{WRONG}")
+    until(lambda: mine(studio)["yours"] and whole(studio))
+    events = studio.listen()
+    studio.ask("pixel", x=20, y=40)
+    until(lambda: studio._wanted_pixel)
+    write(work, RIGHT)
+    story = until(lambda: next((d for n, d in iter(events.get, None) if n == "story"), None))
+    assert story["story"] == [20, 40]
+    assert story["job"] == mine(studio)["job"]
+    until(lambda: whole(studio) and studio.state()["differing"] == 0)
+    # And with every save from then on.
+    write(work, WRONG)
+    until(lambda: mine(studio)["yours"] and studio.state()["differing"])
+    story = until(
+        lambda: next((d for n, d in iter(events.get, None) if n == "story" and "beside" in d), None)
+    )
+    studio.forget(events)
+
+
+def test_what_a_function_has_started_ends_with_it(studio: Studio, work: Path) -> None:
+    import psutil
+
+    body = (
+        "import subprocess, sys\n"
+        "subprocess.Popen([sys.executable, '-c', 'import time; time.sleep(600)', 'of a student'])\n"
+    )
+    write(work, body + RIGHT)
+    until(lambda: mine(studio)["yours"] and mine(studio)["samples"] == DONE)
+
+    def left() -> int:
+        return sum(
+            "of a student" in (each.info["cmdline"] or ())
+            for each in psutil.process_iter(["cmdline"])
+        )
+
+    assert left()
+    write(work, RIGHT)
+    until(lambda: not left())
+
+
+def test_an_error_of_the_studio_is_told_and_it_goes_on(studio: Studio, work: Path) -> None:
+    until(lambda: whole(studio))
+    look = studio._look
+
+    def fails() -> None:
+        studio._look = look  # type: ignore[method-assign]
+        raise RuntimeError("of its own")
+
+    studio._look = fails  # type: ignore[method-assign]
+    assert "of its own" in until(lambda: studio.state()["own"])
+    write(work, WRONG)
+    until(lambda: mine(studio)["yours"] and whole(studio))
+
+
+def test_saves_share_a_process_until_it_reads_them(monkeypatch: pytest.MonkeyPatch) -> None:
+    sent: list[list[str]] = []
+
+    class Told:
+        def __init__(self, *_: Any) -> None:
+            sent.append([])
+
+        def send(self, **command: Any) -> None:
+            sent[-1].append(command["do"])
+
+        def end(self, _why: str) -> None:
+            pass
+
+    monkeypatch.setattr(sides, "Worker", Told)
+    side = sides.Side("mine", "mine", True, lambda *_: None)
+    for _ in range(3):
+        side.start("ball.yaml", [], True)
+    assert sent == [["scene", "pause"]]
+    side.load()
+    assert sent == [["scene", "pause", "load"]]
+    side.start("ball.yaml", [], True)
+    assert sent[1:] == [["scene", "pause"]]
+    # One that has failed before it read them is no use.
+    side.fail("no scene")
+    side.start("ball.yaml", [], True)
+    assert len(sent) == 3
