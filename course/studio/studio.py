@@ -201,8 +201,12 @@ class Studio:
             try:
                 if what:
                     getattr(self, f"_on_{what}", lambda *_: None)(*more)
-                if monotonic() - looked >= POLL:
+                if (away := monotonic() - looked) >= POLL:
                     looked = monotonic()
+                    if away > SILENT:
+                        # The studio was stopped, or the machine slept: it is nobody else who was silent.
+                        for side in self.sides:
+                            side.heard = looked
                     self._look()
             except Exception:  # noqa: BLE001 - the page goes on, and tells
                 self._own_trouble = traceback.format_exc(limit=-3)

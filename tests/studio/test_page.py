@@ -192,12 +192,13 @@ def test_a_pixel_shows_the_courses_rays_beside_wrong_ones(
         both.nth(2).check()
         until(lambda: page.evaluate(canvas) != before)
         # Where the difference is red or blue, one clicks: it is the same pixel.
-        page.locator("#difference").click(position={"x": 120, "y": 100})
+        page.locator("#difference").click(position={"x": 100, "y": 150})
         place = page.evaluate(
-            "(box => [Math.floor(120 / box.width * 72), Math.floor(100 / box.height * 48)].join())"
+            "(box => [Math.floor(100 / box.width * 72), Math.floor(150 / box.height * 48)].join())"
             "(document.getElementById('difference').getBoundingClientRect())"
         )
         until(lambda: page.get_attribute("#story", "data-pixel") == place)
+        page.locator("#story .beside li").first.wait_for()
         # A save is told of by the same pixel.
         write(work, RIGHT)
         until(lambda: "The course's functions send the same rays." in text(page, "#story"))

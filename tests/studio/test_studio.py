@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from course.studio import sides
+from course.studio import studio as whole_studio
 from course.studio.studio import MOST, Studio
 from course.studio.worker import Worker
 from tests.studio.conftest import RIGHT, WRONG, until, write
@@ -350,17 +351,18 @@ def test_a_save_while_a_pixel_is_told_has_it_told_again(studio: Studio, work: Pa
 def test_what_a_function_has_started_ends_with_it(studio: Studio, work: Path) -> None:
     import psutil
 
+    # Its name is this test's own: others may run beside it.
+    name = str(work)
     body = (
         "import subprocess, sys\n"
-        "subprocess.Popen([sys.executable, '-c', 'import time; time.sleep(600)', 'of a student'])\n"
+        f"subprocess.Popen([sys.executable, '-c', 'import time; time.sleep(60)', {name!r}])\n"
     )
     write(work, body + RIGHT)
     until(lambda: mine(studio)["yours"] and mine(studio)["samples"] == DONE)
 
     def left() -> int:
         return sum(
-            "of a student" in (each.info["cmdline"] or ())
-            for each in psutil.process_iter(["cmdline"])
+            name in (each.info["cmdline"] or ()) for each in psutil.process_iter(["cmdline"])
         )
 
     assert left()
@@ -408,3 +410,15 @@ def test_saves_share_a_process_until_it_reads_them(monkeypatch: pytest.MonkeyPat
     side.fail("no scene")
     side.start("ball.yaml", [], True)
     assert len(sent) == 3
+
+
+def test_a_studio_that_was_stopped_for_a_while_ends_nobody(
+    studio: Studio, work: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    write(work, f"import time\ntime.sleep(0.2)\n{RIGHT}")
+    until(lambda: studio.mine is not None and studio.mine.called and studio.mine.goal)
+    # As after Ctrl-Z and fg, or the sleep of a machine whose clock goes on.
+    now = time.monotonic
+    monkeypatch.setattr(whole_studio, "monotonic", lambda: now() + 1000)
+    until(lambda: mine(studio)["samples"] == DONE or mine(studio)["trouble"])
+    assert not mine(studio)["trouble"]
