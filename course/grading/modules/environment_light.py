@@ -66,10 +66,6 @@ def _power(a: Arguments, r: Array) -> tuple[Any, ...]:
     return r, expected
 
 
-def _white(draw: Draw) -> Mapping[str, Any]:
-    return {"image": np.ones((*_size(draw), 3))}
-
-
 def _tall(draw: Draw) -> Mapping[str, Any]:
     """Many rows: the first and the last are a thousandth of those in the middle."""
     return {"image": draw.lengths(0.5, 4, 1000, 2, 3)}
@@ -85,7 +81,7 @@ TEXEL_WEIGHTS = function(
             lambda _, r: (r.sum(), 4 * pi),
             "All directions together are 4 pi steradian.",
             what="a sum of",
-            case=_white,
+            case=lambda d: {"image": np.ones((*_size(d), 3))},
         ),
         close(
             "poles",
@@ -342,10 +338,6 @@ def _in_texels(draw: Draw) -> Mapping[str, Any]:
     return {"weights": weights, "direction": np.stack(direction)}
 
 
-def _anywhere(draw: Draw) -> Mapping[str, Any]:
-    return {"weights": _weights(draw), "direction": draw.directions()}
-
-
 def _dense(a: Arguments, r: Array) -> tuple[Any, ...]:
     height, width = a.weights.shape
     x, y, z = a.direction
@@ -394,7 +386,7 @@ DENSITY = function(
             whole=True,
         ),
     ),
-    case=_anywhere,
+    case=lambda d: {"weights": _weights(d), "direction": d.directions()},
     scales=SCALES,
 )
 

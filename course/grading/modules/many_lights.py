@@ -45,10 +45,6 @@ def _powers(draw: Draw) -> Array:
     return power
 
 
-def _by_power(draw: Draw) -> Mapping[str, Any]:
-    return {"power": _powers(draw)}
-
-
 def _in_parts(draw: Draw) -> Mapping[str, Any]:
     """Numbers within the parts of lamps that have power."""
     power = _powers(draw)
@@ -115,7 +111,7 @@ POWER_CHOICE = function(
             whole=True,
         ),
     ),
-    case=_by_power,
+    case=lambda d: {"power": _powers(d)},
     scales=(),
 )
 
@@ -472,10 +468,6 @@ def _outside(draw: Draw) -> Mapping[str, Any]:
     return _node_of(draw, 1.2, 6)
 
 
-def _within_sphere(draw: Draw) -> Mapping[str, Any]:
-    return _node_of(draw, 0, 0.8)
-
-
 def _anywhere(draw: Draw) -> Mapping[str, Any]:
     near, far = _node_of(draw, 0, 0.8), _node_of(draw, 1.2, 20)
     inside = draw.rng.random(draw.n) < 0.2
@@ -512,10 +504,6 @@ def _turned_away(draw: Draw) -> Mapping[str, Any]:
 def _in_place(draw: Draw) -> Mapping[str, Any]:
     lamp = draw.lengths(-3, 3, 3, draw.n)
     return {**_outside(draw), "lo": lamp, "hi": lamp, "p": lamp}
-
-
-def _from_each(draw: Draw) -> Mapping[str, Any]:
-    return _node_of(draw, 1.2, 3)
 
 
 def _sent(a: Arguments, r: Array) -> Array:
@@ -569,7 +557,7 @@ IMPORTANCE = function(
             "Lamps may lie in any direction; and each of the distances has a least.",
             what="an importance, over power and distances, of",
             floor=1e-5,
-            case=_within_sphere,
+            case=lambda d: _node_of(d, 0, 0.8),
         ),
         close(
             "in_place",
@@ -588,7 +576,7 @@ IMPORTANCE = function(
             "The cosines are as large as they can be for a lamp anywhere in the sphere.",
             what="what a lamp sends more",
             slack=1e-3,
-            case=_from_each,
+            case=lambda d: _node_of(d, 1.2, 3),
             role="core",
         ),
         close(
@@ -794,10 +782,6 @@ def _each_lamp(draw: Draw) -> Mapping[str, Any]:
     return {"tree": tree, "p": p * columns, "n": n * columns, "lamp": np.arange(draw.n)}
 
 
-def _any_of_four(draw: Draw) -> Mapping[str, Any]:
-    return {**_beneath(4)(draw), "lamp": draw.rng.integers(0, 4, draw.n)}
-
-
 def _any_side(draw: Draw) -> Mapping[str, Any]:
     found = dict(_one_side(draw))
     del found["u"]
@@ -831,7 +815,7 @@ TREE_PROBABILITY = function(
             "Where no child has importance, both are as probable",
             lambda _, r: (r, 0.25),
             what="a probability of",
-            case=_any_of_four,
+            case=lambda d: {**_beneath(4)(d), "lamp": d.rng.integers(0, 4, d.n)},
         ),
         close(
             "values",

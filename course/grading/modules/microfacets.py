@@ -154,10 +154,6 @@ GGX = function(
 # ---------------------------------------------------------------- smith_g1, smith_g2
 
 
-def _straight(a: Arguments, r: Array) -> tuple[Any, ...]:
-    return r, np.ones(len(a.cos))
-
-
 SMITH_G1 = function(
     "microfacets.smith_g1",
     {"cos": COSINES, "alpha": ALPHA},
@@ -173,7 +169,7 @@ SMITH_G1 = function(
         close(
             "straight",
             "From straight above all is seen",
-            _straight,
+            lambda a, r: (r, np.ones(len(a.cos))),
             what="a share of",
             case=lambda d: {"cos": np.ones(d.n)},
         ),
@@ -256,14 +252,6 @@ def _one_view(draw: Draw) -> Mapping[str, Any]:
     return {"wo": np.repeat([[0.48], [0.64], [0.6]], draw.n, axis=1), "alpha": 0.5}
 
 
-def _looking_up(draw: Draw) -> Mapping[str, Any]:
-    return {"wo": np.repeat([[0.0], [0.0], [1.0]], draw.n, axis=1)}
-
-
-def _grazing(draw: Draw) -> Mapping[str, Any]:
-    return {"wo": _turned(draw.uniform(0.002, 0.05, draw.n), draw)}
-
-
 SAMPLE_VISIBLE_NORMAL = function(
     "microfacets.sample_visible_normal",
     {"wo": ABOVE, "alpha": ALPHA},
@@ -285,7 +273,7 @@ SAMPLE_VISIBLE_NORMAL = function(
             (12, 12),
             "Only the half that looks to the viewer is seen, the flatter the more.",
             what="height and turn of the mirrored view, squeezed,",
-            case=_grazing,
+            case=lambda d: {"wo": _turned(d.uniform(0.002, 0.05, d.n), d)},
             picture=lambda _, r: r[:2],
         ),
         uniform(
@@ -295,7 +283,7 @@ SAMPLE_VISIBLE_NORMAL = function(
             (12, 12),
             "The slopes are alpha tan of a hemisphere's normals, and each counts by its cosine.",
             what="height and turn of the mirrored view, squeezed,",
-            case=_looking_up,
+            case=lambda d: {"wo": np.repeat([[0.0], [0.0], [1.0]], d.n, axis=1)},
             picture=lambda _, r: r[:2],
         ),
         uniform(
