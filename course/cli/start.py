@@ -39,6 +39,8 @@ def start(folder: Path, instructor: bool) -> None:
     click.echo(f"{folder}: {count(files, 'file')}. Begin with README.md there:")
     click.echo(f"    cd {folder}")
     click.echo("    course check sampling")
+    if instructor:
+        click.echo(f"To plan lectures and weeks, read {TEACHING}.")
 
 
 def _with_tables(page: str) -> str:

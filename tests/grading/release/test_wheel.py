@@ -126,7 +126,11 @@ def test_where_the_course_is_near_the_way_to_it_is_told(course: Course) -> None:
 
 
 def test_links_of_the_folder_lead_somewhere(course: Course, tmp_path: Path) -> None:
-    course("start", "mine", "--instructor")
+    started = course("start", "mine", "--instructor")
+    # Who plans a course is told so, on the screen and by the folder's own page.
+    assert "docs/guides/teaching.md" in started.stdout
+    assert "(docs/guides/teaching.md)" in (tmp_path / "mine" / "README.md").read_text("utf-8")
+    assert "teaching.md" not in course("start", "students").stdout
     for name in LICENSES:
         assert (tmp_path / "mine" / name).read_bytes() == (PROJECT / name).read_bytes()
     pages = sorted((tmp_path / "mine").rglob("*.md"))
