@@ -31,7 +31,7 @@ _BELOW_ONE = 1 - 2.0**-53
 
 
 @njit(**LEAN)
-def _less(cos_a, sin_a, cos_b, sin_b):
+def _is_less(cos_a, sin_a, cos_b, sin_b):
     return _ONE if cos_a >= cos_b else cos_a * cos_b + sin_a * sin_b
 
 
@@ -45,18 +45,18 @@ def _importance(s, node, into):
         distance = np.sqrt(x * x + y * y + z * z)
         inverse = _ONE / (distance if distance > 0 else _ONE)
         sine = min(radius * inverse, _ONE)
-        beyond = distance > radius
+        outside = distance > radius
         seen_cos = np.sqrt(_ONE - sine * sine)
-        seen_cos, seen_sin = seen_cos if beyond else -_ONE, sine if beyond else _NOTHING
+        seen_cos, seen_sin = seen_cos if outside else -_ONE, sine if outside else _NOTHING
         cosine = (s[NX + i] * x + s[NY + i] * y + s[NZ + i] * z) * inverse
         sine = np.sqrt(max(_ONE - cosine * cosine, _NOTHING))
-        at_surface = _less(cosine, sine, seen_cos, seen_sin)
+        at_surface = _is_less(cosine, sine, seen_cos, seen_sin)
         cosine = s[node + AX + i] * x + s[node + AY + i] * y + s[node + AZ + i] * z
         cosine = -cosine * inverse
         sine = np.sqrt(max(_ONE - cosine * cosine, _NOTHING))
-        turned = _less(cosine, sine, seen_cos, seen_sin)
+        turned = _is_less(cosine, sine, seen_cos, seen_sin)
         sine = sine * seen_cos - cosine * seen_sin if turned < 1 else _NOTHING
-        at_lamps = _less(turned, sine, s[node + COSINE + i], s[node + SINE + i])
+        at_lamps = _is_less(turned, sine, s[node + COSINE + i], s[node + SINE + i])
         x, y, z = abs(x) - hx, abs(y) - hy, abs(z) - hz
         x, y, z = max(x, _NOTHING), max(y, _NOTHING), max(z, _NOTHING)
         near = max(np.sqrt(x * x + y * y + z * z), s[node + LEAST + i])
@@ -83,7 +83,7 @@ def walk(table, order, p, n, u, lamp, probability):
     u : (N,) in [0, 1)
     lamp, probability : (N,), filled
     """
-    inner = len(order) - 1
+    inner = order.size - 1
     s, node = np.zeros(ALL_ROWS * WIDTH, np.float32), np.zeros(WIDTH, np.int64)
     v, product = np.zeros(WIDTH), np.zeros(WIDTH)
     levels, rest = 0, inner
