@@ -104,14 +104,14 @@ def render(
     if denoise is not None:
         rule = (settings.denoise or Denoising()) if denoise else None
         settings = replace(settings, denoise=rule)
-    job = Job(scene, settings, time_limit, start)
+    packets = _use_compiled(settings, compiled)
+    later = packets and not compiled and address is None and _may_change_over(scene, settings)
+    job = Job(scene, settings, time_limit, start, packets and not later)
     mode = _mode(settings, time_limit)
     mode.check(job)
     if start is not None:
         _check_start(settings, start.settings)
     check_memory(settings, mode.bytes_a_pixel)
-    packets = _use_compiled(settings, compiled)
-    later = packets and not compiled and address is None and _may_change_over(scene, settings)
     if address is not None and threads is not None:
         raise CourseError(
             "threads are for renders on this machine; the workers of a cluster have their own"

@@ -57,6 +57,9 @@ _NEAREST = LADDER.take(
     np.searchsorted(np.sqrt(LADDER[:-1] * LADDER[1:].astype(np.float64)), _COUNTS)
 )
 
+_LAST_BITS = 16
+"""Of a float32 that are left out to sort numbers by the others: 128 to an octave."""
+
 
 def rung(samples: Numbers) -> Numbers:
     """Place in LADDER (P,) of numbers of samples (P,) that are all in it."""
@@ -123,7 +126,11 @@ def one_rung_more(
 def _level(
     variance: Floats32, n: Floats32, cost: Floats32, w: Floats32, order: float, target: float
 ) -> float:
-    """The k for which max(n, k w) samples bring the mean variance down to the target, by bisection in its logarithm."""
+    """The k for which max(n, k w) samples bring the mean variance down to the target, by bisection in its logarithm.
+
+    What grows at a k is found for all pixels at once, by the first bits of the k from which on each grows; so the
+    bisection looks only at those between two such numbers.
+    """
     some = np.flatnonzero(w > 0)
     # A target may be so small that its square is 0.
     allowed = max(target * len(n), sys.float_info.min)
@@ -138,11 +145,26 @@ def _level(
     # brings every pixel to the top of the ladder.
     high = math.pow(float(unit.sum(dtype=np.float64)) / allowed, 1 / (2 * order))
     high = max(low, min(high, float(LADDER[-1] / w.min())))
+    first_bits = ratio.view(np.int32) >> _LAST_BITS
+    first_bits -= (begin := first_bits.min())
+    edges = (np.arange(first_bits.max() + 2, dtype=np.int32) + begin << _LAST_BITS).view(np.float32)
+    below = [
+        np.concatenate(([0.0], np.cumsum(np.bincount(first_bits, values))))
+        for values in (variance, unit)
+    ]
+    above = below[0][-1] - below[0]
+    left = above + edges.astype(np.float64) ** (-2 * order) * below[1]
+    place = max(int(np.searchsorted(-left[:-1], -allowed)) - 1, 0)
+    low = min(max(low, float(edges[place])), high)
+    if place + 2 < len(edges):
+        high = max(low, min(high, float(edges[place + 1])))
+    inside = np.flatnonzero(first_bits == place)
+    ratio, variance, unit = ratio.take(inside), variance.take(inside), unit.take(inside)
     for _ in range(24):
         k = math.sqrt(low * high)
         growing = ratio < k
         # No dot products: BLAS would start threads for them, which then spin where rays could be traced.
-        left = float((variance * ~growing).sum())
-        left += math.pow(k, -2 * order) * float((unit * growing).sum())
-        low, high = (k, high) if left > allowed else (low, k)
+        stays = above[place + 1] + float(variance.sum(where=~growing, dtype=np.float64))
+        grows = below[1][place] + float(unit.sum(where=growing, dtype=np.float64))
+        low, high = (k, high) if stays + math.pow(k, -2 * order) * grows > allowed else (low, k)
     return high

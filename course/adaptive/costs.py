@@ -53,5 +53,8 @@ class RowOfCosts:
         All parts of a pixel get the same mean: a mean for each part would take more time than it saves.
         """
         pixels = mean.shape[1] // parts
-        each = self.row.reshape(pixels, -1).mean(axis=1)
+        # np.mean takes four times as long for rows as short as these.
+        each = np.einsum("ps->p", self.row.reshape(pixels, -1)) / np.float32(
+            len(self.row) // pixels
+        )
         return np.concatenate((mean, np.repeat(each, parts)[None]))

@@ -13,10 +13,10 @@ from course.core.types import Floats32, Floats64, Indices
 PARTS = 4
 """Parts into which the samples of a stretch are divided, to be compared with each other."""
 
-_NEARLY_NOTHING = np.float32(1e-30)
+NEARLY_NOTHING = np.float32(1e-30)
 """As in ``Film``: the weight of a mean whose own weights vanish."""
 
-_FARTHEST_APART = np.float32(1e28)
+FARTHEST_APART = np.float32(1e28)
 """Squared differences beyond it count as this, so that sums of many, times their samples, stay within float32."""
 
 
@@ -81,39 +81,42 @@ class AdaptiveFilm:
         if isinstance(group, TwinGroup):
             self._add_twins(group, mean, weight, samples)
             return
-        which, n = group.pixel_numbers(self.width).astype(np.intp), group.size
+        which = group.pixel_numbers(self.width).astype(np.intp)
         if not summed:
             self.linear.reshape(3, -1)[:, which] = mean
             return
-        compared = _Compared(mean, weight, n)
+        self._add_stretch(which, mean, weight, samples)
+
+    def _add_stretch(
+        self, which: Indices, mean: Floats32, weight: Floats32 | float, samples: int
+    ) -> None:
+        compared = _Compared(mean, weight, len(which))
         stretch = compared.stretch
         self._halves[which] = compared.of_halves
         self._quarters[which] = compared.of_quarters
         earlier = self._sums.take(which, axis=0)
         before = int(self.samples.reshape(-1)[which[0]])
-        estimates = _Estimates(samples, self.order)
-        estimates.add_parts(compared, (samples - before) // PARTS)
+        shares = shares_of(before, samples, self.order)
+        estimate = compared.estimate(shares)
         if before:
-            since = _apart(earlier.T.astype(np.float32), stretch)
-            estimates.add(since, before, samples - before, 2)
-            estimates.keep(self.variance.reshape(-1).take(which), before, 1)
+            estimate += _apart(earlier.T.astype(np.float32), stretch) * shares[2]
+            estimate += self.variance.reshape(-1).take(which) * shares[3]
         share = np.float32((samples - before) / samples)
         cost = self.cost.reshape(-1)
         cost[which] += share * (mean[3, ::PARTS] - cost.take(which))
         total = earlier + stretch.T
         self._sums[which] = total
         self.linear.reshape(3, -1)[:, which] = (total[:, :3] / total[:, 3:]).T
-        self.variance.reshape(-1)[which] = estimates.mean()
+        self.variance.reshape(-1)[which] = estimate * shares[4]
         self.samples.reshape(-1)[which] = samples
 
     def _add_twins(
         self, group: TwinGroup, mean: Floats32, weight: Floats32 | float, samples: int
     ) -> None:
         compared = _Compared(mean, weight, group.size)
-        estimates = _Estimates(samples, self.order)
-        estimates.add_parts(compared, samples // PARTS)
-        stretch = compared.stretch.astype(np.float64)
-        self._twins[group.number] = group.pixels, stretch[:3] / stretch[3], estimates.mean()
+        shares = shares_of(0, samples, self.order)
+        stretch, estimate = compared.stretch.astype(np.float64), compared.estimate(shares)
+        self._twins[group.number] = group.pixels, stretch[:3] / stretch[3], estimate * shares[4]
 
     def twins_apart(self, pixels: Indices) -> tuple[Floats64, Floats64]:
         """Squared differences (n,) of pixels (n,) from their second pictures, and the estimated variances of these.
@@ -127,7 +130,7 @@ class AdaptiveFilm:
         self._twins.clear()
         difference = self.linear.reshape(3, -1)[:, pixels] - twins[:3, pixels]
         squared: Floats64 = (difference * difference).mean(axis=0)
-        return np.minimum(squared, float(_FARTHEST_APART)), twins[3, pixels]
+        return np.minimum(squared, float(FARTHEST_APART)), twins[3, pixels]
 
     @property
     def error(self) -> float:
@@ -184,10 +187,14 @@ class AdaptiveFilm:
             self.variance *= np.float32(r * r / (4 * (1 - r)) / (0.0625 + 0.125 * r))
             self._begun = True
         self.order = order
-        guide = Guide(self.linear, self.variance)
-        variance = smoothed(self.variance, self.samples, order, guide)
+        variance, cost = self._smoothed(order)
         own = float(self.variance.sum(dtype=np.float64))
         self._spread = float(variance.sum(dtype=np.float64)) / own if own else 1.0
+        return variance, cost
+
+    def _smoothed(self, order: float) -> tuple[Floats32, Floats32]:
+        guide = Guide(self.linear, self.variance)
+        variance = smoothed(self.variance, self.samples, order, guide)
         return variance, smoothed(self.cost, self.samples, 0, guide)
 
 
@@ -204,7 +211,7 @@ class _Compared:
         parts = np.empty((4, n, PARTS), np.float32)
         parts[:3] = mean[:3].reshape(3, n, PARTS)
         parts[3] = np.reshape(weight, (n, PARTS)) if np.ndim(weight) else weight
-        np.maximum(parts[3], _NEARLY_NOTHING, out=parts[3])
+        np.maximum(parts[3], NEARLY_NOTHING, out=parts[3])
         parts[:3] *= parts[3]
         halves = parts[:, :, 0::2] + parts[:, :, 1::2]
         self.stretch: Floats32 = halves[:, :, 0] + halves[:, :, 1]
@@ -213,38 +220,28 @@ class _Compared:
         self.of_quarters *= np.float32(0.5)
         self.of_halves = _apart(halves[:, :, 0], halves[:, :, 1])
 
+    def estimate(self, shares: Floats32) -> Floats32:
+        """By halves and quarters, (n,) float32; see ``shares_of``."""
+        variance: Floats32 = self.of_quarters * shares[0] + self.of_halves * shares[1]
+        return variance
 
-class _Estimates:
-    """The weighted mean of several estimates of the variance of the mean of some samples."""
 
-    def __init__(self, samples: int, order: float) -> None:
-        self._samples = samples
-        self._order = order
-        self._sum: Floats32 | None = None
-        self._weight = 0
+def shares_of(before: int, samples: int, order: float) -> Floats32:
+    """What the variance of a mean is of each thing that tells it: (5,) float32, the last of their sum.
 
-    def add(self, difference: Floats32, n: int, m: int, weight: int) -> None:
-        """From the squared difference of two means, of n and of m samples."""
-        self._take(difference, variance_share(n, m, self._samples, self._order), weight)
+    The things are the squared differences of the quarters and of the halves of the last stretch, that of the stretch
+    and the samples before it, which counts twice, and the variance of these.
 
-    def add_parts(self, compared: _Compared, quarter: int) -> None:
-        """From the parts of a stretch with so many samples in each."""
-        self.add(compared.of_quarters, quarter, quarter, 1)
-        self.add(compared.of_halves, 2 * quarter, 2 * quarter, 1)
-
-    def keep(self, variance: Floats32, n: int, weight: int) -> None:
-        """From the variance that a mean of n of the samples had."""
-        self._take(variance, (n / self._samples) ** (2 * self._order), weight)
-
-    def _take(self, values: Floats32, share: float, weight: int) -> None:
-        scaled = values * np.float32(share * weight)
-        self._sum = scaled if self._sum is None else np.add(self._sum, scaled, out=self._sum)
-        self._weight += weight
-
-    def mean(self) -> Floats32:
-        """(n,) variances."""
-        assert self._sum is not None
-        return self._sum * np.float32(1 / self._weight)
+    Parameters
+    ----------
+    before : samples before the stretch; the third and fourth share are 0 where there are none
+    """
+    quarter = (samples - before) // PARTS
+    shares = [variance_share(n, n, samples, order) for n in (quarter, 2 * quarter)]
+    if not before:
+        return np.array((*shares, 0, 0, 1 / 2), np.float32)
+    since = variance_share(before, samples - before, samples, order)
+    return np.array((*shares, 2 * since, (before / samples) ** (2 * order), 1 / 5), np.float32)
 
 
 def _apart(a: Floats32, b: Floats32) -> Floats32:
@@ -253,4 +250,4 @@ def _apart(a: Floats32, b: Floats32) -> Floats32:
     squared: Floats32 = np.einsum("cn,cn->n", difference, difference)
     squared *= np.float32(1 / 3)
     # The squares of the brightest lights overflow float32.
-    return np.minimum(squared, _FARTHEST_APART, out=squared)
+    return np.minimum(squared, FARTHEST_APART, out=squared)

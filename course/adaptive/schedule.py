@@ -90,8 +90,12 @@ def check(job: Job) -> None:
 def make(job: Job, tracer: Tracer, _bound: Bound) -> tuple[AdaptiveFilm, AdaptiveSchedule]:
     """See ``Mode``."""
     assert job.settings.error is not None
-    settings = job.settings
-    film = AdaptiveFilm(settings.width, settings.height, settings.sampler == NET)
+    settings, kind = job.settings, AdaptiveFilm
+    if job.compiled:
+        from course.adaptive.compiled_film import CompiledFilm
+
+        kind = CompiledFilm
+    film = kind(settings.width, settings.height, settings.sampler == NET)
     return film, AdaptiveSchedule(film, tracer, job.settings.error)
 
 

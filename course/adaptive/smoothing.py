@@ -19,7 +19,7 @@ NOISE = 12.0
 """Squared differences of colours count as noise up to about so many times the variance of the difference. With 4 it is
 as good on the scenes of the course, and rare light is darkened by a quarter."""
 
-_NO_NOISE = np.float32(1e-30)
+NO_NOISE = np.float32(1e-30)
 """Added to variances that are divided by, which may be 0."""
 
 Window = tuple[slice, slice]
@@ -45,7 +45,7 @@ class Guide:
             difference = colours[:, *here] - colours[:, *there]
             weight = np.einsum("chw,chw->hw", difference, difference)
             with np.errstate(over="ignore"):
-                weight /= np.float32(-3) * (noise[here] + noise[there] + _NO_NOISE)
+                weight /= np.float32(-3) * (noise[here] + noise[there] + NO_NOISE)
             np.exp(weight, out=weight)
             weight *= np.float32(binomial * (1 - LEAK))
             weight += np.float32(binomial * LEAK)

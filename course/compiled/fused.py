@@ -387,7 +387,12 @@ class FusedTracer(Tracer):
             _sky(integrator.direct, dimensions),
             _scattering(integrator, dimensions),
             _surroundings(integrator),
-            fused_kernels.Depths(integrator.max_depth, integrator.coherent_depth, stride),
+            fused_kernels.Depths(
+                integrator.max_depth,
+                integrator.coherent_depth,
+                stride,
+                self._pairs - integrator.max_depth * stride,
+            ),
         )
 
     def _scratch(self) -> fused_kernels.Scratch:

@@ -51,7 +51,7 @@ from course.compiled.lanes import (
     D,
     P,
 )
-from course.compiled.number_kernels import find_pixels, look
+from course.compiled.number_kernels import ask_for_next, find_pixels, look
 from course.compiled.occlusion_kernels import keep, shift, unshift
 from course.compiled.options import LEAN
 from course.compiled.packet_kernels import (
@@ -146,11 +146,15 @@ class Surroundings(NamedTuple):
 
 
 class Depths(NamedTuple):
-    """Most bounces, depth up to which neighbours go together, and pairs of dimensions that a bounce draws."""
+    """Most bounces, depth up to which neighbours go together, and pairs of dimensions that a bounce draws.
+
+    ``seen`` : pairs that camera rays and what they see draw
+    """
 
     bounces: int
     coherent: int
     pairs: int
+    seen: int
 
 
 class Film(NamedTuple):
@@ -533,7 +537,7 @@ def _shade(
 def _charge(film, price, mask, count, whole):
     for i in range(count):
         if whole[mask + i]:
-            film.cost[whole[PATH + i]] += price
+            film.cost[np.uint64(whole[PATH + i])] += price
 
 
 @njit(**LEAN)
@@ -552,7 +556,7 @@ def _add(film, brought, first, missed, count, s, whole):
                 brought[first + i, c] = light
                 integers[first + i, 4] = MISSED if missed else MET
             else:
-                film.radiance[c, whole[PATH + i]] += light
+                film.radiance[c, np.uint64(whole[PATH + i])] += light
 
 
 @njit(**LEAN)
@@ -626,6 +630,7 @@ def follow(
                         whole[PATH + i] = first_path + first + min(i, count - 1)
                         whole[MEDIUM + i] = -1
                     same = find_pixels(whole, numbers.samples)
+                    ask_for_next(numbers, first_path + first + WIDTH, 0, depths.seen)
                     look(numbers, eye, same, scratch.call, s, whole)
                     for i in range(3 * WIDTH):
                         s[THROUGHPUT + i] = _ONE

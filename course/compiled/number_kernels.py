@@ -3,7 +3,10 @@
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
+from llvmlite import ir
+from numba import njit, types
+from numba.core import cgutils
+from numba.extending import intrinsic
 from numpy.typing import NDArray
 
 from course.compiled import numpy_kernels
@@ -85,10 +88,61 @@ def find_pixels(whole, samples):
     return same
 
 
+@intrinsic
+def _ask_for(_context, _address):
+    """Tell the processor that the memory at an address will be read soon (LLVM's ``llvm.prefetch``)."""
+
+    def generate(_target, builder, _signature, arguments):
+        pointer, number = ir.PointerType(ir.IntType(8)), ir.IntType(32)
+        function_type = ir.FunctionType(ir.VoidType(), [pointer, number, number, number])
+        ask = cgutils.get_or_insert_function(builder.module, function_type, "llvm.prefetch.p0")
+        # To be read, into all caches, as data.
+        place = builder.inttoptr(arguments[0], pointer)
+        builder.call(ask, [place, number(0), number(3), number(1)])
+
+    return types.void(types.uintp), generate
+
+
+@njit(**LEAN)
+def ask_for_next(numbers, path, pairs_begin, pairs_end):
+    """Ask for the points that sixteen paths from here will draw of some pairs, while others are being followed.
+
+    The table is larger than the second-level cache, and each pixel has another row of it: without this each draw waits
+    for memory.
+    """
+    points, salts = numbers.points, numbers.salts
+    orders, samples = np.uint32(points.shape[1]), np.uint64(numbers.samples)
+    end = np.uint64(min(path + WIDTH, len(numbers.pixels) * numbers.samples))
+    begin = np.uint64(path)
+    while begin < end:
+        pixel = begin // samples
+        sample = begin - pixel * samples
+        key = numbers.pixels[pixel]
+        for pair in range(pairs_begin, pairs_end):
+            order = np.uint64(hashed(key, salts[pair, 0]) % orders)
+            line = 2 * pair if pair < 2 else 0
+            for row in range(line, line + 2):
+                _ask_for(points[row, order, np.uint64(numbers.first) + sample :].ctypes.data)
+        begin = (pixel + np.uint64(1)) * samples
+
+
+@njit(**LEAN)
+def _unit(word):
+    return np.float32(np.int32(word >> _BYTE)) * TO_UNIT
+
+
 @njit(**LEAN)
 def _draw_row(numbers, line, order, scramble, i, whole):
-    word = np.uint32(numbers.points[line, order, numbers.first + whole[SAMPLE + i]] ^ scramble)
-    return np.float32(np.int32(word >> _BYTE)) * TO_UNIT
+    # Unsigned, so that nobody looks whether an index counts from the end.
+    place = np.uint64(numbers.first) + np.uint64(whole[SAMPLE + i])
+    return _unit(numbers.points[np.uint64(line), order, place] ^ scramble)
+
+
+@njit(**LEAN)
+def _draw_next(points, first, scramble, s, row):
+    """The numbers of sixteen samples that follow each other."""
+    for i in range(WIDTH):
+        s[row + i] = _unit(points[first + np.uint64(i)] ^ scramble)
 
 
 @njit(**LEAN)
@@ -96,24 +150,33 @@ def draw(numbers, pair, width, same, s, whole, row):
     """The numbers of a pair of dimensions into one row, or two; see ``SobolSampler``."""
     salts, orders = numbers.salts, np.uint32(numbers.points.shape[1])
     line = 2 * pair if pair < 2 else 0
-    pixel = np.int64(-1)
-    order, one, two = np.int64(0), np.uint32(0), np.uint32(0)
+    pixel = np.int32(-1)
+    order, one, two = np.uint64(0), np.uint32(0), np.uint32(0)
     if same:
         key = numbers.pixels[whole[PIXEL]]
-        order = np.int64(hashed(key, salts[pair, 0]) % orders)
+        order = np.uint64(hashed(key, salts[pair, 0]) % orders)
         one = hashed(key, salts[pair, 1])
-        for i in range(WIDTH):
-            s[row + i] = _draw_row(numbers, line, order, one, i, whole)
         if width > 1:
             two = hashed(key, salts[pair, 2])
-            for i in range(WIDTH):
+        following = True
+        for i in range(1, WIDTH):
+            following &= whole[SAMPLE + i] == whole[SAMPLE] + i
+        if following:
+            first = np.uint64(numbers.first + whole[SAMPLE])
+            _draw_next(numbers.points[line, order], first, one, s, row)
+            if width > 1:
+                _draw_next(numbers.points[line + 1, order], first, two, s, row + WIDTH)
+            return
+        for i in range(WIDTH):
+            s[row + i] = _draw_row(numbers, line, order, one, i, whole)
+            if width > 1:
                 s[row + WIDTH + i] = _draw_row(numbers, line + 1, order, two, i, whole)
         return
     for i in range(WIDTH):
         if whole[PIXEL + i] != pixel:
-            pixel = np.int64(whole[PIXEL + i])
-            key = numbers.pixels[pixel]
-            order = np.int64(hashed(key, salts[pair, 0]) % orders)
+            pixel = whole[PIXEL + i]
+            key = numbers.pixels[np.uint64(pixel)]
+            order = np.uint64(hashed(key, salts[pair, 0]) % orders)
             one = hashed(key, salts[pair, 1])
             if width > 1:
                 two = hashed(key, salts[pair, 2])

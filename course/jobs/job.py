@@ -31,12 +31,14 @@ class Job:
     settings : those of the scene, or what was asked for in their place
     time_limit : seconds, or None
     start : a picture to be continued, or None
+    compiled : whether loops are compiled before the first sample
     """
 
     scene: Scene
     settings: Settings
     time_limit: float | None = None
     start: Picture | None = None
+    compiled: bool = False
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,38 @@
+"""An adaptive film whose arithmetic is compiled: the same bits in a tenth of the time; imports Numba."""
+
+import numpy as np
+
+from course.adaptive import film_kernels
+from course.adaptive.film import AdaptiveFilm, shares_of
+from course.core.types import Floats32, Indices
+
+
+class CompiledFilm(AdaptiveFilm):
+    """See ``AdaptiveFilm``."""
+
+    def _add_stretch(
+        self, which: Indices, mean: Floats32, weight: Floats32 | float, samples: int
+    ) -> None:
+        have = self.samples.reshape(-1)
+        before = int(have[which[0]])
+        film_kernels.add_stretch(
+            *(which, mean, np.atleast_1d(np.asarray(weight, np.float32)), np.int32(samples)),
+            *(shares_of(before, samples, self.order), np.float32((samples - before) / samples)),
+            (
+                *(self._sums, self._halves, self._quarters, self.linear.reshape(3, -1)),
+                *(self.variance.reshape(-1), self.cost.reshape(-1), have),
+            ),
+        )
+
+    def _smoothed(self, order: float) -> tuple[Floats32, Floats32]:
+        shape = self.variance.shape
+        weights, (total, own) = np.empty((4, *shape), np.float32), np.empty((2, *shape), np.float32)
+        variance, cost = np.empty((2, *shape), np.float32)
+        film_kernels.likeness(self.linear, self.variance, total, weights)
+        np.exp(weights, out=weights)
+        film_kernels.weigh(weights, total)
+        scale = self.samples.astype(np.float32) ** np.float32(2 * order)
+        film_kernels.smooth(self.variance, scale, self.samples, weights, total, own, variance)
+        scale[:] = 1
+        film_kernels.smooth(self.cost, scale, self.samples, weights, total, own, cost)
+        return variance, cost
