@@ -22,12 +22,15 @@ penumbra.rays = function (root, data) {
   const into = (each) => nameOf(each) === "environment";
   const deepest = Math.max(0, ...segments.map((each) => each[DEPTH]));
   const counted = (kind, who) => segments.filter((each) => each[KIND] === kind && each[WHO] === who).length;
-  // Wrong rays may end anywhere: the right ones say how large the view is.
-  const sized = segments.filter((each) => each[WHO] === sides.length - 1);
-  const places = sized.filter((each) => !into(each)).map((each) => each[END]);
-  const focus = places.length
-    ? mix(places.reduce((a, b) => [a[0] + b[0], a[1] + b[1], a[2] + b[2]]).map((x) => x / places.length), data.camera.eye, 0.25)
-    : data.camera.eye;
+  // Wrong rays may end anywhere: the right ones say how large the view is. Where these hit nothing, the wrong ones do,
+  // or the places of the objects, by their middles: a floor may be very large.
+  const hitting = segments.filter((each) => !into(each));
+  const righter = hitting.filter((each) => each[WHO] === sides.length - 1);
+  const sized = righter.length ? righter : hitting;
+  const middle = (points) => [0, 1, 2].map((k) => (Math.min(...points.map((p) => p[k])) + Math.max(...points.map((p) => p[k]))) / 2);
+  const there = [...data.objects.map((object) => middle(object.triangles.flatMap((t) => [t.slice(0, 3), t.slice(3, 6), t.slice(6, 9)]))), ...data.camera.film];
+  const places = sized.length ? sized.map((each) => each[END]) : there;
+  const focus = mix(places.reduce((a, b) => [a[0] + b[0], a[1] + b[1], a[2] + b[2]]).map((x) => x / places.length), data.camera.eye, 0.25);
   const far = [...places, data.camera.eye].map((p) => Math.hypot(...sub(p, focus))).sort((a, b) => a - b);
   const extent = Math.max(far[far.length - 1], 1e-9);
   const spans = (points) => [0, 1, 2].map((k) => {
@@ -64,7 +67,7 @@ penumbra.rays = function (root, data) {
   const shown = { kinds: data.kinds.map(() => true), depth: deepest, surfaces: 1, sample: -1, who: -1 };
   // What can be looked at from near: a lamp or the lens by its size, and where the camera's rays end.
   const near = [["all", focus, 2.6 * extent]];
-  const firsts = sized.filter((each) => each[DEPTH] === 0 && each[KIND] === 0 && !into(each)).map((each) => each[END]);
+  const firsts = sized.filter((each) => each[DEPTH] === 0 && each[KIND] === 0).map((each) => each[END]);
   if (firsts.length) near.push(["what is hit", firsts[Math.floor(firsts.length / 2)], 0.5 * extent]);
   for (const lamp of data.lamps) {
     if (lamp.radius) near.push([lamp.name, lamp.at, 5 * lamp.radius]);
@@ -160,21 +163,23 @@ penumbra.rays = function (root, data) {
   function strips() {
     const found = new Map();
     for (const each of segments) {
-      for (const [number, result] of each[CALLS]) {
-        const values = (Array.isArray(result) ? result : [result]).map(Number);
-        const name = sides[each[WHO]].functions[number];
-        if (values.length > 4 || values.some((x) => Number.isNaN(x))) continue;
-        if (!found.has(name)) found.set(name, []);
-        found.get(name).push([each[WHO], each[SAMPLE], values]);
+      for (const [number, ...returned] of each[CALLS]) {
+        returned.forEach((result, which) => {
+          const values = (Array.isArray(result) ? result : [result]).map(Number);
+          const name = sides[each[WHO]].functions[number] + " returned" + called(sides[each[WHO]], number, which, " as ");
+          if (values.length > 4 || values.some((x) => Number.isNaN(x))) return;
+          if (!found.has(name)) found.set(name, []);
+          found.get(name).push([each[WHO], each[SAMPLE], values]);
+        });
       }
     }
     // The filter's weight is a result, too, though nobody is asked for single rays.
     const weighed = sides.flatMap((side, who) => side.samples.map((each, sample) => [who, sample, [Math.hypot(each.offset[0] - 0.5, each.offset[1] - 0.5), Number(each.weight)]]));
-    if (weighed.some(([, , [, weight]]) => weight !== weighed[0][2][1])) found.set("the filter", weighed);
-    return [...found].slice(0, 6).map(([name, calls]) => {
-      const box = make("fieldset", { class: "results" }, make("legend", {}, `What ${name} returned`));
+    if (weighed.some(([, , [, weight]]) => weight !== weighed[0][2][1])) found.set("the filter returned", weighed);
+    return [...found].slice(0, 8).map(([name, calls]) => {
+      const box = make("fieldset", { class: "results" }, make("legend", {}, `What ${name}`));
       const ticks = [];
-      const axes = name === "the filter" ? ["distance from the pixel's centre", "weight"] : ["x", "y", "z", "w"];
+      const axes = name === "the filter returned" ? ["distance from the pixel's centre", "weight"] : ["x", "y", "z", "w"];
       const across = Math.max(...calls.map(([, , values]) => values.length));
       for (let axis = 0; axis < across; axis += 1) {
         const all = calls.filter(([, , values]) => axis < values.length && Number.isFinite(values[axis]));
@@ -215,6 +220,12 @@ penumbra.rays = function (root, data) {
     });
   }
 
+  // A result by its name, where a function has several.
+  function called(side, number, which, before) {
+    const names = side.results[number];
+    return names.length > 1 ? before + names[which] : "";
+  }
+
   function drawn(name, attributes) {
     const element = document.createElementNS("http://www.w3.org/2000/svg", name);
     Object.entries(attributes).forEach(([key, value]) => element.setAttribute(key, value));
@@ -234,7 +245,7 @@ penumbra.rays = function (root, data) {
     sides.forEach((side, who) => {
       const list = make("ol", {});
       for (const each of segments.filter((one) => one[SAMPLE] === number && one[WHO] === who)) {
-        const calls = each[CALLS].map(([name, result]) => ` ${side.functions[name]} returned ${Array.isArray(result) ? `(${result.join(", ")})` : result}.`);
+        const calls = each[CALLS].map(([name, ...returned]) => ` ${side.functions[name]} returned ${returned.map((result, which) => `${called(side, name, which, "")} ${Array.isArray(result) ? `(${result.join(", ")})` : result}`.trim()).join(", ")}.`);
         const brought = each[LIGHT] ? `, brings ${each[LIGHT]}` : "";
         const met = each[AIM] ? `is blocked by ${nameOf(each)}` : `meets ${nameOf(each)}`;
         list.append(make("li", {}, `${data.kinds[each[KIND]]} ray ${met}${brought}.${calls.join("")}`));

@@ -102,12 +102,13 @@ def rays_data(story: Story, most: int = MOST_PATHS) -> dict[str, Any]:
     }
     names: dict[str, int] = {}
     functions: dict[str, int] = {}
+    results: list[list[str]] = []
     rows: list[list[Any]] = []
     numbers: dict[int, int] = {}
     for one in story.segments:
         if (sample := place.get((one.pixel, one.sample))) is not None:
             numbers[one.number] = len(rows)
-            rows.append(_row(one, sample, numbers, names, functions))
+            rows.append(_row(one, sample, numbers, names, functions, results))
     radiance = recording.radiance.reshape(3, -1)
     samples = [
         {
@@ -125,6 +126,7 @@ def rays_data(story: Story, most: int = MOST_PATHS) -> dict[str, Any]:
         "all": pixels * count,
         "names": list(names),
         "functions": list(functions),
+        "results": results,
         "segments": rows,
     }
 
@@ -135,15 +137,15 @@ def _row(
     numbers: dict[int, int],
     names: dict[str, int],
     functions: dict[str, int],
+    results: list[list[str]],
 ) -> list[Any]:
-    """Sample, parent, depth, kind, start, end, met, aim (0 unless blocked), light brought, calls: function, result."""
-    calls = [
-        [
-            functions.setdefault(call.function, len(functions)),
-            rounded(next(iter(call.results.values()), None)),
-        ]
-        for call in one.calls
-    ]
+    """Sample, parent, depth, kind, start, end, met, aim (0 unless blocked), light brought, calls: function, results."""
+    calls = []
+    for call in one.calls:
+        if call.function not in functions:
+            functions[call.function] = len(functions)
+            results.append(list(call.results))
+        calls.append([functions[call.function], *map(rounded, call.results.values())])
     return [
         sample,
         -1 if one.parent is None else numbers[one.parent],

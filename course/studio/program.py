@@ -28,7 +28,7 @@ from course.core.film import Film
 from course.effects import Bound, Effects, NothingWritten
 from course.errors import CourseError, CourseWarning
 from course.formats.pictures.display import SRGB, Display
-from course.recording.pair import departing, pair_data, told
+from course.recording.pair import departing, pair_data, told, unexplained
 from course.recording.recording import record, recordable
 from course.recording.story import Line, Story
 from course.recording.view import rays_data, view_data
@@ -265,15 +265,19 @@ class Program:
     def _tell_both(self, x: int, y: int, rays: dict[str, Any]) -> None:
         if self._story is None or self._told["story"] != [x, y]:
             return
-        written = [
-            f for f in self._story.recording.asked if self.scene.effects.written(*f.split("."))
-        ]
+        # Some are asked before there is a ray: they come last, as nothing is known of them.
+        needed = [need.function for need in self.scene.compiled.needs]
+        asked = dict.fromkeys([*self._story.recording.asked, *needed])
+        written = [f for f in asked if self.scene.effects.written(*f.split("."))]
         departs = departing(self._story, rays, written)
-        if departs is None:
+        data = pair_data(self._story, rays, departs or "")
+        # What is said before the lines, where no function can be named.
+        lead = unexplained(data, written) if departs is None else ""
+        if lead is None:
             self.channel.send(self._told | {"rays": view_data(self._story), "beside": []})
             return
-        data = pair_data(self._story, rays, departs)
-        self.channel.send(self._told | {"rays": data, "beside": told(data, "the course's is")})
+        lines = told(data, "the course's is", "the course's functions")
+        self.channel.send(self._told | {"rays": data, "beside": lines, "lead": lead})
 
     @property
     def scene(self) -> Scene:

@@ -260,9 +260,9 @@
     const lines = told.beside;
     if (!lines) return [];
     if (!lines.length) return [make("p", { class: "beside" }, "The course's functions send the same rays.")];
-    const lead = told.is_right
+    const lead = told.lead || (told.is_right
       ? `${told.rays.function} is right by the checks. It turns the same numbers into other rays than the course's function does:`
-      : `Where ${told.rays.function} departs from the course's function, which got the same numbers:`;
+      : `Where ${told.rays.function} departs from the course's function, which got the same numbers:`);
     return [make("div", { class: "beside" }, make("p", {}, lead), make("ul", {}, ...lines.map((line) => make("li", {}, line))))];
   }
   const tree = (lines) => make("ul", {}, ...lines.map(([text, below]) => make("li", {}, text, ...(below.length ? [tree(below)] : []))));

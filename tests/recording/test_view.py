@@ -13,7 +13,8 @@ from course.cli.main import commands
 from course.core.types import Floats64
 from course.effects import PROJECT
 from course.recording import scenery, view
-from course.recording.view import page, view_data
+from course.recording.pair import pair_data
+from course.recording.view import page, rays_data, view_data
 from tests.browser import untroubled
 
 CliRunner = pytest.importorskip("click.testing").CliRunner
@@ -215,6 +216,42 @@ def test_a_ray_is_black_behind_its_blocker(opened: Any, story: Story) -> None:
         _settle(opened)
         found[name] = opened.evaluate(BLACK)
     assert found["blocked"] > found["free"] + 50
+
+
+SIZE_OF_VIEW = """data => {
+  const root = document.querySelector('.rays');
+  root.replaceChildren();
+  return penumbra.rays(root, data).view.distance;
+}"""
+
+
+@pytest.mark.parametrize("missing", ["right", "both", "everything"])
+def test_rays_that_hit_nothing_leave_a_view_of_what_is_there(
+    opened: Any, story: Story, missing: str
+) -> None:
+    data = pair_data(story, rays_data(story), "")
+    usual = opened.evaluate(SIZE_OF_VIEW, data)
+    sides = [data["right"]] if missing == "right" else [data, data["right"]]
+    for side in sides:
+        side["names"] = ["environment"]
+        camera = [row for row in side["segments"] if view.KINDS[row[3]] == "camera"]
+        side["segments"] = [[*row[:6], 0, *row[7:]] for row in camera]
+    if missing == "everything":
+        data["objects"], data["lamps"] = [], []
+        assert opened.evaluate(SIZE_OF_VIEW, data) > 1e-3 * usual
+        return
+    size = opened.evaluate(SIZE_OF_VIEW, data)
+    assert 0.2 * usual < size < 5 * usual
+    opened.locator(".rays input[data-kind=camera]").uncheck()
+    _settle(opened)
+    painted = opened.evaluate(
+        """() => {
+          const canvas = document.querySelector(".rays canvas");
+          const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+          return data.filter((x, k) => k % 4 === 3 && x > 250).length / (canvas.width * canvas.height);
+        }"""
+    )
+    assert painted > 0.05
 
 
 def test_depths_are_stepped_through_and_a_dot_lights_its_ray(browser: Any, tmp_path: Path) -> None:

@@ -43,10 +43,10 @@ return (center[:, None] + offset).astype(u.dtype)
 WRONG = RIGHT.replace("radius *", "0.1 * radius *")
 
 
-def write(folder: Path, body: str) -> None:
-    """Write the body of `point_on_sphere` into the stub of soft_shadows, as an editor saves a file."""
+def write(folder: Path, body: str, function: str = "point_on_sphere") -> None:
+    """Write the body of a function into the stub of soft_shadows, as an editor saves a file."""
     stub = (PROJECT / "assignments" / "soft_shadows.py").read_text(encoding="utf-8")
-    head = stub.index("def point_on_sphere(")
+    head = stub.index(f"def {function}(")
     last = stub.index("raise NotImplementedError", head)
     rest = stub.index("\n", last)
     file = folder / "assignments" / "soft_shadows.py"

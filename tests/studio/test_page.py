@@ -15,7 +15,7 @@ from course.modules import COURSE
 from course.studio.server import Server
 from course.studio.studio import Studio
 from tests.browser import tab_to
-from tests.studio.conftest import RIGHT, WRONG, until, write
+from tests.studio.conftest import RIGHT, SCENE, WRONG, until, write
 
 # Where many tests run at once, a process is long in starting.
 pytestmark = pytest.mark.timeout(900)
@@ -203,6 +203,35 @@ def test_a_pixel_shows_the_courses_rays_beside_wrong_ones(
         write(work, RIGHT)
         until(lambda: "The course's functions send the same rays." in text(page, "#story"))
         assert page.get_attribute("#story", "data-pixel") == place
+
+
+WRONG_GRID = """\
+u, v = np.meshgrid(np.arange(k) / k, np.arange(k) / k)
+offset = 3 * edge_u[:, None] * u.ravel() + edge_v[:, None] * v.ravel()
+return (corner[:, None] + offset).astype(np.float32)
+"""
+
+
+def test_rays_of_a_function_that_was_asked_before_there_was_a_ray_are_told_as_others(
+    browser: Any, studio: Studio, work: Path
+) -> None:
+    write(work, WRONG_GRID, "light_grid")
+    ball = "{type: sphere, center: [-2, 3, 2], radius: 0.8, intensity: 30}"
+    lamp = (
+        "{type: rectangle, corner: [-2, 3, 2], edge_u: [1, 0, 0], edge_v: [0, 0, 1],"
+        " intensity: 30, samples: grid 2}"
+    )
+    (work / "ball.yaml").write_text(SCENE.replace(ball, lamp), encoding="utf-8")
+    with opened(browser, studio) as page:
+        until(lambda: "by more than noise" in text(page, "#verdict"))
+        ready(page)
+        page.locator("#mine").click(position={"x": 80, "y": 150})
+        page.locator("#story .beside li").first.wait_for()
+        said = text(page, "#story .beside")
+        assert "The course's functions send other rays, but no recorded result" in said
+        assert "Of yours this picture needs soft_shadows.light_grid." in said
+        assert "departs from" not in said
+        assert page.locator("#story .rays input[type=radio]").count() == 3
 
 
 def test_two_tabs_show_the_same(browser: Any, studio: Studio, work: Path) -> None:
