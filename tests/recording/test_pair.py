@@ -108,6 +108,18 @@ def test_a_difference_of_rounding_is_not_told(right: Story) -> None:
     (line,) = told(data)
     assert line.startswith("The pixel is ")
     assert departing(yours, data["right"], [FUNCTION]) is None
+    # Of numbers about 0 three digits differ, too.
+    zero, little = (
+        with_segments(
+            right,
+            lambda one, x=x: replace(
+                one, calls=[replace(call, results={"the points": [x] * 3}) for call in one.calls]
+            ),
+        )
+        for x in (0.0, 5e-5)
+    )
+    (line,) = told(pair_data(little, rays_data(zero), FUNCTION))
+    assert line.startswith("The pixel is ")
 
 
 def test_where_right_rays_ask_no_light_it_is_said_in_words(right: Story) -> None:
@@ -164,8 +176,10 @@ def test_what_the_film_got_says_which_of_its_functions_departs(
     right: Story, changed: str, named: str | None
 ) -> None:
     functions = [f"supersampling.{name}" for name in ("regular", "gaussian_weights", "resolve")]
-    other = getattr(right.recording, changed) * np.float32(1.1)
-    yours = Story(replace(right.recording, **{changed: other}))
+    # Other samples' light is another colour, too.
+    both = {changed, "linear"} if changed == "radiance" else {changed}
+    other = {name: getattr(right.recording, name) * np.float32(1.1) for name in both}
+    yours = Story(replace(right.recording, **other))
     rays = rays_data(right)
     assert departing(yours, rays, [FUNCTION, *functions]) == named
     said = unexplained(pair_data(yours, rays, ""), functions)
