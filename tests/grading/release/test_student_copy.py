@@ -90,6 +90,6 @@ def test_its_own_tests_are_found_with_what_its_makefile_installs(copy: Path) -> 
     assert first == "pytest"
     given = [word for name in plugins for word in ("-p", name.replace("-", "_"))]
     line = ("-m", "pytest", "-q", "--collect-only", "tests", *given)
-    # The plugins of this environment are not those of the student's.
-    alone = os.environ | {"PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1"}
+    # The plugins and options of this environment are not those of the student's.
+    alone = os.environ | {"PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1", "PYTEST_ADDOPTS": ""}
     python(*line, folder=copy, path=copy, environment=alone)
