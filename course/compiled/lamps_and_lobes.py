@@ -11,7 +11,14 @@ from course.core.direct import Candidates
 from course.core.hits import Hits
 from course.core.rays import Draws, Rays
 from course.core.types import Floats32, Indices
-from course.extras.lamps_and_lobes import ALONE, LampsAndLobes, LobeLight, LobeRays, RoundLamp
+from course.extras.lamps_and_lobes import (
+    ALONE,
+    LampsAndLobes,
+    LobeLight,
+    LobeRays,
+    RoundLamp,
+    left_by,
+)
 from course.extras.own import courses_own
 from course.extras.plan import same_fields
 from course.extras.scatter import FullScatter
@@ -119,12 +126,7 @@ class CompiledLampsAndLobes(LampsAndLobes):
         """See ``LampsAndLobes``."""
         from course.compiled import lobe_kernels
 
-        which = rays.path
-        assert which is not None
-        if path is not None and len(path):
-            place = np.empty(path.max() + 1, np.intp)
-            place[path] = np.arange(len(path))
-            which = place.take(which)
+        which = left_by(rays, path)
         density, peak = np.empty((2, rays.size), np.float32)
         arrays = which, rays.direction, hits.direction, hits.ns, hits.ng, hits.material
         exponents, call = self._lobes.exponents, numpy_kernels.call_of()

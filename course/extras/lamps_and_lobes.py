@@ -325,12 +325,7 @@ class LampsAndLobes:
 
     def carried(self, hits: Hits, path: Indices | None, rays: Rays) -> LobeRays:
         """The rays that leave hits of paths (n,), each path at most once, with the densities of their lobes."""
-        which = rays.path
-        assert which is not None
-        if path is not None and len(path):
-            place = np.empty(path.max() + 1, np.intp)
-            place[path] = np.arange(len(path))
-            which = place.take(which)
+        which = left_by(rays, path)
         density = np.full(rays.size, DELTA)
         mine = np.flatnonzero(self.combining.exponents.take(hits.material.take(which)) >= 0)
         at = which.take(mine)
@@ -428,3 +423,14 @@ def plan_lamps_and_lobes(
         for lamp in combining.lamps
     )
     return LampsAndLobes(combining, scatter, stages)
+
+
+def left_by(rays: Rays, path: Indices | None) -> Indices:
+    """The hits that rays leave, (r,), of paths (n,), each path at most once; None for one hit a path, in order."""
+    which = rays.path
+    assert which is not None
+    if path is None or not len(path):
+        return which
+    place = np.empty(path.max() + 1, np.intp)
+    place[path] = np.arange(len(path))
+    return place.take(which)
