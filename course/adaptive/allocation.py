@@ -146,7 +146,8 @@ def _level(
     high = math.pow(float(unit.sum(dtype=np.float64)) / allowed, 1 / (2 * order))
     high = max(low, min(high, float(LADDER[-1] / w.min())))
     first_bits = ratio.view(np.int32) >> _LAST_BITS
-    first_bits -= (begin := first_bits.min())
+    begin = first_bits.min()
+    first_bits -= begin
     edges = (np.arange(first_bits.max() + 2, dtype=np.int32) + begin << _LAST_BITS).view(np.float32)
     below = [
         np.concatenate(([0.0], np.cumsum(np.bincount(first_bits, values))))

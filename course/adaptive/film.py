@@ -227,7 +227,7 @@ class _Compared:
 
 
 def shares_of(before: int, samples: int, order: float) -> Floats32:
-    """What the variance of a mean is of each thing that tells it: (5,) float32, the last of their sum.
+    """By what each thing that tells the variance of a mean is multiplied, and then their sum: (5,) float32.
 
     The things are the squared differences of the quarters and of the halves of the last stretch, that of the stretch
     and the samples before it, which counts twice, and the variance of these.

@@ -7,15 +7,11 @@ import numpy as np
 from numba import njit
 
 from course.adaptive.film import FARTHEST_APART, NEARLY_NOTHING, PARTS
-from course.adaptive.smoothing import BLIND, LEAK, NO_NOISE, NOISE
+from course.adaptive.smoothing import BLIND, LEAK, NO_NOISE, NOISE, PAIRS
 from course.compiled.options import OPTIONS
 
 _THIRD, _HALF, _ONE, _TWO, _FOUR = map(np.float32, (1 / 3, 0.5, 1, 2, 4))
 _SIXTEENTH, _THREE, _BLIND, _NOISE = map(np.float32, (1 / 16, 3, BLIND, NOISE))
-_PAIRS = ((0, 1, 2), (1, 0, 2), (1, 1, 1), (1, -1, 1))
-"""Rows and columns from a pixel to a neighbour, and the binomial weight, as in ``smoothing.Guide``."""
-
-
 _PARTS = np.uint64(PARTS)
 
 
@@ -123,7 +119,7 @@ def _add(sums, weights):
 @njit(**OPTIONS)
 def _ends(pair, width):
     """Rows and columns to the neighbour, and the columns where there are both."""
-    dy, dx, _ = _PAIRS[pair]
+    dy, dx, _ = PAIRS[pair]
     begin, end = max(-dx, 0), width - max(dx, 0)
     return dy, begin, end, begin + dx, end + dx
 
@@ -158,7 +154,7 @@ def weigh(weights, total):
     height, width = total.shape
     total[:] = _FOUR
     for pair in range(4):
-        binomial = _PAIRS[pair][2]
+        binomial = PAIRS[pair][2]
         alike, always = np.float32(binomial * (1 - LEAK)), np.float32(binomial * LEAK)
         dy, begin, end, begin_2, end_2 = _ends(pair, width)
         for y in range(height - dy):

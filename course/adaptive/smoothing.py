@@ -22,6 +22,9 @@ as good on the scenes of the course, and rare light is darkened by a quarter."""
 NO_NOISE = np.float32(1e-30)
 """Added to variances that are divided by, which may be 0."""
 
+PAIRS = ((0, 1, 2), (1, 0, 2), (1, 1, 1), (1, -1, 1))
+"""Rows and columns from a pixel to a neighbour, and its binomial weight; each two neighbours once."""
+
 Window = tuple[slice, slice]
 """Rows and columns of a picture."""
 
@@ -40,7 +43,7 @@ class Guide:
         # Each pair of neighbours once: the weights are the same both ways.
         self._pairs: list[tuple[Window, Window, Floats32]] = []
         self._total = np.full(variance.shape, 4, np.float32)
-        for dy, dx, binomial in ((0, 1, 2), (1, 0, 2), (1, 1, 1), (1, -1, 1)):
+        for dy, dx, binomial in PAIRS:
             here, there = _windows(dy, dx)
             difference = colours[:, *here] - colours[:, *there]
             weight = np.einsum("chw,chw->hw", difference, difference)

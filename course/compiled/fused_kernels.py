@@ -630,7 +630,7 @@ def follow(
                         whole[PATH + i] = first_path + first + min(i, count - 1)
                         whole[MEDIUM + i] = -1
                     same = find_pixels(whole, numbers.samples)
-                    ask_for_next(numbers, first_path + first + WIDTH, 0, depths.seen)
+                    ask_for_next(numbers, first_path + first + WIDTH, depths.seen)
                     look(numbers, eye, same, scratch.call, s, whole)
                     for i in range(3 * WIDTH):
                         s[THROUGHPUT + i] = _ONE

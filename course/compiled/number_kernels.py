@@ -104,8 +104,8 @@ def _ask_for(_context, _address):
 
 
 @njit(**LEAN)
-def ask_for_next(numbers, path, pairs_begin, pairs_end):
-    """Ask for the points that sixteen paths from here will draw of some pairs, while others are being followed.
+def ask_for_next(numbers, path, pairs):
+    """Ask for the points that sixteen paths from here will draw of the first pairs, while others are being followed.
 
     The table is larger than the second-level cache, and each pixel has another row of it: without this each draw waits
     for memory.
@@ -118,7 +118,7 @@ def ask_for_next(numbers, path, pairs_begin, pairs_end):
         pixel = begin // samples
         sample = begin - pixel * samples
         key = numbers.pixels[pixel]
-        for pair in range(pairs_begin, pairs_end):
+        for pair in range(pairs):
             order = np.uint64(hashed(key, salts[pair, 0]) % orders)
             line = 2 * pair if pair < 2 else 0
             for row in range(line, line + 2):
@@ -146,31 +146,30 @@ def _draw_next(points, first, scramble, s, row):
 
 
 @njit(**LEAN)
+def _follow(whole):
+    """True if the samples of sixteen paths follow each other."""
+    follow = True
+    for i in range(1, WIDTH):
+        follow &= whole[SAMPLE + i] == whole[SAMPLE] + i
+    return follow
+
+
+@njit(**LEAN)
 def draw(numbers, pair, width, same, s, whole, row):
     """The numbers of a pair of dimensions into one row, or two; see ``SobolSampler``."""
     salts, orders = numbers.salts, np.uint32(numbers.points.shape[1])
     line = 2 * pair if pair < 2 else 0
     pixel = np.int32(-1)
     order, one, two = np.uint64(0), np.uint32(0), np.uint32(0)
-    if same:
+    if same and _follow(whole):
         key = numbers.pixels[whole[PIXEL]]
         order = np.uint64(hashed(key, salts[pair, 0]) % orders)
+        first = np.uint64(numbers.first + whole[SAMPLE])
         one = hashed(key, salts[pair, 1])
+        _draw_next(numbers.points[line, order], first, one, s, row)
         if width > 1:
             two = hashed(key, salts[pair, 2])
-        following = True
-        for i in range(1, WIDTH):
-            following &= whole[SAMPLE + i] == whole[SAMPLE] + i
-        if following:
-            first = np.uint64(numbers.first + whole[SAMPLE])
-            _draw_next(numbers.points[line, order], first, one, s, row)
-            if width > 1:
-                _draw_next(numbers.points[line + 1, order], first, two, s, row + WIDTH)
-            return
-        for i in range(WIDTH):
-            s[row + i] = _draw_row(numbers, line, order, one, i, whole)
-            if width > 1:
-                s[row + WIDTH + i] = _draw_row(numbers, line + 1, order, two, i, whole)
+            _draw_next(numbers.points[line + 1, order], first, two, s, row + WIDTH)
         return
     for i in range(WIDTH):
         if whole[PIXEL + i] != pixel:
