@@ -11,6 +11,7 @@ import numpy as np
 from numba import njit
 
 from course.compiled import numpy_kernels
+from course.compiled.cap_kernels import towards_cap
 from course.compiled.clock_kernels import nanoseconds
 from course.compiled.lanes import (
     ABOVE,
@@ -57,8 +58,8 @@ from course.core.types import Floats32, Indices, Mask
 AT_A_POINT, FAR_AWAY, RECTANGLE, SPHERE, BALL, FACING_DISK, VISIBLE = range(7)
 """Kinds of lights."""
 
-_NOTHING, _HALF, _ONE, _TWO = np.float32(0), np.float32(0.5), np.float32(1), np.float32(2)
-_CLOSEST, _LEAST = np.float32(CLOSEST), np.float32(CLOSEST * CLOSEST)
+_NOTHING, _ONE, _TWO = np.float32(0), np.float32(1), np.float32(2)
+_LEAST = np.float32(CLOSEST * CLOSEST)
 _LEAST_HALF, _LEAST_COSINE = np.float32(1e-12), np.float32(1e-6)
 _TO_THE_LIGHT = np.float32(TO_THE_LIGHT)
 _Y, _Z = WIDTH, 2 * WIDTH
@@ -131,29 +132,11 @@ def _towards_visible(call, s, squared_radius, x0, y0, z0):
     circle(call, s, U + WIDTH)
     for i in range(WIDTH):
         x, y, z = x0 - s[POINT + i], y0 - s[POINT + _Y + i], z0 - s[POINT + _Z + i]
-        squared = max(_NOTHING + x * x + y * y + z * z, _LEAST)
-        inverse, distance = _ONE / squared, np.sqrt(squared)
-        scale = np.sqrt(inverse)
-        x, y, z = x * scale, y * scale, z * scale
-        squared_sine = squared_radius * inverse
-        shines = _ONE if squared_sine < _ONE else _NOTHING
-        squared_sine = min(squared_sine, _ONE)
-        above = _ONE + np.sqrt(_ONE - squared_sine)
-        fallen = squared_sine / above * s[U + i]
-        bent = fallen * (_TWO - fallen)
-        sine, height = np.sqrt(bent), _ONE - fallen
-        p, q = sine * s[A + i], sine * s[B + i]
-        sign = np.float32(math.copysign(_ONE, z))
-        a = -_ONE / (sign + z)
-        b = x * y * a
-        length = distance * np.sqrt(_ONE - bent)
-        length -= np.sqrt(max(squared_radius - squared * bent, _NOTHING))
-        length = max(length, _CLOSEST)
-        s[SHADOW_TO + i] = (x * height + (p * (_ONE + sign * x * x * a) + q * b)) * length
-        s[SHADOW_TO + _Y + i] = (y * height + (p * (sign * b) + q * (sign + y * y * a))) * length
-        s[SHADOW_TO + _Z + i] = (z * height - (p * (sign * x) + q * y)) * length
-        s[INVERSE + i] = _ONE / length
-        s[FACTOR + i] = _HALF * inverse / above * shines
+        squared = _NOTHING + x * x + y * y + z * z
+        x, y, z, s[INVERSE + i], s[FACTOR + i] = towards_cap(
+            x, y, z, squared, squared_radius, s[U + i], s[A + i], s[B + i]
+        )
+        s[SHADOW_TO + i], s[SHADOW_TO + _Y + i], s[SHADOW_TO + _Z + i] = x, y, z
 
 
 @njit(**LEAN)

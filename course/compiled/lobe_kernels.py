@@ -4,15 +4,14 @@ Densities and weights are those of ``course.extras.lamps_and_lobes``, in the sam
 bits; so are the course's ``cone_density`` and ``heuristic_weights``.
 """
 
-import math
 from typing import NamedTuple
 
 import numpy as np
 from numba import njit
 
 from course.compiled import numpy_kernels
+from course.compiled.cap_kernels import towards_cap
 from course.compiled.options import LEAN, OPTIONS
-from course.core.lights.sample import CLOSEST
 from course.core.types import Floats32
 
 ROW = 64
@@ -24,8 +23,7 @@ U, V, SINE, COSINE, ABOVE, BELOW, HELD, INVERSE, IRRADIANCE, FACING, LAMP, WAY, 
 """Rows of numbers; WAY and TO have three each."""
 
 DELTA = np.float32(np.inf)
-_NOTHING, _HALF, _ONE, _TWO = np.float32(0), np.float32(0.5), np.float32(1), np.float32(2)
-_LEAST, _CLOSEST = np.float32(CLOSEST * CLOSEST), np.float32(CLOSEST)
+_NOTHING, _ONE, _TWO = np.float32(0), np.float32(1), np.float32(2)
 _SHORT, _MOST, _TURN = np.float32(1e-30), np.float32(1 - 1e-7), np.float32(2 * np.pi)
 
 
@@ -204,29 +202,10 @@ def _towards(ball, near_origin, which, first, count, u, call, s):
         )
         squared = _NOTHING + x * x + y * y + z * z
         s[LAMP + i] = _cone_density(ball.radius, np.sqrt(squared))
-        squared = max(squared, _LEAST)
-        inverse, distance = _ONE / squared, np.sqrt(squared)
-        scale = np.sqrt(inverse)
-        x, y, z = x * scale, y * scale, z * scale
-        squared_sine = ball.squared * inverse
-        shines = _ONE if squared_sine < _ONE else _NOTHING
-        squared_sine = min(squared_sine, _ONE)
-        above = _ONE + np.sqrt(_ONE - squared_sine)
-        fallen = squared_sine / above * u[0, first + i]
-        bent = fallen * (_TWO - fallen)
-        sine, height = np.sqrt(bent), _ONE - fallen
-        p, q = sine * s[COSINE + i], sine * s[SINE + i]
-        sign = np.float32(math.copysign(_ONE, z))
-        a = -_ONE / (sign + z)
-        b = x * y * a
-        length = distance * np.sqrt(_ONE - bent)
-        length -= np.sqrt(max(ball.squared - squared * bent, _NOTHING))
-        length = max(length, _CLOSEST)
-        s[TO + i] = (x * height + (p * (_ONE + sign * x * x * a) + q * b)) * length
-        s[TO + ROW + i] = (y * height + (p * (sign * b) + q * (sign + y * y * a))) * length
-        s[TO + 2 * ROW + i] = (z * height - (p * (sign * x) + q * y)) * length
-        s[INVERSE + i] = _ONE / length
-        s[FACING + i] = _HALF * inverse / above * shines
+        x, y, z, s[INVERSE + i], s[FACING + i] = towards_cap(
+            x, y, z, squared, ball.squared, u[0, first + i], s[COSINE + i], s[SINE + i]
+        )
+        s[TO + i], s[TO + ROW + i], s[TO + 2 * ROW + i] = x, y, z
 
 
 @njit(**OPTIONS)
