@@ -4,6 +4,7 @@ It is built by way of the source distribution and unpacked beside the libraries;
 """
 
 import json
+import os
 import re
 import shutil
 import subprocess
@@ -22,6 +23,9 @@ from tests.once import Once
 from tests.processes import python
 
 Course = Callable[..., subprocess.CompletedProcess[str]]
+
+OTHERS = "COURSE_TRY_PYTHONS"
+"""Environment variable: if it is set, the wheel is installed for the machine's other Pythons, by pip from the index."""
 
 pytest.importorskip("hatchling", reason="builds the wheel; it is one of the extras `dev`")
 
@@ -42,6 +46,17 @@ def _installed(folder: Path) -> None:
 def _built(target: str, source: Path, folder: Path) -> None:
     line = [sys.executable, "-m", "hatchling", "build", "-t", target, "-d", str(folder)]
     subprocess.run(line, cwd=source, check=True, capture_output=True, timeout=120)
+
+
+def _interpreter(version: str) -> Path | None:
+    """A Python of that version on this machine, that of pyenv included."""
+    versions = Path.home() / ".pyenv" / "versions"
+    found = [*versions.glob(f"{version}.*/bin/python{version}"), shutil.which(f"python{version}")]
+    for candidate in filter(None, found):
+        line = [candidate, "-c", "import ensurepip, venv"]
+        if not subprocess.run(line, check=False, capture_output=True).returncode:
+            return Path(candidate)
+    return None
 
 
 @pytest.fixture(scope="module")
@@ -152,3 +167,41 @@ def test_questions_are_written_from_the_wheel(course, tmp_path: Path) -> None:
     assert written.returncode == 0, written.stderr
     assert "1 question" in written.stdout
     assert (tmp_path / "out" / "canvas.zip").is_file()
+
+
+@pytest.mark.skipif(not os.environ.get(OTHERS), reason=f"{OTHERS} is not set: needs the network")
+@pytest.mark.parametrize("version", ["3.11", "3.12", "3.13", "3.14"])
+def test_another_python_installs_the_wheel_and_works(
+    version: str, site: Path, tmp_path: Path
+) -> None:
+    if version == f"{sys.version_info.major}.{sys.version_info.minor}":
+        pytest.skip("the other tests here run with this Python")
+    interpreter = _interpreter(version)
+    if interpreter is None:
+        pytest.skip(f"there is no Python {version} with venv here")
+    environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+
+    def run(*line: object, folder: Path = tmp_path) -> str:
+        done = subprocess.run(
+            [*map(str, line)],
+            cwd=folder,
+            env=environment,
+            check=False,
+            capture_output=True,
+            text=True,
+            timeout=600,
+        )
+        assert done.returncode == 0, done.stdout + done.stderr
+        return done.stdout
+
+    run(interpreter, "-m", "venv", "env")
+    binaries = tmp_path / "env" / ("Scripts" if sys.platform == "win32" else "bin")
+    (wheel,) = site.glob("*.whl")
+    run(binaries / "python", "-m", "pip", "install", "-q", wheel)
+    course, mine = binaries / "course", tmp_path / "mine"
+    run(course, "start", "mine")
+    run(course, "render", "scenes/soft_shadows.yaml", "--size", "60x40", folder=mine)
+    shutil.copy(
+        site / "penumbra_course_files" / "solutions" / "motion_blur.py", mine / "assignments"
+    )
+    assert "30 of 30 points" in run(course, "check", "motion_blur", folder=mine)
