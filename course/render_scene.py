@@ -15,7 +15,7 @@ from course.core.film import AnyFilm
 from course.core.render import Progress, Schedule
 from course.core.render import render as render_film
 from course.core.tracer import Tracer
-from course.effects import Bound
+from course.effects import Bound, Effects
 from course.errors import CourseError
 from course.jobs.job import Job, Mode, check_memory, chosen_settings
 from course.jobs.picture import Picture
@@ -30,6 +30,9 @@ from course.scene.scene import Denoising, Scene, Settings
 
 WORTH_COMPILED = 8_000_000
 """Camera rays from which on compiled loops save more than the second that Numba takes to get ready."""
+
+WORTH_READING = 50_000
+"""Pixels from which on any error to aim at takes so many samples that compiled loops are worth their reading."""
 
 NO_COMPILER = "COURSE_NO_COMPILER"
 """Environment variable: if it is set, nothing is compiled but by ``compiled=True``."""
@@ -90,22 +93,13 @@ def render(
     """
     since = monotonic() if since is None else since
     keep_freed_memory()
-    width, height = size or (None, None)
-    settings = chosen_settings(
-        scene.settings,
-        time_limit is not None or error is not None,
-        samples=spp,
-        width=width,
-        height=height,
-        sampler=sampler,
-        seed=seed,
-        error=error,
+    settings = _asked(
+        scene.settings, spp, size, sampler, seed, error, denoise, ends_early=time_limit is not None
     )
-    if denoise is not None:
-        rule = (settings.denoise or Denoising()) if denoise else None
-        settings = replace(settings, denoise=rule)
     packets = _use_compiled(settings, compiled)
-    later = packets and not compiled and address is None and _may_change_over(scene, settings)
+    later = (
+        packets and not compiled and address is None and _may_change_over(settings, scene.effects)
+    )
     job = Job(scene, settings, time_limit, start, packets and not later)
     mode = _mode(settings, time_limit)
     mode.check(job)
@@ -127,7 +121,18 @@ def render(
             from course.rendering.background_compile import compiling_told
 
             closed.enter_context(compiling_told())
-        tracer = bind(scene, settings, bound, packets and not later and address is None)
+        tracer = None
+        unread = later and _read_first(settings, time_limit)
+        if unread:
+            from course.rendering.background_compile import compile_loops, film_is_read, read
+
+            if (tracer := read(partial(bind, scene, settings, bound, True))) is not None:
+                later = False
+                job = replace(job, compiled=settings.error is None or film_is_read())
+                if not job.compiled:
+                    compile_loops(scene, settings)
+        if tracer is None:
+            tracer = bind(scene, settings, bound, packets and not later and address is None)
         display = developing(scene, settings, bound)
         film, schedule = mode.make(job, tracer, bound)
         executor: ThreadedExecutor
@@ -137,7 +142,8 @@ def render(
                 from course.rendering.background_compile import BackgroundCompiler
 
                 make = partial(bind, scene, settings, None, True)
-                closed.enter_context(closing(BackgroundCompiler(pool, make, scene, settings)))
+                compiler = BackgroundCompiler(pool, make, scene, settings, tried_to_read=unread)
+                closed.enter_context(closing(compiler))
         else:
             from course.cluster.executor import Cluster
 
@@ -149,6 +155,62 @@ def render(
     receipt = _receipt(job, bound, tracer, film, schedule, executor, monotonic() - began)
     settings = replace(settings, display=display)
     return Picture(film, settings, receipt, complete, executor.interrupted)
+
+
+def _asked(
+    settings: Settings,
+    spp: int | None,
+    size: tuple[int, int] | None,
+    sampler: str | None,
+    seed: int | None,
+    error: float | None,
+    denoise: bool | None,
+    *,
+    ends_early: bool,
+) -> Settings:
+    """The settings of a render; what isn't given is as the scene says. See ``render``."""
+    width, height = size or (None, None)
+    settings = chosen_settings(
+        settings,
+        ends_early or error is not None,
+        samples=spp,
+        width=width,
+        height=height,
+        sampler=sampler,
+        seed=seed,
+        error=error,
+    )
+    if denoise is not None:
+        rule = (settings.denoise or Denoising()) if denoise else None
+        settings = replace(settings, denoise=rule)
+    return settings
+
+
+def reads_loops_first(
+    settings: Settings,
+    effects: Effects,
+    *,
+    spp: int | None = None,
+    size: tuple[int, int] | None = None,
+    sampler: str | None = None,
+    seed: int | None = None,
+    error: float | None = None,
+    denoise: bool | None = None,
+    time_limit: float | None = None,
+    address: str | None = None,
+    **_others: Any,
+) -> bool:
+    """True if a render begins with reading compiled loops: they can be read while the scene is built.
+
+    ``settings``: of the scene; the others are as ``render`` takes them
+    """
+    if address is not None:
+        return False
+    settings = _asked(
+        settings, spp, size, sampler, seed, error, denoise, ends_early=time_limit is not None
+    )
+    later = _use_compiled(settings, None) and _may_change_over(settings, effects)
+    return later and _read_first(settings, time_limit)
 
 
 def _mode(settings: Settings, time_limit: float | None) -> Mode:
@@ -189,13 +251,24 @@ def _use_compiled(settings: Settings, wanted: bool | None) -> bool:
     return packets_available() and ("numba" in sys.modules or rays >= WORTH_COMPILED)
 
 
-def _may_change_over(scene: Scene, settings: Settings) -> bool:
+def _may_change_over(settings: Settings, effects: Effects) -> bool:
     """True if NumPy may begin and compiled loops go on.
 
     Corners of cells are no pieces of work: their tracer is compiled before they begin. Nor are students' functions
     called once more to see whether loops are ready.
     """
-    return settings.subdivision is None and scene.effects.trusted
+    return settings.subdivision is None and effects.trusted
+
+
+def _read_first(settings: Settings, time_limit: float | None) -> bool:
+    """True if the render will surely take longer than loops take to be read, so that NumPy needn't begin."""
+    if "numba" in sys.modules:
+        return True
+    if time_limit is not None:
+        # So that there is something to be seen soon.
+        return False
+    pixels = settings.width * settings.height
+    return settings.error is None or pixels >= WORTH_READING
 
 
 def _receipt(

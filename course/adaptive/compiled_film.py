@@ -3,12 +3,21 @@
 import numpy as np
 
 from course.adaptive import film_kernels
-from course.adaptive.film import AdaptiveFilm, shares_of
+from course.adaptive.film import PARTS, AdaptiveFilm, shares_of
+from course.adaptive.pixel_groups import PixelGroup
 from course.core.types import Floats32, Indices
 
 
 class CompiledFilm(AdaptiveFilm):
     """See ``AdaptiveFilm``."""
+
+    @classmethod
+    def tried(cls) -> None:
+        """Use each loop once: they are compiled, or read from disk, when they are first called."""
+        film, group = cls(1, 1), PixelGroup(0, np.zeros(1, np.intp), 1)
+        for samples in (PARTS, 2 * PARTS):
+            film.add(group, np.ones((4, PARTS), np.float32), 1.0, samples, True)
+        film.end_round()
 
     def _add_stretch(
         self, which: Indices, mean: Floats32, weight: Floats32 | float, samples: int

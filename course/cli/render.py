@@ -1,10 +1,13 @@
 """`course render SCENE`: a scene file in, a picture out."""
 
+from __future__ import annotations
+
 import json
 import sys
+from contextlib import closing
 from pathlib import Path
 from time import monotonic
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -18,6 +21,9 @@ from course.cli.watching import again_and_again
 from course.effects import Effects
 from course.errors import CourseError, OutputError
 from course.formats.metu.suffixes import is_metu
+
+if TYPE_CHECKING:
+    from course.scene.scene import Settings
 
 SAMPLERS = (
     *("sobol", "random", "jittered", "regular", "halton", "hammersley", "chained", "xorshift"),
@@ -169,16 +175,25 @@ def _render_one(
     """Render one scene file to one picture; `scene` is what messages call it."""
     from course import load_scene
     from course import render as render_picture
+    from course.render_scene import reads_loops_first
+    from course.rendering.reading_ahead import ReadingAhead
     from course.scene.darkness import warn_of_darkness
 
-    began = monotonic()
-    with told_of(scene, file), progress_bar(f"reading {scene.name}"):
-        world = load_scene(file, effects=effects)
+    began, ahead = monotonic(), ReadingAhead()
+
+    def described(settings: Settings, functions: Effects) -> None:
+        if reads_loops_first(settings, functions, **choices):
+            ahead.begin()
+
+    with closing(ahead):
+        with told_of(scene, file), progress_bar(f"reading {scene.name}"):
+            world = load_scene(file, effects=effects, described=described)
+        ahead.go_on()
+        if file != scene:
+            _check_error(scene, world.settings.sampler, world.settings.samples, choices)
+        warn_of_darkness(world, scene, packets=ahead.begun)
     if choices["time_limit"] is not None:
         choices = choices | {"since": began}
-    if file != scene:
-        _check_error(scene, world.settings.sampler, world.settings.samples, choices)
-    warn_of_darkness(world, scene)
     with progress_bar(out.name) as progress:
         picture = render_picture(world, progress=progress, **choices)
     if picture.interrupted:

@@ -30,9 +30,8 @@ WORTH_CHOOSING = 0.75
 
 _FAR, _ALL = np.full(1, NO_HIT, np.float32), np.empty(0, np.bool_)
 
-_BUILT: WeakKeyDictionary[StaticAccelerator, tuple[PacketScene, PacketScene, ConvexObjects | None]]
-_BUILT = WeakKeyDictionary()
-"""What has been built: a scene is rendered more than once."""
+_CONVEX: WeakKeyDictionary[StaticAccelerator, ConvexObjects | None] = WeakKeyDictionary()
+"""What has been found: a scene is rendered more than once."""
 
 
 @dataclass(frozen=True)
@@ -274,11 +273,9 @@ def _packets(
 ) -> PacketAccelerator:
     if not len(accelerator.triangles):
         return PacketAccelerator(None)
-    if accelerator not in _BUILT:
-        convex = convex_objects(accelerator.vertices, accelerator.triangles, parts)
-        packets = packets_of(accelerator)
-        blockers = packets
-        if isinstance(accelerator, LampAccelerator):
-            blockers = packets_of(accelerator.others)
-        _BUILT[accelerator] = packets, blockers, convex
-    return PacketAccelerator(*_BUILT[accelerator], apart)
+    if accelerator not in _CONVEX:
+        vertices, triangles = accelerator.vertices, accelerator.triangles
+        _CONVEX[accelerator] = convex_objects(vertices, triangles, parts)
+    blocking = accelerator.others if isinstance(accelerator, LampAccelerator) else accelerator
+    packets, blockers = packets_of(accelerator), packets_of(blocking)
+    return PacketAccelerator(packets, blockers, _CONVEX[accelerator], apart)

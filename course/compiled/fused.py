@@ -15,9 +15,9 @@ from course.compiled import (
     lanes,
     number_kernels,
     numpy_kernels,
-    packet_kernels,
 )
 from course.compiled.accelerator import MovingPackets, PacketAccelerator, in_packets
+from course.compiled.packets import WIDTH, aligned
 from course.core.accelerator import StaticAccelerator
 from course.core.camera import Camera, Lens
 from course.core.counters import Counters
@@ -362,13 +362,6 @@ def _eye(integrator: Integrator, dimensions: Dimensions) -> number_kernels.Eye:
     )
 
 
-def _aligned(rows: int) -> Any:
-    """Rows of sixteen float32, at an address that 64 divides, as Embree wants it."""
-    line = 4 * packet_kernels.WIDTH
-    memory = np.zeros((rows + 1) * line, np.uint8)
-    return memory[-memory.ctypes.data % line :][: rows * line].view(np.float32)
-
-
 @dataclass(frozen=True)
 class FusedTracer(Tracer):
     """Renders tiles by the fused loop."""
@@ -397,8 +390,8 @@ class FusedTracer(Tracer):
 
     def _scratch(self) -> fused_kernels.Scratch:
         """Memory for the loop."""
-        integrator, rows, width = self.integrator, lanes.ALL_ROWS, packet_kernels.WIDTH
-        memory = _aligned(rows + lanes.ALL_INTEGERS)
+        integrator, rows, width = self.integrator, lanes.ALL_ROWS, WIDTH
+        memory = aligned(rows + lanes.ALL_INTEGERS)
         arguments = np.zeros(16, np.uint32)
         # Of Embree's features all.
         arguments[1] = 0xFFFFFFFF

@@ -7,12 +7,13 @@ id, flags; then of the hit Ng, u, v, primID, geomID, instID.
 import numpy as np
 from numba import njit, types
 
+from course.compiled import packets
 from course.compiled.library import name_queries
 from course.compiled.options import LEAN, OPTIONS
 
 name_queries()
 
-WIDTH = 16
+WIDTH = packets.WIDTH
 TO, TFAR, MASK, U, V, PRIMITIVE, GEOMETRY = (row * WIDTH for row in (4, 8, 9, 15, 16, 17, 18))
 """Where rows begin in a packet that is one array: the direction's first, and others."""
 

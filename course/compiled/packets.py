@@ -9,19 +9,37 @@ Numba or Embree's library is missing, ``available`` says so. Where embreex is mi
 (``course.casters``) answers packets, bit for bit as it answers single rays.
 """
 
+from typing import Any
+from weakref import WeakKeyDictionary
+
 import numpy as np
 
 from course.casters.choice import chosen
 from course.compiled.library import device, library
-from course.core.accelerator import StaticAccelerator
+from course.core.accelerator import NO_HIT, Intersections, StaticAccelerator, no_hits
 from course.core.types import Floats32, Indices, Mask, Numbers
 from course.extras.boxes import roomy_box
+
+WIDTH = 16
+"""Rays of a packet."""
+
+ALL_ROWS = 24
+"""Of a packet: hits end with the instances' numbers, one row or two by how Embree was built; more room does no harm.
+Shadow rays have none, but where Embree's shadow queries don't take 16 rays at once (no AVX-512), they read and write
+these rows, too."""
 
 _TRIANGLES, _INDICES, _VERTICES = 0, 0, 1
 _THREE_UINTS, _THREE_FLOATS = 0x5003, 0x9003
 _ROBUST = 4
 COHERENT = 1 << 16
 _EVERY = np.empty(0, np.int64)
+
+
+def aligned(rows: int) -> Any:
+    """Rows of sixteen float32 in one array, at an address that 64 divides, as Embree wants it."""
+    line = 4 * WIDTH
+    memory = np.zeros((rows + 1) * line, np.uint8)
+    return memory[-memory.ctypes.data % line :][: rows * line].view(np.float32)
 
 
 class PacketScene:
@@ -64,6 +82,10 @@ class PacketScene:
         hint = COHERENT if coherent else 0
         query_kernels.intersect(self.scene, *arrays, *chosen, hint, triangle, uvt)
         return triangle, *uvt
+
+    def few(self, origin: Floats32, direction: Floats32) -> Intersections:
+        """Nearest hits of a few rays, (3, N) or (3, 1) and (3, N): none of our compiled loops is read for them."""
+        raise NotImplementedError
 
     def unoccluded(self, origin: Floats32, direction: Floats32, limit: float) -> Mask:
         """Whether nothing lies between origin and origin + limit * direction, (N,) bool."""
@@ -130,6 +152,28 @@ class EmbreePackets(PacketScene):
             raise RuntimeError(f"Embree's error {error}")
         self.box = roomy_box(vertices)
 
+    def few(self, origin: Floats32, direction: Floats32) -> Intersections:
+        """See ``PacketScene``."""
+        found = no_hits(n := direction.shape[1])
+        packet = aligned(ALL_ROWS).reshape(ALL_ROWS, WIDTH)
+        whole, valid = packet.view(np.int32), aligned(1).view(np.int32)
+        arguments = np.zeros(16, np.uint32)
+        # Of Embree's features all.
+        arguments[1] = 0xFFFFFFFF
+        for first in range(0, n, WIDTH):
+            # The last ray fills the last packet.
+            some = np.minimum(np.arange(first, first + WIDTH), n - 1)
+            packet[:3] = origin if origin.shape[1] == 1 else origin[:, some]
+            packet[4:7], packet[8] = direction[:, some], NO_HIT
+            whole[9] = whole[18] = valid[:] = -1
+            addresses = [array.ctypes.data for array in (valid, packet, arguments)]
+            self._library.rtcIntersect16(addresses[0], self.scene, *addresses[1:])
+            hit = whole[18] >= 0
+            found.triangle[some] = np.where(hit, whole[17], -1)
+            found.u[some], found.v[some] = np.where(hit, packet[15:17], 0)
+            found.t[some] = packet[8]
+        return found
+
     def __del__(self) -> None:
         """Give the hierarchy's memory back."""
         scene = getattr(self, "scene", None)
@@ -149,9 +193,20 @@ class HierarchyPackets(PacketScene):
         self.scene = caster.scene
         self.box = roomy_box(accelerator.vertices)
 
+    def few(self, origin: Floats32, direction: Floats32) -> Intersections:
+        """See ``PacketScene``; a hierarchy's own loops have been read to build it."""
+        return self._kept.nearest(origin, direction, np.full(1, NO_HIT, np.float32))
+
 
 def packets_of(accelerator: StaticAccelerator) -> PacketScene:
-    """The triangles of an accelerator, T > 0, in the caster that this process has chosen."""
-    if chosen() == "numba":
-        return HierarchyPackets(accelerator)
-    return EmbreePackets(accelerator.vertices, accelerator.triangles)
+    """The triangles of an accelerator, T > 0, in the caster that this process has chosen; built once."""
+    if accelerator not in _BUILT:
+        if chosen() == "numba":
+            _BUILT[accelerator] = HierarchyPackets(accelerator)
+        else:
+            _BUILT[accelerator] = EmbreePackets(accelerator.vertices, accelerator.triangles)
+    return _BUILT[accelerator]
+
+
+_BUILT: WeakKeyDictionary[StaticAccelerator, PacketScene] = WeakKeyDictionary()
+"""What has been built: a scene is rendered more than once."""

@@ -7,13 +7,11 @@ import numpy as np
 from numba import njit, types
 
 from course.compiled.options import COLUMNS, OPTIONS, ROW
-from course.compiled.packet_kernels import WIDTH, aligned, arguments_of, intersect16, occluded16
+from course.compiled.packet_kernels import aligned, arguments_of, intersect16, occluded16
+from course.compiled.packets import ALL_ROWS, WIDTH
 
 _TNEAR, _TIME, _TFAR, _MASK, _ID, _FLAGS = 3, 7, 8, 9, 10, 11
 _U, _V, _PRIMITIVE, _GEOMETRY = 15, 16, 17, 18
-# Hits end with the instances' numbers, one row or two by how Embree was built; more room does no harm. Shadow rays have
-# none, but where Embree's shadow queries don't take 16 rays at once (no AVX-512), they read and write these rows, too.
-ALL_ROWS = 24
 
 
 @njit(**OPTIONS)

@@ -86,6 +86,31 @@ def tried(tracer: Tracer) -> Tracer:
     return tracer
 
 
+def read(compiled: Callable[[], Tracer]) -> Tracer | None:
+    """The compiled tracer that this makes, if all its loops are on disk."""
+    try:
+        with compiling_nothing():
+            return tried(compiled())
+    except NotCompiledError:
+        return None
+
+
+def film_is_read() -> bool:
+    """Whether the loops of an adaptive film are on disk; they are read then."""
+    try:
+        with compiling_nothing():
+            _try_film()
+    except NotCompiledError:
+        return False
+    return True
+
+
+def _try_film() -> None:
+    from course.adaptive.compiled_film import CompiledFilm
+
+    CompiledFilm.tried()
+
+
 class BackgroundCompiler:
     """Gives the threads of a pool a compiled tracer as soon as its loops are ready.
 
@@ -94,18 +119,24 @@ class BackgroundCompiler:
     pool : renders with a tracer of NumPy's
     compiled : makes the compiled tracer
     scene, settings : for the process that compiles
+    tried_to_read : whether it is known already that loops are not on disk
     """
 
     def __init__(
-        self, pool: Pool, compiled: Callable[[], Tracer], scene: Scene, settings: Settings
+        self,
+        pool: Pool,
+        compiled: Callable[[], Tracer],
+        scene: Scene,
+        settings: Settings,
+        tried_to_read: bool = False,
     ) -> None:
         self._pool, self._compiled = pool, compiled
-        self._task = scene.path.resolve(), scene.effects.folder.resolve(), settings, False
+        self._task = _task(scene, settings)
         self._closed = Event()
         # Once Numba is there, loops are read from disk before the first piece of work is done.
-        at_once = "numba" in sys.modules
-        ready = at_once and self._read()
-        self._thread = None if ready else Thread(target=self._run, args=(at_once,), daemon=True)
+        at_once = "numba" in sys.modules and not tried_to_read
+        ready, tried = at_once and self._read(), at_once or tried_to_read
+        self._thread = None if ready else Thread(target=self._run, args=(tried,), daemon=True)
         if self._thread is not None:
             self._thread.start()
 
@@ -126,12 +157,9 @@ class BackgroundCompiler:
 
     def _read(self) -> bool:
         """Exchange the tracer if all its loops are on disk."""
-        try:
-            with compiling_nothing():
-                self._pool.tracer = tried(self._compiled())
-        except NotCompiledError:
-            return False
-        return True
+        if (tracer := read(self._compiled)) is not None:
+            self._pool.tracer = tracer
+        return tracer is not None
 
     def _compile(self) -> bool:
         """Wait for a process that compiles, at most until the picture is there; true if it has compiled all."""
@@ -148,6 +176,15 @@ class BackgroundCompiler:
         if self._thread is not None:
             # Not left behind where the program may end.
             self._thread.join()
+
+
+def _task(scene: Scene, settings: Settings) -> tuple[Any, ...]:
+    return scene.path.resolve(), scene.effects.folder.resolve(), settings, False
+
+
+def compile_loops(scene: Scene, settings: Settings) -> None:
+    """Have a process compile what a render has not found on disk; nobody waits for it."""
+    _started(_task(scene, settings))
 
 
 def compile_stages(scene: Scene, settings: Settings) -> None:
@@ -221,8 +258,10 @@ def main() -> None:
     if stages:
         whole = Tile(0, 0, 0, settings.width, settings.height)
         tracer.render_tile(whole, 0, settings.samples, Counters())
-    else:
-        tried(tracer)
+        return
+    tried(tracer)
+    if settings.error is not None:
+        _try_film()
 
 
 if __name__ == "__main__":

@@ -7,6 +7,7 @@ said.
 """
 
 import warnings
+from functools import partial
 from pathlib import Path
 from typing import get_args
 
@@ -14,6 +15,7 @@ import numpy as np
 
 from course.building.light_power import power
 from course.building.world import compile_camera
+from course.compiled.packets import packets_of
 from course.core.accelerator import QueryStats, StaticAccelerator
 from course.core.camera import Camera
 from course.core.hits import Hits
@@ -76,15 +78,18 @@ AROUND = np.ascontiguousarray((_AROUND / np.linalg.norm(_AROUND, axis=1)[:, None
 """Directions all around, to the faces, edges and corners of a cube, (3, 26)."""
 
 
-def warn_of_darkness(scene: Scene, path: Path) -> None:
+def warn_of_darkness(scene: Scene, path: Path, packets: bool = False) -> None:
     """Warn, once, of a picture that will be or is likely to be black; ``path`` is what the scene is called."""
-    reason = why_dark(scene)
+    reason = why_dark(scene, packets)
     if reason:
         warnings.warn(f"{path}: {reason}", CourseWarning, stacklevel=2)
 
 
-def why_dark(scene: Scene) -> str:
-    """Say why a scene's picture is likely to be black; empty where it isn't, or nobody can tell from a few rays."""
+def why_dark(scene: Scene, packets: bool = False) -> str:
+    """Say why a scene's picture is likely to be black; empty where it isn't, or nobody can tell from a few rays.
+
+    ``packets``: whether rays are asked of the hierarchy of compiled loops, for those will render the picture
+    """
     world = scene.compiled.world
     reason = why_black(scene)
     # What moves, and the student's hierarchy, would call the student's functions.
@@ -92,11 +97,12 @@ def why_dark(scene: Scene) -> str:
         return reason
     film = scene.settings
     camera = compile_camera(scene.loaded, scene.compiled.frame, film.width, film.height)
-    around = _met(world, camera.origin[:, None], AROUND)
+    met = partial(_met, world, packets)
+    around = met(camera.origin[:, None], AROUND)
     enclosed = around.size == AROUND.shape[1] and not around.entering.any()
     if not enclosed and world.environment is not None:
         return ""
-    seen = _seen(world, camera, film.width, film.height)
+    seen = met(*_seen(camera, film.width, film.height))
     if seen.size == 0:
         # Between the objects around it a camera may look out at the sky.
         if world.environment is None and _sees_nothing(scene, camera, film.width, film.height):
@@ -117,16 +123,21 @@ def why_dark(scene: Scene) -> str:
     return _turned_away(scene, seen) if world.environment is None and world.lights else ""
 
 
-def _met(world: FullWorld, origin: Floats32, direction: Floats32) -> Hits:
-    found = world.surface.accelerator.intersect(origin, direction, QueryStats())
+def _met(world: FullWorld, packets: bool, origin: Floats32, direction: Floats32) -> Hits:
+    accelerator = world.surface.accelerator
+    assert isinstance(accelerator, StaticAccelerator)
+    if packets and len(accelerator.triangles):
+        found = packets_of(accelerator).few(origin, direction)
+    else:
+        found = accelerator.intersect(origin, direction, QueryStats())
     return world.surface.hits(found, direction)
 
 
-def _seen(world: FullWorld, camera: Camera, width: int, height: int) -> Hits:
-    """Hits of rays through the centres of GRID x GRID parts of the picture."""
+def _seen(camera: Camera, width: int, height: int) -> tuple[Floats32, Floats32]:
+    """Origins and directions of rays through the centres of GRID x GRID parts of the picture."""
     steps = (np.arange(GRID, dtype=np.float32) + np.float32(0.5)) / GRID
     x, y = np.repeat(steps, GRID) * np.float32(width), np.tile(steps, GRID) * np.float32(height)
-    return _met(world, *camera.rays(x.astype(np.float32), y.astype(np.float32), None, None))
+    return camera.rays(x.astype(np.float32), y.astype(np.float32), None, None)
 
 
 def _sees_nothing(scene: Scene, camera: Camera, width: int, height: int) -> bool:

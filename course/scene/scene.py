@@ -1,5 +1,6 @@
 """A scene, ready to be rendered as often and in as many ways as one likes; and how it is to be rendered."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -65,23 +66,36 @@ class Scene:
     @property
     def settings(self) -> Settings:
         """Render settings of the file."""
-        scene = self.loaded.description
-        return Settings(
-            width=scene.film.width,
-            height=scene.film.height,
-            sampler=scene.sampler.type,
-            samples=scene.sampler.samples,
-            seed=scene.seed,
-            max_depth=scene.integrator.max_depth,
-            cutoff=scene.integrator.cutoff,
-            error=scene.film.error,
-            display=Display(scene.film.white, scene.film.encoding),
-            subdivision=scene.film.subdivision,
-            denoise=scene.film.denoise,
-        )
+        return settings_of(self.loaded)
 
 
-def load_scene(path: str | Path, effects: str | Path | Effects | None = None) -> Scene:
+def settings_of(loaded: Loaded) -> Settings:
+    """Render settings of a scene file."""
+    scene = loaded.description
+    return Settings(
+        width=scene.film.width,
+        height=scene.film.height,
+        sampler=scene.sampler.type,
+        samples=scene.sampler.samples,
+        seed=scene.seed,
+        max_depth=scene.integrator.max_depth,
+        cutoff=scene.integrator.cutoff,
+        error=scene.film.error,
+        display=Display(scene.film.white, scene.film.encoding),
+        subdivision=scene.film.subdivision,
+        denoise=scene.film.denoise,
+    )
+
+
+Described = Callable[[Settings, Effects], None]
+"""Called with the settings of a scene that is being loaded, and its functions."""
+
+
+def load_scene(
+    path: str | Path,
+    effects: str | Path | Effects | None = None,
+    described: Described = lambda _settings, _effects: None,
+) -> Scene:
     """Read, check and compile a scene file.
 
     Parameters
@@ -89,6 +103,7 @@ def load_scene(path: str | Path, effects: str | Path | Effects | None = None) ->
     path : the YAML file
     effects : whose functions to call: "solutions", "assignments", or a folder of modules; None means the solutions
         where they are, and else the assignments
+    described : called when the file has been read and checked, before meshes are read
 
     Raises
     ------
@@ -97,13 +112,14 @@ def load_scene(path: str | Path, effects: str | Path | Effects | None = None) ->
     EffectError
         The folder of functions or one of its modules is missing.
     """
-    return load_variant(path, None, effects)
+    return load_variant(path, None, effects, described)
 
 
 def load_variant(
     path: str | Path,
     overrides: Overrides | None = None,
     effects: str | Path | Effects | None = None,
+    described: Described = lambda _settings, _effects: None,
 ) -> Scene:
     """`load_scene`, with other values at some key paths, such as ``{("lights", 0, "samples"): "ball"}``.
 
@@ -111,4 +127,5 @@ def load_variant(
     """
     bound = effects if isinstance(effects, Effects) else Effects(effects)
     loaded = load_description(Path(path), overrides)
+    described(settings_of(loaded), bound)
     return Scene(loaded, compile_scene(loaded, bound), bound)

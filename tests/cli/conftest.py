@@ -25,7 +25,7 @@ def engine(monkeypatch: pytest.MonkeyPatch) -> Engine:
     monkeypatch.setitem(vars(course), "load_scene", stand_in.load_scene)
     monkeypatch.setitem(vars(course), "render", stand_in.render)
     monkeypatch.setattr("course.rendering.summary.summarize", lambda scene: scene.summary())
-    monkeypatch.setattr("course.scene.darkness.why_dark", lambda scene: scene.why_dark)
+    monkeypatch.setattr("course.scene.darkness.why_dark", lambda scene, *_: scene.why_dark)
     return stand_in
 
 

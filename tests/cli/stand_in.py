@@ -71,7 +71,7 @@ class Engine:
     title: str = "A <box> & a ball"
     why_dark: str = ""
 
-    def load_scene(self, path: Path, **options: Any) -> Scene:
+    def load_scene(self, path: Path, described: Any = None, **options: Any) -> Scene:
         self.loaded.append((path, options))
         return Scene(self.title, self.why_dark)
 

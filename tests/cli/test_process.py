@@ -2,6 +2,7 @@
 
 import contextlib
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -15,6 +16,8 @@ from course.formats.pictures.reading import read_picture
 from tests.cli.conftest import Run
 from tests.cli.signalled import interrupted, started
 from tests.cli.stand_in import RECEIPT
+from tests.forms import needs_numba
+from tests.processes import python
 
 HEAVY = {"scipy", "skimage", "trimesh", "psutil", "OpenImageIO", "rich", "networkx", "solutions"}
 """What rendering one small scene to a PNG has no use for."""
@@ -147,6 +150,63 @@ def interrupted_after(seconds: float, folder: Path, *arguments: str) -> tuple[in
             return interrupted(process)
         finally:
             process.kill()
+
+
+@pytest.mark.parametrize("code", [0, 1, "told", None])
+def test_the_program_ends_at_once_but_closes_what_is_open(tmp_path: Path, code: object) -> None:
+    """Modules are not taken apart, output is complete, and functions for the end of the program are called."""
+    program = (
+        "import atexit, sys, threading\n"
+        "from pathlib import Path\n"
+        "from course.cli import main\n"
+        "class Module:\n"
+        "    def __del__(self): print('taken apart')\n"
+        "module = Module()\n"
+        "atexit.register(lambda: print('closed'))\n"
+        f"main.commands = lambda **_: sys.exit({code!r})\n"
+        "main.main()\n"
+    )
+    done = python("-c", program, folder=tmp_path, may_fail=True)
+    assert done.returncode == (1 if code == "told" else code or 0)
+    assert done.stdout == ("closed\ntaken apart\n" if code == "told" else "closed\n")
+
+
+@needs_numba
+def test_a_large_render_reads_its_loops_while_the_scene_is_built(
+    tmp_path: Path, scene: Path
+) -> None:
+    """And SciPy's BLAS, which no loop calls, only when somebody calls it."""
+    program = (
+        "import sys\n"
+        "from threading import current_thread, main_thread\n"
+        "from course import render_scene\n"
+        "from course.cli.main import commands\n"
+        "from course.rendering import reading_ahead\n"
+        "read = []\n"
+        "for name in ('_import_numba', '_read_loops'):\n"
+        "    def noting(work=getattr(reading_ahead, name), name=name):\n"
+        "        read.append((name, current_thread() is main_thread()))\n"
+        "        work()\n"
+        "    setattr(reading_ahead, name, noting)\n"
+        "render_scene.WORTH_COMPILED, render_scene.WORTH_READING = map(int, sys.argv[1:3])\n"
+        "commands(sys.argv[3:], standalone_mode=False)\n"
+        "print(read, 'numba' in sys.modules, 'scipy.linalg' in sys.modules)\n"
+        "import numba, numpy\n"
+        "print(numba.njit(lambda a, b: a @ b)(numpy.eye(2), numpy.ones((2, 2))).sum())\n"
+    )
+    environment = {key: os.environ[key] for key in os.environ if key != "COURSE_NO_COMPILER"}
+    everything = "[('_import_numba', False), ('_read_loops', False)] True False"
+    for pixels, options, said in (
+        (384, (), everything),
+        (384, ("--error", "0.1"), everything),
+        (385, ("--error", "0.1"), "[] "),
+        (384, ("--error", "0.1", "--time-limit", "9"), "[] "),
+    ):
+        line = ("-c", program, 384, pixels, "render", scene.name, *options)
+        done = python(*line, folder=tmp_path, environment=environment)
+        read, product = done.stdout.splitlines()[-2:]
+        assert read.startswith(said)
+        assert product == "4.0"
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no SIGINT to send to another process")

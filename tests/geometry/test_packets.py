@@ -64,6 +64,22 @@ def test_nearest_hits_are_the_same_bit_for_bit(
         assert (packet.t[~hit] == np.float32(NO_HIT)).all()
 
 
+@pytest.mark.parametrize("n", [1, 15, 16, 17, 1000])
+def test_few_rays_are_answered_alike_without_a_loop(accelerator: StaticAccelerator, n: int) -> None:
+    origin, direction = rays(n, n)
+    for start in (origin, origin[:, :1]):
+        found = packets.packets_of(accelerator).few(start, direction)
+        single = accelerator.intersect(start, direction, QueryStats())
+        for name in ("triangle", "u", "v", "t"):
+            assert getattr(single, name).tobytes() == getattr(found, name).tobytes(), name
+
+
+def test_triangles_are_built_once(accelerator: StaticAccelerator) -> None:
+    built = packets.packets_of(accelerator)
+    assert packed(accelerator).packets is built
+    assert packed(accelerator).blockers is built
+
+
 @pytest.mark.parametrize("query", library.QUERIES)
 def test_embree_keeps_to_the_rows_of_a_packet(accelerator: StaticAccelerator, query: str) -> None:
     """Shadow queries, too, touch the rows of hits where the processor has no AVX-512."""

@@ -14,7 +14,9 @@ import pytest
 
 from course import Scene, load_scene, render
 from course import render_scene as rendering
+from course.casters.choice import chosen
 from course.compiled import library
+from course.core.accelerator import StaticAccelerator
 from course.core.tracer import Tracer
 from course.effects import PROJECT
 from course.rendering.binding import bind
@@ -23,9 +25,13 @@ from course.rendering.threads import Pool
 if not library.available():
     pytest.skip("Numba is not installed", allow_module_level=True)
 
+from course.adaptive import film_kernels
+from course.adaptive.compiled_film import CompiledFilm
 from course.rendering import background_compile
 
 EveryStage = Callable[..., Scene]
+
+BALL = [{"shape": "sphere", "material": "white"}]
 
 
 def test_a_picture_by_both_tracers_in_turn_has_the_same_bits(
@@ -133,6 +139,33 @@ def test_a_render_waits_for_no_compiler(
     # A process that ended with 1 left it to another one, and NumPy renders to the end.
     assert pool.tracer is (compiled if status == 0 else numpy)
     assert "numba" in sys.modules
+
+
+@pytest.mark.parametrize("error", [None, 0.5])
+def test_where_all_loops_are_on_disk_nothing_else_is_made_ready(
+    every_stage: EveryStage, monkeypatch: pytest.MonkeyPatch, error: float | None
+) -> None:
+    """No hierarchy for single rays, no pass by NumPy and no process that compiles; the same bits."""
+    scene = every_stage(film={"width": 60, "height": 44}, objects=BALL)
+    expected = render(scene, spp=16, error=error, compiled=True)
+    monkeypatch.delenv(rendering.NO_COMPILER, raising=False)
+    for name in ("_started", "BackgroundCompiler"):
+        monkeypatch.setattr(background_compile, name, None)
+    scene = every_stage(film={"width": 60, "height": 44}, objects=BALL)
+    if chosen() == "embree":
+        monkeypatch.setattr(StaticAccelerator, "caster", property(lambda _: 1 / 0))
+    picture = render(scene, spp=16, error=error)
+    assert picture.linear.tobytes() == expected.linear.tobytes()
+    assert isinstance(picture.film, CompiledFilm) == (error is not None)
+
+
+def test_a_film_that_was_tried_has_all_its_loops(every_stage: EveryStage) -> None:
+    dispatchers = [each for each in vars(film_kernels).values() if hasattr(each, "overloads")]
+    CompiledFilm.tried()
+    before = [len(each.overloads) for each in dispatchers]
+    render(every_stage(film={"width": 60, "height": 44}), error=0.02, compiled=True, spp=64)
+    assert sum(before) >= 4
+    assert [len(each.overloads) for each in dispatchers] == before
 
 
 def test_one_process_compiles_at_a_time(tmp_path: Path) -> None:

@@ -7,9 +7,12 @@ from typing import Any
 import pytest
 
 from course import Scene, load_scene, render
+from course.casters.choice import chosen
+from course.core.accelerator import StaticAccelerator
 from course.effects import PROJECT
 from course.errors import CourseWarning
 from course.scene.darkness import warn_of_darkness, why_dark
+from tests.forms import FORMS, needs_numba
 
 MakeScene = Callable[..., Scene]
 
@@ -54,6 +57,7 @@ BESIDE = {"eye": [0, 1, 9], "look_at": [9, 1, 5]}
 UNDER = {"eye": [0, -3, 0.5], "look_at": [0, 0, 0]}
 
 
+@pytest.mark.parametrize("packets", FORMS)
 @pytest.mark.parametrize("kind", ["distribution", "path"])
 @pytest.mark.parametrize(
     ("parts", "reason"),
@@ -70,11 +74,11 @@ UNDER = {"eye": [0, -3, 0.5], "look_at": [0, 0, 0]}
     ],
 )
 def test_a_black_picture_is_told_with_its_reason(
-    make_scene: MakeScene, parts: dict[str, Any], reason: str, kind: str
+    make_scene: MakeScene, parts: dict[str, Any], reason: str, kind: str, packets: bool
 ) -> None:
     scene = make_scene(**{"camera": OUTSIDE, "integrator": {"type": kind}} | parts)
     with pytest.warns(CourseWarning, match="black") as told:
-        warn_of_darkness(scene, Path("my.yaml"))
+        warn_of_darkness(scene, Path("my.yaml"), packets)
     (warning,) = told
     message = str(warning.message)
     assert message.startswith("my.yaml: the picture ")
@@ -146,6 +150,16 @@ def test_what_is_told_to_be_black_is(
 @pytest.mark.parametrize("name", ["cornell_box", "path_tracing", "hall_of_mirrors", "radiosity"])
 def test_a_room_with_a_lamp_is_bright(name: str) -> None:
     assert why_dark(load_scene(PROJECT / "scenes" / f"{name}.yaml")) == ""
+
+
+@needs_numba
+@pytest.mark.parametrize("objects", [[], [FLOOR]])
+def test_for_compiled_loops_no_other_hierarchy_is_built(
+    make_scene: MakeScene, objects: list[dict[str, Any]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(StaticAccelerator, "caster", property(lambda _: 1 / 0))
+    if chosen() == "embree":
+        assert why_dark(make_scene(camera=OUTSIDE, objects=objects, lights=[UP]), packets=True)
 
 
 def test_no_function_of_a_student_is_called(make_scene: MakeScene) -> None:
