@@ -30,6 +30,9 @@ from course.scene.scene import Scene, Settings
 MOST_SAMPLES = 16384
 """Largest number of samples that are recorded at once."""
 
+ASIDE = 4
+"""Pixels on each side, among which it is tried whether a pixel's samples depend on others."""
+
 
 @dataclass(frozen=True)
 class Recording:
@@ -75,6 +78,7 @@ def record(
     spp: int | None = None,
     size: tuple[int, int] | None = None,
     seed: int | None = None,
+    quick: bool = False,
 ) -> Recording:
     """Render some pixels once more, and record every segment of their samples' paths.
 
@@ -87,6 +91,8 @@ def record(
     x, y : column and row of the upper left pixel, from the upper left corner of the picture
     width, height : of the rectangle [pixels]
     spp, size, seed : see `course.render`
+    quick : whether a student's functions are tried, too, with a few pixels around: where the pixels' first samples are
+        the same alone, among others and once more, they are rendered alone
 
     Raises
     ------
@@ -96,7 +102,7 @@ def record(
         A function is missing, not written yet, or returns what it must not.
     """
     settings = replace(_settings(scene, spp, size, seed), error=None)
-    return _recorded(scene, settings, [Tile(0, x, y, width, height)], whole=False)[0]
+    return _recorded(scene, settings, [Tile(0, x, y, width, height)], whole=False, quick=quick)[0]
 
 
 def record_each(scene: Scene, pixels: Iterable[tuple[int, int]]) -> list[Recording]:
@@ -115,27 +121,32 @@ def record_each(scene: Scene, pixels: Iterable[tuple[int, int]]) -> list[Recordi
 
 
 def _recorded(
-    scene: Scene, settings: Settings, areas: Sequence[Tile], *, whole: bool
+    scene: Scene, settings: Settings, areas: Sequence[Tile], *, whole: bool, quick: bool = False
 ) -> list[Recording]:
     """A recording of each area; with ``whole`` all tiles of the picture are rendered, in their order."""
     _check(areas, settings)
     recorder = Recorder()
     scene = recordable(scene)
     assert isinstance(scene.effects, RecordedEffects)
-    scene.effects.recorder = recorder
     bound = Bound(scene.effects, scene.compiled.needs)
     film, counters = Film(settings.width, settings.height), Counters()
     numbers = [area.pixel_numbers(settings.width) for area in areas]
     wanted = np.concatenate(numbers)
-    with lines_named(scene, bound):
-        tracer = recorded(bind(scene, settings, bound), recorder)
-        own = isinstance(tracer.sampler, SobolSampler) and scene.effects.trusted
-        alone = own and not whole and not any(_draws(need.function) for need in bound.needs)
-        work = passes(tracer.settings, tracer.sampler) if whole else _work(tracer, areas[0], alone)
-        try:
+    try:
+        with lines_named(scene, bound):
+            plain = bind(scene, settings, bound)
+            own = isinstance(plain.sampler, SobolSampler) and not whole
+            own = own and not any(_draws(need.function) for need in bound.needs)
+            trusted = scene.effects.trusted
+            alone = own and (trusted or (quick and _independent(scene, plain, areas[0])))
+            tracer = recorded(plain, recorder)
+            scene.effects.recorder = recorder
+            work = (
+                passes(tracer.settings, tracer.sampler) if whole else _work(tracer, areas[0], alone)
+            )
             samples = [_render(tracer, recorder, each, wanted, film, counters) for each in work]
-        finally:
-            scene.effects.recorder = None
+    finally:
+        scene.effects.recorder = None
     pixels = np.concatenate([found for found, _ in samples])
     columns = [
         np.concatenate(batches, axis=1) for batches in zip(*(c for _, c in samples), strict=True)
@@ -218,6 +229,35 @@ def _check(areas: Sequence[Tile], settings: Settings) -> None:
 def _draws(function: str) -> bool:
     """Whether a function draws numbers of its own, which depend on the paths that are followed together."""
     return any(name == "rng" for name, _ in contract(function).arguments)
+
+
+def _independent(scene: Scene, tracer: Tracer, area: Tile) -> bool:
+    """Whether pixels are the same alone, among others and once more, by the samples of one pass.
+
+    Not only in their colours: where all is dark, functions that look at other columns make no other light.
+    """
+    assert isinstance(scene.effects, RecordedEffects)
+    work = next(iter(passes(tracer.settings, tracer.sampler)))
+    width, height = tracer.settings.width, tracer.settings.height
+    x, y = max(area.x - ASIDE, 0), max(area.y - ASIDE, 0)
+    if (x, y) == (area.x, area.y):
+        # They would come first there, too.
+        return False
+    right, below = (
+        min(area.x + area.width + ASIDE, width),
+        min(area.y + area.height + ASIDE, height),
+    )
+    found = []
+    for tile in (area, Tile(0, x, y, right - x, below - y), area):
+        scene.effects.recorder = recorder = Recorder()
+        part, which = replace(work, tile=tile), area.pixel_numbers(width)
+        film = Film(width, height)
+        _, columns = _render(recorded(tracer, recorder), recorder, part, which, film, Counters())
+        calls = [
+            value for row in recorder.calls.rows() for name, value in row.items() if name != "id"
+        ]
+        found.append([np.asarray(value).tobytes() for value in (*columns, *calls)])
+    return found[0] == found[1] == found[2]
 
 
 def _work(tracer: Tracer, area: Tile, alone: bool) -> Iterator[Work]:

@@ -247,7 +247,7 @@ class Program:
         settings = settings_of(self.scene)
         size = settings.width, settings.height
         spp = min(settings.samples, STORY_SAMPLES)
-        return Story(record(self._recordable, x, y, spp=spp, size=size))
+        return Story(record(self._recordable, x, y, spp=spp, size=size, quick=True))
 
     def _tell(self, x: int, y: int, job: int) -> None:
         began = monotonic()

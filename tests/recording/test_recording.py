@@ -209,19 +209,49 @@ def test_blocked_rays_end_at_what_blocks_them() -> None:
         assert one.radiance == (0, 0, 0)
 
 
+MIXING = "return _own(center, radius, np.roll(u, 7, axis=1))"
+COUNTING = "_calls.append(1); return _own(center, radius, u / len(_calls))"
+
+
+def of_a_student(folder: Path, body: str) -> Scene:
+    """A scene with functions of one's own: the solutions, but for `point_on_sphere`."""
+    for path in (PROJECT / "solutions").glob("*.py"):
+        shutil.copy(path, folder)
+    with (folder / "soft_shadows.py").open("a") as file:
+        file.write(
+            "\n\n_own = point_on_sphere\n_calls = []\n\n\n"
+            f"def point_on_sphere(center, radius, u):\n    {body}\n"
+        )
+    return load_scene(PROJECT / "scenes" / "soft_shadows.yaml", folder)
+
+
 def test_students_functions_are_asked_for_the_whole_tile(tmp_path: Path) -> None:
     """A function that mixes columns gives other pictures for other batches: the picture is to be told."""
-    for path in (PROJECT / "solutions").glob("*.py"):
-        shutil.copy(path, tmp_path)
-    with (tmp_path / "soft_shadows.py").open("a") as file:
-        file.write(
-            "\n\n_own = point_on_sphere\n\n\n"
-            "def point_on_sphere(center, radius, u):\n    return _own(center, radius, np.roll(u, 7, axis=1))\n"
-        )
-    scene = load_scene(PROJECT / "scenes" / "soft_shadows.yaml", tmp_path)
-    picture, recording = picture_and_recording(scene)
+    picture, recording = picture_and_recording(of_a_student(tmp_path, MIXING))
     check(picture, recording)
     assert not recording.alone
+
+
+@pytest.mark.parametrize(
+    ("body", "pixel", "alone"),
+    [
+        ("return _own(center, radius, u)", (9, 7), True),
+        ("return _own(center, radius, u)", (0, 0), False),
+        (MIXING, (9, 7), False),
+        (COUNTING, (9, 7), False),
+        ("return _own(center, radius, np.repeat(u[:, :1], u.shape[1], axis=1))", (9, 7), False),
+    ],
+)
+def test_in_haste_a_pixel_is_rendered_alone_where_others_make_no_difference(
+    tmp_path: Path, body: str, pixel: tuple[int, int], alone: bool
+) -> None:
+    scene = of_a_student(tmp_path, body)
+    quick = record(scene, *pixel, size=SIZE, spp=SPP, quick=True)
+    assert quick.alone == alone
+    if body != COUNTING:
+        whole = record(scene, *pixel, size=SIZE, spp=SPP)
+        assert np.array_equal(quick.radiance, whole.radiance)
+        assert len(quick.segments) == len(whole.segments)
 
 
 def test_a_scene_that_was_recorded_costs_nothing_afterwards(make_scene: MakeScene) -> None:
