@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import chain
 
 import numpy as np
 from numpy.typing import NDArray
@@ -248,4 +249,6 @@ def _normals(at_corners: Floats64, unit: bool) -> tuple[Floats64, Floats64]:
 
 def _put(table: Floats32, *rows: Floats) -> None:
     """Fill a float32 table (T, k) with float64 rows, together (k, T)."""
-    table[:] = np.concatenate(rows).T
+    # Row by row: an array of all of them would be made and copied for nothing.
+    for column, row in zip(table.T, chain.from_iterable(rows), strict=True):
+        column[:] = row

@@ -82,13 +82,14 @@ def thickest_tube(p: int, q: int) -> float:
     turning = np.cross(first, second)
     bend = float(np.min(speed**3 / np.sqrt(np.sum(turning * turning, axis=1))))
     arc = np.cumsum(speed) * (2.0 * math.pi / steps)
-    strands = math.inf
+    # Of the arc that follows a point, the part whose ends are both far from it; each pair is looked at once.
+    begin = np.searchsorted(arc, arc + math.pi * bend)
+    end = np.searchsorted(arc, arc + (arc[-1] - math.pi * bend), side="right")
+    strands, places = math.inf, np.ascontiguousarray(curve.T)
     for i in range(steps):
-        apart = np.abs(arc - arc[i])
-        apart = np.minimum(apart, arc[-1] - apart)
-        far = curve[apart >= math.pi * bend] - curve[i]
+        far = places[:, begin[i] : end[i]] - places[:, i, None]
         if far.size:
-            strands = min(strands, float(np.min(np.sum(far * far, axis=1))))
+            strands = min(strands, float((far * far).sum(axis=0).min()))
     return min(bend, 0.5 * math.sqrt(strands))
 
 
