@@ -56,6 +56,10 @@ def departing(yours: Story, right: Data, functions: Sequence[str]) -> str | None
     for other rays has not returned other results for that reason alone.
     """
     data = rays_data(yours)
+    # These are asked before there is a ray.
+    for function in data["built"]:
+        if function in functions and _built_apart(function, data, right):
+            return str(function)
     own, others = _results(data), _results(right)
     patterns = [f for f in functions if f.startswith(_PATTERNS) and f not in _OF_COLOURS]
     moved = not _same("offset", data, right)
@@ -67,6 +71,16 @@ def departing(yours: Story, right: Data, functions: Sequence[str]) -> str | None
         # Of several patterns it isn't known which one has moved the samples.
         if (moved and patterns == [function]) or _of_colours(function, data, right):
             return function
+    return None
+
+
+def _built_apart(function: str, data: Data, right: Data) -> tuple[Floats64, Floats64] | None:
+    """Of the first result that is another, of a function's calls while the scene was built, both sides' numbers."""
+    own, others = (each.get("built", {}).get(function, ()) for each in (data, right))
+    for (size, some), (right_size, right_some) in zip(own, others, strict=False):
+        a, b = _numbers(some), _numbers(right_some)
+        if size != right_size or not _near(a, b, float(np.abs(b[np.isfinite(b)]).max(initial=0))):
+            return a, b
     return None
 
 
@@ -202,6 +216,10 @@ def told(data: Data, other: str = "right is", functions: str = "the right functi
     elif blocked != right_blocked:
         sent = f"{_of(blocked)} shadow rays are blocked" if blocked[1] else "No shadow ray is sent"
         lines.append(f"{sent}; {other} {_of(right_blocked)}.")
+    for name in data.get("built", ()):
+        if (apart := _built_apart(name, data, right)) is not None:
+            yours, should = (_spread(list(numbers[:, None])) for numbers in apart)
+            lines.append(f"While the scene was built {name} returned {yours}; {other} {should}.")
     own, others = _results(data), _results(right)
     for name in list(own | others)[:MOST_FUNCTIONS]:
         mine, theirs = (each.get(name, {}) for each in (own, others))

@@ -41,5 +41,7 @@ def pixel(
         See `course.load_scene` and `course.render`.
     """
     if not isinstance(scene, Scene):
-        scene = load_scene(scene, RecordedEffects(Effects(effects)))
+        functions = RecordedEffects(Effects(effects))
+        with functions.building():
+            scene = load_scene(scene, functions)
     return Story(record(scene, x, y, width, height, spp=spp, size=size, seed=seed))

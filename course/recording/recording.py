@@ -192,7 +192,8 @@ def recordable(scene: Scene) -> Scene:
     with warnings.catch_warnings():
         # Whoever loaded the scene has heard them.
         warnings.simplefilter("ignore", CourseWarning)
-        return Scene(scene.loaded, compile_scene(scene.loaded, effects), effects)
+        with effects.building():
+            return Scene(scene.loaded, compile_scene(scene.loaded, effects), effects)
 
 
 def _settings(

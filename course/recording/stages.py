@@ -1,6 +1,7 @@
 """Stages that tell a recorder what they do, in the place of a tracer's; the core knows nothing of them."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -23,17 +24,38 @@ from course.extras.plan import same_fields
 from course.extras.sky import Sky
 from course.recording.recorder import ENVIRONMENT_LIGHT, Recorder
 
+SPREAD = 64
+"""Numbers of a result that are kept, of a call while a scene is built."""
+
+MOST_RESULTS = 8
+"""Of a function that are kept then."""
+
 
 class RecordedEffects(Effects):
     """The same functions; a scene that is loaded with them can be recorded without being compiled again.
 
-    ``recorder`` : notes down their calls; None where there is none
+    Attributes
+    ----------
+    recorder : notes down their calls; None where there is none
+    built : "module.function" -> for its first results while the scene was built, the size of each and some of its
+        numbers, evenly spread
     """
 
     def __init__(self, effects: Effects) -> None:
         vars(self).update(vars(effects))
         self._recorded = effects
         self.recorder: Recorder | None = None
+        self.built: dict[str, list[list[Any]]] = {}
+        self._building = False
+
+    @contextmanager
+    def building(self) -> Iterator[None]:
+        """Note down what functions return meanwhile, and forget what was noted before."""
+        self.built, self._building = {}, True
+        try:
+            yield
+        finally:
+            self._building = False
 
     def function(self, module: str, name: str) -> Callable[..., Any]:
         """See ``Effects``."""
@@ -43,9 +65,22 @@ class RecordedEffects(Effects):
             result = function(*arguments)
             if self.recorder is not None:
                 self.recorder.called(f"{module}.{name}", arguments, result)
+            elif self._building:
+                known = self.built.setdefault(f"{module}.{name}", [])
+                known += _some_numbers(result)[: max(MOST_RESULTS - len(known), 0)]
             return result
 
         return call
+
+
+def _some_numbers(result: Any) -> list[list[Any]]:
+    """Of each result that is an array, its size and at most SPREAD of its numbers."""
+    found = []
+    for each in result if isinstance(result, tuple | list) else (result,):
+        if isinstance(each, np.ndarray) and each.size and each.dtype.kind in "biuf":
+            places = np.linspace(0, each.size - 1, min(each.size, SPREAD)).astype(int)
+            found.append([each.size, each.ravel().take(places).astype(np.float64)])
+    return found
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,9 @@ import numpy as np
 
 from course.recording.scenery import camera_of, lamps, objects, rounded
 from course.recording.segments import Segment
+from course.recording.stages import RecordedEffects
 from course.recording.story import Line, Story
+from course.scene.scene import Scene
 
 MOST_PATHS = 200
 """Samples whose rays are shown; of more, these are spread evenly."""
@@ -128,7 +130,14 @@ def rays_data(story: Story, most: int = MOST_PATHS) -> dict[str, Any]:
         "functions": list(functions),
         "results": results,
         "segments": rows,
+        "built": rounded_calls(recording.scene),
     }
+
+
+def rounded_calls(scene: Scene) -> dict[str, Any]:
+    """What functions returned while the scene was built; see ``RecordedEffects.built``."""
+    assert isinstance(scene.effects, RecordedEffects)
+    return {name: rounded(results) for name, results in scene.effects.built.items()}
 
 
 def _row(

@@ -151,7 +151,8 @@ class Program:
             ready = Effects("solutions") if source.on_solutions else NothingWritten()
             self.effects = StudioEffects(ready)
         self.effects.late.called.clear()
-        scene = prepared(file, self._values, self.effects)
+        with self.effects.building():
+            scene = prepared(file, self._values, self.effects)
         self._early = set(self.effects.late.called)
         return scene
 
@@ -188,7 +189,8 @@ class Program:
         self.effects.load(Effects(self._folder), needs)
         if self._early:
             # What was worked out before belongs to other functions.
-            self._scene = prepared(scene.path, self._values, self.effects)
+            with self.effects.building():
+                self._scene = prepared(scene.path, self._values, self.effects)
         self._picture = None
         self.channel.send(
             {"loaded": [name for name in needs if self.effects.written(*name.split("."))]}

@@ -1,7 +1,9 @@
 """A student's rays beside the right ones: of the same samples, with the farthest marked."""
 
+import shutil
 from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -99,6 +101,36 @@ def test_every_result_of_a_function_is_compared_and_told(frosted: Story, name: s
     (single,) = [line for line in lines if line.startswith("For sample ")]
     assert "returned directions (" in single
     assert ", total (" in single
+
+
+@pytest.mark.parametrize(
+    ("scene", "function", "body"),
+    [
+        ("environment_light", "environment_light.texel_weights", "np.ones_like(_own(*a))"),
+        ("many_lights", "many_lights.light_tree", "[each[::-1] for each in _own(*a)]"),
+    ],
+)
+def test_functions_that_are_asked_before_there_is_a_ray_are_compared_too(
+    tmp_path: Path, scene: str, function: str, body: str
+) -> None:
+    module, name = function.split(".")
+    for path in (PROJECT / "solutions").glob("*.py"):
+        shutil.copy(path, tmp_path)
+    with (tmp_path / f"{module}.py").open("a") as file:
+        file.write(f"\n\n_own = {name}\n\n\ndef {name}(*a):\n    return {body}\n")
+    asked = {"x": 20, "y": 20, "spp": 4, "size": (40, 30)}
+    right, yours = (
+        pixel(PROJECT / "scenes" / f"{scene}.yaml", **asked, effects=of) for of in (None, tmp_path)
+    )
+    data = pair_data(yours, rays_data(right), function)
+    functions = [*yours.recording.asked, *data["built"]]
+    assert departing(right, data["right"], functions) is None
+    assert departing(yours, data["right"], functions) == function
+    assert any(
+        line.startswith(f"While the scene was built {function} returned ") for line in told(data)
+    )
+    # References that were kept before know nothing of it.
+    assert departing(yours, data["right"] | {"built": {}}, functions) != function
 
 
 def test_a_difference_of_rounding_is_not_told(right: Story) -> None:

@@ -54,7 +54,9 @@ def loaded(description: scenes.Scene, find: Find, rng: np.random.Generator) -> S
             Image.fromarray(scenes.paint(rng)).save(path.with_name(scenes.PAINT))
         if any("file" in thing for thing in description["objects"]):
             path.with_name(scenes.SHEET).write_text(scenes.sheet(rng), encoding="utf-8")
-        return load_scene(path, RecordedEffects(_Found(find, path.parent)))
+        functions = RecordedEffects(_Found(find, path.parent))
+        with functions.building():
+            return load_scene(path, functions)
 
 
 def rendered(scene: Scene, **options: Any) -> Array:
