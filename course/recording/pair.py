@@ -1,6 +1,6 @@
 """A student's rays beside the right ones, of the same samples: what the view shows, and what it says in words."""
 
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -60,18 +60,21 @@ def departing(yours: Story, right: Data, functions: Sequence[str]) -> str | None
     for function in data["built"]:
         if function in functions and _built_apart(function, data, right):
             return str(function)
-    own, others = _results(data), _results(right)
     patterns = [f for f in functions if f.startswith(_PATTERNS) and f not in _OF_COLOURS]
-    moved = not _same("offset", data, right)
-    for function in functions:
-        mine, theirs = (each.get(function, {}) for each in (own, others))
-        common = mine.keys() & theirs.keys()
-        if any(_first_other(mine[sample], theirs[sample]) is not None for sample in common):
-            return function
-        # Of several patterns it isn't known which one has moved the samples.
-        if (moved and patterns == [function]) or _of_colours(function, data, right):
-            return function
-    return None
+    # Of several patterns it isn't known which one has moved the samples.
+    if len(patterns) == 1 and not _same("offset", data, right):
+        return patterns[0]
+    others, asked = _results(right), Counter[tuple[int, str]]()
+    # Along the rays: a tile may have asked another function first, for other pixels.
+    for row in data["segments"]:
+        for number, *results in row[_CALLS]:
+            sample, function = row[_SAMPLE], data["functions"][number]
+            theirs = others.get(function, {}).get(sample, ())[asked[sample, function] :][:1]
+            asked[sample, function] += 1
+            mine = [_numbers_of(results)]
+            if function in functions and _first_other(mine, list(theirs)) is not None:
+                return str(function)
+    return next((f for f in functions if _of_colours(f, data, right)), None)
 
 
 def _built_apart(function: str, data: Data, right: Data) -> tuple[Floats64, Floats64] | None:
@@ -185,9 +188,12 @@ def _results(data: Data) -> dict[str, dict[int, Calls]]:
     found: dict[str, dict[int, Calls]] = defaultdict(lambda: defaultdict(list))
     for row in data["segments"]:
         for number, *results in row[_CALLS]:
-            numbers = [_numbers([] if isinstance(r, str | None) else r) for r in results]
-            found[data["functions"][number]][row[_SAMPLE]].append(numbers)
+            found[data["functions"][number]][row[_SAMPLE]].append(_numbers_of(results))
     return found
+
+
+def _numbers_of(results: Sequence[Any]) -> list[Floats64]:
+    return [_numbers([] if isinstance(r, str | None) else r) for r in results]
 
 
 def told(data: Data, other: str = "right is", functions: str = "the right functions") -> list[str]:

@@ -7,17 +7,18 @@ from typing import Any
 
 import numpy as np
 
-from course.core.accelerator import QueryStats
+from course.core.accelerator import Intersections, QueryStats
 from course.core.direct import Candidates, DirectLight
-from course.core.hits import Hits
+from course.core.hits import Hits, Surface
 from course.core.integrator import Integrator
 from course.core.lights.sample import Light, Sample
 from course.core.rays import Draws, Rays
 from course.core.scatter import Boundary, Scatter
 from course.core.tracer import Tracer
-from course.core.types import Floats32, Indices, Mask, Media
+from course.core.types import Floats32, Indices, Mask, Media, Numbers
 from course.core.vectors import dot
 from course.effects import Effects
+from course.extras.painting import ColorAt, Painting
 from course.extras.path_bounce import PathBounce
 from course.extras.path_tracing import PathIntegrator
 from course.extras.plan import same_fields
@@ -140,6 +141,10 @@ def recorded(tracer: Tracer, recorder: Recorder) -> Tracer:
     if isinstance(integrator, PathIntegrator):
         known = {"scatter": changed.get("scatter")}
         changed["bounce"] = _as(RecordedBounce, integrator.bounce, recorder, **known)
+    surface = integrator.surface
+    if (painting := getattr(surface, "painting", None)) is not None:
+        noted = _as(RecordedPainting, painting, recorder)
+        changed["surface"] = _as(RecordedSurface, surface, recorder, painting=noted)
     return replace(tracer, integrator=_as(RecordedIntegrator, integrator, recorder, **changed))
 
 
@@ -188,6 +193,34 @@ class RecordedIntegrator(Integrator):
         assert path is not None
         self.recorder.add(path, radiance, throughput)
         super().add_radiance(path_radiance, self.recorder.path.take(path), radiance, throughput)
+
+
+class RecordedSurface(Surface):
+    """Tells which rays the hits belong to, before anything is asked about them."""
+
+    recorder: Recorder
+
+    def _find(self, found: Intersections, direction: Floats32) -> Hits:
+        hits = super()._find(found, direction)
+        if hits.ray is not None:
+            self.recorder.ids = self.recorder.ids.take(hits.ray)
+        return hits
+
+
+class RecordedPainting(Painting):
+    """Tells which hits a texture is asked about."""
+
+    recorder: Recorder
+
+    def painted(
+        self, triangle: Numbers, u: Floats32, v: Floats32
+    ) -> Iterator[tuple[Indices, ColorAt, Floats32, Floats32]]:
+        """See ``Painting``."""
+        ids = self.recorder.ids
+        for which, color_at, weights, corners in super().painted(triangle, u, v):
+            self.recorder.ids = ids.take(which)
+            yield which, color_at, weights, corners
+        self.recorder.ids = ids
 
 
 class Asking:

@@ -133,6 +133,22 @@ def test_functions_that_are_asked_before_there_is_a_ray_are_compared_too(
     assert departing(yours, data["right"] | {"built": {}}, functions) != function
 
 
+def test_of_functions_that_make_something_else_the_first_one_along_a_ray_is_named(
+    tmp_path: Path,
+) -> None:
+    """The tile asks for the floor's colours first, and for the ball's places later."""
+    for path in (PROJECT / "solutions").glob("*.py"):
+        shutil.copy(path, tmp_path)
+    with (tmp_path / "textures.py").open("a") as file:
+        file.write("\n\n_own = sphere_uv\n\n\ndef sphere_uv(*a):\n    return _own(*a)[::-1]\n")
+    scene, asked = PROJECT / "scenes" / "textures.yaml", {"spp": 4, "size": (100, 75)}
+    right, yours = (pixel(scene, 62, 35, **asked, effects=of) for of in (None, tmp_path))
+    # In this order the tile has asked for them.
+    functions = ["textures.rectangle_uv", "textures.texture_lookup", "textures.sphere_uv"]
+    assert set(functions[1:]) <= set(right.recording.asked)
+    assert departing(yours, rays_data(right), functions) == "textures.sphere_uv"
+
+
 def test_a_difference_of_rounding_is_not_told(right: Story) -> None:
     yours = moved(right, OFF, 5e-5)
     data = pair_data(yours, rays_data(right), FUNCTION)
