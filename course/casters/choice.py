@@ -5,7 +5,6 @@ The choice is made once a process. ``COURSE_CASTER`` makes it by name, to try a 
 
 import os
 from functools import cache
-from importlib.metadata import version
 from importlib.util import find_spec
 from typing import Literal, cast, get_args
 
@@ -43,6 +42,8 @@ def chosen() -> Name:
 
 def software() -> str:
     """The caster's library and its version, as "embreex 4.4.0"."""
+    from importlib.metadata import version
+
     package = PACKAGES[chosen()]
     return f"{package} {version(package)}"
 

@@ -91,7 +91,8 @@ def read(compiled: Callable[[], Tracer]) -> Tracer | None:
     try:
         with compiling_nothing():
             return tried(compiled())
-    except NotCompiledError:
+    except (NotCompiledError, ImportError):
+        # An older Numba refuses a newer NumPy; that is no reason to have no picture.
         return None
 
 

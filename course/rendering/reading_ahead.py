@@ -31,8 +31,9 @@ class ReadingAhead:
 
     def go_on(self) -> None:
         """Begin the second step, if the first was begun; the meshes have been read, and SciPy with them if at all."""
-        if self.begun:
-            self.close()
+        self.close()
+        # An older Numba refuses a newer NumPy.
+        if self.begun and "numba" in sys.modules:
             _import_without_blas()
             self._start(_read_loops)
 
@@ -47,7 +48,8 @@ class ReadingAhead:
 
 
 def _import_numba() -> None:
-    import numba  # noqa: F401
+    with suppress(ImportError):
+        import numba  # noqa: F401
 
 
 def _import_without_blas() -> None:

@@ -17,7 +17,7 @@ from tests.cli.conftest import Run
 from tests.cli.signalled import interrupted, started
 from tests.cli.stand_in import RECEIPT
 from tests.forms import needs_numba
-from tests.processes import python
+from tests.processes import ROOT, python
 
 HEAVY = {"scipy", "skimage", "trimesh", "psutil", "OpenImageIO", "rich", "networkx", "solutions"}
 """What rendering one small scene to a PNG has no use for."""
@@ -207,6 +207,25 @@ def test_a_large_render_reads_its_loops_while_the_scene_is_built(
         read, product = done.stdout.splitlines()[-2:]
         assert read.startswith(said)
         assert product == "4.0"
+
+
+def test_a_numba_that_refuses_this_numpy_is_done_without(tmp_path: Path, scene: Path) -> None:
+    refusing = tmp_path / "packages" / "numba"
+    refusing.mkdir(parents=True)
+    (refusing / "__init__.py").write_text("raise ImportError('Numba needs an older NumPy')\n")
+    program = (
+        "import sys\n"
+        "from course import render_scene\n"
+        "from course.cli.main import commands\n"
+        "render_scene.WORTH_COMPILED = render_scene.WORTH_READING = 1\n"
+        "commands(sys.argv[1:], standalone_mode=False)\n"
+    )
+    environment = {key: os.environ[key] for key in os.environ if key != "COURSE_NO_COMPILER"}
+    path = os.pathsep.join([str(refusing.parent), str(ROOT)])
+    line = ("-c", program, "render", scene.name)
+    done = python(*line, folder=tmp_path, environment=environment, path=path)
+    assert not done.stderr
+    assert (tmp_path / "box.png").exists()
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no SIGINT to send to another process")
