@@ -146,8 +146,9 @@ def vertices_and_triangles(tables: Sequence[Tables]) -> tuple[Floats32, Numbers]
     if not tables:
         return np.zeros((0, 3), np.float32), np.zeros((0, 3), np.int32)
     first = np.cumsum([0, *(len(table.vertices) for table in tables)], dtype=np.int32)[:-1]
-    triangles = [table.triangles + start for table, start in zip(tables, first, strict=True)]
-    return np.concatenate([table.vertices for table in tables]), np.concatenate(triangles)
+    triangles = np.concatenate([table.triangles for table in tables])
+    triangles += np.repeat(first, [len(table.triangles) for table in tables])[:, None]
+    return np.concatenate([table.vertices for table in tables]), triangles
 
 
 def _movers(groups: dict[Velocity, list[Tables]], tables: Sequence[Tables]) -> Iterator[Mover]:
