@@ -15,7 +15,7 @@ from course.core.film import AnyFilm
 from course.core.render import Progress, Schedule
 from course.core.render import render as render_film
 from course.core.tracer import Tracer
-from course.effects import Bound, Effects
+from course.effects import Bound
 from course.errors import CourseError
 from course.jobs.job import Job, Mode, check_memory, chosen_settings
 from course.jobs.picture import Picture
@@ -97,9 +97,7 @@ def render(
         scene.settings, spp, size, sampler, seed, error, denoise, ends_early=time_limit is not None
     )
     packets = _use_compiled(settings, compiled)
-    later = (
-        packets and not compiled and address is None and _may_change_over(settings, scene.effects)
-    )
+    later = packets and not compiled and address is None and _may_change_over(settings)
     job = Job(scene, settings, time_limit, start, packets and not later)
     mode = _mode(settings, time_limit)
     mode.check(job)
@@ -116,21 +114,23 @@ def render(
         )
     bound = Bound(scene.effects, scene.compiled.needs)
     began = monotonic()
+    if packets:
+        from course.rendering import background_compile as loops
     with lines_named(scene, bound), ExitStack() as closed:
         if packets and not later and compiled is None and address is None:
-            from course.rendering.background_compile import compiling_told
-
-            closed.enter_context(compiling_told())
+            closed.enter_context(loops.compiling_told())
         tracer = None
         unread = later and _read_first(settings, time_limit)
         if unread:
-            from course.rendering.background_compile import compile_loops, film_is_read, read
-
-            if (tracer := read(partial(bind, scene, settings, bound, True))) is not None:
+            make = partial(bind, scene, settings, bound, True)
+            if (tracer := loops.read(make, scene.effects.trusted)) is not None:
                 later = False
-                job = replace(job, compiled=settings.error is None or film_is_read())
+                if not scene.effects.trusted:
+                    # Whatever is compiled when it is first called.
+                    closed.enter_context(loops.compiling_told())
+                job = replace(job, compiled=settings.error is None or loops.film_is_read())
                 if not job.compiled:
-                    compile_loops(scene, settings)
+                    loops.compile_loops(scene, settings)
         if tracer is None:
             tracer = bind(scene, settings, bound, packets and not later and address is None)
         display = developing(scene, settings, bound)
@@ -139,10 +139,10 @@ def render(
         if address is None:
             executor = pool = Pool(tracer, threads or default_threads())
             if later:
-                from course.rendering.background_compile import BackgroundCompiler
-
                 make = partial(bind, scene, settings, None, True)
-                compiler = BackgroundCompiler(pool, make, scene, settings, tried_to_read=unread)
+                compiler = loops.BackgroundCompiler(
+                    pool, make, scene, settings, tried_to_read=unread
+                )
                 closed.enter_context(closing(compiler))
         else:
             from course.cluster.executor import Cluster
@@ -188,7 +188,6 @@ def _asked(
 
 def reads_loops_first(
     settings: Settings,
-    effects: Effects,
     *,
     spp: int | None = None,
     size: tuple[int, int] | None = None,
@@ -209,7 +208,7 @@ def reads_loops_first(
     settings = _asked(
         settings, spp, size, sampler, seed, error, denoise, ends_early=time_limit is not None
     )
-    later = _use_compiled(settings, None) and _may_change_over(settings, effects)
+    later = _use_compiled(settings, None) and _may_change_over(settings)
     return later and _read_first(settings, time_limit)
 
 
@@ -251,13 +250,12 @@ def _use_compiled(settings: Settings, wanted: bool | None) -> bool:
     return packets_available() and ("numba" in sys.modules or rays >= WORTH_COMPILED)
 
 
-def _may_change_over(settings: Settings, effects: Effects) -> bool:
+def _may_change_over(settings: Settings) -> bool:
     """True if NumPy may begin and compiled loops go on.
 
-    Corners of cells are no pieces of work: their tracer is compiled before they begin. Nor are students' functions
-    called once more to see whether loops are ready.
+    Corners of cells are no pieces of work: their tracer is compiled before they begin.
     """
-    return settings.subdivision is None and effects.trusted
+    return settings.subdivision is None
 
 
 def _read_first(settings: Settings, time_limit: float | None) -> bool:

@@ -181,8 +181,8 @@ def _render_one(
 
     began, ahead = monotonic(), ReadingAhead()
 
-    def described(settings: Settings, functions: Effects) -> None:
-        if reads_loops_first(settings, functions, **choices):
+    def described(settings: Settings) -> None:
+        if reads_loops_first(settings, **choices):
             ahead.begin()
 
     with closing(ahead):

@@ -11,6 +11,7 @@ import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
+from dataclasses import replace
 from functools import partial
 from threading import Event, Thread
 from typing import Any
@@ -28,6 +29,9 @@ LAST = 10
 
 POLL = 0.05
 """Seconds between two looks at the process that compiles."""
+
+LITTLE = 24, 16
+"""Columns and rows of a picture that is rendered so that stages are compiled."""
 
 MODULE = "course.rendering.background_compile"
 """The program of the process that compiles. A user has one of them at a time."""
@@ -86,11 +90,15 @@ def tried(tracer: Tracer) -> Tracer:
     return tracer
 
 
-def read(compiled: Callable[[], Tracer]) -> Tracer | None:
-    """The compiled tracer that this makes, if all its loops are on disk."""
+def read(compiled: Callable[[], Tracer], trusted: bool) -> Tracer | None:
+    """The compiled tracer that this makes, if all its loops are on disk.
+
+    ``trusted``: whether its functions are the course's own: a student's aren't called to see that. The stages that call
+    them are compiled when they are imported.
+    """
     try:
         with compiling_nothing():
-            return tried(compiled())
+            return tried(compiled()) if trusted else compiled()
     except (NotCompiledError, ImportError):
         # An older Numba refuses a newer NumPy; that is no reason to have no picture.
         return None
@@ -132,7 +140,7 @@ class BackgroundCompiler:
         tried_to_read: bool = False,
     ) -> None:
         self._pool, self._compiled = pool, compiled
-        self._task = _task(scene, settings)
+        self._task, self._trusted = _task(scene, settings), scene.effects.trusted
         self._closed = Event()
         # Once Numba is there, loops are read from disk before the first piece of work is done.
         at_once = "numba" in sys.modules and not tried_to_read
@@ -154,11 +162,12 @@ class BackgroundCompiler:
                 return
         if self._compile() and not self._closed.is_set():
             # What that process has not compiled, for the scene may differ from its file, is compiled here.
-            self._pool.tracer = tried(self._compiled())
+            tracer = self._compiled()
+            self._pool.tracer = tried(tracer) if self._trusted else tracer
 
     def _read(self) -> bool:
         """Exchange the tracer if all its loops are on disk."""
-        if (tracer := read(self._compiled)) is not None:
+        if (tracer := read(self._compiled, self._trusted)) is not None:
             self._pool.tracer = tracer
         return tracer is not None
 
@@ -180,7 +189,16 @@ class BackgroundCompiler:
 
 
 def _task(scene: Scene, settings: Settings) -> tuple[Any, ...]:
-    return scene.path.resolve(), scene.effects.folder.resolve(), settings, False
+    if scene.effects.trusted:
+        return scene.path.resolve(), scene.effects.folder.resolve(), settings, False
+    return _task_of_stages(scene, settings)
+
+
+def _task_of_stages(scene: Scene, settings: Settings) -> tuple[Any, ...]:
+    """With the solutions, or with stand-ins for them, on a small picture."""
+    width, height = LITTLE
+    little = replace(settings, width=width, height=height, samples=4, subdivision=None)
+    return scene.path.resolve(), None, little, True
 
 
 def compile_loops(scene: Scene, settings: Settings) -> None:
@@ -189,11 +207,8 @@ def compile_loops(scene: Scene, settings: Settings) -> None:
 
 
 def compile_stages(scene: Scene, settings: Settings) -> None:
-    """Have a process compile the stages that a student's functions are called by; nobody waits for it.
-
-    Settings are those of a small picture, which is rendered for that with the solutions, or with stand-ins for them.
-    """
-    _started((scene.path.resolve(), None, settings, True))
+    """Have a process compile the stages that a student's functions are called by; nobody waits for it."""
+    _started(_task_of_stages(scene, settings))
 
 
 def _started(task: tuple[Any, ...]) -> subprocess.Popen[bytes]:
@@ -259,8 +274,8 @@ def main() -> None:
     if stages:
         whole = Tile(0, 0, 0, settings.width, settings.height)
         tracer.render_tile(whole, 0, settings.samples, Counters())
-        return
-    tried(tracer)
+    else:
+        tried(tracer)
     if settings.error is not None:
         _try_film()
 

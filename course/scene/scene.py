@@ -87,14 +87,14 @@ def settings_of(loaded: Loaded) -> Settings:
     )
 
 
-Described = Callable[[Settings, Effects], None]
-"""Called with the settings of a scene that is being loaded, and its functions."""
+Described = Callable[[Settings], None]
+"""Called with the settings of a scene that is being loaded."""
 
 
 def load_scene(
     path: str | Path,
     effects: str | Path | Effects | None = None,
-    described: Described = lambda _settings, _effects: None,
+    described: Described = lambda _settings: None,
 ) -> Scene:
     """Read, check and compile a scene file.
 
@@ -119,7 +119,7 @@ def load_variant(
     path: str | Path,
     overrides: Overrides | None = None,
     effects: str | Path | Effects | None = None,
-    described: Described = lambda _settings, _effects: None,
+    described: Described = lambda _settings: None,
 ) -> Scene:
     """`load_scene`, with other values at some key paths, such as ``{("lights", 0, "samples"): "ball"}``.
 
@@ -127,5 +127,5 @@ def load_variant(
     """
     bound = effects if isinstance(effects, Effects) else Effects(effects)
     loaded = load_description(Path(path), overrides)
-    described(settings_of(loaded), bound)
+    described(settings_of(loaded))
     return Scene(loaded, compile_scene(loaded, bound), bound)

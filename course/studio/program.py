@@ -33,6 +33,7 @@ from course.recording.recording import record, recordable
 from course.recording.story import Line, Story
 from course.recording.view import rays_data, view_data
 from course.rendering.background_compile import (
+    LITTLE,
     NotCompiledError,
     compile_stages,
     compiling_nothing,
@@ -166,7 +167,9 @@ class Program:
         )
         if not source.trusted or self._folder == ENGINE:
             return
-        little = replace(settings_of(scene), width=24, height=16, samples=4, subdivision=None)
+        width, height = LITTLE
+        little = replace(settings_of(scene), width=width, height=height, samples=4)
+        little = replace(little, subdivision=None)
 
         def render(compiled: bool) -> None:
             Progressive(scene, little, compiled).render(2, lambda *_: None)
@@ -267,7 +270,7 @@ class Program:
     def _tell_both(self, x: int, y: int, rays: dict[str, Any]) -> None:
         if self._story is None or self._told["story"] != [x, y]:
             return
-        # Some are asked before there is a ray: they come last, as nothing is known of them.
+        # Some are asked before there is a ray.
         needed = [need.function for need in self.scene.compiled.needs]
         asked = dict.fromkeys([*self._story.recording.asked, *needed])
         written = [f for f in asked if self.scene.effects.written(*f.split("."))]

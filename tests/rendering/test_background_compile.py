@@ -81,7 +81,10 @@ def test_what_is_compiled_is_told_in_one_line(caplog: pytest.LogCaptureFixture) 
 def test_only_a_render_that_waits_for_loops_tells_of_them(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, folder: str, asked: bool | None
 ) -> None:
-    """The course's own functions wait for none, and who asks for loops knows of them."""
+    """The course's own functions wait for none, and who asks for loops knows of them.
+
+    A student's wait for what is compiled when it is first called.
+    """
     if folder == "own":
         folder = str(tmp_path)
         shutil.copy(PROJECT / "solutions" / "supersampling.py", tmp_path)
@@ -95,6 +98,7 @@ def test_only_a_render_that_waits_for_loops_tells_of_them(
         yield
 
     monkeypatch.setattr(background_compile, "compiling_told", telling)
+    monkeypatch.setattr(background_compile, "read", lambda make, _trusted: make())
     scene = load_scene(PROJECT / "scenes" / "soft_shadows.yaml", effects=folder)
     render(scene, spp=1, size=(12, 8), compiled=asked)
     assert bool(told) == (folder != "solutions" and asked is None)
@@ -139,6 +143,50 @@ def test_a_render_waits_for_no_compiler(
     # A process that ended with 1 left it to another one, and NumPy renders to the end.
     assert pool.tracer is (compiled if status == 0 else numpy)
     assert "numba" in sys.modules
+
+
+def test_students_functions_are_not_called_to_see_whether_loops_are_ready(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """NumPy begins; a process compiles with functions that are not theirs, and then the tracer is exchanged."""
+    for name in ("supersampling", "soft_shadows"):
+        shutil.copy(PROJECT / "solutions" / f"{name}.py", tmp_path)
+    scene = load_scene(PROJECT / "scenes" / "soft_shadows.yaml", effects=tmp_path)
+    sent: list[Any] = []
+
+    class Pipe(BytesIO):
+        def close(self) -> None:
+            if not self.closed:
+                sent.append(pickle.loads(self.getvalue()))
+            super().close()
+
+    class Process:
+        returncode = 0
+
+        def __init__(self, *_: Any, **__: Any) -> None:
+            self.stdin = Pipe()
+
+        def poll(self) -> int:
+            return 0
+
+    monkeypatch.setattr(background_compile.subprocess, "Popen", Process)
+    monkeypatch.setattr(background_compile, "tried", None)
+    compiled = bind(scene, scene.settings, compiled=True)
+    make = iter([None, lambda: compiled])
+    pool = Pool(bind(scene, scene.settings), 1)
+
+    def made() -> Tracer:
+        if (answer := next(make)) is None:
+            raise background_compile.NotCompiledError
+        return answer()
+
+    ready = background_compile.BackgroundCompiler(pool, made, scene, scene.settings)
+    assert ready._thread is not None
+    ready._thread.join()
+    assert pool.tracer is compiled
+    ((path, folder, settings, stages),) = sent
+    assert (path, folder, stages) == (scene.path.resolve(), None, True)
+    assert (settings.width, settings.height) == background_compile.LITTLE
 
 
 @pytest.mark.parametrize("error", [None, 0.5])
