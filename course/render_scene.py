@@ -28,8 +28,8 @@ from course.rendering.threads import Pool, ThreadedExecutor, default_threads
 from course.rendering.uniform import TIMED, UNIFORM
 from course.scene.scene import Denoising, Scene, Settings
 
-WORTH_COMPILED = 8_000_000
-"""Camera rays from which on compiled loops save more than the second that Numba takes to get ready."""
+WORTH_COMPILED = 5_000_000
+"""Camera rays from which on compiled loops save more than Numba takes to get ready."""
 
 WORTH_READING = 50_000
 """Pixels from which on any error to aim at takes so many samples that compiled loops are worth their reading."""
