@@ -128,7 +128,7 @@ def _leave(scattering, i, s, whole):
 
 
 @njit(**LEAN)
-def _append(scattering, through, ray, integers, i, s, whole):
+def append(scattering, through, ray, integers, i, s, whole):
     """Write a ray that leaves hit i, whose throughput is in AFTER, into (16,) numbers."""
     for c in range(3):
         row = c * WIDTH + i
@@ -214,6 +214,55 @@ def _angle(call, s):
 
 
 @njit(**LEAN)
+def mirror_image(i, s):
+    """Direction of the ray that hit i reflects."""
+    dx, dy, dz = s[TO + i], s[TO + _Y + i], s[TO + _Z + i]
+    nx, ny, nz = s[NS + i], s[NS + _Y + i], s[NS + _Z + i]
+    twice = dx * nx + dy * ny + dz * nz
+    twice += twice
+    x, y, z = above(
+        dx - twice * nx,
+        dy - twice * ny,
+        dz - twice * nz,
+        s[NG + i],
+        s[NG + _Y + i],
+        s[NG + _Z + i],
+    )
+    s[DIRECTION + i], s[DIRECTION + _Y + i], s[DIRECTION + _Z + i] = x, y, z
+
+
+@njit(**LEAN)
+def bend(i, s):
+    """Direction of the ray that hit i refracts."""
+    eta = s[ETA + i]
+    along = eta * s[COSINE + i] - s[BENT + i]
+    x, y, z = above(
+        s[TO + i] * eta + s[NS + i] * along,
+        s[TO + _Y + i] * eta + s[NS + _Y + i] * along,
+        s[TO + _Z + i] * eta + s[NS + _Z + i] * along,
+        -s[NG + i],
+        -s[NG + _Y + i],
+        -s[NG + _Z + i],
+    )
+    s[DIRECTION + i], s[DIRECTION + _Y + i], s[DIRECTION + _Z + i] = x, y, z
+
+
+@njit(**LEAN)
+def meet_boundary(index, i, s):
+    """Reflectance at hit i of a material with an index of refraction, which SHARE, BENT, ETA and COSINE keep."""
+    cosine = -(
+        _NOTHING
+        + s[TO + i] * s[NS + i]
+        + s[TO + _Y + i] * s[NS + _Y + i]
+        + s[TO + _Z + i] * s[NS + _Z + i]
+    )
+    cosine = min(_NOTHING if cosine < 0 else cosine, _ONE)
+    share, bent, eta = fresnel(index, s[SIDE + i], cosine)
+    s[SHARE + i], s[BENT + i], s[ETA + i], s[COSINE + i] = share, bent, eta, cosine
+    return share
+
+
+@njit(**LEAN)
 def _mirror(scattering, s, whole):
     """Throughput and direction of the reflected rays, into AFTER and DIRECTION, and which there are, into KEPT.
 
@@ -225,14 +274,9 @@ def _mirror(scattering, s, whole):
         if whole[HIT + i] == 0:
             continue
         m, share = whole[MATERIAL + i], _NOTHING
-        dx, dy, dz = s[TO + i], s[TO + _Y + i], s[TO + _Z + i]
-        nx, ny, nz = s[NS + i], s[NS + _Y + i], s[NS + _Z + i]
         s[SHARE + i] = _ONE
         if len(scattering.refraction_index) and scattering.refraction_index[m] > 0:
-            cosine = -(_NOTHING + dx * nx + dy * ny + dz * nz)
-            cosine = min(_NOTHING if cosine < 0 else cosine, _ONE)
-            share, bent, eta = fresnel(scattering.refraction_index[m], s[SIDE + i], cosine)
-            s[SHARE + i], s[BENT + i], s[ETA + i], s[COSINE + i] = share, bent, eta, cosine
+            share = meet_boundary(scattering.refraction_index[m], i, s)
         most = _NOTHING
         for c in range(3):
             weight = (scattering.mirror[c, m] + share) * s[THROUGHPUT + c * WIDTH + i]
@@ -242,17 +286,7 @@ def _mirror(scattering, s, whole):
             continue
         kept += 1
         whole[KEPT + i] = -1
-        twice = dx * nx + dy * ny + dz * nz
-        twice += twice
-        x, y, z = above(
-            dx - twice * nx,
-            dy - twice * ny,
-            dz - twice * nz,
-            s[NG + i],
-            s[NG + _Y + i],
-            s[NG + _Z + i],
-        )
-        s[DIRECTION + i], s[DIRECTION + _Y + i], s[DIRECTION + _Z + i] = x, y, z
+        mirror_image(i, s)
     return kept
 
 
@@ -273,18 +307,25 @@ def _refract(scattering, s, whole):
             continue
         kept += 1
         whole[KEPT + i] = -1
-        eta = s[ETA + i]
-        along = eta * s[COSINE + i] - s[BENT + i]
-        x, y, z = above(
-            s[TO + i] * eta + s[NS + i] * along,
-            s[TO + _Y + i] * eta + s[NS + _Y + i] * along,
-            s[TO + _Z + i] * eta + s[NS + _Z + i] * along,
-            -s[NG + i],
-            -s[NG + _Y + i],
-            -s[NG + _Z + i],
-        )
-        s[DIRECTION + i], s[DIRECTION + _Y + i], s[DIRECTION + _Z + i] = x, y, z
+        bend(i, s)
     return kept
+
+
+@njit(**LEAN)
+def jitter(scattering, numbers, pair, same, call, s, whole, counts):
+    """Jitter the mirrored directions of the glossy hits in KEPT."""
+    for k in range(len(scattering.lobe_material)):
+        found = 0
+        for i in range(WIDTH):
+            kept, m = whole[KEPT + i] != 0, whole[MATERIAL + i]
+            found += kept & (m == scattering.lobe_material[k])
+        if found == 0:
+            continue
+        draw(numbers, pair, 2, same, s, whole, U)
+        if scattering.lobe_width[k] > 2:
+            draw(numbers, pair + 1, 1, same, s, whole, U + 2 * WIDTH)
+        counts[GLOSSY] += scattering.lobe_width[k] * found
+        _jitter(scattering, k, call, s, whole)
 
 
 @njit(**LEAN)
@@ -298,29 +339,18 @@ def scatter(scattering, numbers, pair, same, call, s, whole, reflected, refracte
     """
     back = through = 0
     if _mirror(scattering, s, whole):
-        for k in range(len(scattering.lobe_material)):
-            found = 0
-            for i in range(WIDTH):
-                kept, m = whole[KEPT + i] != 0, whole[MATERIAL + i]
-                found += kept & (m == scattering.lobe_material[k])
-            if found == 0:
-                continue
-            draw(numbers, pair, 2, same, s, whole, U)
-            if scattering.lobe_width[k] > 2:
-                draw(numbers, pair + 1, 1, same, s, whole, U + 2 * WIDTH)
-            counts[GLOSSY] += scattering.lobe_width[k] * found
-            _jitter(scattering, k, call, s, whole)
+        jitter(scattering, numbers, pair, same, call, s, whole, counts)
         for i in range(WIDTH):
             if whole[KEPT + i]:
                 ray = reflected[back]
-                _append(scattering, False, ray, ray.view(np.int32), i, s, whole)
+                append(scattering, False, ray, ray.view(np.int32), i, s, whole)
                 back += 1
         counts[REFLECTIONS] += back
     if len(scattering.refraction_index) and _refract(scattering, s, whole):
         for i in range(WIDTH):
             if whole[KEPT + i]:
                 ray = refracted[through]
-                _append(scattering, True, ray, ray.view(np.int32), i, s, whole)
+                append(scattering, True, ray, ray.view(np.int32), i, s, whole)
                 through += 1
         counts[REFRACTIONS] += through
     return back, through

@@ -15,6 +15,7 @@ from course.compiled import (
     lanes,
     number_kernels,
     numpy_kernels,
+    path_kernels,
 )
 from course.compiled.accelerator import MovingPackets, PacketAccelerator, in_packets
 from course.compiled.packets import WIDTH, aligned
@@ -43,7 +44,8 @@ from course.extras.environment_sampling import ProductSampling
 from course.extras.near_plane import NearPlaneCamera
 from course.extras.own import courses_own
 from course.extras.own_lamp import LampAccelerator
-from course.extras.plan import same_fields
+from course.extras.path_tracing import Glow, PathIntegrator
+from course.extras.plan import BOUNCE, CHOICE, same_fields
 from course.extras.samplers.sobol import SobolSampler
 from course.extras.scatter import FullScatter
 from course.extras.sky import COST, NUMBERS, Sky
@@ -79,7 +81,7 @@ def fits(tracer: Tracer) -> bool:
     integrator = tracer.integrator
     return (
         numpy_kernels.AVAILABLE
-        and type(integrator) is Integrator
+        and (type(integrator) is Integrator or _fits_paths(integrator))
         # Not one that draws other numbers, as division by contrast has it.
         and type(tracer.sampler) is SobolSampler
         and integrator.max_depth <= DEEPEST
@@ -90,6 +92,18 @@ def fits(tracer: Tracer) -> bool:
         and _fits_direct_light(integrator.direct)
         and _fits_scatter(integrator.scatter)
         and isinstance(integrator.absorption, Absorption | None)
+    )
+
+
+def _fits_paths(integrator: Integrator) -> bool:
+    if type(integrator) is not PathIntegrator:
+        return False
+    if integrator.lamps_and_lobes is not None or integrator.objects is not None:
+        return False
+    functions = integrator.bounce.path_tracing
+    names = ("diffuse_bounce", "throughput", "russian_roulette")
+    return functions is None or all(
+        courses_own(getattr(functions, name)) for name in names if name in vars(functions)
     )
 
 
@@ -325,12 +339,38 @@ def _scene(integrator: Integrator) -> fused_kernels.Scene:
     )
 
 
+def _paths(integrator: Integrator, dimensions: Dimensions) -> path_kernels.Paths | None:
+    """How paths go on; None for rays that follow every way."""
+    if not isinstance(integrator, PathIntegrator):
+        return None
+    bounce = integrator.bounce
+    diffuses = bounce.path_tracing is not None
+    first = [
+        dimensions.first(name, 0) // 2 if name in dimensions.width else 0
+        for name, _ in (BOUNCE, CHOICE)
+    ]
+    return path_kernels.Paths(
+        bounce.diffuse.rows if diffuses else np.zeros_like(bounce.diffuse.rows),
+        bounce.optical if bounce.scatter is not None else np.zeros_like(bounce.optical),
+        # Without a diffuse surface every path with light goes on.
+        -1 if bounce.roulette is None or not diffuses else bounce.roulette,
+        *first,
+    )
+
+
+def _glows(glow: Glow | None) -> Floats32:
+    return _NO_COLUMNS if glow is None else glow.radiance
+
+
 def _reflectances(integrator: Integrator) -> fused_kernels.Reflectances:
     direct, absorption = integrator.direct, integrator.absorption
     materials = 1 + int(integrator.surface.triangles.material.max(initial=0))
     specular = None if direct is None else direct.specular
     shaded = None if direct is None else direct.shaded
     dark = integrator.dark_inside
+    glow, emission = _rows(integrator.glow), _rows(integrator.emission)
+    if isinstance(integrator, PathIntegrator):
+        glow, emission = _glows(integrator.unsought), _glows(integrator.lamps)
     return fused_kernels.Reflectances(
         np.zeros((3, materials), np.float32) if direct is None else direct.diffuse.rows,
         _rows(specular),
@@ -338,8 +378,8 @@ def _reflectances(integrator: Integrator) -> fused_kernels.Reflectances:
         _NO_MASK if shaded is None else shaded,
         _rows(integrator.ambient),
         np.empty(0, np.bool_) if dark is None else dark,
-        _rows(integrator.glow),
-        _rows(integrator.emission),
+        glow,
+        emission,
         absorption.coefficient.rows if isinstance(absorption, Absorption) else _NO_COLUMNS,
         absorption.dielectric if isinstance(absorption, Absorption) else np.empty(0, np.bool_),
     )
@@ -379,6 +419,7 @@ class FusedTracer(Tracer):
             _lights(lights, dimensions),
             _sky(integrator.direct, dimensions),
             _scattering(integrator, dimensions),
+            _paths(integrator, dimensions),
             _surroundings(integrator),
             fused_kernels.Depths(
                 integrator.max_depth,
@@ -400,13 +441,18 @@ class FusedTracer(Tracer):
         if scatter is not None and scatter.index is not None:
             more = fused_kernels.LARGEST
             stack = (depth + 3) * more
+        brought, follows = more, scatter is not None
+        if isinstance(integrator, PathIntegrator):
+            # Each hit sends one ray on.
+            stack = more = fused_kernels.PATH_CHUNK
+            brought, follows = 0, True
         return fused_kernels.Scratch(
             *(memory[: rows * width], memory[rows * width :].view(np.int32)),
             *(arguments, numpy_kernels.call_of()),
-            np.empty((stack if scatter is not None else 0, bounce_kernels.RAY), np.float32),
+            np.empty((stack if follows else 0, bounce_kernels.RAY), np.float32),
             np.empty((more, bounce_kernels.RAY), np.float32),
-            np.empty((more, 5), np.float32),
-            np.empty((2 * depth + 4, 3), np.int64),
+            np.empty((brought, 5), np.float32),
+            np.empty((2 * depth + 4, 4), np.int64),
             np.empty(3, np.float32),
             np.empty(4, np.float32),
             np.empty((4, 3), np.int64),
@@ -469,8 +515,12 @@ class FusedTracer(Tracer):
                 "refraction": int(counts[lanes.REFRACTIONS]),
             }
         )
+        if counts[lanes.PATHS]:
+            counters.rays["path"] += int(counts[lanes.PATHS])
         drawn = {"pixel": 2 * block.size, "gloss": int(counts[lanes.GLOSSY])}
         drawn[NUMBERS[0]] = NUMBERS[1] * int(counts[lanes.SKY])
+        drawn[BOUNCE[0]] = BOUNCE[1] * int(counts[lanes.BOUNCES])
+        drawn[CHOICE[0]] = int(counts[lanes.CHOICES])
         drawn["lens"] = 2 * block.size if integrator.camera.lens is not None else 0
         drawn["time"] = block.size if integrator.motion is not None else 0
         for light in () if integrator.direct is None else integrator.direct.lights:

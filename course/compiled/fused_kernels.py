@@ -26,6 +26,7 @@ from course.compiled.lanes import (
     HITS,
     JITTER,
     LEFT,
+    LIT,
     MATERIAL,
     MEDIUM,
     NANOSECONDS,
@@ -51,7 +52,7 @@ from course.compiled.lanes import (
     D,
     P,
 )
-from course.compiled.number_kernels import ask_for_next, find_pixels, look
+from course.compiled.number_kernels import ask_for, ask_for_next, find_pixels, look
 from course.compiled.occlusion_kernels import keep, shift, unshift
 from course.compiled.options import LEAN
 from course.compiled.packet_kernels import (
@@ -66,6 +67,7 @@ from course.compiled.packet_kernels import (
     intersect16,
 )
 from course.compiled.packets import COHERENT
+from course.compiled.path_kernels import bounce
 from course.compiled.point_kernels import place, to_viewer
 from course.core.accelerator import NO_HIT
 from course.core.ray_offset import OFFSET as LEAST_OFFSET
@@ -74,6 +76,9 @@ from course.core.types import Floats32, Indices, Mask, Materials
 CHUNK = 1024
 """Paths that are followed together: so many that packets stay full after a bounce, so few that their rays stay in the
 second-level cache."""
+
+PATH_CHUNK = 2048
+"""The same of paths that send one ray on: many end at each depth, so more of them go together."""
 
 LARGEST = 16 * CHUNK
 """Rays of one depth that are followed together. Glass may double them, so longer lists are halved, as batches are."""
@@ -187,7 +192,7 @@ class Scratch(NamedTuple):
     refracted : (k, 16), those of the list that is followed
     brought : (k, 5), what each ray of that list has brought, its path, and NOTHING, MISSED or MET; (0, 5) if no path
         has two rays
-    pile : (k, 3) int64, depth, beginning and length of each list in the stack
+    pile : (k, 4) int64, depth, beginning and length of each list in the stack, and how many of its rays aren't lit
     color, weights, texels : (3,), (4,) float32 and (4, 3) int64, of a cube map's lookup
     """
 
@@ -308,6 +313,14 @@ def _intersect(scene, of_camera, coherent, count, timed, scratch, counts):
 def _gather(scene, s, whole):
     """Materials of the hits, and the rows of their triangles, into the columns of PLANE, EDGES and CORNERS."""
     smooth = False
+    # Of large meshes they are in no near cache: asked for first, they come together.
+    for i in range(WIDTH):
+        k = np.uint64(whole[TRIANGLE + i])
+        ask_for(scene.planes[k].ctypes.data)
+        ask_for(scene.edges[k].ctypes.data)
+        if len(scene.corner_normals):
+            ask_for(scene.corner_normals[k].ctypes.data)
+            ask_for(scene.corner_normals[k, 8:].ctypes.data)
     for i in range(WIDTH):
         k = np.uint64(whole[TRIANGLE + i])
         whole[MATERIAL + i] = scene.material[k]
@@ -429,7 +442,7 @@ def _reflect(materials, s, whole):
     for i in range(WIDTH):
         dark = dark_sides and materials.dark_inside[np.uint64(whole[MATERIAL + i])]
         s[A + i] = _NOTHING if dark and s[SIDE + i] < 0 else _ONE
-        s[B + i] = _ONE if s[SIDE + i] > 0 else _NOTHING
+        s[B + i] = _ONE if s[SIDE + i] > 0 and whole[LIT + i] != 0 else _NOTHING
     for c in range(3):
         row = DIFFUSE + c * WIDTH
         _weigh(materials.diffuse[c], s, whole, row)
@@ -456,8 +469,8 @@ def _weigh(reflectance, s, whole, row):
 
 
 @njit(**LEAN)
-def _load(rays, first, count, s, whole):
-    """Rays that waited, into a packet; places without a ray repeat the last one."""
+def _load(rays, first, count, lit, s, whole):
+    """Rays that waited, into a packet, from number ``lit`` on lit ones; places without a ray repeat the last one."""
     integers = rays.view(np.int32)
     for i in range(WIDTH):
         j = first + min(i, count - 1)
@@ -468,14 +481,15 @@ def _load(rays, first, count, s, whole):
         s[TIME + i] = rays[j, 10]
         whole[PATH + i], whole[LEFT + i] = integers[j, 9], integers[j, 11]
         whole[MEDIUM + i] = integers[j, 12]
+        whole[LIT + i] = -1 if j >= lit else 0
 
 
 @njit(**LEAN)
 def _miss(surroundings, count, s, whole, scratch):
-    """Radiance of the rays that hit nothing, into DIFFUSE."""
+    """Radiance of the lit rays that hit nothing, into DIFFUSE."""
     faces, color = surroundings.faces, scratch.color
     for i in range(count):
-        if whole[HIT + i]:
+        if whole[HIT + i] or whole[LIT + i] == 0:
             continue
         if faces.shape[1]:
             x, y, z = s[TO + i], s[TO + _Y + i], s[TO + _Z + i]
@@ -548,7 +562,7 @@ def _add(film, brought, first, missed, count, s, whole):
     """
     integers = brought.view(np.int32)
     for i in range(count):
-        if (whole[HIT + i] == 0) != missed:
+        if (whole[HIT + i] == 0) != missed or (missed and whole[LIT + i] == 0):
             continue
         for c in range(3):
             light = s[DIFFUSE + c * WIDTH + i]
@@ -587,9 +601,24 @@ def _charge_rays(film, rays, first, count):
 
 @njit(nogil=True, cache=True, error_model="numpy", _nrt=False)
 def follow(
-    numbers, eye, scene, materials, lights, sky, scattering, surroundings, depths, film, scratch
+    numbers,
+    eye,
+    scene,
+    materials,
+    lights,
+    sky,
+    scattering,
+    paths,
+    surroundings,
+    depths,
+    film,
+    scratch,
 ):
-    """Fill the radiance of a block's paths: depth by depth for some paths, then for the next."""
+    """Fill the radiance of a block's paths: depth by depth for some paths, then for the next.
+
+    ``paths`` is None, or a ``Paths`` where each hit sends one ray on. Each of the two is compiled by itself.
+    """
+    chunk = CHUNK if paths is None else PATH_CHUNK
     s, whole, counts, radiance = scratch.s, scratch.whole, film.counts, film.radiance
     stack, refracted, pile = scratch.stack, scratch.refracted, scratch.pile
     n, scatters = radiance.shape[1], scattering.mirror.shape[1] > 0
@@ -601,16 +630,18 @@ def follow(
         for i in range(n):
             radiance[c, i] = _NOTHING
     packets = 0
-    for first_path in range(0, n, CHUNK):
-        pile[0, 0], pile[0, 1], pile[0, 2] = 0, 0, min(CHUNK, n - first_path)
+    for first_path in range(0, n, chunk):
+        pile[0, 0], pile[0, 1], pile[0, 2], pile[0, 3] = 0, 0, min(chunk, n - first_path), 0
         lists = 1
         while lists:
             lists -= 1
             depth, start, length = pile[lists, 0], pile[lists, 1], pile[lists, 2]
+            lit = start + pile[lists, 3]
             if length > LARGEST:
                 half = length // 2
                 pile[lists, 1], pile[lists, 2] = start + half, length - half
                 pile[lists + 1, 0], pile[lists + 1, 1], pile[lists + 1, 2] = depth, start, half
+                pile[lists + 1, 3] = 0
                 lists += 2
                 continue
             back = through = 0
@@ -621,14 +652,14 @@ def follow(
                 packets += 1
                 # ---- rays
                 if depth:
-                    _load(stack, start + first, count, s, whole)
+                    _load(stack, start + first, count, lit, s, whole)
                     same = find_pixels(whole, numbers.samples)
                     if len(brought):
                         _expect(brought, first, count, whole)
                 else:
                     for i in range(WIDTH):
                         whole[PATH + i] = first_path + first + min(i, count - 1)
-                        whole[MEDIUM + i] = -1
+                        whole[MEDIUM + i] = whole[LIT + i] = -1
                     same = find_pixels(whole, numbers.samples)
                     ask_for_next(numbers, first_path + first + WIDTH, depths.seen)
                     look(numbers, eye, same, scratch.call, s, whole)
@@ -673,7 +704,30 @@ def follow(
                     s[DIFFUSE + i] *= s[THROUGHPUT + i]
                 _add(film, brought, first, False, count, s, whole)
                 # ---- reflection, gloss, refraction
-                if scatters and depth < depths.bounces:
+                if paths is not None:
+                    if depth < depths.bounces:
+                        more, further = bounce(
+                            paths,
+                            scattering,
+                            materials.dark_inside,
+                            len(scene.corner_normals) > 0,
+                            numbers,
+                            depth,
+                            pairs,
+                            same,
+                            scratch.call,
+                            s,
+                            whole,
+                            stack[start + back :],
+                            refracted[through:],
+                            counts,
+                        )
+                        if len(film.cost):
+                            _charge_rays(film, stack, start + back, more)
+                            _charge_rays(film, refracted, through, further)
+                        back += more
+                        through += further
+                elif scatters and depth < depths.bounces:
                     pair = scattering.lobe_pair + depth * pairs
                     more, further = scatter(
                         scattering,
@@ -699,4 +753,5 @@ def follow(
                     for c in range(RAY):
                         stack[start + back + j, c] = refracted[j, c]
                 pile[lists, 0], pile[lists, 1], pile[lists, 2] = depth + 1, start, back + through
+                pile[lists, 3] = 0 if paths is None else back
                 lists += 1

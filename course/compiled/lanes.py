@@ -28,14 +28,32 @@ PLANE, EDGES, CORNERS = (_FIRST + (54 + number) * WIDTH for number in (0, 8, 15)
 """Columns of the hit triangles in ``Triangles``."""
 ALL_ROWS = 3 * ROWS + 54 + 24
 
-_integers = (number * WIDTH for number in range(12))
-HIT, ASKED, RAISED, OTHERS, MATERIAL, TRIANGLE, PATH, PIXEL, SAMPLE, MEDIUM, LEFT, KEPT = _integers
-"""Rows of integers: masks (-1 or 0), what is hit, and of each path its number, pixel, sample, medium, object left."""
-ALL_INTEGERS = 12
+_integers = (number * WIDTH for number in range(14))
+(
+    HIT,
+    ASKED,
+    RAISED,
+    OTHERS,
+    MATERIAL,
+    TRIANGLE,
+    PATH,
+    PIXEL,
+    SAMPLE,
+    MEDIUM,
+    LEFT,
+    KEPT,
+    LIT,
+    WAY,
+) = _integers
+"""Rows of integers: masks (-1 or 0), what is hit, and of each path its number, pixel, sample, medium, object left;
+whether light from lamps and the environment counts; and the way that a path takes."""
+ALL_INTEGERS = 14
 
 SHADOW_TO, SHADOW_TFAR = SHADOW + TO, SHADOW + TFAR
 
-_counts = range(10)
-NANOSECONDS, SHADOW_RAYS, SECOND_RAYS, REFLECTIONS, REFRACTIONS, HITS, GLOSSY, SKY, _, _ = _counts
-"""What is counted: time inside Embree of packets that are timed, rays, hits, numbers of gloss, hits under the sky."""
+_counts = range(11)
+NANOSECONDS, SHADOW_RAYS, SECOND_RAYS, REFLECTIONS, REFRACTIONS, HITS, GLOSSY, SKY, *_more = _counts
+PATHS, BOUNCES, CHOICES = _more
+"""What is counted: time inside Embree of packets that are timed, rays, hits, numbers of gloss, hits under the sky; rays
+of paths, those that leave diffuse surfaces, and numbers by which ways are chosen."""
 COUNTS = len(_counts)

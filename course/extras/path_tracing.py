@@ -27,7 +27,7 @@ class Glow:
     """
 
     def __init__(self, radiance: Floats32) -> None:
-        self._radiance = radiance
+        self.radiance = radiance
         self._glows = radiance.any(axis=0)
 
     def added(
@@ -49,7 +49,7 @@ class Glow:
             return radiance
         if radiance is None:
             radiance = np.zeros((3, hits.size), np.float32)
-        light = self._radiance.take(hits.material.take(which), axis=1)
+        light = self.radiance.take(hits.material.take(which), axis=1)
         radiance[:, which] += light if share is None else light * share.take(which)
         return radiance
 

@@ -16,9 +16,10 @@ from course.scene.scene import Scene, load_scene
 if not library.available():
     pytest.skip("Numba is not installed (pip install .[fast])", allow_module_level=True)
 
-from course.compiled import engine
+from course.compiled import engine, fused_kernels
 
 SCENES = ("supersampling", "soft_shadows", "glossy", "thin_lens", "motion_blur", "cube_map")
+PATHS = ("path_tracing", "radiosity")
 SIZES: dict[str, dict[str, Any]] = {
     "whole packets": {"spp": 16, "size": (24, 16)},
     "several pixels in a packet": {"spp": 4, "size": (60, 40)},
@@ -40,17 +41,33 @@ def both(scene: Scene, monkeypatch: pytest.MonkeyPatch, **options: Any) -> tuple
     return fused, batches
 
 
+def assert_same(fused: Picture, batches: Picture) -> None:
+    assert np.array_equal(fused.linear, batches.linear)
+    assert fused.receipt.rays == batches.receipt.rays
+    numbers, more = dict(fused.receipt.numbers), dict(batches.receipt.numbers)
+    # A path's choice takes a second number for mirrors and glass: all hits of a packet draw it, or all of a batch.
+    assert numbers.pop("choice", 0) <= more.pop("choice", 0)
+    assert numbers == more
+
+
 @pytest.mark.parametrize("size", SIZES)
-@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("name", SCENES + PATHS)
 def test_the_loop_and_the_batches_make_the_same_picture(
     name: str, size: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     scene = load_scene(Path(PROJECT) / "scenes" / f"{name}.yaml")
     fused, batches = both(scene, monkeypatch, **SIZES[size])
-    assert np.array_equal(fused.linear, batches.linear)
-    assert fused.receipt.rays == batches.receipt.rays
-    assert fused.receipt.numbers == batches.receipt.numbers
+    assert_same(fused, batches)
     assert fused.receipt.embree_seconds > 0
+
+
+def test_more_paths_than_are_followed_together_make_the_same_picture(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    scene = load_scene(Path(PROJECT) / "scenes" / "path_tracing.yaml")
+    fused, batches = both(scene, monkeypatch, spp=64, size=(40, 40), seed=3)
+    assert 16 * fused_kernels.PATH_CHUNK < 64 * 40 * 40
+    assert_same(fused, batches)
 
 
 POINT: dict[str, Any] = {"type": "point", "position": [1, 3, 1], "intensity": 20}
@@ -97,17 +114,45 @@ PARTS: dict[str, dict[str, Any]] = {
 """What a scene may have, one by one: those of the course don't have all of it."""
 
 
-@pytest.mark.parametrize("part", PARTS)
+GLOWING = {"emission": [2, 1, 0.5]}
+LAMPS: dict[str, Any] = {"lights": [RECTANGLE | {"radiance": 4}, SPHERE | {"radiance": 4}]}
+PATH_PARTS: dict[str, dict[str, Any]] = {
+    "mirror among lamps": LAMPS | {"ball": {"color": 0.3, "mirror": 0.6}},
+    "glass among lamps": LAMPS | {"ball": GLASS},
+    "glass with a matt outside": LAMPS
+    | {"ball": {"color": 0.3, "dielectric": {"refraction_index": 1.5, "shaded": True}}},
+    "glass with highlights": LAMPS | {"ball": {"specular": 0.3, "exponent": 9, **GLASS}},
+    "a ball that glows": {"lights": [], "ball": GLOWING},
+    "a ball that glows and mirrors": {"ball": {"mirror": 0.7, **GLOWING}},
+    "sky by chance": {"environment": {"type": "constant", "radiance": 1}, "lights": []},
+    "roulette at once": LAMPS | {"integrator": {"roulette": 0}},
+    "no roulette": LAMPS | {"integrator": {"roulette": None}},
+    "one bounce": LAMPS | {"integrator": {"max_depth": 1}},
+    "no bounce": LAMPS | {"integrator": {"max_depth": 0}},
+    "mirrors alone": {"floor": {"color": 0, "mirror": 0.9}, "ball": {"color": 0, "mirror": 0.5}},
+    "another seed": LAMPS | {"ball": GLASS, "seed": 7},
+}
+"""What only paths have, or have otherwise."""
+
+
+@pytest.mark.parametrize(
+    ("part", "paths"),
+    [(part, False) for part in PARTS] + [(part, True) for part in PARTS | PATH_PARTS],
+)
 def test_the_loop_and_the_batches_agree_on_each_part_of_a_scene(
-    part: str, make_scene: Callable[..., Scene], monkeypatch: pytest.MonkeyPatch
+    part: str, paths: bool, make_scene: Callable[..., Scene], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    given = PARTS[part]
+    given = (PARTS | PATH_PARTS)[part]
     scene = make_scene(
+        integrator={"type": "path"} | given.get("integrator", {}) if paths else {},
         camera={"eye": [0, 1.5, 4], "look_at": [0, 0.7, 0]} | given.get("camera", {}),
         film={"width": 22, "height": 15},
         sampler={"samples": 20},
-        environment={"type": "constant", "radiance": [0.1, 0.2, 0.3]},
-        materials={"floor": {"color": [0.7, 0.6, 0.5]}, "ball": given.get("ball", {})},
+        environment=given.get("environment") or {"type": "constant", "radiance": [0.1, 0.2, 0.3]},
+        materials={
+            "floor": given.get("floor", {"color": [0.7, 0.6, 0.5]}),
+            "ball": given.get("ball", {}),
+        },
         lights=[{"type": "ambient", "radiance": 0.1}, *given.get("lights", [POINT])],
         objects=[
             {"shape": "quad", "material": "floor", "width": 9, "depth": 9},
@@ -116,8 +161,6 @@ def test_the_loop_and_the_batches_agree_on_each_part_of_a_scene(
             | given.get("object", {}),
         ],
     )
-    fused, batches = both(scene, monkeypatch)
-    assert np.array_equal(fused.linear, batches.linear)
+    fused, batches = both(scene, monkeypatch, seed=given.get("seed", 0))
+    assert_same(fused, batches)
     assert fused.linear.std() > 0.01
-    assert fused.receipt.rays == batches.receipt.rays
-    assert fused.receipt.numbers == batches.receipt.numbers
