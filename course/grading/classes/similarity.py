@@ -20,14 +20,12 @@ from zlib import crc32
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csr_array
 
 from course.atomic import replacing
 from course.effects import PROJECT
 from course.grading.classes.engines import apart
 from course.grading.classes.reachable import parsed, reachable
 from course.grading.classes.submitted import Submission
-from course.grading.references import SOLUTIONS
 from course.grading.release.stubs import make_stub
 
 SHINGLE = 9
@@ -156,7 +154,7 @@ def _read(path: Path) -> dict[str, Shingles]:
 
 
 def _stub(module: str) -> str:
-    path = SOLUTIONS / f"{module}.py"
+    path = PROJECT / "solutions" / f"{module}.py"
     text = path.read_text(encoding="utf-8")
     return make_stub(text, module, str(path.relative_to(PROJECT))).text
 
@@ -182,6 +180,9 @@ def find_similar(
     size = np.array([found[student].size for student in students])
     _, columns = np.unique(np.concatenate([found[one] for one in students]), return_inverse=True)
     starts = np.concatenate([[0], np.cumsum(size)])
+    # The process that parses a file waits for no library.
+    from scipy.sparse import csr_array
+
     has = csr_array((np.ones(columns.size, np.int32), columns, starts))
     shared = (has @ has.T).toarray()
     share = np.triu(shared / np.minimum(size[:, None], size), 1)
