@@ -52,7 +52,7 @@ from course.compiled.lanes import (
     D,
     P,
 )
-from course.compiled.number_kernels import ask_for, ask_for_next, find_pixels, look
+from course.compiled.number_kernels import ask_for_next, find_pixels, look
 from course.compiled.occlusion_kernels import keep, shift, unshift
 from course.compiled.options import LEAN
 from course.compiled.packet_kernels import (
@@ -313,14 +313,6 @@ def _intersect(scene, of_camera, coherent, count, timed, scratch, counts):
 def _gather(scene, s, whole):
     """Materials of the hits, and the rows of their triangles, into the columns of PLANE, EDGES and CORNERS."""
     smooth = False
-    # Of large meshes they are in no near cache: asked for first, they come together.
-    for i in range(WIDTH):
-        k = np.uint64(whole[TRIANGLE + i])
-        ask_for(scene.planes[k].ctypes.data)
-        ask_for(scene.edges[k].ctypes.data)
-        if len(scene.corner_normals):
-            ask_for(scene.corner_normals[k].ctypes.data)
-            ask_for(scene.corner_normals[k, 8:].ctypes.data)
     for i in range(WIDTH):
         k = np.uint64(whole[TRIANGLE + i])
         whole[MATERIAL + i] = scene.material[k]

@@ -89,7 +89,7 @@ def find_pixels(whole, samples):
 
 
 @intrinsic
-def ask_for(_context, _address):
+def _ask_for(_context, _address):
     """Tell the processor that the memory at an address will be read soon (LLVM's ``llvm.prefetch``)."""
 
     def generate(_target, builder, _signature, arguments):
@@ -122,7 +122,7 @@ def ask_for_next(numbers, path, pairs):
             order = np.uint64(hashed(key, salts[pair, 0]) % orders)
             line = 2 * pair if pair < 2 else 0
             for row in range(line, line + 2):
-                ask_for(points[row, order, np.uint64(numbers.first) + sample :].ctypes.data)
+                _ask_for(points[row, order, np.uint64(numbers.first) + sample :].ctypes.data)
         begin = (pixel + np.uint64(1)) * samples
 
 
