@@ -27,7 +27,7 @@ from course.grading.classes import grading
 from course.grading.classes.bundles import totals
 from course.grading.classes.engines import Outcome
 from course.grading.classes.grading import ClassResult, Runner, grade_class
-from course.grading.classes.job import Graded, Job, grade_job, report_files
+from course.grading.classes.job import Graded, Job, grade_job
 from course.grading.classes.keeping import _record
 from course.grading.classes.settings import Settings, read_settings
 from course.grading.known import known
@@ -69,12 +69,11 @@ def record(out: Path, student: str) -> dict[str, Any]:
 
 
 class Here:
-    """An engine in this process that remembers whom it has graded, and what: equal sources are graded once."""
+    """An engine in this process that remembers whom it has graded."""
 
     def __init__(self, fault: str = "") -> None:
         self.graded: list[str] = []
         self.fault = fault
-        self.known: dict[tuple[object, ...], Graded] = {}
 
     def __call__(
         self, _: object, items: Sequence[Job], shared: Path | bytes
@@ -84,11 +83,7 @@ class Here:
                 yield Outcome(job, None, "it broke")
             else:
                 self.graded.append(job.student)
-                same = tuple(job.sources.items()), job.trouble, job.settings
-                if same not in self.known:
-                    self.known[same] = grade_job(job, shared)
-                report = replace(self.known[same].report, student=job.student)
-                yield Outcome(job, Graded(report, report_files(report)))
+                yield Outcome(job, grade_job(job, shared))
 
 
 def grade(
