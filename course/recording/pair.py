@@ -64,17 +64,29 @@ def departing(yours: Story, right: Data, functions: Sequence[str]) -> str | None
     # Of several patterns it isn't known which one has moved the samples.
     if len(patterns) == 1 and not _same("offset", data, right):
         return patterns[0]
-    others, asked = _results(right), Counter[tuple[int, str]]()
-    # Along the rays: a tile may have asked another function first, for other pixels.
-    for row in data["segments"]:
-        for number, *results in row[_CALLS]:
-            sample, function = row[_SAMPLE], data["functions"][number]
-            theirs = others.get(function, {}).get(sample, ())[asked[sample, function] :][:1]
-            asked[sample, function] += 1
-            mine = [_numbers_of(results)]
-            if function in functions and _first_other(mine, list(theirs)) is not None:
-                return str(function)
+    # Along the rays: a tile may have asked another function first, for other pixels. Call is held against call ray by
+    # ray, for which of a batch's rays a call was for isn't always known.
+    others = _calls_by_ray(right)
+    for ray, mine in _calls_by_ray(data).items():
+        theirs = others.get(ray, {})
+        for function, own in mine.items():
+            if function in functions and _first_other(own, theirs.get(function, [])) is not None:
+                return function
     return next((f for f in functions if _of_colours(f, data, right)), None)
+
+
+def _calls_by_ray(data: Data) -> dict[tuple[int, ...], dict[str, Calls]]:
+    """Sample, depth, kind and number among such rays -> function -> what it returned, call by call."""
+    found: dict[tuple[int, ...], dict[str, Calls]] = {}
+    count = Counter[tuple[int, ...]]()
+    for row in data["segments"]:
+        kind = row[_SAMPLE], row[_DEPTH], row[_KIND]
+        calls: dict[str, Calls] = defaultdict(list)
+        for number, *results in row[_CALLS]:
+            calls[data["functions"][number]].append(_numbers_of(results))
+        found[*kind, count[kind]] = calls
+        count[kind] += 1
+    return found
 
 
 def _built_apart(function: str, data: Data, right: Data) -> tuple[Floats64, Floats64] | None:

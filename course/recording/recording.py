@@ -254,11 +254,23 @@ def _independent(scene: Scene, tracer: Tracer, area: Tile) -> bool:
         part, which = replace(work, tile=tile), area.pixel_numbers(width)
         film = Film(width, height)
         _, columns = _render(recorded(tracer, recorder), recorder, part, which, film, Counters())
-        calls = [
-            value for row in recorder.calls.rows() for name, value in row.items() if name != "id"
-        ]
-        found.append([np.asarray(value).tobytes() for value in (*columns, *calls)])
-    return found[0] == found[1] == found[2]
+        rays = sorted(segments_of(recorder, scene, width), key=lambda one: (one.pixel, one.sample))
+        found.append(([column.tobytes() for column in columns], [_returned(one) for one in rays]))
+    first, *others = found
+    return all(
+        columns == first[0] and len(rays) == len(first[1]) and all(map(_agree, rays, first[1]))
+        for columns, rays in others
+    )
+
+
+def _returned(one: Segment) -> dict[tuple[str, int], str]:
+    """What functions returned for a ray, to the last digit, by their names and the number of the call."""
+    return {(call.function, place): repr(call.results) for place, call in enumerate(one.calls)}
+
+
+def _agree(one: dict[tuple[str, int], str], other: dict[tuple[str, int], str]) -> bool:
+    """Whether calls that are known of both returned the same."""
+    return all(one[call] == other[call] for call in one.keys() & other.keys())
 
 
 def _work(tracer: Tracer, area: Tile, alone: bool) -> Iterator[Work]:

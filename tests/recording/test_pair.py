@@ -149,6 +149,19 @@ def test_of_functions_that_make_something_else_the_first_one_along_a_ray_is_name
     assert departing(yours, rays_data(right), functions) == "textures.sphere_uv"
 
 
+def test_a_right_function_is_not_blamed_where_only_some_of_its_calls_are_known(
+    tmp_path: Path,
+) -> None:
+    """Of shadow rays that not all hits send, the calls are recorded in one batch and not in another."""
+    for path in (PROJECT / "solutions").glob("*.py"):
+        shutil.copy(path, tmp_path)
+    scene, asked = PROJECT / "scenes" / "motion_blur.yaml", {"spp": 16, "size": (480, 270)}
+    right, yours = (pixel(scene, 240, 135, **asked, effects=of) for of in (None, tmp_path))
+    functions = [*right.recording.asked]
+    assert "motion_blur.to_object_space" in functions
+    assert departing(yours, rays_data(right), functions) is None
+
+
 def test_a_difference_of_rounding_is_not_told(right: Story) -> None:
     yours = moved(right, OFF, 5e-5)
     data = pair_data(yours, rays_data(right), FUNCTION)
