@@ -126,9 +126,9 @@ def _bounce(smooth, call, s):
         a, b, c = r * s[A + i], r * s[B + i], np.sqrt(_ONE - u)
         x, y, z = s[NS + i], s[NS + _Y + i], s[NS + _Z + i]
         sign = np.float32(math.copysign(_ONE, z))
-        sunk = sign * x * a + y * b
-        rest = c - sunk / (sign + z)
-        x, y, z = x * rest + a, y * rest + sign * b, c * z - sunk
+        lean = sign * x * a + y * b
+        rest = c - lean / (sign + z)
+        x, y, z = x * rest + a, y * rest + sign * b, c * z - lean
         if smooth:
             x, y, z = above(x, y, z, s[NG + i], s[NG + _Y + i], s[NG + _Z + i])
         s[DIRECTION + i], s[DIRECTION + _Y + i], s[DIRECTION + _Z + i] = x, y, z

@@ -212,7 +212,7 @@ return (corner[:, None] + offset).astype(np.float32)
 """
 
 
-def test_rays_of_a_function_that_was_asked_before_there_was_a_ray_are_told_as_others(
+def test_a_function_that_was_asked_before_there_was_a_ray_is_named(
     browser: Any, studio: Studio, work: Path
 ) -> None:
     write(work, WRONG_GRID, "light_grid")
@@ -228,9 +228,8 @@ def test_rays_of_a_function_that_was_asked_before_there_was_a_ray_are_told_as_ot
         page.locator("#mine").click(position={"x": 80, "y": 150})
         page.locator("#story .beside li").first.wait_for()
         said = text(page, "#story .beside")
-        assert "The course's functions send other rays, but no recorded result" in said
-        assert "Of yours this picture needs soft_shadows.light_grid." in said
-        assert "departs from" not in said
+        assert "Where soft_shadows.light_grid departs from the course's function" in said
+        assert "While the scene was built soft_shadows.light_grid returned" in said
         assert page.locator("#story .rays input[type=radio]").count() == 3
 
 
