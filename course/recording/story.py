@@ -253,12 +253,19 @@ class Story:
         part = sum(sum(one.radiance) for one in segments)
         return f"{part / total:.0%} of the light" if total else "nothing"
 
+    def __repr__(self) -> str:
+        return f"<Story of {self.tree.text}; {self.reason}>"
+
     def _repr_html_(self) -> str:
-        """Show the view of the rays in a notebook."""
+        """Show the view of the rays in a notebook; one that isn't trusted has no frames, and shows the text in it."""
         from course.recording.view import page
 
         frame = "width: 100%; height: 56rem; border: 0"
-        return f'<iframe title="Rays of a pixel" style="{frame}" srcdoc="{escape(page(self))}"></iframe>'
+        text = f"{self.tree.text}; {self.reason}. A trusted notebook shows the rays."
+        return (
+            f'<iframe title="Rays of a pixel" style="{frame}" srcdoc="{escape(page(self))}">'
+            f"{escape(text)}</iframe>"
+        )
 
     def to_dict(self) -> dict[str, Any]:
         """All that is known, for programs: numbers, strings and lists."""

@@ -125,7 +125,18 @@ def test_the_command_writes_the_page(tmp_path: Path) -> None:
 
 def test_a_notebook_shows_the_view(story: Story) -> None:
     shown = story._repr_html_()
-    assert unescape(shown.partition('srcdoc="')[2].removesuffix('"></iframe>')) == page(story)
+    frame, inside = shown.partition('srcdoc="')[2].removesuffix("</iframe>").split('">')
+    assert unescape(frame) == page(story)
+    # Jupyter takes the frame away, and leaves what stands in it, where a notebook isn't trusted.
+    assert "<" not in inside
+    assert story.tree.text in unescape(inside)
+    assert story.reason in unescape(inside)
+
+
+def test_at_a_prompt_a_story_is_a_line(story: Story) -> None:
+    # Notebooks keep it, too, beside the view.
+    assert repr(story) == f"<Story of {story.tree.text}; {story.reason}>"
+    assert repr(story).startswith("<Story of pixel 30,30 of soft_shadows.yaml: ")
 
 
 @pytest.fixture
