@@ -70,7 +70,7 @@ CASES: Mapping[str, tuple[Path, Overrides]] = {
 class Effort:
     """Height of the pictures [pixels], seeds of each scene, samples of references, and the scenes."""
 
-    height: int = 64
+    height: int = 128
     seeds: int = 10
     reference: int = 4096
     names: tuple[str, ...] = tuple(CASES)

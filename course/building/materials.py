@@ -22,6 +22,9 @@ DEFAULT_COLOR = 0.8
 LARGEST_INDEX = 1e8
 """An index of refraction beyond it is as good as infinite."""
 
+SMALLEST_INDEX = 1e-8
+"""An index of refraction below it is as good as none: its inverse, squared, is to stay a number of float32."""
+
 LARGEST = 1e30
 """An exponent or absorption beyond it is as good as infinite, and float32 carries it."""
 
@@ -129,7 +132,8 @@ def compile_materials(
             ambient[:, column] = ambient_color(material) * material.ambient
             diffuse[:, column] = color * material.diffuse
         if material.dielectric is not None:
-            index[column] = min(material.dielectric.refraction_index, LARGEST_INDEX)
+            refraction_index = material.dielectric.refraction_index
+            index[column] = min(max(refraction_index, SMALLEST_INDEX), LARGEST_INDEX)
             per_unit = np.minimum(rgb(material.dielectric.absorption), LARGEST / frame.scale)
             absorption[:, column] = per_unit * frame.scale
     for column, radiance in enumerate(emission, start=len(materials)):

@@ -48,8 +48,9 @@ def test_a_lamp_that_is_only_seen(make_scene: MakeScene) -> None:
         make_scene(**black, lights=[{**lamp, "edge_v": [0, 0, 1e60]}])
 
 
-def test_glass_of_any_index(make_scene: MakeScene) -> None:
-    glass = {"glass": {"dielectric": {"refraction_index": 1e60}}}
+@pytest.mark.parametrize("index", [1e-45, 1e-30, 1e-12, 1e60])
+def test_glass_of_any_index(make_scene: MakeScene, index: float) -> None:
+    glass = {"glass": {"dielectric": {"refraction_index": index}}}
     sky = {"type": "constant", "radiance": 1}
     picture = render(
         make_scene(materials=glass, objects=[{**BALL, "material": "glass"}], environment=sky)
