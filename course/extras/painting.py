@@ -119,7 +119,12 @@ def make_painting(parts: Sequence[tuple[int, Paint | None]]) -> Painting | None:
             first += count
     return Painting(
         np.concatenate(row),
-        np.concatenate([paint.corners.reshape(-1, 9) for paint in paints]).astype(np.float32),
+        _in_float32(np.concatenate([paint.corners.reshape(-1, 9) for paint in paints])),
         np.repeat(np.arange(len(paints), dtype=np.uint16), sizes),
         tuple(paint.color_at for paint in paints),
     )
+
+
+def _in_float32(corners: Floats64) -> Floats32:
+    """The same places; from 1e30 on, where neighbouring numbers lie a whole texture apart, the outermost."""
+    return np.clip(corners, -1e30, 1e30).astype(np.float32)

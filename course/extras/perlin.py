@@ -30,7 +30,8 @@ def noise(x: Floats32) -> Floats32:
     """Noise (n,), between -1 and 1, at points (3, n)."""
     cell = np.floor(x)
     t = x - cell
-    whole = cell.astype(np.int64) % PERIOD
+    # The remainder comes first: far away a float32 is a whole number that no integer type holds.
+    whole = (cell % PERIOD).astype(np.int64)
     fade = t * t * t * (t * (t * 6 - 15) + 10)
     total = np.zeros(x.shape[1], np.float32)
     for corner in product((0, 1), repeat=3):

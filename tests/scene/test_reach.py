@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
 import pytest
 
 from course import Scene, render
@@ -57,6 +58,16 @@ def test_glass_of_any_index(make_scene: MakeScene, index: float) -> None:
     )
     # All of the light is reflected, as by a mirror.
     assert picture.linear == pytest.approx(1, rel=1e-3)
+
+
+@pytest.mark.parametrize("radius", [1e8, 1e20, 1e38])
+def test_noise_on_objects_of_any_size(make_scene: MakeScene, radius: float) -> None:
+    """Where the places in the noise are beyond integers and float32, the picture is still finite."""
+    materials = {"rough": {"bump": {"height": 0, "noise": {}}}}
+    ball = {**BALL, "radius": radius, "material": "rough"}
+    lights = [{"type": "ambient", "radiance": 1}]
+    picture = render(make_scene(materials=materials, objects=[ball], lights=lights))
+    assert np.isfinite(picture.linear).all()
 
 
 def test_the_camera(make_scene: MakeScene) -> None:
