@@ -12,6 +12,9 @@ from course.core.types import Floats32
 from course.core.vectors import dot
 from course.extras.textures import Texture
 
+LEAST = np.finfo(np.float64).tiny
+"""Divided by instead of 0: a view so narrow that float32 has no steps in it sees one place of the picture."""
+
 
 @dataclass(frozen=True)
 class Backdrop:
@@ -41,7 +44,7 @@ class Backdrop:
         forwards = np.maximum(dot(camera.forward[:, None], direction), np.float32(1e-12))
         place = direction / forwards.astype(np.float64) - camera.corner[:, None]
         x, y = (
-            dot(step[:, None], place) / ((step * step).sum() * size)
+            dot(step[:, None], place) / max((step * step).sum() * size, LEAST)
             for step, size in (
                 (camera.step_x.astype(np.float64), width),
                 (camera.step_y.astype(np.float64), height),

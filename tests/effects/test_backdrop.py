@@ -72,6 +72,12 @@ def test_it_fills_pictures_of_any_size_and_white_has_its_scale(picture: Any) -> 
     np.testing.assert_allclose(large, expected, rtol=1e-7)
 
 
+@pytest.mark.parametrize("degrees", [1e-30, 1e-150])
+def test_a_view_without_width_sees_something_of_it(picture: Any, degrees: float) -> None:
+    seen = picture(camera=CAMERA | {"vertical_fov": degrees})
+    assert np.isin(seen, COLORS).all()
+
+
 def test_between_pixels_are_mixtures_and_nothing_of_the_other_edge(picture: Any) -> None:
     """Twice as wide: places are a quarter of a pixel off the middles."""
     wide = picture(keys={}, options={"size": (16, 6)})
