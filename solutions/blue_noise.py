@@ -179,7 +179,7 @@ def dithered_points(points, masks, x, y):
 
     Returns
     -------
-    (2, N, s), of the dtype of points
+    (2, N, s) in [0, 1), or 1 by rounding alone, of the dtype of points
         Rank r moves a coordinate by (r + 1/2) / (H W): the middle of the part of [0, 1) that it stands for.
 
     Raises

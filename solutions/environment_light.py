@@ -49,10 +49,11 @@ def cumulate(weights):
     Returns
     -------
     rows : (H,) float64
-        rows[i] is the share of the weights that lies in the rows 0 to i; the last is exactly 1.
+        rows[i] is the share of the weights that lies in the rows 0 to i; the last is exactly 1. A row without weight
+        adds nothing.
     columns : (H, W) float64
         columns[i, j] is the share of row i's weights that lies in its texels 0 to j; the last of each row is exactly 1.
-        In a row without weight all texels count alike.
+        A texel without weight adds nothing, but in a row without weight all texels count alike.
 
     Raises
     ------
@@ -79,7 +80,7 @@ def sample_direction(rows, columns, u):
 
     u[0] chooses the row, u[1] the texel. What is left of u[0], its place between the row's edges, says where in the row
     the point lies, from the top down; what is left of u[1] says the same from left to right. So even numbers give even
-    directions.
+    directions. No direction lies in a texel without weight: a number equal to a sum belongs to what comes after it.
 
     Parameters
     ----------

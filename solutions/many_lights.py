@@ -12,7 +12,8 @@ import numpy as np
 def power_choice(power, u):
     """Random lamps in proportion to their power.
 
-    The lamps divide [0, 1) among themselves, in their order. The number u chooses the lamp in whose part it falls.
+    The lamps divide [0, 1) among themselves, in their order. The number u chooses the lamp in whose part it falls. One
+    without power is never chosen, whatever sums are rounded to.
 
     Parameters
     ----------
@@ -102,9 +103,9 @@ def merge_cones(axis_a, angle_a, axis_b, angle_b):
 def light_tree(lo, hi, axis, angle, power):
     """The light tree of L lamps.
 
-    Which lamps lie together is up to you, but small nodes have tight bounds. The sum over all inner nodes of the power
-    times the squared diagonal of the box may be twice what it is if each node divides its lamps along the axis on
-    which their centres lie farthest apart, and no more.
+    Which lamps lie together is up to you, but small nodes have tight bounds. A tree's measure is the sum over all inner
+    nodes of the power times the squared diagonal of the box. It may be up to twice that of the tree in which each node
+    divides its lamps along the axis on which their centres lie farthest apart.
 
     Parameters
     ----------

@@ -8,7 +8,7 @@ import numpy as np
 
 
 def ggx(cos, alpha):
-    """D, the area of microfacets with normals at that angle: alpha^2 / (pi ((alpha^2 - 1) cos^2 + 1)^2), above +z.
+    """D, the area of microfacets with normals at that angle: alpha^2 / (pi ((alpha^2 - 1) cos^2 + 1)^2).
 
     Parameters
     ----------
@@ -88,7 +88,7 @@ def sample_visible_normal(wo, alpha, u):
     Returns
     -------
     (3, N) unit vectors wm with z >= 0 and dot(wo, wm) >= 0, of the dtype of wo and u, or NumPy's promotion of the two
-        How u leads to them is free, as long as small steps of u are small steps of wm.
+        How u leads to them is free, as long as small steps within [0, 1) x [0, 1) are small steps of wm.
 
     Task: microfacets.sample_visible_normal. Source: Heitz, "Sampling the GGX distribution of visible normals", 2018.
     """

@@ -120,7 +120,8 @@ def delta_weights(counts, densities, delta):
     ----------
     counts : (S,) whole >= 0
     densities : (S, N) floating >= 0, as for heuristic_weights; where delta is true, the probability of the sample
-    delta : (S, N) bool, whether a strategy draws this sample with a probability; if that is 0, or the count, it is none
+    delta : (S, N) bool, whether a strategy draws this sample with a probability
+        A delta whose probability or count is 0 does not draw the sample, and takes nothing from the others.
 
     Returns
     -------
@@ -154,7 +155,8 @@ def multi_sample(counts, strategy, f, densities, weights):
     counts : (S,) whole > 0, samples of each strategy
     strategy : (N,) whole from 0 to S - 1, which has drawn each of the N samples
     f : (3, N) floating, the integrand at each sample
-    densities, weights : (N,) floating >= 0, p and w of the sample's own strategy; with density 0 it counts 0
+    densities, weights : (N,) floating >= 0, p and w of the sample's own strategy
+        A density may be as small as it likes; with density 0 a sample counts 0.
 
     Returns
     -------
@@ -183,14 +185,14 @@ def one_sample(odds, f, densities):
 
     Parameters
     ----------
-    odds : (S,) floating >= 0, the probability c_k of each strategy
+    odds : (S,) floating >= 0, the probability c_k of each strategy; they add up to 1
     f : (3, N) floating, the integrand at each of N samples
     densities : (S, N) floating >= 0, of each strategy, at each sample, whichever strategy has drawn it
 
     Returns
     -------
     (3, N), of the dtype of f and densities, or NumPy's promotion of the two
-        N estimates, of one sample each; 0 where no strategy draws the sample.
+        N estimates, of one sample each, by densities however small; 0 where no strategy draws the sample.
 
     Raises
     ------

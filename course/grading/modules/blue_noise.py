@@ -162,6 +162,44 @@ def _shuffles(function: Function, trial: Trial) -> list[Array]:
     return [(orders[:, :: 4**level] // 4**level % 4).reshape(SEEDS, -1, 4) for level in range(DEEP)]
 
 
+def _smallest(function: Function, trial: Trial, levels: int, seed: int, z: Array) -> Array:
+    """Permutations (n, 4) of the smallest quadrants that have those digits above them."""
+    inside = (4 * z[:, None] + np.arange(4)).ravel()
+    bits = [(inside[:, None] >> 2 * np.arange(levels) + axis & 1) for axis in range(2)]
+    x, y = (axis @ (1 << np.arange(levels)) for axis in bits)
+    a = Arguments(x=x, y=y, levels=levels, seed=seed)
+    return np.asarray(function.call(trial, a), np.int64).reshape(-1, 4) % 4
+
+
+def _check_all_counts(function: Function, trial: Trial) -> None:
+    """Every digit above decides, and every bit of the seed."""
+    rng, pairs = trial.rng, []
+    for _ in range(8):
+        levels = int(rng.integers(8, 16))
+        seed, z = int(rng.integers(1 << 32)), rng.integers(0, 4 ** (levels - 1), 80)
+        # One digit above is another, of those that the other checks never change alone.
+        other = z ^ rng.integers(1, 4, z.size) << 2 * rng.integers(DEEP - 1, levels - 1, z.size)
+        pairs.append([_smallest(function, trial, levels, seed, k) for k in (z, other)])
+    _check_pairs(
+        pairs,
+        "from the permutation of one quadrant to that of another, whose digits differ in a high one alone",
+        "All digits above count, up to that of the largest quadrants.",
+    )
+    pairs = []
+    for bit in range(32):
+        seed, z = int(rng.integers(1 << 32)), rng.integers(0, 4**5, 20)
+        pairs.append([_smallest(function, trial, 6, k, z) for k in (seed, seed ^ 1 << bit)])
+    _check_pairs(
+        pairs,
+        "from the permutation of one seed to that of another, which differs in a bit",
+        "All 32 bits of the seed count.",
+    )
+
+
+def _check_pairs(pairs: list[list[Array]], what: str, hint: str) -> None:
+    _check_counts(np.concatenate([_apart(*pair) for pair in pairs]), what, hint)
+
+
 def _named(orders: Array) -> Array:
     """A number from 0 to 23 for permutations (..., 4)."""
     found = np.zeros(orders.shape[:-1], np.int64)
@@ -248,6 +286,14 @@ SHUFFLED_Z_ORDER = function(
             "Quadrants are shuffled, each in an order of its own",
             _nested_and_shuffled,
             points=WHOLE,
+        ),
+        Law(
+            "all_of_it",
+            "Orders hang on every digit above, and on every bit of the seed",
+            _check_all_counts,
+            "corner",
+            "distribution",
+            false_fail=2 * FALSE_FAIL,
         ),
     ),
     case=_anywhere,

@@ -18,6 +18,9 @@ from course.grading.checks.laws import EPSILON, close, holds
 SCALES = (1.0, 1e-6, 1e6)
 """Factors of all radiances."""
 
+FAINT = (1e-15,)
+"""Radiance of pixels whose standard errors are small, and not 0."""
+
 EXACT = 0.005
 """Share by which a critical value may be off."""
 
@@ -100,6 +103,14 @@ WELCH_T = function(
             what="of 2 and 256 samples, a statistic of",
             case=_few_and_many,
             role="core",
+        ),
+        close(
+            "faint",
+            "Dark pixels differ by as many standard errors as bright ones",
+            _statistic,
+            "Only an error of 0 can't be divided by.",
+            what="of dark pixels, a statistic of",
+            scales=FAINT,
         ),
         close(
             "values",
@@ -389,6 +400,12 @@ def _lonely(draw: Draw) -> Mapping[str, Any]:
     return made | {"weights": made["weights"] * (np.arange(made["weights"].shape[1]) == 0)}
 
 
+def _hardly(draw: Draw) -> Mapping[str, Any]:
+    """Small weights: shares are what counts."""
+    made = dict(_neighbours(draw))
+    return made | {"weights": made["weights"] * 10 ** draw.uniform(-15, 0, draw.n)[:, None]}
+
+
 WEIGHTED_MEAN = function(
     "denoising.weighted_mean",
     {},
@@ -408,6 +425,14 @@ WEIGHTED_MEAN = function(
             "Its share is 1, whatever its weight.",
             what="(over the largest) a mean or, in rows 3 to 5, a variance of",
             case=_lonely,
+        ),
+        close(
+            "hardly",
+            "Small weights have the shares of large ones",
+            _averaged,
+            "In each row a weight is over 0, and so is their sum.",
+            what="(over the largest) a mean or, in rows 3 to 5, a variance of",
+            case=_hardly,
         ),
         close(
             "evenly",

@@ -6,6 +6,7 @@ a right function may take either side.
 
 from collections.abc import Mapping
 from dataclasses import replace
+from itertools import product
 from math import nan, pi
 from typing import Any
 
@@ -21,6 +22,9 @@ INSIDE = 0.05
 """Share of a texel next to its border where nothing is asked for."""
 
 SCALES = (1.0, 1e-6, 1e6)
+
+FAINT = (1e-15,)
+"""Brightness of pictures whose weights are small; what sums to 0 alone is nothing."""
 
 
 def _size(draw: Draw) -> tuple[int, int]:
@@ -118,6 +122,22 @@ def _shares(weights: Array) -> tuple[Array, Array]:
     return np.divide(rows, rows[-1]), np.divide(columns, columns[:, -1:])
 
 
+def _none_for_black_texels(a: Arguments, r: Any) -> Array:
+    """How much black rows, and black texels of other rows, add to the sums."""
+    rows = np.where(a.weights.any(axis=1), 0, np.diff(r[0], prepend=0))
+    columns = np.diff(r[1], prepend=0, axis=1)
+    black = a.weights.any(axis=1)[:, None] & (a.weights == 0)
+    return np.concatenate((rows, columns[black]))
+
+
+def _dark_sky(draw: Draw) -> Mapping[str, Any]:
+    """Weights with black texels in all rows, at both ends of some, and a black row."""
+    weights = draw.lengths(0.2, 2, 5, 6)
+    weights[:, 1::3] = weights[1, 0] = weights[3, -1] = 0
+    weights[int(draw.rng.integers(5))] = 0
+    return {"weights": weights}
+
+
 def _ends(_: Arguments, r: Any) -> Array:
     return np.array([r[0][-1] == 1, *(r[1][:, -1] == 1)])
 
@@ -153,6 +173,27 @@ CUMULATE = function(
             "It is never chosen, but it must not hold 0 / 0.",
             what="a column's sum of",
             case=_black_row,
+        ),
+        close(
+            "black",
+            "A row without weight adds nothing, and neither does such a texel in another row",
+            lambda a, r: (_none_for_black_texels(a, r), 0.0),
+            "What is added to weights, so that no sum is 0, is drawn where nothing is.",
+            what="a step of",
+            within=0,
+            floor=1e-14,
+            case=_dark_sky,
+            scales=(1.0, 1e-6),
+        ),
+        close(
+            "faint",
+            "Shares of a dark picture are those of a bright one",
+            lambda a, r: tuple(
+                np.concatenate((x[0], x[1].ravel())) for x in (r, _shares(a.weights))
+            ),
+            "Only a sum of 0 can't be divided by.",
+            what="of a dark picture, a sum of",
+            scales=FAINT,
         ),
         close(
             "many",
@@ -266,17 +307,21 @@ def _cumulated(a: Arguments, r: Array) -> Array:
 
 
 def _bright(a: Arguments, r: Array) -> Array:
-    """True for directions that don't lie in the middle of a texel without weight."""
+    """True for directions in texels that have weight, or at the border of one."""
     height, width = a.columns.shape
     row = np.arctan2(np.hypot(r[0], r[2]), r[1]) / pi * height
     column = (np.arctan2(r[0], -r[2]) / (2 * pi) + 0.5) * width
-    i, j = (
-        np.minimum(k.astype(np.intp), most) for k, most in ((row, height - 1), (column, width - 1))
-    )
     step = np.diff(np.concatenate((np.zeros((height, 1)), a.columns), axis=1), axis=1)
-    weight = step[i, j] * np.diff(a.rows, prepend=0)[i]
-    border = (np.abs(row - np.rint(row)) < 1e-3) | (np.abs(column - np.rint(column)) < 1e-3)
-    return np.asarray((weight > 0) | border)
+    weight = step * np.diff(a.rows, prepend=0)[:, None]
+    # A pole has a row on one side only; the first column is next to the last.
+    sides = [
+        weight[
+            np.clip(np.floor(row + down).astype(np.intp), 0, height - 1),
+            np.floor(column + right).astype(np.intp) % width,
+        ]
+        for down, right in product((-1e-3, 1e-3), repeat=2)
+    ]
+    return np.asarray(np.max(sides, axis=0) > 0)
 
 
 def _borders(draw: Draw) -> Mapping[str, Any]:
@@ -375,6 +420,16 @@ DENSITY = function(
             case=_at_poles,
         ),
         close(
+            "faint",
+            "Densities of a dark picture are those of a bright one",
+            _dense,
+            "The sum of the weights may be small: they are not all 0.",
+            what="of a dark picture, a density of",
+            within=64,
+            case=_in_texels,
+            scales=FAINT,
+        ),
+        close(
             "values",
             "The density is the texel's share of the weights over its solid angle",
             _dense,
@@ -439,6 +494,14 @@ ALIAS_TABLE = function(
             "Rounding may leave such a column over at the end.",
             shows=lambda _, r: _given(*r),
             scales=SCALES * 4,
+        ),
+        close(
+            "faint",
+            "Small weights are shared out as large ones are",
+            lambda a, r: (_given(*r), a.weights / a.weights.sum()),
+            "Only a sum of 0 can't be divided by.",
+            what="of small weights, a share of",
+            scales=FAINT,
         ),
         close(
             "shares",

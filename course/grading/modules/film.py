@@ -15,6 +15,9 @@ from course.grading.checks.laws import EPSILON, close, holds, within
 SCALES = (1.0, 1e-3, 1e3)
 """Factors of all radiances."""
 
+FAINT = (1e-15,)
+"""Factor of radiances that are hardly any, and not 0."""
+
 WEIGHTS = np.array([0.2126, 0.7152, 0.0722])
 """Of red, green and blue in the luminance, of Rec. 709."""
 
@@ -46,6 +49,16 @@ EXPOSE = function(
             "What a screen can't show is left to tone mapping, or to the curve.",
             what="with more light, a radiance of",
             case=lambda d: {"stops": float(d.uniform(4, 8))},
+        ),
+        close(
+            "far",
+            "Any number of stops is exact",
+            _exposed,
+            "No number of stops is too many: the light is what is left of it.",
+            what="a radiance of",
+            within=64,
+            case=lambda d: {"stops": float(d.rng.choice((-1, 1)) * d.uniform(8, 30))},
+            scales=(1.0,) * 3,
         ),
         close(
             "values",
@@ -89,6 +102,14 @@ LUMINANCE = function(
             "Each primary alone has its weight as its luminance.",
             what="of a primary, a luminance of",
             case=_primaries,
+        ),
+        close(
+            "negative",
+            "Channels below 0 count as they are",
+            _weighted,
+            "A colour outside of the gamut has such channels: what is cut off makes it brighter.",
+            what="of a colour outside of the gamut, a luminance of",
+            case=lambda d: {"rgb": d.lengths(-2, 4, 3, d.n)},
         ),
         close(
             "values",
@@ -225,6 +246,16 @@ PHOTOGRAPHIC = function(
             "Beyond white the curve goes on; what is over 1 is cut off later.",
             shows=_tones,
             case=_shot(saturation=1.0),
+        ),
+        close(
+            "faint",
+            "A picture with hardly any light is mapped as any other",
+            _mapped,
+            "Only a luminance of 0 has no logarithm.",
+            what="of a dark picture, a channel of",
+            within=64,
+            case=_with_black,
+            scales=FAINT,
         ),
         close(
             "values",
@@ -434,6 +465,12 @@ def _steps(draw: Draw) -> Mapping[str, Any]:
     return {"encoded": (draw.rng.integers(0, 255, (3, draw.n)) + fraction) / 255}
 
 
+def _at_the_border(draw: Draw) -> Mapping[str, Any]:
+    """Eighths: 255 k / 8 has the fraction f = 1 - k / 8, so that u = k / 8 is just 1 - f, in either precision."""
+    eighths = draw.rng.integers(1, 8, (3, draw.n)) / 8
+    return {"encoded": eighths, "u": eighths}
+
+
 def _mean_codes(a: Arguments, r: Array) -> Iterator[tuple[str, Array, float, float]]:
     errors, fractions = r - 255 * a.encoded, 255 * a.encoded % 1
     for channel, values, fraction in zip(("red", "green", "blue"), errors, fractions, strict=True):
@@ -459,6 +496,15 @@ QUANTIZE = function(
             _neighbour,
             "one of the two codes next to 255 encoded",
             "The noise is one code wide, and no more.",
+        ),
+        close(
+            "border",
+            "Where u is just 1 - f the upper code comes",
+            lambda a, r: (r, 256 * a.encoded),
+            "At least 1 - f: that is >=.",
+            what="a code of",
+            within=0,
+            case=_at_the_border,
         ),
         means(
             "unbiased",

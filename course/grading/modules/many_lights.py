@@ -34,6 +34,9 @@ INSIDE = 0.05
 
 SCALES = (1.0, 1e-6, 1e6)
 
+FAINT = (1e-15,)
+"""Power of lamps that are the only ones there are."""
+
 # ---------------------------------------------------------------- power_choice
 
 
@@ -62,6 +65,18 @@ def _at_ends(draw: Draw) -> Mapping[str, Any]:
     }
 
 
+def _below_one(draw: Draw) -> Mapping[str, Any]:
+    """Lamps whose shares add up to less than 1 by rounding, the last ones without power, and the largest number."""
+    last = float(np.nextafter(draw.dtype(1), draw.dtype(0)))
+    power, shares = np.zeros(1), np.ones(1)
+    # Sums one after the other, of shares and over the sum of all at once: about every fifth draw rounds both down.
+    while not max(shares.cumsum()[-1], power.cumsum()[-1] / (power.sum() or 1)) < 1:
+        power = draw.rng.uniform(0.5, 4, 1500)
+        power[-int(draw.rng.integers(1, 9)) :] = 0
+        shares = power / power.sum()
+    return {"power": power, "u": np.full(draw.n, last)}
+
+
 def _lamp_of(a: Arguments) -> Array:
     """The lamp whose part each number falls in."""
     sums = np.cumsum(a.power) / np.sum(a.power)
@@ -87,6 +102,16 @@ POWER_CHOICE = function(
             shows=lambda _, r: r[0],
             case=_at_ends,
         ),
+        holds(
+            "last",
+            "The largest number chooses a lamp that has power, even where shares round to less than 1 together",
+            lambda a, r: a.power[r[0].clip(0, a.power.size - 1)] > 0,
+            "a lamp that has power",
+            "What finds no sum above it belongs to the last lamp that has power, not to the last lamp.",
+            shows=lambda _, r: r[0],
+            case=_below_one,
+            n=3,
+        ),
         close(
             "share",
             "The probability is the chosen lamp's share of the power",
@@ -95,6 +120,14 @@ POWER_CHOICE = function(
             what="a probability of",
             scales=SCALES,
             role="core",
+        ),
+        close(
+            "faint",
+            "Faint lamps have the shares of bright ones",
+            lambda a, r: (r[1], a.power[r[0].clip(0, a.power.size - 1)] / a.power.sum()),
+            "Only a sum of 0 can't be divided by.",
+            what="of faint lamps, a probability of",
+            scales=FAINT,
         ),
         close(
             "values",
@@ -624,6 +657,17 @@ def _one_lamp(draw: Draw) -> Mapping[str, Any]:
     return {"tree": tree, "p": p, "n": n}
 
 
+def _faint(case: Case) -> Case:
+    """The same with lamps of hardly any power."""
+
+    def faint(draw: Draw) -> Mapping[str, Any]:
+        found = dict(case(draw))
+        lo, hi, axis, angle, power, order = found["tree"]
+        return found | {"tree": (lo, hi, axis, angle, power * draw.dtype(FAINT[0]), order)}
+
+    return faint
+
+
 def _walks_to(draw: Draw) -> Mapping[str, Any]:
     """Numbers well within the parts of lamps that aren't too rare."""
     found = dict(_walks(draw))
@@ -751,6 +795,15 @@ TREE_CHOICE = function(
             role="core",
         ),
         close(
+            "faint",
+            "Trees of faint lamps are walked as those of bright ones",
+            lambda a, r: (np.stack(r), np.stack(_chosen(a)), 1.0),
+            "Half each is for two children that have no importance at all.",
+            what="of faint lamps, a lamp or a probability of",
+            floor=2e-3,
+            case=_faint(_walks_to),
+        ),
+        close(
             "values",
             "Lamps and their probabilities are right together",
             lambda a, r: (np.stack(r), np.stack(_chosen(a)), 1.0),
@@ -816,6 +869,15 @@ TREE_PROBABILITY = function(
             lambda _, r: (r, 0.25),
             what="a probability of",
             case=lambda d: {**_beneath(4)(d), "lamp": d.rng.integers(0, 4, d.n)},
+        ),
+        close(
+            "faint",
+            "Trees of faint lamps have the probabilities of bright ones",
+            lambda a, r: (r, _of_lamp(a, a.lamp), 1.0),
+            "Half each is for two children that have no importance at all.",
+            what="of faint lamps, a probability of",
+            floor=2e-3,
+            case=_faint(_any_lamp),
         ),
         close(
             "values",

@@ -14,7 +14,7 @@ import numpy as np
 
 from course.grading.checks import declare
 from course.grading.checks.check import Array, Failure, Trial
-from course.grading.checks.declare import Arguments, Case, Function, Law, Made, function
+from course.grading.checks.declare import Arguments, Function, Law, Made, function
 from course.grading.checks.distributions import uniform
 from course.grading.checks.drawing import SEVEN, Draw, worst_directions
 from course.grading.checks.evenness import evenly, smooth
@@ -83,11 +83,9 @@ def _lambda(cos: Array, alpha: float) -> Array:
     return np.asarray(np.where(cos > 0, (np.sqrt(1 + alpha**2 * _tan2(cos)) - 1) / 2, np.inf))
 
 
-def _below(name: str) -> Case:
-    def case(draw: Draw) -> Mapping[str, Any]:
-        return {name: -draw.uniform(0, 1, draw.n)}
-
-    return case
+def _below(draw: Draw) -> Mapping[str, Any]:
+    """Cosines below the horizon, and 0 itself."""
+    return {"cos": -draw.uniform(0, 1, draw.n) * (np.arange(draw.n) % 4 > 0)}
 
 
 # ---------------------------------------------------------------- ggx
@@ -129,7 +127,7 @@ GGX = function(
             lambda _, r: (r, 0.0),
             "The surface is a height field: where the cosine isn't above 0 there is none.",
             what="below the horizon, a value of",
-            case=_below("cos"),
+            case=_below,
         ),
         _dense(
             "sharp",
@@ -164,7 +162,7 @@ SMITH_G1 = function(
             lambda _, r: (r, 0.0),
             "A direction below the horizon sees no front of a microfacet.",
             what="below the horizon, a share of",
-            case=_below("cos"),
+            case=_below,
         ),
         close(
             "straight",
@@ -193,10 +191,13 @@ def _both(a: Arguments) -> Array:
 
 
 def _one_below(draw: Draw) -> Mapping[str, Any]:
-    """One direction is below the horizon, or both are."""
+    """One direction is below the horizon or along it, or both are."""
     o, i = draw.uniform(0, 1, 2, draw.n)
-    which = np.arange(draw.n) % 3
-    return {"cos_o": np.where(which == 1, o, -o), "cos_i": np.where(which == 2, i, -i)}
+    which, level = np.arange(draw.n) % 3, np.arange(draw.n) % 4 > 0
+    return {
+        "cos_o": np.where(which == 1, o, -o * level),
+        "cos_i": np.where(which == 2, i, -i * level),
+    }
 
 
 def _one_straight(draw: Draw) -> Mapping[str, Any]:
@@ -272,7 +273,7 @@ SAMPLE_VISIBLE_NORMAL = function(
             _cap,
             (12, 12),
             "Only the half that looks to the viewer is seen, the flatter the more.",
-            what="height and turn of the mirrored view, squeezed,",
+            what="height and turn of the squeezed view's mirror image",
             case=lambda d: {"wo": _turned(d.uniform(0.002, 0.05, d.n), d)},
             picture=lambda _, r: r[:2],
         ),
@@ -282,7 +283,7 @@ SAMPLE_VISIBLE_NORMAL = function(
             _cap,
             (12, 12),
             "The slopes are alpha tan of a hemisphere's normals, and each counts by its cosine.",
-            what="height and turn of the mirrored view, squeezed,",
+            what="height and turn of the squeezed view's mirror image",
             case=lambda d: {"wo": np.repeat([[0.0], [0.0], [1.0]], d.n, axis=1)},
             picture=lambda _, r: r[:2],
         ),
@@ -292,7 +293,7 @@ SAMPLE_VISIBLE_NORMAL = function(
             _cap,
             (16, 16),
             "Squeezed, the microfacets are a hemisphere, of which the viewer sees a half-disk and a half-ellipse.",
-            what="height and turn of the mirrored view, squeezed,",
+            what="height and turn of the squeezed view's mirror image",
             draws=2,
             whole=True,
             picture=lambda _, r: r[:2],
@@ -314,17 +315,18 @@ def _anywhere(draw: Draw) -> Mapping[str, Any]:
 
 
 def _flat(draw: Draw) -> Mapping[str, Any]:
-    return {**_anywhere(draw), "wo": _turned(draw.uniform(0.002, 0.05, draw.n), draw)}
+    return {**_anywhere(draw), "wo": _turned(10 ** draw.uniform(-6, -1, draw.n), draw)}
 
 
 def _hidden(draw: Draw) -> Mapping[str, Any]:
-    """Normals that look away from the viewer, and others that look down."""
+    """Normals that look away from the viewer, and others that look to it, but down."""
     wo = _above(draw)
     wm = draw.directions()
     away = dot(wo, wm) > -1e-3
     wm[:, away] = -wo[:, away]
-    turned = np.stack((-wo[1], wo[0], -wo[2]))
-    return {"wo": wo, "wm": np.where(np.arange(draw.n) % 2 == 0, wm, turned)}
+    down = np.stack((wo[0], wo[1], -1e-3 - (1 - wo[2] ** 2) / 2))
+    down /= np.linalg.norm(down, axis=0)
+    return {"wo": wo, "wm": np.where(np.arange(draw.n) % 2 == 0, wm, down)}
 
 
 def _visible(a: Arguments, r: Array) -> tuple[Any, ...]:
@@ -499,11 +501,12 @@ def _pairs(draw: Draw) -> Mapping[str, Any]:
 
 
 def _under(draw: Draw) -> Mapping[str, Any]:
-    """One direction is below the surface, or both are."""
+    """One direction is below the surface or along it, or both are."""
     wo, wi = _above(draw), _above(draw)
-    which = np.arange(draw.n) % 3
-    wo[2] = np.where(which == 1, wo[2], -wo[2])
-    wi[2] = np.where(which == 2, wi[2], -wi[2])
+    which, level = np.arange(draw.n) % 3, np.arange(draw.n) % 4 == 0
+    for w, above in ((wo, 1), (wi, 2)):
+        along = np.stack((w[2], np.hypot(w[0], w[1]), 0 * w[2]))
+        w[:] = np.where(which == above, w, np.where(level, along, w * [[1], [1], [-1]]))
     return {"wo": wo, "wi": wi}
 
 

@@ -21,6 +21,9 @@ LENGTHS = (1.0, 1e-6, 1e6)
 DENSE = (1.0, 1e-12, 1e12)
 """Factors of all densities."""
 
+SMALL = (1e12,)
+"""Size of a scene whose densities, over lengths, are small."""
+
 # ---------------------------------------------------------------- area_density
 
 
@@ -31,6 +34,11 @@ def _lamp(draw: Draw) -> Mapping[str, Any]:
         "distance": draw.lengths(0.25, 4, draw.n),
         "cos": np.where(draw.rng.random(draw.n) < 0.3, -1, 1) * draw.uniform(0.05, 1, draw.n),
     }
+
+
+def _beside(draw: Draw) -> Mapping[str, Any]:
+    """Points nearly in the lamp's plane."""
+    return {**_lamp(draw), "cos": 10 ** draw.uniform(-8, -1, draw.n)}
 
 
 def _by_area(a: Arguments, r: Array) -> tuple[Any, ...]:
@@ -64,6 +72,14 @@ AREA_DENSITY = function(
             what="in front of the lamp, a density of",
             case=lambda draw: {**_lamp(draw), "cos": np.ones(draw.n)},
             role="core",
+        ),
+        close(
+            "beside",
+            "Next to the lamp's plane densities are as large as they are",
+            _by_area,
+            "The cosine may be as small as it likes, as long as it is above 0.",
+            what="at a grazing angle, a density of",
+            case=_beside,
         ),
         close(
             "values",
@@ -106,8 +122,10 @@ def _far(draw: Draw) -> Mapping[str, Any]:
 
 
 def _within(draw: Draw) -> Mapping[str, Any]:
-    radius = draw.number(0.1, 2)
-    return {"radius": radius, "distance": radius * 0.99 * draw.rng.random(draw.n)}
+    # A radius that single precision has too, so that some distances are just as large.
+    radius = float(np.float32(draw.number(0.1, 2)))
+    part = np.where(np.arange(draw.n) % 4 == 0, 1, 0.99 * draw.rng.random(draw.n))
+    return {"radius": radius, "distance": radius * part}
 
 
 CONE_DENSITY = function(
@@ -116,9 +134,9 @@ CONE_DENSITY = function(
     (
         close(
             "inside",
-            "Within the ball the density is 0, at its centre too",
+            "Within the ball and on it the density is 0, at its centre too",
             lambda _, r: (r, 0.0),
-            "The lamp shines outwards: nothing arrives within it.",
+            "The lamp shines outwards: nothing arrives within it, and distance <= radius counts as within.",
             what="a density of",
             case=_within,
         ),
@@ -185,6 +203,11 @@ def _unlike(draw: Draw) -> Mapping[str, Any]:
     return {"counts": _counts(draw, 3), "densities": densities}
 
 
+def _steep(draw: Draw) -> Mapping[str, Any]:
+    """An exponent so large that powers of most numbers are none."""
+    return {**_two(draw), "counts": np.array([300, 500]), "exponent": draw.number(150, 400)}
+
+
 def _shares(counts: Array, densities: Array, exponent: float) -> Array:
     """In logarithms, as no solution has it."""
     with np.errstate(divide="ignore"):
@@ -231,6 +254,15 @@ HEURISTIC_WEIGHTS = function(
             what="a weight of",
             case=_unlike,
             scales=DENSE,
+        ),
+        close(
+            "steep",
+            "Large exponents leave numbers",
+            _weights,
+            "Divide by the largest product first: its power is 1 then, and no other is larger.",
+            what="a weight of",
+            floor=1e-3,
+            case=_steep,
         ),
         close(
             "balance",
@@ -282,12 +314,12 @@ def _one_delta(draw: Draw) -> Mapping[str, Any]:
 
 
 def _no_delta(draw: Draw) -> Mapping[str, Any]:
-    """Deltas that don't draw the sample: their probability is 0."""
-    densities = draw.lengths(0.1, 9, 3, draw.n)
-    densities[1] = 0
-    delta = np.zeros((3, draw.n), bool)
-    delta[1] = True
-    return {"counts": _counts(draw, 3), "densities": densities, "delta": delta}
+    """Two deltas that don't draw the sample: one has the probability 0, the other takes no samples."""
+    counts, densities = _counts(draw, 4), draw.lengths(0.1, 9, 4, draw.n)
+    counts[1] = densities[2] = 0
+    delta = np.zeros((4, draw.n), bool)
+    delta[1:3] = True
+    return {"counts": counts, "densities": densities, "delta": delta}
 
 
 def _with_deltas(a: Arguments, r: Array) -> tuple[Any, ...]:
@@ -312,7 +344,7 @@ DELTA_WEIGHTS = function(
             "elsewhere",
             "A delta that doesn't draw the sample takes nothing from the others",
             _with_deltas,
-            "A lobe's direction isn't the mirror's: there the mirror's probability is 0.",
+            "A lobe's direction isn't the mirror's: there its probability is 0. And who takes no samples draws none.",
             what="a weight of",
             case=_no_delta,
         ),
@@ -421,6 +453,15 @@ MULTI_SAMPLE = function(
             role="core",
         ),
         close(
+            "small",
+            "Small densities divide as large ones do",
+            _summed,
+            "A density of 0 is the only one that counts 0.",
+            what="of densities below 1e-10, a sum of",
+            within=64,
+            scales=SMALL,
+        ),
+        close(
             "values",
             "The sum of w f / (n p)",
             _summed,
@@ -487,6 +528,14 @@ ONE_SAMPLE = function(
             floor=3e-3,
             case=_by_odds,
             role="core",
+        ),
+        close(
+            "small",
+            "Small densities divide as large ones do",
+            _one_each,
+            "A sum of 0 is the only one that nobody draws.",
+            what="of densities below 1e-10, an estimate of",
+            scales=SMALL,
         ),
         close(
             "values",

@@ -86,6 +86,6 @@ def power_choice(power, u):
     if np.ndim(power) != 1 or np.ndim(u) != 1 or not np.all(power >= 0) or not np.sum(power) > 0:
         raise ValueError("power must have shape (L,), be >= 0 and not all 0, and u shape (N,)")
     share = np.divide(power, power.sum(dtype=float), dtype=float)
-    edges = np.append(0, share.cumsum())
-    number = np.digitize(u, edges[1:-1]) if len(share) > 1 else np.zeros(len(u), int)
+    # Edges that end below 1 by rounding leave what is above them to the last lamp that shines.
+    number = np.digitize(u, share.cumsum()).clip(0, np.flatnonzero(share)[-1])
     return number, share[number].astype(u.dtype)
