@@ -49,7 +49,7 @@ def _few_and_many(draw: Draw) -> Mapping[str, Any]:
 def _sure(draw: Draw) -> Mapping[str, Any]:
     """Pixels whose samples are all the same; some of them have equal means."""
     black = np.zeros((3, draw.n))
-    means = {f"mean_{x}": draw.rng.choice((0.25, 0.5, 1.0), (3, draw.n)) for x in "ab"}
+    means = {f"mean_{x}": draw.scale * draw.rng.choice((0.25, 0.5, 1.0), (3, draw.n)) for x in "ab"}
     return {**_pair(draw), **means, "variance_a": black, "variance_b": black}
 
 
@@ -86,6 +86,7 @@ WELCH_T = function(
             "A division by 0 has to be looked at: 0 / 0 is no number. Which sign has the difference?",
             what="of two variances of 0, a statistic of",
             case=_sure,
+            scales=(1.0, *FAINT),
         ),
         close(
             "one_certain",

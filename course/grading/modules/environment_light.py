@@ -249,7 +249,17 @@ def _inverted(draw: Draw) -> Mapping[str, Any]:
 
 def _inside(draw: Draw) -> Mapping[str, Any]:
     """Numbers that choose a texel, and lie within it."""
-    weights = _weights(draw)
+    return _inside_of(_weights(draw), draw)
+
+
+def _inside_dim(draw: Draw) -> Mapping[str, Any]:
+    """The same in a picture of a high dynamic range."""
+    height, width = _size(draw)
+    rows, columns = 10 ** draw.uniform(-7, 0, height, 1), 10 ** draw.uniform(-7, 0, width)
+    return _inside_of(rows * columns, draw)
+
+
+def _inside_of(weights: Array, draw: Draw) -> Mapping[str, Any]:
     rows, columns = _shares(weights)
     texel = draw.rng.choice(np.flatnonzero(weights), draw.n)
     row, column = np.divmod(texel, weights.shape[1])
@@ -326,7 +336,8 @@ def _bright(a: Arguments, r: Array) -> Array:
 
 def _borders(draw: Draw) -> Mapping[str, Any]:
     """Numbers that are sums themselves, and 0: the texel behind them counts."""
-    rows, columns = _shares(np.array([[0, 0, 0], [0, 1, 3], [0, 0, 0], [2, 0, 2.0]]))
+    bright = ([0, 0, 1, 3, 0, 0], [0, 2, 0, 2, 0, 0])
+    rows, columns = _shares(np.array([6 * [0], bright[0], 6 * [0], bright[1]], float))
     return {"rows": rows, "columns": columns, "u": draw.rng.choice([0.0, 0.25, 0.5], (2, draw.n))}
 
 
@@ -353,6 +364,15 @@ SAMPLE_DIRECTION = function(
             floor=2e-5,
             case=_inside,
             whole=True,
+        ),
+        close(
+            "dim",
+            "In dim texels directions lie where their numbers say, too",
+            lambda a, r: (r, _expected(a)),
+            "A dim texel's share of [0, 1) is small; what is left of a number is divided by it all the same.",
+            floor=2e-5,
+            case=_inside_dim,
+            dtypes=(np.float64,),
         ),
         uniform(
             "density",
@@ -534,7 +554,17 @@ def _any_table(draw: Draw) -> Mapping[str, Any]:
 
 def _within_parts(draw: Draw) -> Mapping[str, Any]:
     """Numbers within a column's two parts."""
+    return _parts_of(*_table(draw), draw)
+
+
+def _narrow_parts(draw: Draw) -> Mapping[str, Any]:
+    """The same in columns of which one of the two has hardly any."""
     probability, alias = _table(draw)
+    small = 10 ** draw.uniform(-7, -1, len(alias))
+    return _parts_of(np.where(probability < 0.5, small, 1 - small), alias, draw)
+
+
+def _parts_of(probability: Array, alias: Array, draw: Draw) -> Mapping[str, Any]:
     column = draw.rng.integers(0, len(alias), draw.n)
     own, kept = probability[column], draw.rng.random(draw.n) < 0.5
     kept |= own == 1
@@ -581,6 +611,16 @@ DRAW_ALIAS = function(
             lambda _, r: (r[1] >= 0) & (r[1] <= 1),
             "a number from 0 to 1",
             shows=lambda _, r: r[1],
+        ),
+        close(
+            "narrow",
+            "Narrow parts of a column are stretched, too",
+            lambda a, r: (np.stack(r), np.stack(_drawn(a)), 1.0),
+            "Only a part of width 0 can't be divided by, and nothing lies in it.",
+            what="an outcome or a rest of",
+            floor=2e-3,
+            case=_narrow_parts,
+            dtypes=(np.float64,),
         ),
         close(
             "rest",

@@ -457,6 +457,12 @@ FRESNEL_COMPLEX = function(
             case=lambda d: {"cos": np.ones(d.n)},
         ),
         _share(
+            "perfect",
+            "An index of 0 with absorption mirrors all",
+            hint="Only where both are 0 there is no index.",
+            case=lambda d: {"n": np.where(np.arange(3) == d.rng.integers(3), 0.0, 1.5)},
+        ),
+        _share(
             "glass",
             "Without absorption it is glass",
             hint="The square root is that of a positive number, and all formulae hold.",
@@ -507,6 +513,17 @@ def _under(draw: Draw) -> Mapping[str, Any]:
     for w, above in ((wo, 1), (wi, 2)):
         along = np.stack((w[2], np.hypot(w[0], w[1]), 0 * w[2]))
         w[:] = np.where(which == above, w, np.where(level, along, w * [[1], [1], [-1]]))
+    return {"wo": wo, "wi": wi}
+
+
+def _along(draw: Draw) -> Mapping[str, Any]:
+    """Both directions run nearly along the surface, to about the same side."""
+    phi, heights = draw.uniform(0, 2 * pi, draw.n), 10 ** draw.uniform(-4, -1, 2, draw.n)
+    turned = (phi, phi + draw.uniform(-1.5, 1.5, draw.n))
+    wo, wi = (
+        np.stack((np.sqrt(1 - z * z) * np.cos(way), np.sqrt(1 - z * z) * np.sin(way), z))
+        for z, way in zip(heights, turned, strict=True)
+    )
     return {"wo": wo, "wi": wi}
 
 
@@ -578,6 +595,15 @@ BRDF = function(
             within=1e-6 / EPSILON,
             case=_exchanged,
             dtypes=(np.float64,),
+        ),
+        close(
+            "along",
+            "Along the surface values are as large as they are",
+            _returned,
+            "4 wo_z wi_z goes to 0, and so does G2: their ratio doesn't.",
+            what="at a grazing angle, a value of",
+            within=64,
+            case=_along,
         ),
         Law("furnace", "Under an even sky as little is lost as should be", _furnace, "core"),
         close(

@@ -349,6 +349,14 @@ DELTA_WEIGHTS = function(
             case=_no_delta,
         ),
         close(
+            "sizes",
+            "Very large and very small densities have shares as others do",
+            _with_deltas,
+            "Who draws a sample has a density over 0, however small.",
+            what="a weight of",
+            scales=DENSE[1:],
+        ),
+        close(
             "none",
             "Without deltas weights are the balance heuristic's",
             _with_deltas,
