@@ -255,8 +255,13 @@ def _inside(draw: Draw) -> Mapping[str, Any]:
 def _inside_dim(draw: Draw) -> Mapping[str, Any]:
     """The same in a picture of a high dynamic range."""
     height, width = _size(draw)
-    rows, columns = 10 ** draw.uniform(-7, 0, height, 1), 10 ** draw.uniform(-7, 0, width)
-    return _inside_of(rows * columns, draw)
+    rows, columns = (_unlike(count, draw) for count in (height, width))
+    return _inside_of(rows[:, None] * columns, draw)
+
+
+def _unlike(count: int, draw: Draw) -> Array:
+    """Numbers from 3e-8 to 1, in any order."""
+    return np.asarray(10 ** -draw.rng.permutation(np.linspace(0, 7.5, count)))
 
 
 def _inside_of(weights: Array, draw: Draw) -> Mapping[str, Any]:
@@ -370,7 +375,7 @@ SAMPLE_DIRECTION = function(
             "In dim texels directions lie where their numbers say, too",
             lambda a, r: (r, _expected(a)),
             "A dim texel's share of [0, 1) is small; what is left of a number is divided by it all the same.",
-            floor=2e-5,
+            floor=1e-3,
             case=_inside_dim,
             dtypes=(np.float64,),
         ),
@@ -559,9 +564,9 @@ def _within_parts(draw: Draw) -> Mapping[str, Any]:
 
 def _narrow_parts(draw: Draw) -> Mapping[str, Any]:
     """The same in columns of which one of the two has hardly any."""
-    probability, alias = _table(draw)
-    small = 10 ** draw.uniform(-7, -1, len(alias))
-    return _parts_of(np.where(probability < 0.5, small, 1 - small), alias, draw)
+    _, alias = _table(draw)
+    small = 0.1 * _unlike(len(alias), draw)
+    return _parts_of(np.where(np.arange(len(alias)) % 2 == 0, small, 1 - small), alias, draw)
 
 
 def _parts_of(probability: Array, alias: Array, draw: Draw) -> Mapping[str, Any]:

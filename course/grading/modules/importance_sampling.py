@@ -205,6 +205,12 @@ def _large(draw: Draw) -> Mapping[str, Any]:
     return {"f": 3000 + draw.uniform(0, 1, 2, draw.n), "pdf": np.ones(draw.n)}
 
 
+def _small(draw: Draw) -> Mapping[str, Any]:
+    """Densities so small that a floor under them would be felt."""
+    a = dict(_samples(draw))
+    return a | {"pdf": 1e-12 * a["pdf"]}
+
+
 def _quotients(a: Arguments) -> Array:
     """What each sample says: f / pdf, and 0 where the density is."""
     return np.asarray(np.where(a.pdf > 0, a.f / np.where(a.pdf > 0, a.pdf, 1), 0))
@@ -299,6 +305,15 @@ ESTIMATE = function(
             what="with samples of density 0, a mean or variance of",
             n=200,
             case=_some_of_none,
+        ),
+        close(
+            "small_densities",
+            "Small densities divide as large ones do",
+            _both,
+            "Only a density of 0 can't be divided by.",
+            what="of densities below 1e-10, a mean or variance of",
+            n=200,
+            case=_small,
         ),
         close(
             "small_variance",

@@ -322,7 +322,7 @@ def _bright(draw: Draw) -> Mapping[str, Any]:
 
 def _of_any_scale(draw: Draw) -> Mapping[str, Any]:
     given = _samples(draw)
-    return {**given, "weights": given["weights"] * 10.0 ** draw.rng.integers(-6, 6, (draw.n, 1))}
+    return {**given, "weights": given["weights"] * 10.0 ** draw.rng.integers(-15, 6, (draw.n, 1))}
 
 
 def _some_negative(draw: Draw) -> Mapping[str, Any]:
