@@ -93,12 +93,12 @@ def _whole(value: Any) -> str:
     if isinstance(value, tuple):
         return f"({', '.join(map(_whole, value))})"
     if isinstance(value, np.ndarray):
-        text = np.array2string(value, precision=4, separator=", ", suppress_small=True)
+        text = np.array2string(value, separator=", ", formatter={"float_kind": _entry})
         return " ".join(text.split()) if value.size <= 36 else f"an array {value.shape}"
     if isinstance(value, np.generic):
         # A call that is pasted has to be the same call: a scalar of NumPy's isn't Python's float.
-        return f"np.{value.dtype}({value:.6g})"
-    return f"{value:.6g}" if isinstance(value, float) else str(value)
+        return f"np.{value.dtype}({number(value)})"
+    return number(value) if isinstance(value, float) else str(value)
 
 
 def _of(value: Any, column: int, columns: int) -> str:
@@ -111,6 +111,20 @@ def _of(value: Any, column: int, columns: int) -> str:
         numbers = np.ravel(value)
         if numbers.size > 12:
             return f"an array {value.shape}"
-        text = ", ".join(f"{number:.6g}" for number in numbers.tolist())
+        text = ", ".join(map(number, numbers.tolist()))
         return f"({text})" if np.ndim(value) else text
-    return f"{value:.6g}" if isinstance(value, float) else str(value)
+    return number(value) if isinstance(value, float) else str(value)
+
+
+def _entry(value: Any) -> str:
+    """A number of a floating array, which stays one when it is pasted."""
+    text = number(value, 4)
+    return f"{text}." if text.lstrip("-").isdigit() else text
+
+
+def number(value: Any, digits: int = 6) -> str:
+    """A number to be read; what is next to 1, as the largest numbers u are, is not shown as 1."""
+    text = f"{value:.{digits}g}"
+    if text == "1" and value != 1:
+        return f"1 {'-' if value < 1 else '+'} {abs(value - 1):.2g}"
+    return text

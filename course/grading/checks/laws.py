@@ -13,7 +13,7 @@ import numpy as np
 from course.grading.checks.check import Array, Failure, Kind, Role, Trial
 from course.grading.checks.declare import WHOLE, Arguments, Case, Function, Law
 from course.grading.checks.drawing import Draw
-from course.grading.checks.examples import call, example, where
+from course.grading.checks.examples import call, example, number, where
 
 EPSILON = float(np.finfo(np.float32).eps)
 """Of single precision: nothing is asked to be more exact, whatever dtype it has."""
@@ -112,8 +112,8 @@ def close(
         if not excess[worst] <= 0:
             told = f"{what} " if what else ""
             raise Failure(
-                f"{told}{expected[worst]:.7g}" + _row(worst, found.shape),
-                f"{found[worst]:.7g}",
+                f"{told}{number(expected[worst], 7)}" + _row(worst, found.shape),
+                number(found[worst], 7),
                 where(a, worst, found.shape),
                 hint,
             )
@@ -150,7 +150,7 @@ def holds(
         if not right.all():
             column = tuple(int(i) for i in np.argwhere(~right)[0])
             shown = np.asarray(shows(a, r)) if shows else None
-            came = f"{shown[column]:.6g}" if shown is not None else result_at(r, column)
+            came = number(shown[column]) if shown is not None else result_at(r, column)
             raise Failure(says, came, where(a, column, right.shape), hint)
 
     return law(name, title, look, **how)
@@ -166,7 +166,7 @@ def result_at(r: Any, column: tuple[int, ...]) -> str:
 def shown(values: Any) -> str:
     """Numbers in brackets, or one without."""
     numbers = np.ravel(values).tolist()
-    text = ", ".join(f"{number:.6g}" for number in numbers[:12])
+    text = ", ".join(map(number, numbers[:12]))
     return f"({text})" if np.ndim(values) else text
 
 

@@ -8,7 +8,7 @@ import pytest
 from course.grading.checks.check import Failure
 from course.grading.checks.conventions import conventions
 from course.grading.checks.declare import Arguments
-from course.grading.checks.examples import call
+from course.grading.checks.examples import call, where
 from course.grading.errors import StudentError
 from tests.grading.checks.declaring import SHIFTED, but, shifted, trial
 
@@ -80,6 +80,12 @@ def test_a_number_of_numpys_own_is_shown_as_one() -> None:
     """Pasted as a Python float, the call would be right."""
     given = Arguments(center=np.zeros(3), radius=np.float64(0.5), k=2)
     assert call("it", given) == "it(center = [0., 0., 0.], radius = np.float64(0.5), k = 2)"
+
+
+def test_the_largest_number_below_1_and_small_ones_are_not_shown_as_1_and_0() -> None:
+    u = np.array([0.5, 1 - 2.0**-24, 1e-15, -2, 1])
+    assert call("it", Arguments(u=u)) == "it(u = [0.5, 1 - 6e-08, 1e-15, -2., 1.])"
+    assert where(Arguments(u=u), (1,), (5,)) == "u = 1 - 6e-08"
 
 
 def test_wrong_shapes_are_axes_less_more_and_turned_and_rows() -> None:
