@@ -21,6 +21,9 @@ UNPROTECTED = "NOT PROTECTED"
 _LAST = ("untouched", "refuses", "layouts", "columns")
 """Checks whose failures say the least where others have failed as well."""
 
+_FIRST = ("unit_length", "contract")
+"""Checks that say why others failed: wrong shapes above all, then lengths, on which distributions hang."""
+
 _DRAWN = ("picture", "bias", "order", "speed")
 """Kinds that say that something is wrong, and not what."""
 
@@ -140,7 +143,12 @@ class FunctionResults(Total):
         return tuple(
             sorted(
                 told,
-                key=lambda r: (r.check in _LAST, r.kind in _DRAWN, r.check != "contract", -r.of),
+                key=lambda r: (
+                    r.check in _LAST,
+                    r.kind in _DRAWN,
+                    -_FIRST.index(r.check) if r.check in _FIRST else 1,
+                    -r.of,
+                ),
             )
         )
 

@@ -17,7 +17,7 @@ from course.grading.checks.trusted import TrustedModule
 from course.grading.classes.policy import Mark
 from course.grading.classes.roster import Matched
 from course.grading.references import prepared, reference
-from course.grading.report import Report, docs_page, reproduce
+from course.grading.report import FunctionResults, Report, docs_page, reproduce
 from course.grading.reports.classes import Line, write_class_page
 from course.grading.reports.page import as_page
 from course.modules import COURSE
@@ -120,6 +120,14 @@ def test_a_known_mistake_is_told_once_for_a_function(report: Report) -> None:
     page = read(report)
     assert page.text.count("You focus on a sphere") == 1
     assert "same mistake as above: wrong-plane" in page.text
+
+
+def test_shapes_and_lengths_are_told_before_what_hangs_on_them(report: Report) -> None:
+    failed = report.results[1]
+    names = "density", "unit_length", "contract", "columns"
+    results = (replace(failed, check=name, kind="property", of=1, says="") for name in names)
+    told = FunctionResults(failed.module, failed.function, tuple(results)).told
+    assert [result.check for result in told] == ["contract", "unit_length", "density", "columns"]
 
 
 def test_what_was_said_before_is_folded(report: Report) -> None:
