@@ -35,8 +35,9 @@ class SpotLight(PointLight):
         sample = towards_in_numpy(self.position[:, None], points)
         # 1 - cos of an angle is half the square of the chord, which keeps its digits where the angle is small.
         chord = -sample.to_light * sample.inverse_length - self.axis[:, None]
-        share = _versine(self.outer) - dot(chord, chord) / 2
-        share /= max(_versine(self.outer) - _versine(self.inner), SHARPEST)
+        outer = _versine(self.outer)
+        edge = max(outer - _versine(self.inner), SHARPEST * outer, LEAST)
+        share = (outer - dot(chord, chord) / 2) / np.float32(edge)
         factor = sample.factor * np.clip(share, 0, 1) ** 4
         return Sample(sample.to_light, sample.inverse_length, np.asarray(factor, np.float32))
 
@@ -48,7 +49,10 @@ class SpotLight(PointLight):
 
 
 SHARPEST = 1e-7
-"""Difference of cosines over which a light falls off at least: float32 carries no sharper edge."""
+"""Part of the outer cone's 1 - cos over which a light falls off at least: float32 carries no sharper edge."""
+
+LEAST = 1e-30
+"""1 - cos that is divided by at least."""
 
 
 def _versine(angle: float) -> float:

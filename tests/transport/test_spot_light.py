@@ -55,6 +55,18 @@ def test_the_share_is_that_of_its_definition(inner: float, outer: float) -> None
     np.testing.assert_allclose(sample.to_light, -points)
 
 
+@pytest.mark.parametrize(("inner", "outer"), [(0.01, 0.02), (0, 0.001), (0.1, 0.2)])
+def test_narrow_cones_are_as_bright_as_wide_ones(inner: float, outer: float) -> None:
+    """By the squares of the angles, which 1 - cos is in proportion to; float32 carries ways to 1e-7."""
+    radius = np.radians(np.linspace(0, 1.2 * outer, 121)).astype(np.float32)
+    points = np.stack((radius, 0 * radius, np.full(121, -1, np.float32)))
+    low, high = np.radians([inner, outer]) ** 2
+    expected = np.clip((high - radius.astype(np.float64) ** 2) / (high - low), 0, 1) ** 4
+    found = light(inner, outer).sample(points, None, towards).factor
+    np.testing.assert_allclose(found, expected, atol=1e-5 / outer + 1e-4)
+    assert found.max() == pytest.approx(1, abs=1e-3)
+
+
 def test_a_hard_edge_is_one() -> None:
     points = np.array([[[0.999], [0], [-1]], [[1.001], [0], [-1]]], np.float32)
     for point, lit in zip(points, (True, False), strict=True):
