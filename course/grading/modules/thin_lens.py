@@ -244,8 +244,14 @@ CIRCLE_OF_CONFUSION = function(
             "in_front",
             "Points in front of the plane in focus spread as far as they should",
             hint="The circle grows without limit towards the lens: which depth is divided by? No sign is left.",
-            case=_depths(1e-6, 0.99),
+            case=_depths(0.02, 0.99),
             role="core",
+        ),
+        _spread(
+            "near",
+            "Points next to the lens spread as far as they should",
+            hint="The circle grows without limit towards the lens: only a depth of 0 can't be divided by.",
+            case=_depths(1e-6, 0.02),
         ),
         _spread(
             "limits",

@@ -3,7 +3,7 @@
 import numpy as np
 
 FUNCTION = "circle_of_confusion"
-CAUGHT_BY = "in_front"
+CAUGHT_BY = "near"
 MISTAKE = None
 
 
