@@ -12,6 +12,8 @@ from zlib import crc32
 import numpy as np
 from numpy.typing import NDArray
 
+from course.grading.looked import Looked
+
 Array = NDArray[Any]
 Kind = Literal["contract", "property", "distribution", "picture", "bias", "order", "speed", "whole"]
 FigureKind = Literal["points", "histogram", "pictures", "rays"]
@@ -65,8 +67,8 @@ class Caller(Protocol):
         """The function's value: an ndarray, a number, or a tuple of these; ``StudentError`` if there is none."""
         ...
 
-    def call_and_look(self, function: str, *arguments: Any) -> tuple[Any, list[Any], bool]:
-        """The value, the arguments as they are after the call, and whether NumPy's global random state moved."""
+    def call_and_look(self, function: str, *arguments: Any) -> Looked:
+        """The value, the arguments as they are after the call, and what else has changed since the last such call."""
         ...
 
 

@@ -11,8 +11,9 @@ from course.grading.checks.check import Array, Failure, Trial
 from course.grading.checks.declare import COLUMNS, Arguments, Function, Law
 from course.grading.checks.drawing import Draw
 from course.grading.checks.examples import call, where
-from course.grading.checks.laws import DTYPES, EPSILON
+from course.grading.checks.laws import DTYPES, EPSILON, exact
 from course.grading.checks.refusals import refuses
+from course.grading.looked import EARLIER_RESULT, RANDOM_STATE
 
 SIZES = (2, 1, 0, 17)
 """Columns."""
@@ -22,7 +23,11 @@ def conventions(function: Function) -> tuple[Law, ...]:
     """The function's conventions, as laws."""
     found = [
         ("contract", "Shapes and dtypes are as agreed, and all numbers finite", _contract),
-        ("untouched", "Arguments and the global random state are left alone", _untouched),
+        (
+            "untouched",
+            "Arguments, earlier results and the global random state are left alone",
+            _untouched,
+        ),
         ("refuses", "Wrong arguments raise ValueError", refuses),
     ]
     if any(argument.sizes for argument in function.arguments):
@@ -30,7 +35,15 @@ def conventions(function: Function) -> tuple[Law, ...]:
         found.append(("layouts", title, _layouts))
     if function.columns and any(argument.axis is not None for argument in function.arguments):
         found.append(("columns", "Each column depends on its own arguments alone", _columns))
-    return tuple(Law(name, title, run, "convention", "contract") for name, title, run in found)
+    laws = tuple(Law(name, title, run, "convention", "contract") for name, title, run in found)
+    if any(law.anywhere for law in function.laws) and function.extremes(Draw(_rng(), 1)):
+        title = "Laws hold at the ends of what is legal, which random numbers never meet"
+        laws += (Law("at_the_ends", title, _at_the_ends),)
+    return laws
+
+
+def _rng() -> np.random.Generator:
+    return np.random.default_rng(0)
 
 
 # ---------------------------------------------------------------- contract
@@ -80,14 +93,28 @@ def _legal(function: Function, trial: Trial) -> Iterator[tuple[Arguments, str]]:
         yield a, f"single points and numbers of {np.dtype(kind)}"
 
 
+# ---------------------------------------------------------------- at_the_ends
+
+
+def _at_the_ends(function: Function, trial: Trial) -> None:
+    for dtype in DTYPES:
+        for a in function.extremes(Draw(trial.rng, 1, dtype)):
+            given, r = exact(a), function.call(trial, a)
+            for law in function.laws:
+                look, dtypes = law.anywhere or (None, ())
+                if look and dtype in dtypes:
+                    look(given, r)
+
+
 # ---------------------------------------------------------------- untouched
 
 
 def _untouched(function: Function, trial: Trial) -> None:
-    for n in (3, 50):
+    # Twice as many columns: memory that is used again is mostly that of as large a result.
+    for n in (3, 50, 50):
         a = function.make(Draw(trial.rng, n, np.float32))
         before = deepcopy([_arrays(value) for value in a.values()])
-        _, after, moved = trial.caller.call_and_look(trial.function, *a.values())
+        _, after, changed = trial.caller.call_and_look(trial.function, *a.values())
         for name, old, new in zip(a, before, after, strict=True):
             pairs = zip(old, _arrays(new), strict=True)
             if not all(np.array_equal(one, other, equal_nan=True) for one, other in pairs):
@@ -98,7 +125,15 @@ def _untouched(function: Function, trial: Trial) -> None:
                     "Work on a copy.",
                     slip="writes-to-arguments",
                 )
-        if moved:
+        if EARLIER_RESULT in changed:
+            raise Failure(
+                "what an earlier call has returned to be left as it was",
+                "this call has written to it",
+                call(function.name, a),
+                "Make a new array in every call: who holds the earlier one finds other numbers in it.",
+                slip="overwrites-results",
+            )
+        if RANDOM_STATE in changed:
             raise Failure(
                 "NumPy's global random state to be left alone",
                 "the function seeds it or draws from it",

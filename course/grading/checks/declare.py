@@ -146,6 +146,7 @@ class Law:
     name, title : as a check has them
     run : raises ``Failure``
     case : what it calls the function with, where mistakes that break it show; None if that is any case
+    anywhere : what is looked at in any call of arguments of these dtypes; None if it takes a case, or many samples
     beside : a law that always comes with it
     """
 
@@ -157,6 +158,7 @@ class Law:
     points: float = 1.0
     false_fail: float = 0.0
     case: Case | None = None
+    anywhere: tuple[Callable[["Arguments", Any], None], tuple[Any, ...]] | None = None
     beside: "Law | None" = None
 
 
@@ -216,28 +218,31 @@ class Function:
         return found
 
     def ends(self, draw: Draw) -> list[Arguments]:
-        """Arguments at the ends of what is legal; as many columns as it takes."""
-        found = []
-        # What a case makes hangs on its other arguments, and has no ends of its own.
-        hanging = set(self.case(draw)) if self.case else set()
-        ended = [one for one in self.arguments if one.corners and one.name not in hanging]
-        if ended:
-            ends = [argument.corners(draw.dtype) for argument in ended if argument.corners]
-            sizes = [end.shape[-1] for end in ends]
-            index = np.indices(sizes).reshape(len(sizes), -1)
-            # Not all pairs of hundreds of directions: every so manieth, and with no common divisor, all of each.
-            step = max(1, index.shape[1] // 997)
-            while any(gcd(step, size) > 1 for size in sizes):
-                step += 1
-            index = index[:, ::step]
-            a = self.make(draw.but(n=index.shape[1]))
-            for argument, end, chosen in zip(ended, ends, index, strict=True):
-                a[argument.name] = np.ascontiguousarray(end[..., chosen])
-            found.append(a)
-        return found + [
+        """Arguments at the ends of what is legal: its extremes and its corners."""
+        return self.extremes(draw) + [
             self.make(draw, lambda _, corner=corner: corner(draw.dtype))  # type: ignore[misc]
             for corner in self.corners
         ]
+
+    def extremes(self, draw: Draw) -> list[Arguments]:
+        """Columns of numbers at the ends of what is legal, as many as it takes, beside others that are as usual."""
+        # What a case makes hangs on its other arguments, and has no ends of its own.
+        hanging = set(self.case(draw)) if self.case else set()
+        ended = [one for one in self.arguments if one.corners and one.name not in hanging]
+        if not ended:
+            return []
+        ends = [argument.corners(draw.dtype) for argument in ended if argument.corners]
+        sizes = [end.shape[-1] for end in ends]
+        index = np.indices(sizes).reshape(len(sizes), -1)
+        # Not all pairs of hundreds of directions: every so manieth, and with no common divisor, all of each.
+        step = max(1, index.shape[1] // 997)
+        while any(gcd(step, size) > 1 for size in sizes):
+            step += 1
+        index = index[:, ::step]
+        a = self.make(draw.but(n=index.shape[1]))
+        for argument, end, chosen in zip(ended, ends, index, strict=True):
+            a[argument.name] = np.ascontiguousarray(end[..., chosen])
+        return [a]
 
     def call(self, trial: Trial, a: Arguments) -> Any:
         """The results, of right shapes and finite, floating ones in float64; a tuple if there are several.

@@ -70,7 +70,8 @@ def law(
                     raise
 
     role, points = ("core", WHOLE) if whole else (role, points)
-    return Law(name, title, run, role, kind, points, case=case)
+    anywhere = None if case else (look, tuple(dtypes))
+    return Law(name, title, run, role, kind, points, case=case, anywhere=anywhere)
 
 
 def close(

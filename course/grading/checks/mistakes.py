@@ -46,6 +46,8 @@ SLIPS = {
     "the function works in the caller's memory.",
     "global-random-state": "NumPy's global random state is another one after the call, "
     "and so are the numbers of everybody who uses it.",
+    "overwrites-results": "An array that an earlier call has returned holds other numbers after the next one: "
+    "the function hands out the same memory again.",
     "other-dtype": "The values may be right; the result has another dtype than was agreed for these arguments.",
     "not-refused": "Arguments that can't be right give a result, and so a wrong picture that nobody is told of.",
     "not-by-its-column": "A column's result hangs on more than its own arguments: "

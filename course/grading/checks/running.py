@@ -32,6 +32,7 @@ from course.grading.checks.mistakes import SLIPS, explains, known_mistake
 from course.grading.checks.picture_rays import PICTURE, rays_behind
 from course.grading.checks.result import NOT_WRITTEN, Result, Status, broken, result_of, troubled
 from course.grading.errors import StudentError
+from course.grading.looked import Looked
 from course.grading.worker.limits import NOT_RUN
 from course.grading.worker.wording import said, told
 
@@ -289,10 +290,10 @@ class Gate:
         value = self._caller.call(function, *arguments, **named)
         return self._looked(function, value, arguments, named)
 
-    def call_and_look(self, function: str, *arguments: Any) -> tuple[Any, list[Any], bool]:
-        """The value, the arguments afterwards, and whether NumPy's global random state moved; raises the same."""
-        value, after, moved = self._caller.call_and_look(function, *arguments)
-        return self._looked(function, value, arguments, {}), after, moved
+    def call_and_look(self, function: str, *arguments: Any) -> Looked:
+        """See ``Caller``; raises the same."""
+        value, after, changed = self._caller.call_and_look(function, *arguments)
+        return self._looked(function, value, arguments, {}), after, changed
 
     def _path(self, function: str) -> str:
         return function if "." in function else f"{self._module}.{function}"

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from course.grading.errors import StudentError
+from course.grading.looked import EARLIER_RESULT, RANDOM_STATE, Looked
 
 
 class TrustedModule:
@@ -16,6 +17,7 @@ class TrustedModule:
 
     def __init__(self, functions: Mapping[str, Callable[..., Any]]) -> None:
         self._functions = functions
+        self._earlier: list[tuple[np.ndarray, bytes]] = []
 
     def call(self, function: str, *arguments: Any, **named: Any) -> Any:
         """The function's value; what it raises becomes a ``StudentError`` as a worker's would."""
@@ -26,11 +28,17 @@ class TrustedModule:
         except Exception as error:
             raise StudentError("raised", str(error), type(error).__name__) from error
 
-    def call_and_look(self, function: str, *arguments: Any) -> tuple[Any, list[Any], bool]:
-        """The value, the arguments afterwards, and whether NumPy's global random state moved."""
+    def call_and_look(self, function: str, *arguments: Any) -> Looked:
+        """See ``Caller``."""
         before = _state()
         value = self.call(function, *arguments)
-        return value, list(arguments), _state() != before
+        changed = {RANDOM_STATE} if _state() != before else set()
+        if any(array.tobytes() != was for array, was in self._earlier):
+            changed.add(EARLIER_RESULT)
+        parts = value if isinstance(value, tuple | list) else (value,)
+        arrays = [part for part in parts if isinstance(part, np.ndarray)]
+        self._earlier = [(array, array.tobytes()) for array in arrays]
+        return value, list(arguments), frozenset(changed)
 
 
 def _state() -> tuple[bytes, str]:

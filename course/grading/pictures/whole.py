@@ -7,6 +7,7 @@ import numpy as np
 
 from course.grading.checks.check import Array, Caller, Check, ModuleChecks, Trial
 from course.grading.errors import StudentError
+from course.grading.looked import Looked
 from course.grading.pictures import scenes
 from course.grading.pictures.judging import check_ssim
 from course.grading.pictures.rendered import Find, loaded, rendered
@@ -33,7 +34,7 @@ class Together:
         caller, name = self._found(function)
         return caller.call(name, *arguments, **named)
 
-    def call_and_look(self, function: str, *arguments: Any) -> tuple[Any, list[Any], bool]:
+    def call_and_look(self, function: str, *arguments: Any) -> Looked:
         """As a single module's caller does."""
         caller, name = self._found(function)
         return caller.call_and_look(name, *arguments)

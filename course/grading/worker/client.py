@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from course.grading.errors import StudentError
+from course.grading.looked import EARLIER_RESULT, RANDOM_STATE, Looked
 from course.grading.worker.framing import BrokenMessage, generator, pack
 from course.grading.worker.limits import Budget, Limits, Patience
 from course.grading.worker.process import Process
@@ -105,8 +106,8 @@ class Worker:
         values, _ = self._ask(_Call(function, arguments, named))
         return values[0]
 
-    def call_and_look(self, function: str, *arguments: Any) -> tuple[Any, list[Any], bool]:
-        """The value, the arguments as they are after the call, and whether NumPy's global random state moved."""
+    def call_and_look(self, function: str, *arguments: Any) -> Looked:
+        """See ``Caller``."""
         values, head = self._ask(_Call(function, arguments, {}, look=True))
         pairs = zip(arguments, values[1:], strict=True)
         try:
@@ -116,7 +117,8 @@ class Worker:
             ]
         except BrokenMessage as error:
             raise self._process.lost(f"what it wrote is no reply ({error})") from None
-        return values[0], after, bool(head.get("moved"))
+        changed = {RANDOM_STATE: head.get("moved"), EARLIER_RESULT: head.get("overwrote")}
+        return values[0], after, frozenset(what for what, so in changed.items() if so)
 
     def lend(self, deadline: float, function: str, *arguments: Any, **named: Any) -> Any:
         """The function's value, for another worker whose call has to end at the deadline.

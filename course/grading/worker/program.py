@@ -136,9 +136,20 @@ def _call(
         value = function(*arguments, **named)
     except BaseException as error:  # noqa: BLE001 - SystemExit too
         return _told(error, module.__name__), []
-    if head["look"]:
-        return {"moved": _random_state(np) != before}, [value, *arguments]
-    return {"moved": False}, [value]
+    if not head["look"]:
+        return {}, [value]
+    overwrote = any(array.tobytes() != was for array, was in _EARLIER)
+    _EARLIER[:] = [(array, array.tobytes()) for array in _arrays(value, np)]
+    return {"moved": _random_state(np) != before, "overwrote": overwrote}, [value, *arguments]
+
+
+_EARLIER: list[tuple[Any, bytes]] = []
+"""Arrays that the last call returned that was looked at, and what they held."""
+
+
+def _arrays(value: Any, np: Any) -> list[Any]:
+    parts = value if isinstance(value, tuple | list) else (value,)
+    return [part for part in parts if type(part) is np.ndarray and part.dtype.kind in "biuf"]
 
 
 def _random_state(np: Any) -> tuple[bytes, str]:
