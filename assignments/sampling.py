@@ -15,7 +15,7 @@ def disk_by_rejection(n, rng):
     ----------
     n : int >= 0
     rng : numpy.random.Generator
-        Takes 4 / pi points of the square for each point of the disk, on average.
+        About 4 / pi points of the square are taken for each point of the disk, on average; some more do no harm.
 
     Returns
     -------
@@ -64,7 +64,7 @@ def ball_by_rejection(n, rng):
     ----------
     n : int >= 0
     rng : numpy.random.Generator
-        Takes 6 / pi points of the cube for each point of the ball, on average.
+        About 6 / pi points of the cube are taken for each point of the ball, on average; some more do no harm.
 
     Returns
     -------

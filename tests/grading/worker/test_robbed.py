@@ -14,6 +14,7 @@ from course.grading.checks.result import Status
 from course.grading.checks.trusted import TrustedModule
 from course.grading.errors import StudentError
 from course.grading.grading import grade
+from course.grading.looked import EARLIER_RESULT
 from course.grading.worker.client import Worker
 from course.grading.worker.limits import NOT_RUN, Budget, Limits
 from course.grading.worker.process import MOST_PRINTED, Process
@@ -343,8 +344,27 @@ def test_an_import_ends_with_the_seconds_of_a_submission() -> None:
 def test_a_generator_that_was_sent_is_looked_at_after_the_call() -> None:
     source = b"def f(n, rng):\n    rng.random(n)\n    return n\n"
     with Worker("m", source) as worker:
-        _, (n, rng), moved = worker.call_and_look("f", 3, np.random.default_rng(1))
+        _, (n, rng), changed = worker.call_and_look("f", 3, np.random.default_rng(1))
     expected = np.random.default_rng(1)
     expected.random(3)
-    assert (n, moved) == (3, False)
+    assert (n, changed) == (3, frozenset())
     assert rng.bit_generator.state == expected.bit_generator.state
+
+
+def test_memory_that_is_handed_out_again_is_seen() -> None:
+    source = b"""
+import numpy as np
+kept = np.zeros(3)
+def same(x):
+    kept[:] = x
+    return kept
+def equal(x):
+    return kept
+def new(x):
+    return 1.0 * x
+"""
+    with Worker("m", source) as worker:
+        for function, changed in (("same", {EARLIER_RESULT}), ("equal", set()), ("new", set())):
+            first, second = np.ones(3), 2 * np.ones(3)
+            assert worker.call_and_look(function, first)[2] == frozenset()
+            assert worker.call_and_look(function, second)[2] == changed
