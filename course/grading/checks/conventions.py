@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 
 from course.grading.checks.check import Array, Failure, Trial
-from course.grading.checks.declare import COLUMNS, Arguments, Function, Law
+from course.grading.checks.declare import COLUMNS, DTYPES, Arguments, Function, Law
 from course.grading.checks.drawing import Draw
 from course.grading.checks.examples import call, where
-from course.grading.checks.laws import DTYPES, EPSILON, exact
+from course.grading.checks.laws import EPSILON, exact
 from course.grading.checks.refusals import refuses
 from course.grading.looked import EARLIER_RESULT, RANDOM_STATE
 
@@ -69,7 +69,14 @@ def _legal(function: Function, trial: Trial) -> Iterator[tuple[Arguments, str]]:
             yield a, f"lengths around {scale:g}, {np.dtype(dtype)}"
         for a in function.ends(Draw(trial.rng, 1, dtype)):
             yield a, f"columns at the ends of what is legal, {np.dtype(dtype)}"
-    batches = [argument.name for argument in function.arguments if argument.batch]
+    # What has nothing to do, as for a roughness of 0, is often handed back as it came.
+    for law in function.laws:
+        for dtype in law.dtypes if law.case else ():
+            a = function.make(Draw(trial.rng, 5, dtype), law.case)
+            yield a, f"5 columns, {np.dtype(dtype)}"
+            if dtype == np.float32:
+                yield from _mixed(function, a)
+    yield from _mixed(function, function.make(Draw(trial.rng, 5, np.float32)))
     singles = [argument for argument in function.arguments if argument.single]
     for dtype in DTYPES if singles else ():
         for kind in (np.float32, np.float64):
@@ -77,20 +84,23 @@ def _legal(function: Function, trial: Trial) -> Iterator[tuple[Arguments, str]]:
             for argument in singles:
                 a[argument.name] = kind(argument.one(a[argument.name]))
             yield a, f"one {singles[0].name} for all, of {np.dtype(kind)}"
-    if len(batches) > 1:
-        # One of another dtype than the rest, each in turn.
-        for other, (few, rest) in product(batches, (DTYPES, DTYPES[::-1])):
-            a = function.make(Draw(trial.rng, 5, np.float32))
-            for name in batches:
-                if isinstance(a[name], np.ndarray) and a[name].dtype.kind == "f":
-                    a[name] = a[name].astype(few if name == other else rest)
-            yield a, "batches of float32 and float64"
     for kind in (np.float32, np.float64):
         a = function.make(Draw(trial.rng, 5, np.float32))
         for argument in function.arguments:
             if not argument.batch and isinstance(a[argument.name], float | np.ndarray):
                 a[argument.name] = kind(a[argument.name])
         yield a, f"single points and numbers of {np.dtype(kind)}"
+
+
+def _mixed(function: Function, a: Arguments) -> Iterator[tuple[Arguments, str]]:
+    """The same arguments with one batch of another dtype than the rest, each in turn; none if there is only one."""
+    batches = [argument.name for argument in function.arguments if argument.batch]
+    floating = [name for name in batches if isinstance(a[name], np.ndarray)]
+    floating = [name for name in floating if a[name].dtype.kind == "f"]
+    for other, (few, rest) in product(floating, (DTYPES, DTYPES[::-1])) if floating[1:] else ():
+        dtypes = {name: few if name == other else rest for name in floating}
+        mixed = Arguments(a | {name: a[name].astype(dtype) for name, dtype in dtypes.items()})
+        yield mixed, "batches of float32 and float64"
 
 
 # ---------------------------------------------------------------- at_the_ends
@@ -101,9 +111,8 @@ def _at_the_ends(function: Function, trial: Trial) -> None:
         for a in function.extremes(Draw(trial.rng, 1, dtype)):
             given, r = exact(a), function.call(trial, a)
             for law in function.laws:
-                look, dtypes = law.anywhere or (None, ())
-                if look and dtype in dtypes:
-                    look(given, r)
+                if law.anywhere and dtype in law.dtypes:
+                    law.anywhere(given, r)
 
 
 # ---------------------------------------------------------------- untouched

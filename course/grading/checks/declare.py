@@ -26,6 +26,8 @@ from course.signatures import CONTRACTS
 
 COLUMNS = "N"
 
+DTYPES = (np.float32, np.float64)
+
 
 class Arguments(dict[str, Any]):
     """Arguments by name, in their order; ``a.name`` reads one."""
@@ -146,7 +148,8 @@ class Law:
     name, title : as a check has them
     run : raises ``Failure``
     case : what it calls the function with, where mistakes that break it show; None if that is any case
-    anywhere : what is looked at in any call of arguments of these dtypes; None if it takes a case, or many samples
+    dtypes : of the batches that it is tried with
+    anywhere : what it looks at in any call; None if it takes a case, or many samples
     beside : a law that always comes with it
     """
 
@@ -158,7 +161,8 @@ class Law:
     points: float = 1.0
     false_fail: float = 0.0
     case: Case | None = None
-    anywhere: tuple[Callable[["Arguments", Any], None], tuple[Any, ...]] | None = None
+    dtypes: tuple[Any, ...] = DTYPES
+    anywhere: Callable[["Arguments", Any], None] | None = None
     beside: "Law | None" = None
 
 

@@ -15,10 +15,10 @@ import numpy as np
 from scipy.special import chdtri, ndtri
 
 from course.grading.checks.check import Array, Failure, Trial
-from course.grading.checks.declare import WHOLE, Arguments, Case, Function, Law
+from course.grading.checks.declare import DTYPES, WHOLE, Arguments, Case, Function, Law
 from course.grading.checks.drawing import Draw
 from course.grading.checks.examples import where
-from course.grading.checks.laws import DTYPES, exact, first_result, result_at, shown
+from course.grading.checks.laws import exact, first_result, result_at, shown
 
 FALSE_FAIL = 1e-7
 """Of each comparison: a hundred in an assignment stay under 1e-5."""

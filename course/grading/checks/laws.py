@@ -11,14 +11,12 @@ from typing import Any
 import numpy as np
 
 from course.grading.checks.check import Array, Failure, Kind, Role, Trial
-from course.grading.checks.declare import WHOLE, Arguments, Case, Function, Law
+from course.grading.checks.declare import DTYPES, WHOLE, Arguments, Case, Function, Law
 from course.grading.checks.drawing import Draw
 from course.grading.checks.examples import call, example, number, where
 
 EPSILON = float(np.finfo(np.float32).eps)
 """Of single precision: nothing is asked to be more exact, whatever dtype it has."""
-
-DTYPES = (np.float32, np.float64)
 
 Look = Callable[[Arguments, Any], None]
 """Raises ``Failure`` where the results aren't right for the arguments."""
@@ -70,8 +68,9 @@ def law(
                     raise
 
     role, points = ("core", WHOLE) if whole else (role, points)
-    anywhere = None if case else (look, tuple(dtypes))
-    return Law(name, title, run, role, kind, points, case=case, anywhere=anywhere)
+    anywhere = None if case else look
+    tried = tuple(dtypes)
+    return Law(name, title, run, role, kind, points, case=case, dtypes=tried, anywhere=anywhere)
 
 
 def close(

@@ -292,7 +292,7 @@ def _lookup(name: str, seamless: bool, *more: Any) -> Function:
                 "bright",
                 "Colours may be as bright as they like",
                 "The sun is brighter than 1; to show that is the display's business.",
-                _around(_inner, brightest=500.0),
+                _around(_inner, brightest=5e4),
                 what="in faces with texels over 1, a colour's channel of",
             ),
             *(about(*law) for law in more),

@@ -141,6 +141,14 @@ def _lenses(near: bool) -> Case:
     return case
 
 
+def _next_to_focus(draw: Draw) -> Mapping[str, Any]:
+    """Objects whose distance is nearly the focal length, or many times it."""
+    focal = draw.scale * draw.number(0.01, 10)
+    off = draw.rng.choice((-1, 1)) * draw.number(1e-6, 1e-4)
+    ratio = 1 + off if draw.rng.random() < 0.5 else draw.number(1e3, 1e5)
+    return {"focal_length": focal, "object_distance": focal * ratio}
+
+
 def _formula(a: Arguments, r: Array) -> tuple[Any, ...]:
     f, d = a.focal_length, a.object_distance
     return r, inf if f == d else f if d == inf else f * d / (d - f)
@@ -176,6 +184,12 @@ IMAGE_DISTANCE = function(
             hint="The same formula holds there; the sign says on which side of the lens the image is.",
             case=_lenses(near=True),
             role="core",
+        ),
+        _image(
+            "next_to_focus",
+            "Objects next to the focal length have their image far away, and far ones next to it",
+            hint="Only an object at the focal length itself has none: far is not infinitely far.",
+            case=_next_to_focus,
         ),
         _image(
             "limits",
