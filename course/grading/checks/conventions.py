@@ -19,6 +19,10 @@ SIZES = (2, 1, 0, 17)
 """Columns."""
 
 
+DRAWS = 6
+"""Times that each law's case is drawn to be tried with mixed dtypes."""
+
+
 def conventions(function: Function) -> tuple[Law, ...]:
     """The function's conventions, as laws."""
     found = [
@@ -74,8 +78,9 @@ def _legal(function: Function, trial: Trial) -> Iterator[tuple[Arguments, str]]:
         for dtype in law.dtypes if law.case else ():
             a = function.make(Draw(trial.rng, 5, dtype), law.case)
             yield a, f"5 columns, {np.dtype(dtype)}"
-            if dtype == np.float32:
-                yield from _mixed(function, a)
+            # A case may choose at random among what has nothing to do and what has.
+            for _ in range(DRAWS) if dtype == np.float32 else ():
+                yield from _mixed(function, function.make(Draw(trial.rng, 5, dtype), law.case))
     yield from _mixed(function, function.make(Draw(trial.rng, 5, np.float32)))
     singles = [argument for argument in function.arguments if argument.single]
     for dtype in DTYPES if singles else ():
