@@ -20,7 +20,7 @@ SIZES = (2, 1, 0, 17)
 
 
 DRAWS = 6
-"""Times that each law's case is drawn to be tried with mixed dtypes."""
+"""Times that each law's case is drawn."""
 
 
 def conventions(function: Function) -> tuple[Law, ...]:
@@ -73,15 +73,17 @@ def _legal(function: Function, trial: Trial) -> Iterator[tuple[Arguments, str]]:
             yield a, f"lengths around {scale:g}, {np.dtype(dtype)}"
         for a in function.ends(Draw(trial.rng, 1, dtype)):
             yield a, f"columns at the ends of what is legal, {np.dtype(dtype)}"
+            yield from _mixed(function, a)
     # What has nothing to do, as for a roughness of 0, is often handed back as it came.
     for law in function.laws:
-        for dtype in law.dtypes if law.case else ():
+        # A case may choose at random among what has nothing to do and what has.
+        for dtype, _ in product(law.dtypes, range(DRAWS)) if law.case else ():
             a = function.make(Draw(trial.rng, 5, dtype), law.case)
             yield a, f"5 columns, {np.dtype(dtype)}"
-            # A case may choose at random among what has nothing to do and what has.
-            for _ in range(DRAWS) if dtype == np.float32 else ():
-                yield from _mixed(function, function.make(Draw(trial.rng, 5, dtype), law.case))
-    yield from _mixed(function, function.make(Draw(trial.rng, 5, np.float32)))
+            if dtype == np.float32:
+                yield from _mixed(function, a)
+    for n in (5, 0):
+        yield from _mixed(function, function.make(Draw(trial.rng, n, np.float32)))
     singles = [argument for argument in function.arguments if argument.single]
     for dtype in DTYPES if singles else ():
         for kind in (np.float32, np.float64):

@@ -249,6 +249,17 @@ def from_generator() -> Law:
             function.call(trial, Arguments(a | {"rng": np.random.default_rng(s)}))
             for s in (seed, seed, seed + 1)
         )
+        rng = np.random.default_rng(seed)
+        before, given = rng.bit_generator.state, Arguments(a | {"rng": rng})
+        _, after, _ = trial.caller.call_and_look(trial.function, *given.values())
+        (moved,) = (each for each in after if isinstance(each, np.random.Generator))
+        if moved.bit_generator.state == before:
+            raise Failure(
+                "the generator to have moved on",
+                "it stands where it stood, and the next call gives the same numbers",
+                call(function.name, a),
+                "Draw from the generator itself, not from a copy of it.",
+            )
         if not _equal(first, again):
             raise Failure(
                 "the same result from generators with the same seed",

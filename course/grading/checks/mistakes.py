@@ -77,7 +77,8 @@ def probes(function: Function) -> Iterator[tuple[str, Arguments]]:
 def _fewer(function: Function, a: Arguments) -> Arguments:
     """At most 60 columns of them."""
     for argument in function.arguments:
-        if argument.axis is not None:
+        # One value for all columns has no such axis.
+        if argument.axis is not None and np.ndim(a[argument.name]) > argument.axis:
             size = a[argument.name].shape[argument.axis]
             chosen = np.arange(0, size, max(1, size // 60))
             a[argument.name] = np.ascontiguousarray(a[argument.name].take(chosen, argument.axis))

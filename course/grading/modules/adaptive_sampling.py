@@ -69,6 +69,14 @@ def _at_threshold(draw: Draw) -> Mapping[str, Any]:
     return {"corners": corners * _step(draw), "threshold": threshold * _step(draw)}
 
 
+def _just_over(draw: Draw) -> Mapping[str, Any]:
+    """Plain cells but for one corner, which differs by the threshold, or by 2^-23 more: single precision has both."""
+    corners = np.full((3, 4, draw.n), 0.25)
+    over = draw.rng.integers(0, 2, draw.n) * 2.0**-23
+    corners[draw.rng.integers(0, 3, draw.n), 3, np.arange(draw.n)] += 0.25 + over
+    return {"corners": corners, "threshold": 0.25}
+
+
 def _bright(draw: Draw) -> Mapping[str, Any]:
     """Colours far over 1 and below 0; every second cell is of one colour."""
     step = 64 * _step(draw)
@@ -108,6 +116,12 @@ NEEDS_SUBDIVISION = function(
             hint="A difference has to be over the threshold: as large is not enough. All pairs count.",
             case=_at_threshold,
             scales=DIM,
+        ),
+        _divided(
+            "just_over",
+            "A difference that is over the threshold by its last digit is over it",
+            hint="More than the threshold, however little: that is a plain >.",
+            case=_just_over,
         ),
         _divided(
             "bright",

@@ -165,7 +165,10 @@ REFRACT = function(
         ),
     ),
     case=_through,
-    corners=(_facing(),),
+    corners=(
+        _facing(),
+        lambda dtype: {**_through(Draw(np.random.default_rng(0), 5, dtype)), "eta": 1.0},
+    ),
 )
 
 
@@ -343,6 +346,7 @@ FRESNEL = function(
             case=lambda d: _cosines(*_each_eta(d)),
         ),
     ),
+    corners=(lambda _: {"eta": 1.0},),
 )
 
 FUNCTIONS = (REFRACT, JITTER_REFRACTION, FRESNEL)

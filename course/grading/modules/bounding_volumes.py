@@ -35,17 +35,27 @@ def _through(thin: bool = False) -> Case:
 
     def case(draw: Draw) -> Mapping[str, Any]:
         lo, hi = _boxes(draw, thin)
-        target = lo + draw.uniform(0.05, 0.95, 3, draw.n) * (hi - lo)
-        # No component next to zero: parallels have a law of their own.
-        d = draw.rng.uniform(0.05, 1, (3, draw.n)) * draw.rng.choice((-1.0, 1.0), (3, draw.n))
-        return {
-            "lo": lo,
-            "hi": hi,
-            "origins": target - draw.lengths(-6, 6, draw.n) * d,
-            "directions": d,
-        }
+        origins, directions = _aimed(lo, hi, draw)
+        return {"lo": lo, "hi": hi, "origins": origins, "directions": directions}
 
     return case
+
+
+def _aimed(lo: Array, hi: Array, draw: Draw) -> tuple[Array, Array]:
+    """Origins anywhere and directions (3, N) through a point well within each box."""
+    target = lo + draw.uniform(0.05, 0.95, 3, draw.n) * (hi - lo)
+    # No component next to zero: parallels have a law of their own.
+    d = draw.rng.uniform(0.05, 1, (3, draw.n)) * draw.rng.choice((-1.0, 1.0), (3, draw.n))
+    return target - draw.lengths(-6, 6, draw.n) * d, d
+
+
+def _one_box(draw: Draw) -> Mapping[str, Any]:
+    """Rays whose lines go through one box."""
+    one = dict(_through()(draw.but(n=1)))
+    rays = [_aimed(one["lo"], one["hi"], draw.but(n=1)) for _ in range(draw.n)]
+    origins, directions = (np.concatenate(part, axis=1) for part in zip(*rays, strict=True))
+    lo, hi = one["lo"][:, 0], one["hi"][:, 0]
+    return {"lo": lo, "hi": hi, "origins": origins, "directions": directions}
 
 
 def _past(draw: Draw) -> Mapping[str, Any]:
@@ -89,8 +99,9 @@ def _along(draw: Draw) -> Mapping[str, Any]:
 
 def _spans(a: Arguments, r: Any) -> tuple[Any, ...]:
     """Where lines enter the last slab and leave the first; no component of theirs is zero."""
-    ends = np.stack(((a.lo - a.origins) / a.directions, (a.hi - a.origins) / a.directions))
-    reach = np.abs(np.stack((a.origins, a.lo, a.hi))).max(axis=(0, 1))
+    lo, hi = (np.broadcast_to(x.reshape(3, -1), a.origins.shape) for x in (a.lo, a.hi))
+    ends = np.stack(((lo - a.origins) / a.directions, (hi - a.origins) / a.directions))
+    reach = np.abs(np.stack((a.origins, lo, hi))).max(axis=(0, 1))
     size = 2 * reach / np.abs(a.directions).min(axis=0)
     return np.stack(r), np.stack((ends.min(axis=0).max(axis=0), ends.max(axis=0).min(axis=0))), size
 
@@ -130,6 +141,15 @@ SLAB_TEST = function(
             "A triangle along an axis has a box without thickness.",
             what="of a box without thickness, t_near (row 0) or t_far (1):",
             case=_through(thin=True),
+        ),
+        close(
+            "one_box",
+            "Three lines through one box are no other case",
+            _spans,
+            "A box is (3,) or (3, N): the number of axes tells one box from many, not the number of lines.",
+            what="of one box for three lines, t_near (row 0) or t_far (1):",
+            case=_one_box,
+            n=3,
         ),
         close(
             "through",

@@ -105,7 +105,8 @@ def _hemisphere(name: str, lobe: int, density: str) -> Function:
 
 def _below(draw: Draw) -> Mapping[str, Any]:
     """Cosines below the horizon; powers of an even exponent hide it."""
-    return {"cos": -draw.uniform(0.01, 1, draw.n), "exponent": 2.0 * draw.rng.integers(1, 5)}
+    cos = -(10 ** draw.uniform(-6, 0, draw.n))
+    return {"cos": cos, "exponent": 2.0 * draw.rng.integers(1, 5)}
 
 
 def _density(a: Arguments, r: Array) -> tuple[Any, ...]:

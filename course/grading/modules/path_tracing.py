@@ -151,6 +151,10 @@ THROUGHPUT = function(
             role="core",
         ),
     ),
+    corners=(
+        lambda _: {"albedo": np.ones((3, 5)), "beta": np.full((3, 5), 0.5)},
+        lambda _: {"albedo": np.full((3, 5), 0.5), "beta": np.zeros((3, 5))},
+    ),
 )
 
 
@@ -187,6 +191,12 @@ def _dark(draw: Draw) -> Mapping[str, Any]:
     numbers = 0.01 + 0.9 * draw.units(1)[0].astype(np.float64)
     numbers[::2] = 0
     return {"beta": beta, "u": numbers}
+
+
+def _at_the_chance(draw: Draw) -> Mapping[str, Any]:
+    """Largest channels that are eighths, and the same numbers."""
+    chance = draw.rng.integers(1, 8, draw.n) / 8
+    return {"beta": np.array([[1.0], [0.5], [0.25]]) * chance, "u": chance}
 
 
 def _one_color(draw: Draw) -> Mapping[str, Any]:
@@ -240,6 +250,14 @@ RUSSIAN_ROULETTE = function(
             scales=(1.0, 1e3),
         ),
         laws.holds(
+            "border",
+            "A number that is just the probability ends the path",
+            _survives,
+            "a path to survive if u is less than its largest channel, and not if it is as large",
+            "Less than: that is a plain <.",
+            case=_at_the_chance,
+        ),
+        laws.holds(
             "dark",
             "Of little light little survives, of none nothing",
             lambda a, r: _survives(a, r) & (np.abs(r[1] - _after(a, r)[1]) <= 1e-5).all(axis=0),
@@ -267,6 +285,7 @@ RUSSIAN_ROULETTE = function(
         ),
     ),
     case=_games,
+    corners=(lambda _: {"beta": np.zeros((3, 5)), "u": np.full(5, 0.5)},),
 )
 
 FUNCTIONS = (DIFFUSE_BOUNCE, THROUGHPUT, RUSSIAN_ROULETTE)

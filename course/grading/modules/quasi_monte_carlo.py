@@ -20,7 +20,10 @@ from course.grading.modules.chaining import CHAIN
 CLOSE = 5e-7
 """What single precision may make of a coordinate, however it is added up."""
 
-PRIMES = (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47)
+PRIMES = (
+    *(2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53, 59, 61, 67, 71, 73, 79, 83, 89),
+    *(97, 101, 103, 107, 109, 113, 127, 131, 137, 139, 149, 151, 157, 163, 167, 173),
+)
 
 
 def _law(
@@ -85,9 +88,10 @@ OTHER_INDICES: Any = (
 
 
 def _around_powers(draw: Draw) -> Mapping[str, Any]:
-    bases = (2, 3, 10) if draw.simple else (2, 2, 3, 3, 5, 6, 7, 10, 13, 31, 47, 97, 360)
+    bases = (2, 3, 10) if draw.simple else (2, 2, 3, 3, 5, 6, 7, 10, 13, 31, 97, 360, 1009, 65537)
     base = int(draw.rng.choice(bases))
-    powers = base ** draw.rng.integers(1, 5, draw.n) + draw.rng.integers(-1, 2, draw.n)
+    exponents = draw.rng.integers(1, 5 if base < 1000 else 2, draw.n)
+    powers = base**exponents + draw.rng.integers(-1, 2, draw.n)
     return {"base": base, "i": np.where(draw.rng.random(draw.n) < 0.2, powers, _numbers(draw))}
 
 
@@ -95,6 +99,13 @@ def _large(draw: Draw) -> Mapping[str, Any]:
     i = draw.rng.integers(1 << 24, 1 << 32, draw.n)
     i[0] = (1 << 32) - 1
     return {"base": int(draw.rng.choice((2, 2, 2, 3))), "i": i}
+
+
+def _small_kinds(draw: Draw) -> Mapping[str, Any]:
+    """Numbers that bytes hold, and no larger."""
+    kind, low = ((np.uint8, 128), (np.int8, 64), (np.uint16, 1 << 15))[draw.rng.integers(3)]
+    i = draw.rng.integers(low, np.iinfo(kind).max, draw.n, kind, endpoint=True)
+    return {"base": int(draw.rng.choice((2, 3, 10))), "i": i}
 
 
 def _inverse(hint: str) -> Callable[[Arguments, Array], None]:
@@ -110,6 +121,13 @@ RADICAL_INVERSE = function(
             "Large i have all their digits",
             _inverse("Take as many digits as i has."),
             _large,
+            times=6,
+        ),
+        _law(
+            "small_kinds",
+            "Integers of few bits have all their digits",
+            _inverse("A product or a sum of such integers may not fit in one."),
+            _small_kinds,
             times=6,
         ),
         _law(

@@ -149,9 +149,21 @@ def _dark(draw: Draw) -> Mapping[str, Any]:
     return {**room, "radiosity": 0 * room["radiosity"]}
 
 
+def _hollow(draw: Draw) -> Mapping[str, Any]:
+    """A room whose patches see a part of themselves."""
+    room = _room(draw)
+    own = draw.uniform(0.1, 0.3, len(room["areas"]))
+    return {**room, "form_factors": 0.7 * room["form_factors"] + np.diag(own)}
+
+
 def _solved(draw: Draw) -> Mapping[str, Any]:
     room = _room(draw)
     return {**room, "radiosity": _solution(room)}
+
+
+def _matt_black(dtype: Any) -> Mapping[str, Any]:
+    room = _room(Draw(np.random.default_rng(0), 5, dtype))
+    return {**room, "reflectance": 0 * room["reflectance"]}
 
 
 def _gathered(a: Arguments, r: Array) -> tuple[Array, Array]:
@@ -171,6 +183,15 @@ GATHER = function(
             what="in a dark room the emission alone:",
             within=0,
             case=_dark,
+        ),
+        close(
+            "hollow",
+            "What a hollow patch sends to itself arrives there, too",
+            _gathered,
+            "The sum runs over all patches, the receiver itself included.",
+            what="of a room of hollow patches, the radiosity",
+            within=64,
+            case=_hollow,
         ),
         close(
             "fixed",
@@ -193,6 +214,7 @@ GATHER = function(
         ),
     ),
     case=_room,
+    corners=(_matt_black,),
     columns=False,
     speed=0,
 )
@@ -219,6 +241,11 @@ def _white(draw: Draw) -> Mapping[str, Any]:
     given = _shot(draw.but(n=max(draw.n, 2)))
     factors = given["form_factors"] / given["form_factors"].sum()
     return {**given, "reflectance": np.ones_like(given["reflectance"]), "form_factors": factors}
+
+
+def _nothing_to_shoot(dtype: Any) -> Mapping[str, Any]:
+    given = _shot(Draw(np.random.default_rng(0), 5, dtype))
+    return {**given, "unshot": 0 * given["unshot"]}
 
 
 def _received(a: Arguments) -> Array:
@@ -268,6 +295,7 @@ SHOOT = function(
         ),
     ),
     case=_shot,
+    corners=(_nothing_to_shoot,),
     columns=False,
     speed=0,
 )
@@ -308,6 +336,14 @@ def _at_threshold(draw: Draw) -> Mapping[str, Any]:
     return {"patch_radiosity": 4 * values, "threshold": 0.25}
 
 
+def _just_over(draw: Draw) -> Mapping[str, Any]:
+    """Even patches but for one point in one channel, by the threshold, or by 2^-22 more: single precision has both."""
+    values = np.full((3, 3, draw.n), 4.0)
+    over = draw.rng.integers(0, 2, draw.n) * 2.0**-20
+    values[draw.rng.integers(0, 3, draw.n), 2, np.arange(draw.n)] -= 1 + over
+    return {"patch_radiosity": values, "threshold": 0.25}
+
+
 def _even(draw: Draw) -> Mapping[str, Any]:
     """Patches of one colour, every second one black."""
     values = np.repeat(_patches(draw)["patch_radiosity"][:, :1], 4, axis=1)
@@ -334,6 +370,12 @@ NEEDS_SPLIT = function(
             "Just over the threshold, not just under",
             hint="The contrast has to be over the threshold: as much is not enough.",
             case=_at_threshold,
+        ),
+        _divided(
+            "just_over",
+            "A contrast that is over the threshold by its last digits is over it",
+            hint="More than the threshold, however little: that is a plain >.",
+            case=_just_over,
         ),
         _divided(
             "dark",

@@ -411,6 +411,8 @@ RESOLVE = function(
     case=_ordinary,
     corners=(
         lambda dtype: {"radiance": np.ones((3, 4, 0), dtype), "weights": np.ones((4, 0), dtype)},
+        lambda dtype: {"radiance": np.ones((3, 4, 1), dtype), "weights": np.ones((4, 1), dtype)},
+        lambda dtype: {"radiance": np.ones((3, 4, 2), dtype), "weights": np.zeros((4, 2), dtype)},
     ),
     speed=1024,
 )

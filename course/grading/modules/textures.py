@@ -104,7 +104,7 @@ def _axes(draw: Draw) -> Mapping[str, Any]:
     places = np.array(
         (
             *((0, 0, -1), (-1, 0, 0), (0, 0, 1), (0, 1, 0), (0, -1, 0)),
-            *((1, 0, -1), (0, 1, -1), (0, -1, 1), (-1, 1, 0), (-1, -1, 1)),
+            *((1, 0, 0), (1, 0, -1), (0, 1, -1), (0, -1, 1), (-1, 1, 0), (-1, -1, 1)),
         ),
         float,
     ).T
@@ -126,9 +126,11 @@ def _near_poles(draw: Draw) -> Mapping[str, Any]:
 
 
 def _seam(draw: Draw) -> Mapping[str, Any]:
-    """All around the equator and next to +x, on both sides of the half circle where the picture's ends meet."""
+    """All around the equator, on both sides of the half circle where the picture's ends meet, and on the poles."""
     u = draw.rng.choice((0.0, 1e-7, 1e-4, 0.25, 0.5, 0.75, 1 - 1e-4, 1 - 1e-7), draw.n)
-    return _on_sphere(draw, u, draw.uniform(0.2, 0.8, draw.n), at_origin=True)
+    made = dict(_on_sphere(draw, u, draw.uniform(0.2, 0.8, draw.n), at_origin=True))
+    made["p"][:, ::9] = [[0.0], [1], [0]] * draw.rng.choice((-1.0, 1.0), made["p"][0, ::9].size)
+    return made
 
 
 def _round(a: Arguments, r: Array) -> tuple[Any, ...]:
