@@ -7,6 +7,9 @@ import numpy as np
 from course.core.types import Floats32, Floats64
 from course.extras.environment_sampling import FRAMES
 
+SAMPLES = 8_000_000
+"""Of a picture at most, where texels are means of more than four."""
+
 
 def texel_directions(size: int, subsamples: int = 1) -> Floats64:
     """Directions through the texels of all faces, (6, size, size, subsamples^2, 3) float64, not normalised."""
@@ -21,8 +24,9 @@ def texel_directions(size: int, subsamples: int = 1) -> Floats64:
 def cube_from_lat_long(image: Floats32, size: int) -> Floats32:
     """Faces (6, size, size, 3) from a latitude-longitude picture (H, W, 3).
 
-    The picture's middle looks along -z, its right half to +x, its top row to +y. Each texel is the mean of four
-    bilinear samples.
+    The picture's middle looks along -z, its right half to +x, its top row to +y. Each texel is the mean of 4 to 16
+    bilinear samples. Next to the poles, where pixels are narrower than the samples are apart, rows are blurred before:
+    a sun of one pixel keeps its light, to some 3% but for the rows at the poles.
     """
     height, width = image.shape[:2]
 
@@ -30,7 +34,35 @@ def cube_from_lat_long(image: Floats32, size: int) -> Floats32:
         column = (0.5 + np.arctan2(x, -z) / (2 * np.pi)) * width - 0.5
         return column, np.arctan2(np.hypot(x, z), y) / np.pi * height - 0.5
 
-    return _resampled(image, size, place)
+    subsamples = min(max(int((SAMPLES / (6 * size * size)) ** 0.5), 2), 4)
+    return _resampled(_blurred_at_poles(image, size), size, place, subsamples)
+
+
+def _blurred_at_poles(image: Floats32, size: int) -> Floats32:
+    """Each row's means over half a texel of the faces, where that is wider than a pixel."""
+    height, width = image.shape[:2]
+    # A texel in a face's middle is 2 / size wide [rad].
+    at_equator = width / (2 * np.pi) / size
+    widths = at_equator / np.sin(np.pi * (np.arange(height) + 0.5) / height)
+    blurred = image.copy()
+    for row in np.flatnonzero(widths > 1):
+        half = min(widths[row], width) / 2
+        # The row goes once around: three turns of it, so that no window ends.
+        turns = np.tile(image[row].astype(np.float64), (3, 1))
+        sums = np.concatenate((np.zeros((1, 3)), np.cumsum(turns, axis=0), np.zeros((1, 3))))
+        low, high = (
+            _between(sums, width + 0.5 + np.arange(width) + side) for side in (-half, half)
+        )
+        blurred[row] = (high - low) / (2 * half)
+    return blurred
+
+
+def _between(sums: Floats64, place: Floats64) -> Floats64:
+    """Rows of sums at places between them."""
+    first = place.astype(np.intp)
+    share = (place - first)[:, None]
+    found: Floats64 = sums[first] * (1 - share) + sums[first + 1] * share
+    return found
 
 
 def cube_from_angular(image: Floats32, size: int) -> Floats32:
@@ -56,10 +88,11 @@ def _resampled(
     image: Floats32,
     size: int,
     place: Callable[[Floats64, Floats64, Floats64], tuple[Floats64, Floats64]],
+    subsamples: int = 2,
 ) -> Floats32:
     """Faces by the columns and rows of a picture that directions (x, y, z) have."""
     faces = np.empty((6, size, size, 3), np.float32)
-    for number, directions in enumerate(texel_directions(size, 2)):
+    for number, directions in enumerate(texel_directions(size, subsamples)):
         column, row = place(*np.moveaxis(directions, -1, 0))
         faces[number] = _bilinear(image, column, row).mean(axis=2)
     return faces

@@ -213,3 +213,21 @@ def test_pictures_of_every_format_can_be_faces(
     environment = make_scene(environment=sky).compiled.world.environment
     assert isinstance(environment, CubeEnvironment)
     assert (environment.faces == np.float32([1, 2, 3])).all()
+
+
+def test_a_sun_of_one_pixel_keeps_its_light_wherever_it_stands() -> None:
+    """Its radiance times the pixel's solid angle, against the sum over all texels of theirs."""
+    height, size = 64, 32
+    edges = np.linspace(-1, 1, size + 1)
+    corners = np.arctan2(np.outer(edges, edges), np.sqrt(1 + edges[:, None] ** 2 + edges**2))
+    solid_angles = np.diff(np.diff(corners, axis=0), axis=1)
+    for row in (1, 2, 5, 20, 31, 60):
+        for column in (0, 3, 37, 74, 111):
+            image = np.zeros((height, 2 * height, 3), np.float32)
+            image[row, column] = 1e6
+            low, high = np.cos(np.pi * np.array([row + 1, row]) / height)
+            expected = 1e6 * np.pi / height * (high - low)
+            found = (cube_from_lat_long(image, size)[..., 1] * solid_angles).sum()
+            # The rows next to the poles are rings within a texel or two.
+            slack = 0.12 if row <= 2 else 0.05
+            assert found == pytest.approx(expected, rel=slack), (row, column)
