@@ -19,7 +19,7 @@ def shutter_times(open, close, u):  # noqa: A002 - the names of the course
 
     Returns
     -------
-    (N,) [s] in [open, close), of the dtype of u
+    (N,) [s] in [open, close), or close by rounding alone, of the dtype of u
         They rise with u.
 
     Raises

@@ -18,7 +18,7 @@ def radical_inverse(base, i):
 
     Returns
     -------
-    (N,) float32 in [0, 1)
+    (N,) float32 in [0, 1); what lies nearer to 1 than float32 tells may be 1
 
     Raises
     ------
@@ -45,7 +45,7 @@ def halton(i, dims):
 
     Returns
     -------
-    (dims, N) float32 in [0, 1)
+    (dims, N) float32 in [0, 1); what lies nearer to 1 than float32 tells may be 1
 
     Raises
     ------
@@ -72,7 +72,7 @@ def hammersley(n, dims):
 
     Returns
     -------
-    (dims, n) float32 in [0, 1)
+    (dims, n) float32 in [0, 1); what lies nearer to 1 than float32 tells may be 1
 
     Raises
     ------

@@ -59,7 +59,7 @@ def build(lo, hi, leaf_size):
     """A hierarchy over boxes, as five flat arrays.
 
     Which boxes lie together is up to you, but a random line meets a box as often as its surface is large. By that
-    measure rays may need twice the tests that they need in halves along the longest axis, and no more.
+    measure rays may need up to twice the tests that they need where nodes are halved along their longest axis.
 
     Node 0 is the root. A leaf k has count[k] >= 1 and holds the boxes order[first[k] : first[k] + count[k]]. An inner
     node k has count[k] = 0 and two children, the nodes first[k] and first[k] + 1. Every node but the root is the
@@ -153,7 +153,7 @@ def traverse(hierarchy, p0, p1, p2, origins, directions):
     t : (N,), of the dtype of the rays, or NumPy's promotion of origins and directions
         > 0; infinite where the ray hits nothing.
     box_tests, triangle_tests : (N,) integer each
-        How many boxes and how many triangles the ray was tested with.
+        How many boxes and how many triangles the ray was tested with; the root's box may count or not.
 
     Raises
     ------

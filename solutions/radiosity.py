@@ -48,7 +48,7 @@ def hemicube_form_factors(k):
 
 
 def gather(radiosity, emission, reflectance, form_factors):
-    """One iteration for all patches: each gathers the light that all others send it.
+    """One iteration for all patches: each gathers the light that all patches send it.
 
     Parameters
     ----------
@@ -58,7 +58,7 @@ def gather(radiosity, emission, reflectance, form_factors):
         What patches emit by themselves [W/m^2].
     reflectance : (3, P) floating in [0, 1]
     form_factors : (P, P) floating in [0, 1]
-        [i, j] is the share of what leaves patch i that reaches patch j.
+        [i, j] is the share of what leaves patch i that reaches patch j; of a hollow patch [i, i] is over 0.
 
     Returns
     -------

@@ -148,9 +148,9 @@ def xorshift32(state):
     Returns
     -------
     state : (N,) uint32
-        The next state. All but 0 are passed through before the first comes back, 2^32 - 1 of them.
+        The next state. It takes 2^32 - 1 steps, through all numbers but 0, until the first comes back.
     random : (N,) float32 in [0, 1)
-        The next state / 2^32, to 2^-24; never 1, to which the largest states would round.
+        The next state / 2^32, to within 2^-24. The largest states give a number below 1, not 1 itself.
 
     Raises
     ------

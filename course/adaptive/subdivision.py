@@ -82,8 +82,8 @@ class Functions:
             if wrong.any():
                 child, cell = np.argwhere(wrong)[0]
                 raise EffectError(
-                    f"{SUBDIVIDE}: {name} of child {child} is {side[child, cell]:g} in a cell from "
-                    f"{low[cell]:g} to {high[cell]:g}, expected an end of the cell or its middle"
+                    f"{SUBDIVIDE}: {name} of child {child} is {side[child, cell]:.9g} in a cell from "
+                    f"{low[cell]:.9g} to {high[cell]:.9g}, expected an end of the cell or its middle"
                 )
         return Cells(sides.reshape(4, -1), np.tile(cells.pixel, 4))
 

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 
 from course.grading.checks.check import Array, Failure, Trial
-from course.grading.checks.declare import COLUMNS, DTYPES, Arguments, Function, Law
+from course.grading.checks.declare import COLUMNS, DTYPES, Argument, Arguments, Function, Law
 from course.grading.checks.drawing import Draw
-from course.grading.checks.examples import call, where
+from course.grading.checks.examples import call, told_apart, where
 from course.grading.checks.laws import EPSILON, exact
 from course.grading.checks.refusals import refuses
 from course.grading.looked import EARLIER_RESULT, RANDOM_STATE
@@ -126,9 +126,7 @@ def _at_the_ends(function: Function, trial: Trial) -> None:
 
 
 def _untouched(function: Function, trial: Trial) -> None:
-    # Twice as many columns: memory that is used again is mostly that of as large a result.
-    for n in (3, 50, 50):
-        a = function.make(Draw(trial.rng, n, np.float32))
+    for a in _untouched_by(function, trial):
         before = deepcopy([_arrays(value) for value in a.values()])
         _, after, changed = trial.caller.call_and_look(trial.function, *a.values())
         for name, old, new in zip(a, before, after, strict=True):
@@ -157,6 +155,17 @@ def _untouched(function: Function, trial: Trial) -> None:
                 "The random numbers are given: u, or rng.",
                 slip="global-random-state",
             )
+
+
+def _untouched_by(function: Function, trial: Trial) -> Iterator[Arguments]:
+    """Ordinary arguments, then those at the ends and of each law's case, where something may be mended in place."""
+    # Twice as many columns: memory that is used again is mostly that of as large a result.
+    for n in (3, 50, 50):
+        yield function.make(Draw(trial.rng, n, np.float32))
+    yield from function.ends(Draw(trial.rng, 1, np.float32))
+    for law in function.laws:
+        if law.case and np.float32 in law.dtypes:
+            yield function.make(Draw(trial.rng, 20, np.float32), law.case)
 
 
 def _arrays(value: Any) -> list[Array]:
@@ -200,6 +209,23 @@ def _layouts(function: Function, trial: Trial) -> None:
         a = Arguments({key: _laid(value, layout) for key, value in made.items()})
         slip = "remembers-calls" if name == AGAIN else ""
         _same(_parts(function.call(trial, a)), expected, made, f"the result for {name}", slip)
+    singles = {argument.name: argument for argument in function.arguments if argument.single}
+    if singles:
+        one = {name: each.one(made[name]) for name, each in singles.items()}
+        tiled = Arguments(
+            made | {name: _tiled(one[name], made[name], each) for name, each in singles.items()}
+        )
+        expected = _parts(function.call(trial, tiled))
+        for name in singles:
+            a = Arguments(tiled | {name: one[name]})
+            what = f"the result for one {name} for all columns"
+            _same(_parts(function.call(trial, a)), expected, a, what)
+
+
+def _tiled(one: Any, batch: Array, argument: Argument) -> Array:
+    """One value in each column of a batch."""
+    column = np.expand_dims(np.asarray(one, batch.dtype), argument.axis or 0)
+    return np.ascontiguousarray(np.broadcast_to(column, batch.shape))
 
 
 def _laid(value: Any, layout: Callable[[Array], Array]) -> Any:
@@ -211,18 +237,22 @@ def _laid(value: Any, layout: Callable[[Array], Array]) -> Any:
 
 def _columns(function: Function, trial: Trial) -> None:
     a = function.make(Draw(trial.rng, 60, np.float32))
-    order = trial.rng.permutation(60)[:40]
-    some = Arguments(a)
-    for argument in function.arguments:
-        if argument.axis is not None:
-            some[argument.name] = np.ascontiguousarray(a[argument.name].take(order, argument.axis))
     every = _parts(function.call(trial, a))
-    found = _parts(function.call(trial, some))
-    wanted = []
-    for part, result in zip(every, function.results, strict=True):
-        there = COLUMNS in result.sizes
-        wanted.append(part.take(order, result.sizes.index(COLUMNS)) if there else part)
-    _same(found, wanted, some, "the same column by itself, in another order:", "not-by-its-column")
+    # As many as there are rows is a case of its own where something is broadcast.
+    for n in (40, 1, 2, 3, 4):
+        order, some = trial.rng.permutation(60)[:n], Arguments(a)
+        for argument in function.arguments:
+            if argument.axis is not None:
+                columns = a[argument.name].take(order, argument.axis)
+                some[argument.name] = np.ascontiguousarray(columns)
+        found, wanted = _parts(function.call(trial, some)), []
+        for part, result in zip(every, function.results, strict=True):
+            there = COLUMNS in result.sizes
+            wanted.append(part.take(order, result.sizes.index(COLUMNS)) if there else part)
+        what = (
+            f"the same column among {n}, in another order:" if n > 1 else "the same column alone:"
+        )
+        _same(found, wanted, some, what, "not-by-its-column")
 
 
 def _same(
@@ -241,9 +271,10 @@ def _same(
             slack, off = 0.0, (part != other).astype(float)
         if off.size and not off.max() <= slack:
             worst = np.unravel_index(int(np.argmax(off)), off.shape)
+            first, second = told_apart(other[worst], part[worst], 6)
             raise Failure(
-                f"{what} {other[worst]:.6g}",
-                f"{part[worst]:.6g}",
+                f"{what} {first}",
+                second,
                 where(a, worst, part.shape),
                 "A result hangs on the numbers of its own column, and on nothing else.",
                 slip,

@@ -374,7 +374,11 @@ def _looked(value: Any, result: Result, sizes: dict[str, int], dtype: Any) -> Ar
     wanted = dtype if result.dtype is None else result.dtype
     kinds = _NUMBERS.get(wanted) if isinstance(wanted, str) else None
     if kinds is None and wanted is not None and dtype is not None and value.dtype != wanted:
-        hint = _DTYPES if result.dtype is None else ""
+        hint = (
+            _DTYPES
+            if result.dtype is None
+            else f"Cast at the end: result.astype(np.{np.dtype(wanted)})."
+        )
         raise Failure(
             f"{result.name} of dtype {np.dtype(wanted)}",
             f"{value.dtype}",

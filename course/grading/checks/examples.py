@@ -122,6 +122,15 @@ def _entry(value: Any) -> str:
     return f"{text}." if text.lstrip("-").isdigit() else text
 
 
+def told_apart(one: Any, other: Any, digits: int = 7) -> tuple[str, str]:
+    """Two numbers with as many digits as tell them apart, so many at least."""
+    for more in (digits, 9, 12, 17):
+        texts = number(one, more), number(other, more)
+        if texts[0] != texts[1] or one == other:
+            break
+    return texts
+
+
 def number(value: Any, digits: int = 6) -> str:
     """A number to be read; what is next to 1, as the largest numbers u are, is not shown as 1."""
     text = f"{value:.{digits}g}"

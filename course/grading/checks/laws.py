@@ -13,7 +13,7 @@ import numpy as np
 from course.grading.checks.check import Array, Failure, Kind, Role, Trial
 from course.grading.checks.declare import DTYPES, WHOLE, Arguments, Case, Function, Law
 from course.grading.checks.drawing import Draw
-from course.grading.checks.examples import call, example, number, where
+from course.grading.checks.examples import call, example, number, told_apart, where
 
 EPSILON = float(np.finfo(np.float32).eps)
 """Of single precision: nothing is asked to be more exact, whatever dtype it has."""
@@ -111,9 +111,10 @@ def close(
         worst = np.unravel_index(int(np.argmax(excess)), excess.shape)
         if not excess[worst] <= 0:
             told = f"{what} " if what else ""
+            asked, came = told_apart(expected[worst], found[worst])
             raise Failure(
-                f"{told}{number(expected[worst], 7)}" + _row(worst, found.shape),
-                number(found[worst], 7),
+                f"{told}{asked}" + _row(worst, found.shape),
+                came,
                 where(a, worst, found.shape),
                 hint,
             )
@@ -227,7 +228,7 @@ def unit_length(vectors: Callable[[Arguments, Any], Any] = lambda _, r: r) -> La
         "unit_length",
         "Directions are unit length",
         lambda a, r: (np.linalg.norm(vectors(a, r), axis=0), 1.0),
-        "Normalise at the end.",
+        "Normalise at the end. The axes of a basis are unit length, too, and at right angles.",
         what="a length of",
         within=0,
         floor=1e-5,

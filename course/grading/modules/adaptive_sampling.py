@@ -15,7 +15,7 @@ import numpy as np
 from course.grading.checks.check import Array, Failure
 from course.grading.checks.declare import Arguments, Made, function
 from course.grading.checks.drawing import Draw
-from course.grading.checks.examples import where
+from course.grading.checks.examples import told_apart, where
 from course.grading.checks.laws import close, holds, law, over_threshold
 
 DIM, BRIGHT = (1.0, 2.0**-10), (1.0, 2.0**10)
@@ -218,9 +218,10 @@ def _in_order(a: Arguments, r: Any) -> None:
     off = np.abs(found - expected) / np.maximum(np.abs(_of(a)).max(axis=0), 1e-30)
     number, child, column = (int(i) for i in np.unravel_index(int(off.argmax()), off.shape))
     if off[number, child, column] > 1e-6:
+        asked, came = told_apart(expected[number, child, column], found[number, child, column])
         raise Failure(
-            f"{NAMES[number]} of child {child} ({CORNERS[child]}): {expected[number, child, column]:.7g}",
-            f"{found[number, child, column]:.7g}",
+            f"{NAMES[number]} of child {child} ({CORNERS[child]}): {asked}",
+            came,
             where(a, (column,), a.x0.shape),
             "Row by row, x fastest: the children's order tells which corners they share.",
         )

@@ -346,7 +346,11 @@ FRESNEL = function(
             case=lambda d: _cosines(*_each_eta(d)),
         ),
     ),
-    corners=(lambda _: {"eta": 1.0},),
+    corners=(
+        lambda _: {"eta": 1.0},
+        lambda dtype: {"eta": 1.0, "cos_i": _worst_cosines(dtype)},
+        lambda dtype: {"eta": np.ones(len(ENDS)), "cos_i": _worst_cosines(dtype)},
+    ),
 )
 
 FUNCTIONS = (REFRACT, JITTER_REFRACTION, FRESNEL)

@@ -99,6 +99,27 @@ def balanced(lo: Array, hi: Array, levels: int) -> Hierarchy:
     return boxes[0], boxes[1], boxes[2], boxes[3], order.ravel()
 
 
+def chain(lo: Array, hi: Array, order: Array) -> Hierarchy:
+    """One box after the other is split off, as deep as there are boxes: the first child is a leaf."""
+    count = order.size
+    rest = [
+        np.array([side(c[:, order[k:]], axis=1) for k in range(count)]).T
+        for side, c in ((np.min, lo), (np.max, hi))
+    ]
+    # Node 0 has all; then come, for each k, the leaf of box k and the node of what follows it.
+    lows, highs = (
+        np.concatenate(
+            (tail[:, :1], np.stack((c[:, order[:-1]], tail[:, 1:]), axis=2).reshape(3, -1)), axis=1
+        )
+        for tail, c in zip(rest, (lo, hi), strict=True)
+    )
+    inner = np.arange(count)
+    first = np.concatenate(([1], np.stack((inner[:-1], 2 * inner[1:] + 1), axis=1).ravel()))
+    held = np.concatenate(([0], np.stack((np.ones(count - 1), 0 * inner[1:]), axis=1).ravel()))
+    first[-1], held[-1] = count - 1, 1
+    return lows, highs, first.astype(np.int64), held.astype(np.int64), order
+
+
 def lopsided(rng: np.random.Generator, lo: Array, hi: Array) -> Hierarchy:
     """A hierarchy as bad as they come: unsorted, deep here and shallow there, nodes in any order."""
     order = rng.permutation(lo.shape[1])

@@ -185,6 +185,16 @@ GATHER = function(
             case=_dark,
         ),
         close(
+            "few",
+            "A room of two or three patches is no other case",
+            _gathered,
+            "Form factors go from the sender, in the row, to the receiver, in the column.",
+            what="in a room of three patches, the radiosity",
+            within=64,
+            case=lambda d: _room(d.but(n=int(d.rng.integers(2, 4)))),
+            scales=(1.0,) * 3,
+        ),
+        close(
             "hollow",
             "What a hollow patch sends to itself arrives there, too",
             _gathered,

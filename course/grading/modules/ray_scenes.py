@@ -13,6 +13,7 @@ from course.grading.modules.hierarchies import (
     Vectors,
     balanced,
     boxes_around,
+    chain,
     lopsided,
     one_leaf,
 )
@@ -102,6 +103,17 @@ def ordered(draw: Draw) -> Mapping[str, Any]:
     """Layers, one a leaf."""
     p, o, d = layers(draw, LAYERS)
     return scene(p, balanced(*boxes_around(p), 6), o, d)
+
+
+DEEP = 120
+"""Layers of a hierarchy that is as deep as it has triangles."""
+
+
+def deep(draw: Draw) -> Mapping[str, Any]:
+    """Layers that are split off one by one: for rays of one of both ways all farther ones wait."""
+    p, o, d = layers(draw, DEEP)
+    order = np.argsort(p[0][2] * draw.rng.choice((-1, 1)))
+    return scene(p, chain(*boxes_around(p), order), o, d)
 
 
 def two_heaps(draw: Draw) -> Mapping[str, Any]:

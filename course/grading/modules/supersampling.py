@@ -375,7 +375,8 @@ RESOLVE = function(
         ),
         _resolved(
             "zero-weights",
-            "Weights of zero give the plain mean",
+            "Where weights sum to zero the plain mean is taken",
+            what="where weights sum to zero, a plain mean of, and elsewhere a weighted one of",
             hint="Where the weights of a pixel sum to zero, and only there, all samples count alike.",
             case=_some_zero,
         ),

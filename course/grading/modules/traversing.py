@@ -201,6 +201,14 @@ TRAVERSE = function(
             "The nearest hit in scenes a hundred thousand times as large",
             ray_scenes.of_size(1e5),
         ),
+        law(
+            "deep",
+            "A hierarchy may be of any depth",
+            _nearest,
+            case=ray_scenes.deep,
+            n=20,
+            scales=(1.0, 1.0),
+        ),
         holds(
             "boxes",
             "The boxes decide what is tested",
