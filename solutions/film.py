@@ -119,7 +119,8 @@ def encode_srgb(linear):
     """
     _check_batch("linear", linear)
     ### BEGIN SOLUTION
-    x = np.clip(linear, 0, 1)
+    # In single precision white would end next to 1, and be dithered.
+    x = np.clip(linear.astype(np.float64), 0, 1)
     return np.where(x <= 0.0031308, 12.92 * x, 1.055 * x ** (1 / 2.4) - 0.055).astype(linear.dtype)
     ### END SOLUTION
 

@@ -80,7 +80,7 @@ def in_reach(x: Floats64, loaded: Loaded, path: KeyPath, what: str) -> Floats32:
 
 def in_range(color: Floats64, loaded: Loaded, path: KeyPath, what: str) -> Floats32:
     """A compiled colour as float32; SceneError where it is too bright."""
-    return _single(color, BRIGHTEST, "in units of the scene's size", loaded, path, what)
+    return _single(color, BRIGHTEST, "", loaded, path, what)
 
 
 def _single(
@@ -88,7 +88,6 @@ def _single(
 ) -> Floats32:
     if not (np.abs(x) < bound).all():
         largest = np.abs(x).max()
-        raise loaded.document.error(
-            path, f"{what} is {largest:.3g} {unit}: expected less than {bound:g}"
-        )
+        size = f"{largest:.3g} {unit}".rstrip()
+        raise loaded.document.error(path, f"{what} is {size}: expected less than {bound:g}")
     return x.astype(np.float32)

@@ -92,12 +92,14 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
         for number, name in enumerate(columns.names)
     }
     painter = _painter(used, loaded, bound, files, frame.scale)
+    # A direction that is kept may point out of an object into which the ray has gone, and meets it once more.
+    leaves = CONVEX if scene.integrator.into_surface == "mirror" else ()
     parts = [
         FullPart(
             frame.mesh(mesh),
             columns.of_objects[number],
             shutter.velocity(thing.motion, frame),
-            isinstance(thing, CONVEX),
+            isinstance(thing, leaves),
             None if painter is None else painter.paint(number, mesh),
             None if painter is None else painter.relief(number, mesh),
             None if painter is None else painter.shine(number, mesh),

@@ -203,6 +203,12 @@ def _render_one(
         raise click.exceptions.Exit(options.INTERRUPTED)
     picture.save(out)
     receipt = picture.receipt.to_dict()
+    if receipt["samples"] < 1:
+        click.echo(
+            f"the time limit was over when {receipt['samples']:.0%} of the pixels had a sample; the others are black. "
+            "More seconds, or a smaller --size, give a whole picture",
+            err=True,
+        )
     if heat_map is not None and "tests" in receipt:
         from course.rendering.box_tests import save_box_tests
 

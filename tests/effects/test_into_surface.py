@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from course import Scene, render
+from course.compiled import library
 from course.core.triangles import Mesh
 from course.formats.meshes.files import save_ply
 from tests.conftest import MakeScene
@@ -159,3 +160,23 @@ def test_a_facet_that_turns_from_a_light_is_dark_unless_the_surface_is_round(
     smooth, flat = lit("smooth"), lit("flat")
     assert smooth.sum() > 500
     assert (smooth & ~flat).any() == (terminator == "round")
+
+
+def test_compiled_loops_keep_what_points_out_of_a_ball_too(make_scene: MakeScene) -> None:
+    """Such a ray starts within the ball and meets it again, though its direction says that it has left."""
+    if not library.available():
+        pytest.skip("Numba is not installed (pip install .[fast])")
+    scene = make_scene(
+        camera={"eye": [0, 2, 5], "look_at": [0, 0, 0], "vertical_fov": 15},
+        film={"width": 8, "height": 6},
+        sampler={"samples": 16},
+        integrator={"max_depth": 6, "into_surface": "keep"},
+        environment={"type": "constant", "radiance": 1},
+        materials={
+            "glass": {"color": 0, "dielectric": {}, "bump": {"noise": {"scale": 3}, "height": 0.5}}
+        },
+        objects=[{"shape": "sphere", "material": "glass"}],
+    )
+    numpy, compiled = (render(scene, compiled=each).linear for each in (False, True))
+    assert numpy.mean() < 0.7
+    np.testing.assert_allclose(compiled, numpy, atol=1e-5)

@@ -9,7 +9,7 @@ eye: [0, -> eye: [true, | 4: camera.eye[0] is true: expected a number [world uni
 vertical_fov: 35 -> vertical_fov: 180 | 7: camera.vertical_fov is 180: expected a number > 0 and < 180 [degree]
 width: 64 -> width: 0 | 8: film.width is 0: expected a whole number from 1 to 65536 [pixel]
 width: 64 -> width: 6.5 | 8: film.width is 6.5: expected a whole number from 1 to 65536 [pixel]
-sigma: 0.2 -> sigma: 0 | 8: film.sigma is 0: expected a number > 0 [pixel]
+sigma: 0.2 -> sigma: 0 | 8: film.sigma is 0: expected a number >= 0.02 [pixel]
 filter: gaussian -> filter: gausian | 8: film.filter is "gausian": expected box or gaussian; did you mean gaussian?
 filter: gaussian -> filter: [box] | 8: film.filter is ["box"]: expected box or gaussian
 seed: 7 -> seed: -1 | 2: seed is -1: expected a whole number from 0 to 4294967295

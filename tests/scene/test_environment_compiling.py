@@ -2,7 +2,6 @@
 
 import json
 import math
-import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -122,8 +121,7 @@ def test_light_that_float32_cannot_carry_is_refused(
 ) -> None:
     write(tmp_path / "good.exr", GOOD * np.float32(white))
     message = told({"type": "cube", "faces": six(), "scale": scale})
-    expected = re.escape(f"7: environment.scale: radiance is {radiance:g} ")
-    assert re.match(f"{expected}.*: expected less than 1e\\+20$", message)
+    assert message == f"7: environment.scale: radiance is {radiance:g}: expected less than 1e+20"
 
 
 def test_a_scale_beyond_float32_is_no_trouble_where_the_radiance_is_none(

@@ -656,7 +656,7 @@ class RectangleLight(LightDescription, frozen=True, kw_only=True, tag="rectangle
 
 
 class SphereLight(LightDescription, frozen=True, kw_only=True, tag="sphere"):
-    """A ball; by radiance its radius must be over 0."""
+    """A ball that shines outwards; by radiance its radius must be over 0."""
 
     center: Annotated[Vector, about("Centre.", "world unit")]
     radius: Annotated[float, about("Radius.", "world unit", ge=0)]
@@ -1016,9 +1016,14 @@ class FilmDescription(Map, frozen=True, kw_only=True):
         bool,
         about("Codes of a PNG are chosen by chance, with the right mean, in place of the nearest."),
     ] = False
-    sigma: Annotated[float, about("Standard deviation of the gaussian filter.", "pixel", gt=0)] = (
-        1 / 6
-    )
+    sigma: Annotated[
+        float,
+        about(
+            "Standard deviation of the gaussian filter; a narrower one would leave samples without weight.",
+            "pixel",
+            ge=0.02,
+        ),
+    ] = 1 / 6
 
 
 MOST_SAMPLES: Final = 65536
