@@ -175,6 +175,7 @@ def _render_one(
     """Render one scene file to one picture; `scene` is what messages call it."""
     from course import load_scene
     from course import render as render_picture
+    from course.jobs.job import EXTENSIBLE
     from course.render_scene import reads_loops_first
     from course.rendering.reading_ahead import ReadingAhead
     from course.scene.darkness import warn_of_darkness
@@ -203,6 +204,12 @@ def _render_one(
         raise click.exceptions.Exit(options.INTERRUPTED)
     picture.save(out)
     receipt = picture.receipt.to_dict()
+    sampler = picture.settings.sampler
+    if choices["time_limit"] is not None and choices["spp"] is None and sampler not in EXTENSIBLE:
+        click.echo(
+            f"the {sampler} sampler places all its samples at once, so the seconds add none: --spp says how many",
+            err=True,
+        )
     if receipt["samples"] < 1:
         click.echo(
             f"the time limit was over when {receipt['samples']:.0%} of the pixels had a sample; the others are black. "

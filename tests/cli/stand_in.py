@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, field
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -39,6 +40,7 @@ class Picture:
     interrupted: bool = False
     complete: bool = True
     receipt: Receipt = field(default_factory=Receipt)
+    settings: Any = field(default_factory=lambda: SimpleNamespace(sampler="sobol"))
     linear: Any = field(default_factory=lambda: np.full((3, 4, 3), 0.5, np.float32))
 
     def save(self, path: Path) -> None:

@@ -183,6 +183,29 @@ def test_a_time_limit_counts_from_reading_the_scene_on(
     assert engine.rendered[0]["since"] == 100.0
 
 
+def test_pixels_that_a_time_limit_left_black_are_told(
+    run: Run, engine: Engine, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(engine.picture.receipt, "to_dict", lambda: RECEIPT | {"samples": 0.6})
+    result = run("render", "box.yaml", "--time-limit", "1")
+    assert result.exit_code == 0
+    assert "over when 60% of the pixels had a sample; the others are black" in result.stderr
+    monkeypatch.setattr(engine.picture.receipt, "to_dict", lambda: RECEIPT)
+    assert "black" not in run("render", "box.yaml", "--time-limit", "1").stderr
+
+
+@pytest.mark.parametrize(
+    ("sampler", "spp", "told"),
+    [("regular", (), True), ("sobol", (), False), ("regular", ("--spp", "4"), False)],
+)
+def test_a_sampler_that_seconds_add_nothing_to_is_told(
+    run: Run, engine: Engine, sampler: str, spp: tuple[str, ...], told: bool
+) -> None:
+    engine.picture.settings.sampler = sampler
+    result = run("render", "box.yaml", "--time-limit", "1", *spp)
+    assert ("places all its samples at once" in result.stderr) == told
+
+
 def test_a_time_limit_gives_the_picture_its_own_name(
     run: Run, engine: Engine, tmp_path: Path
 ) -> None:
