@@ -290,6 +290,12 @@ def _flat_or_straight(draw: Draw) -> Mapping[str, Any]:
     return {"eta": np.where(equal, 1, eta), "cos_i": np.where(straight, 1, cos_i)}
 
 
+def _along_the_surface(draw: Draw) -> Mapping[str, Any]:
+    """Rays along the surface between media of which every third pair is equal."""
+    eta = np.where(np.arange(draw.n) % 3 == 0, 1, draw.uniform(0.3, 3, draw.n))
+    return {"eta": eta, "cos_i": np.zeros(draw.n)}
+
+
 def _amplitudes(a: Arguments, r: Array) -> tuple[Any, ...]:
     """By complex amplitudes, whose size is 1 in total reflection."""
     cos_i = np.clip(a.cos_i, 0, 1)
@@ -323,6 +329,14 @@ FRESNEL = function(
             "Straight on, along the surface and between equal media the reflectance is right",
             hint="Straight on both polarisations give ((n - 1) / (n + 1))^2; the surface seen flat is a mirror.",
             case=_flat_or_straight,
+        ),
+        close(
+            "horizon",
+            "Along the surface all is mirrored, between equal media too",
+            lambda _, r: (r, 1.0),
+            "There is 0 / 0 where both media are equal: along the surface the reflectance is 1, whatever eta is.",
+            what="along the surface, a reflectance of",
+            case=_along_the_surface,
         ),
         _reflected(
             "exact",

@@ -358,14 +358,6 @@ TEXTURE_LOOKUP = function(
             case=_at_centers,
         ),
         _texels(
-            "small",
-            "Pictures of one texel, one row or one column have right colours, too",
-            hint="A single texel is its own neighbour on all sides, and its colour is everywhere.",
-            what="in a picture of a single row or column, a colour's channel of",
-            case=_small,
-            scales=(1.0,) * 6,
-        ),
-        _texels(
             "wraps",
             "At an edge the opposite texels mix in",
             hint="Half a texel from an edge the texel at the opposite edge begins to count.",
@@ -378,6 +370,14 @@ TEXTURE_LOOKUP = function(
             hint="The picture goes on beyond its edges, to the left and downwards too.",
             what="beyond the edges, a colour's channel of",
             case=lambda d: {"image": _image(d), "uv": d.uniform(-5, 6, 2, d.n)},
+        ),
+        _texels(
+            "small",
+            "Pictures of one texel, one row or one column have right colours, too",
+            hint="A single texel is its own neighbour on all sides, and its colour is everywhere.",
+            what="in a picture of a single row or column, a colour's channel of",
+            case=_small,
+            scales=(1.0,) * 6,
         ),
         _texels(
             "picture",
