@@ -1,4 +1,4 @@
-"""Depths are kept above a tenth of a millimetre."""
+"""Depths are kept above two thousandths of a millimetre."""
 
 import numpy as np
 
@@ -17,5 +17,5 @@ def circle_of_confusion(depth, aperture_radius, focus_distance):
         raise ValueError(f"aperture_radius must be >= 0, got {aperture_radius}")
     _check_positive("focus_distance", focus_distance)
     return (
-        2 * float(aperture_radius) * np.abs(float(focus_distance) - depth) / np.maximum(depth, 1e-4)
+        2 * float(aperture_radius) * np.abs(float(focus_distance) - depth) / np.maximum(depth, 2e-6)
     )
