@@ -204,7 +204,7 @@ def chi_squared(counts: Array, expected: Array, what: str, hint: str = "") -> No
         raise Failure(
             f"{what}: chi-squared under {limit:.0f} over {counts.size} cells",
             f"{statistic:.0f}",
-            f"cell {worst} holds {counts.flat[worst]:.0f} points, {expected.flat[worst]:.0f} were to be expected",
+            f"cell {worst} came {counts.flat[worst]:.0f} times, {expected.flat[worst]:.0f} were to be expected",
             hint,
         )
 
