@@ -129,6 +129,7 @@ class Check:
     role : what it is worth
     smallest : the smallest call that gives no usable value, as text; empty if small ones do
     numbers : name of the check whose random numbers it gets; its own if empty
+    any_seed : whether what ``prepare`` makes is the same for all seeds
     """
 
     function: str
@@ -142,6 +143,7 @@ class Check:
     role: Role = "core"
     smallest: Callable[[Trial], str] = lambda _: ""
     numbers: str = ""
+    any_seed: bool = False
 
 
 @dataclass(frozen=True)

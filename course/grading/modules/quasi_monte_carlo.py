@@ -221,10 +221,16 @@ HALTON = function(
         ),
         _order(_runs),
         _law(
+            "many_primes",
+            "There are as many primes as coordinates",
+            _halton_coordinates,
+            lambda _: {"dims": len(PRIMES)},
+        ),
+        _law(
             "exact",
             "Coordinates are radical inverses in the primes",
             _halton_coordinates,
-            lambda d: {"dims": 5 if d.simple else len(PRIMES)},
+            lambda d: {"dims": 5 if d.simple else 14},
             role="core",
         ),
     ),

@@ -93,3 +93,16 @@ def test_its_own_tests_are_found_with_what_its_makefile_installs(copy: Path) -> 
     # The plugins and options of this environment are not those of the student's.
     alone = os.environ | {"PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1", "PYTEST_ADDOPTS": ""}
     python(*line, folder=copy, path=copy, environment=alone)
+
+
+def test_a_wrong_function_is_told_with_another_seed_too(copy: Path) -> None:
+    """What known mistakes look like hangs on no seed."""
+    right = (PROJECT / "solutions" / "motion_blur.py").read_text(encoding="utf-8")
+    body = "    return -np.multiply.outer(velocity, time).astype(time.dtype)"
+    wrong = f"{right}\n\ndef displacement(velocity, time):\n{body}\n"
+    (copy / "assignments" / "motion_blur.py").write_text(wrong, encoding="utf-8")
+    ended = check(copy, "motion_blur", "--seed", "7", "--hint", "3")
+    assert ended.returncode == 1
+    assert "wrong    displacement" in ended.stdout, ended.stderr
+    assert "looks like" in ended.stdout
+    assert "right    shutter_times" in ended.stdout
