@@ -155,7 +155,7 @@ def quantize(encoded, u):
 
     Returns
     -------
-    (3, N) of whole numbers from 0 to 255
+    (3, N) of an integer dtype, from 0 to 255
 
     Raises
     ------

@@ -284,6 +284,8 @@ def _weight(a: Arguments, r: Array) -> tuple[Any, ...]:
 def _one_channel(draw: Draw) -> Mapping[str, Any]:
     """Pairs that one channel separates."""
     made = dict(_tested(draw))
+    # A pair may be of two pixels at one place.
+    made["distance"][::4] = 0
     t = 0.5 * made["critical"]
     t[draw.rng.integers(0, 3, draw.n), np.arange(draw.n)] *= draw.rng.choice((-4.0, 4.0), draw.n)
     return made | {"t": t}
@@ -330,7 +332,7 @@ PAIR_WEIGHTS = function(
             "infinite",
             "Infinite statistics separate",
             lambda _, r: (r, 0.0),
-            "Infinity times 0 is no number: compare instead.",
+            "The magnitude of infinity is over every value. Infinity times 0 is no number: compare instead.",
             what="where t is infinite, a weight of",
             within=0,
             case=_endless,
@@ -407,6 +409,14 @@ def _hardly(draw: Draw) -> Mapping[str, Any]:
     return made | {"weights": made["weights"] * 10 ** draw.uniform(-15, 0, draw.n)[:, None]}
 
 
+def _uneven(draw: Draw) -> Mapping[str, Any]:
+    """Means of both signs, and weights of which some are a hundred thousandth of others."""
+    made = dict(_neighbours(draw))
+    shape = made["weights"].shape
+    weights = 10 ** draw.uniform(-5, 0, *shape)
+    return made | {"means": draw.lengths(-2, 4, 3, *shape), "weights": weights}
+
+
 WEIGHTED_MEAN = function(
     "denoising.weighted_mean",
     {},
@@ -426,6 +436,14 @@ WEIGHTED_MEAN = function(
             "Its share is 1, whatever its weight.",
             what="(over the largest) a mean or, in rows 3 to 5, a variance of",
             case=_lonely,
+        ),
+        close(
+            "uneven",
+            "Small shares and negative means count, too",
+            _averaged,
+            "Nothing is cut off: a share is as small as it is.",
+            what="(over the largest) a mean or, in rows 3 to 5, a variance of",
+            case=_uneven,
         ),
         close(
             "hardly",
@@ -479,6 +497,19 @@ def _bias(a: Arguments, r: Array) -> tuple[Any, ...]:
     return r, squared - (a.filtered_variance + a.variance - 2 * a.share * a.variance), size
 
 
+def _bright(draw: Draw) -> Mapping[str, Any]:
+    """Bright pixels that were moved by little."""
+    made = dict(_moved(draw))
+    mean = 1000 + draw.uniform(0, 1, 3, draw.n)
+    variance = 1e-4 * made["variance"]
+    return made | {
+        "mean": mean,
+        "filtered": mean + draw.uniform(-0.05, 0.05, 3, draw.n),
+        "variance": variance,
+        "filtered_variance": 1e-4 * made["filtered_variance"],
+    }
+
+
 def _unmoved(draw: Draw) -> Mapping[str, Any]:
     made = dict(_moved(draw))
     kept = {"filtered": made["mean"], "filtered_variance": made["variance"]}
@@ -496,6 +527,14 @@ SQUARED_BIAS = function(
             "Its share is 1: what the two have in common is all of the variance.",
             what="of a pixel without neighbours, a squared bias of",
             case=_unmoved,
+        ),
+        close(
+            "bright",
+            "Of bright pixels a small move keeps its digits",
+            _bias,
+            "Subtract first, then square: squares of bright pixels have no digits left for a small difference.",
+            what="of a bright pixel, a squared bias of",
+            case=_bright,
         ),
         close(
             "negative",

@@ -51,6 +51,14 @@ EXPOSE = function(
             case=lambda d: {"stops": float(d.uniform(4, 8))},
         ),
         close(
+            "negative",
+            "Channels below 0 are exposed like others",
+            _exposed,
+            "A colour outside of the gamut has such channels; what can't be shown is cut off when it is encoded.",
+            what="of a channel below 0, a radiance of",
+            case=lambda d: {"radiance": d.lengths(-2, 4, 3, d.n)},
+        ),
+        close(
             "far",
             "Any number of stops is exact",
             _exposed,
