@@ -79,7 +79,8 @@ def degrees_of_freedom(variance_a, count_a, variance_b, count_b):
 def critical_value(degrees, level):
     """What the magnitude of Student's t exceeds with the probability ``level``.
 
-    Any method of NumPy and Python's own library will do that is within 0.5 % of the exact value for levels from 0.001 to 0.5.
+    Any method of NumPy and Python's own library will do that is within 0.5 % of the exact value for levels from 0.001
+    to 0.5.
 
     Parameters
     ----------
