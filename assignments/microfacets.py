@@ -18,6 +18,7 @@ def ggx(cos, alpha):
     Returns
     -------
     (N,) [1/sr], of the dtype of cos; 0 where cos <= 0. Times the cosine it integrates to 1.
+        It keeps its digits where alpha is small, in float32, too.
 
     Task: microfacets.ggx. Source: Walter et al., "Microfacet models for refraction through rough surfaces", 2007.
     """

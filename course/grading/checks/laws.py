@@ -39,6 +39,7 @@ def law(
     points: float = 1.0,
     dtypes: Iterable[Any] = DTYPES,
     figure: Callable[[Trial, Arguments, Any], None] | None = None,
+    ends: bool = False,
 ) -> Law:
     """What holds of each call by itself.
 
@@ -51,6 +52,8 @@ def law(
     whole : whether it says all of the function's values, which makes it the core's largest
     points : weight among the checks of its role
     figure : keeps one for a report, of a trial, its arguments and the results
+    ends : whether it is looked at in the ends of what is legal, too, which random numbers never meet: lengths and bounds
+        are; of values, right ways of writing a formula may differ there by their rounding
     """
 
     def run(function: Function, trial: Trial) -> None:
@@ -68,7 +71,7 @@ def law(
                     raise
 
     role, points = ("core", WHOLE) if whole else (role, points)
-    anywhere = None if case else look
+    anywhere = look if ends else None
     tried = tuple(dtypes)
     return Law(name, title, run, role, kind, points, case=case, dtypes=tried, anywhere=anywhere)
 
@@ -218,6 +221,7 @@ def within(
         f"{what} from {low:g} to {high:g}",
         hint,
         shows=value,
+        ends="case" not in how,
         **how,
     )
 
@@ -232,6 +236,7 @@ def unit_length(vectors: Callable[[Arguments, Any], Any] = lambda _, r: r) -> La
         what="a length of",
         within=0,
         floor=1e-5,
+        ends=True,
     )
 
 

@@ -143,7 +143,7 @@ def edge(shape: Shape, offsets: Offsets = _of_the_unit, **how: Any) -> Law:
         if shape is SPHERE
         else ("inside", f"Points lie in the {shape.name}, and reach to its edge")
     )
-    return law(name, title, look, **how)
+    return law(name, title, look, ends=True, **how)
 
 
 def uniform_over(shape: Shape, offsets: Offsets = _of_the_unit, case: Case | None = None) -> Law:
