@@ -52,8 +52,8 @@ def law(
     whole : whether it says all of the function's values, which makes it the core's largest
     points : weight among the checks of its role
     figure : keeps one for a report, of a trial, its arguments and the results
-    ends : whether it is looked at in the ends of what is legal, too, which random numbers never meet: lengths and bounds
-        are; of values, right ways of writing a formula may differ there by their rounding
+    ends : whether it is looked at in the ends of what is legal, too, which random numbers never meet. Lengths and
+        bounds are; of values, right ways of writing a formula may differ there by their rounding
     """
 
     def run(function: Function, trial: Trial) -> None:
