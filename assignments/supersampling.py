@@ -47,7 +47,7 @@ def random(k, n, rng):
 
     Returns
     -------
-    (2, n, k * k) float32 in [0, 1)
+    (2, n, k * k) float32 in [0, 1), or 1 by rounding alone
 
     Raises
     ------
@@ -72,7 +72,7 @@ def jittered(k, n, rng):
 
     Returns
     -------
-    (2, n, k * k) float32 in [0, 1)
+    (2, n, k * k) float32 in [0, 1), or 1 by rounding alone
         Cells row by row, x fastest. A point may be rounded to its cell's border.
 
     Raises
