@@ -46,10 +46,10 @@ def cumulate(weights):
     -------
     rows : (H,) float64
         rows[i] is the share of the weights that lies in the rows 0 to i; the last is exactly 1. A row without weight
-        adds nothing.
+        adds nothing, but for rounding.
     columns : (H, W) float64
         columns[i, j] is the share of row i's weights that lies in its texels 0 to j; the last of each row is exactly 1.
-        A texel without weight adds nothing, but in a row without weight all texels count alike.
+        A texel without weight adds no more than rounding, but in a row without weight all texels count alike.
 
     Raises
     ------

@@ -330,10 +330,11 @@ def _hidden(draw: Draw) -> Mapping[str, Any]:
 
 
 def _visible(a: Arguments, r: Array) -> tuple[Any, ...]:
-    """Rounding of the dot product is as large where it is small."""
-    z = a.wo[2]
-    size = _d(a.wm[2], a.alpha) / (z * (1 + _lambda(z, a.alpha)))
-    return r, size * np.maximum(dot(a.wo, a.wm), 0), size
+    """Rounding of the dot product is as large where it is small; and sin^2 is 1 - z^2, or x^2 + y^2, which differ."""
+    z, height = a.wo[2], a.wm[2]
+    size = _d(height, a.alpha) / (z * (1 + _lambda(z, a.alpha)))
+    slack = 1 + 0.1 / (1 - height**2 + a.alpha**2)
+    return r, size * np.maximum(dot(a.wo, a.wm), 0), size * slack
 
 
 def _grid() -> tuple[Array, Array]:
