@@ -387,6 +387,9 @@ def _settled(a: Arguments) -> Array | None:
         free = np.flatnonzero(~points)
         void = free[np.argsort(crowd[free])]
         if crowd[void[0]] > crowd[order[0]] - TIE:
+            # Rounding may move the point once more, to another place that is as empty as the one just left.
+            if (crowd[void] < crowd[order[0]] + TIE).sum() > 1:
+                return None
             points[order[0]] = True
             return points
         if void.size > 1 and crowd[void[1]] - crowd[void[0]] < TIE:

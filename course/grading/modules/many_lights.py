@@ -691,9 +691,13 @@ def _of_lamp(a: Arguments, lamp: Array) -> Array:
     return np.asarray(length[lamp.clip(0, len(length) - 1), np.arange(lamp.size)])
 
 
+ALIKE = 512
+"""Lamps that are the same: a power of 2, so that all walks have nine steps."""
+
+
 def _alike(draw: Draw) -> Mapping[str, Any]:
-    """Sixty-four equal lamps at one place, above a floor: u alone decides."""
-    count, n = 64, draw.n
+    """Many equal lamps at one place, above a floor: u alone decides."""
+    count, n = ALIKE, draw.n
     one = np.zeros((3, count))
     own = {
         "lo": one - 0.1 * draw.scale,
@@ -710,7 +714,7 @@ def _alike(draw: Draw) -> Mapping[str, Any]:
 
 def _in_order(a: Arguments) -> Array:
     """Equal lamps by u: leaves from left to right, those of the lowest level first."""
-    return np.asarray(a.tree[5][(a.u * 64).astype(np.intp)])
+    return np.asarray(a.tree[5][(a.u * ALIKE).astype(np.intp)])
 
 
 def _beneath(count: int) -> Case:
@@ -779,7 +783,7 @@ TREE_CHOICE = function(
         close(
             "reuse",
             "Equal lamps are chosen evenly, by one number",
-            lambda a, r: (np.stack(r), np.stack((_in_order(a), 1 / 64 + 0 * a.u)), 1.0),
+            lambda a, r: (np.stack(r), np.stack((_in_order(a), 1 / ALIKE + 0 * a.u)), 1.0),
             "After a step the number's place in the part that was taken is a number again.",
             what="a lamp or a probability of",
             floor=1e-4,

@@ -3,7 +3,7 @@
 import numpy as np
 
 FUNCTION = "chain"
-CAUGHT_BY = "decorrelated"
+CAUGHT_BY = "sizes"
 MISTAKE = None
 
 
