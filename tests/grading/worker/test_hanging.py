@@ -94,9 +94,9 @@ def test_when_all_hang_the_time_has_an_end_and_it_is_told(lost: list[float]) -> 
 
 @pytest.mark.usefixtures("no_solutions")
 def test_slow_and_right_is_right(lost: list[float]) -> None:
-    # Each call an eighth of what one may take, and all of them together more than hanging ones may.
+    # Each call a fortieth of what one may take, and all of them together more than hanging ones may.
     slow = SOLUTION + "".join(
-        f"\n\n_{name} = {name}\n\ndef {name}(*given):\n    import time\n    time.sleep(0.25)\n"
+        f"\n\n_{name} = {name}\n\ndef {name}(*given):\n    import time\n    time.sleep(0.05)\n"
         f"    return _{name}(*given)\n"
         for name in COURSE[MODULE][:1]
     )
