@@ -21,7 +21,7 @@ UNPROTECTED = "NOT PROTECTED"
 _LAST = ("untouched", "refuses", "layouts", "columns")
 """Checks whose failures say the least where others have failed as well."""
 
-_FIRST = ("unit_length", "contract")
+_FIRST = ("contract", "unit_length")
 """Checks that say why others failed: wrong shapes above all, then lengths, on which distributions hang."""
 
 _DRAWN = ("picture", "bias", "order", "speed")
@@ -146,7 +146,7 @@ class FunctionResults(Total):
                 key=lambda r: (
                     r.check in _LAST,
                     r.kind in _DRAWN,
-                    -_FIRST.index(r.check) if r.check in _FIRST else 1,
+                    _FIRST.index(r.check) if r.check in _FIRST else len(_FIRST),
                     -r.of,
                 ),
             )

@@ -40,14 +40,13 @@ def conventions(function: Function) -> tuple[Law, ...]:
     if function.columns and any(argument.axis is not None for argument in function.arguments):
         found.append(("columns", "Each column depends on its own arguments alone", _columns))
     laws = tuple(Law(name, title, run, "convention", "contract") for name, title, run in found)
-    if any(law.anywhere for law in function.laws) and function.extremes(Draw(_rng(), 1)):
-        title = "Laws hold at the ends of what is legal, which random numbers never meet"
+    draw = Draw(np.random.default_rng(0), 1)
+    if any(law.at_ends for law in function.laws) and function.extremes(draw):
+        title = (
+            "Bounds and lengths hold at the ends of what is legal, which random numbers never meet"
+        )
         laws += (Law("at_the_ends", title, _at_the_ends),)
     return laws
-
-
-def _rng() -> np.random.Generator:
-    return np.random.default_rng(0)
 
 
 # ---------------------------------------------------------------- contract
@@ -118,8 +117,8 @@ def _at_the_ends(function: Function, trial: Trial) -> None:
         for a in function.extremes(Draw(trial.rng, 1, dtype)):
             given, r = exact(a), function.call(trial, a)
             for law in function.laws:
-                if law.anywhere and dtype in law.dtypes:
-                    law.anywhere(given, r)
+                if law.at_ends and dtype in law.dtypes:
+                    law.at_ends(given, r)
 
 
 # ---------------------------------------------------------------- untouched

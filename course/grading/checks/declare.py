@@ -149,7 +149,7 @@ class Law:
     run : raises ``Failure``
     case : what it calls the function with, where mistakes that break it show; None if that is any case
     dtypes : of the batches that it is tried with
-    anywhere : what it looks at in calls at the ends of what is legal; None if it isn't looked at there
+    at_ends : what it looks at in calls at the ends of what is legal; None if it isn't looked at there
     beside : a law that always comes with it
     """
 
@@ -162,7 +162,7 @@ class Law:
     false_fail: float = 0.0
     case: Case | None = None
     dtypes: tuple[Any, ...] = DTYPES
-    anywhere: Callable[["Arguments", Any], None] | None = None
+    at_ends: Callable[["Arguments", Any], None] | None = None
     beside: "Law | None" = None
 
 

@@ -71,9 +71,9 @@ def law(
                     raise
 
     role, points = ("core", WHOLE) if whole else (role, points)
-    anywhere = look if ends else None
+    at_ends = look if ends else None
     tried = tuple(dtypes)
-    return Law(name, title, run, role, kind, points, case=case, dtypes=tried, anywhere=anywhere)
+    return Law(name, title, run, role, kind, points, case=case, dtypes=tried, at_ends=at_ends)
 
 
 def close(
@@ -251,13 +251,14 @@ def from_generator() -> Law:
     def run(function: Function, trial: Trial) -> None:
         a = function.make(Draw(trial.rng, 20, np.float32))
         seed = int(trial.rng.integers(2**62))
-        first, again, other = (
-            function.call(trial, Arguments(a | {"rng": np.random.default_rng(s)}))
-            for s in (seed, seed, seed + 1)
-        )
         rng = np.random.default_rng(seed)
         before, given = rng.bit_generator.state, Arguments(a | {"rng": rng})
-        _, after, _ = trial.caller.call_and_look(trial.function, *given.values())
+        value, after, _ = trial.caller.call_and_look(trial.function, *given.values())
+        first = function.seen(value, given)
+        again, other = (
+            function.call(trial, Arguments(a | {"rng": np.random.default_rng(s)}))
+            for s in (seed, seed + 1)
+        )
         (moved,) = (each for each in after if isinstance(each, np.random.Generator))
         if moved.bit_generator.state == before:
             raise Failure(

@@ -230,7 +230,7 @@ HALTON = function(
             "exact",
             "Coordinates are radical inverses in the primes",
             _halton_coordinates,
-            lambda d: {"dims": 5 if d.simple else 14},
+            lambda d: {"dims": 5 if d.simple else 15},
             role="core",
         ),
     ),
