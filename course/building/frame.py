@@ -78,9 +78,9 @@ def in_reach(x: Floats64, loaded: Loaded, path: KeyPath, what: str) -> Floats32:
     return _single(x, FARTHEST, "in sizes of the scene", loaded, path, what)
 
 
-def in_range(color: Floats64, loaded: Loaded, path: KeyPath, what: str) -> Floats32:
-    """A compiled colour as float32; SceneError where it is too bright."""
-    return _single(color, BRIGHTEST, "", loaded, path, what)
+def in_range(color: Floats64, loaded: Loaded, path: KeyPath, what: str, unit: str = "") -> Floats32:
+    """A compiled colour as float32; SceneError where it is too bright. ``unit`` where it isn't the scene file's."""
+    return _single(color, BRIGHTEST, unit, loaded, path, what)
 
 
 def _single(

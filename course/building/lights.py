@@ -246,7 +246,8 @@ class _Compiler:
         return rgb(given(light.intensity)) / self.frame.scale / self.frame.scale
 
     def _color(self, power: Floats64) -> Floats32:
-        return in_range(power / math.pi, self.loaded, self.path, "the light's power")
+        unit = "in units of the scene's size"
+        return in_range(power / math.pi, self.loaded, self.path, "the light's power", unit)
 
     def _position(self, x: d.Vector, motion: d.MotionDescription) -> Floats32:
         position = self.frame.position(np.array(x) + self.shutter.start(motion))
