@@ -28,10 +28,12 @@ def origins(hits: Hits, which: Indices, near: int, after: Floats32) -> tuple[Flo
 class CompiledScatter(FullScatter):
     """Sends rays on that mirror or refract."""
 
-    def boundary(self, hits: Hits, which: Indices | None, depth: int) -> Boundary:
+    def boundary(
+        self, hits: Hits, which: Indices | None, path: Indices | None, depth: int, draws: Draws
+    ) -> Boundary:
         """See ``Scatter``."""
         if self.rough or self.microfacets or self.index is None:
-            return super().boundary(hits, which, depth)
+            return super().boundary(hits, which, path, depth, draws)
         if which is None:
             which = np.arange(hits.size)
         reflected, passed, cos_i, cos_t, eta = (np.empty(len(which), np.float32) for _ in range(5))

@@ -74,7 +74,7 @@ class Scatter:
         if self.index is None:
             weight = weight if throughput is None else weight * throughput
             return self._leaving(hits, weight, None, path, medium, depth, draws)
-        boundary = self.boundary(hits, None, depth)
+        boundary = self.boundary(hits, None, path, depth, draws)
         weight = weight + boundary.reflected
         through = np.repeat(boundary.refracted[None], 3, axis=0)
         if throughput is not None:
@@ -89,8 +89,10 @@ class Scatter:
         """Mirror reflectance (3, m) or (3, 1) at the given hits (None: all), without Fresnel reflectance."""
         return self.mirror(hits.material if which is None else hits.material.take(which))
 
-    def boundary(self, hits: Hits, which: Indices | None, depth: int) -> Boundary:
-        """Fresnel reflectance and refraction at the given hits (None: all)."""
+    def boundary(
+        self, hits: Hits, which: Indices | None, path: Indices | None, depth: int, draws: Draws
+    ) -> Boundary:
+        """Fresnel reflectance and refraction at the given hits (None: all); rough glass draws for the paths (m,)."""
         assert self.index is not None
         material, entering, direction, ns = hits.material, hits.entering, hits.direction, hits.ns
         if which is not None:
@@ -169,8 +171,7 @@ class Scatter:
         if len(which) == 0:
             return None
         path = which if path is None else path.take(which)
-        near = len(which) if boundary is None else 0
-        origin, throughput = self.origins(hits, which, near, throughput)
+        origin, throughput = self.origins(hits, which, 0 if boundary else len(which), throughput)
         if boundary is None:
             direction = self.mirrored(hits, which, path, depth, draws)
         else:
@@ -190,5 +191,4 @@ def kept_above(direction: Floats32, ng: Floats32) -> Floats32:
     below = np.minimum(dot(direction, ng), 0)
     if not below.any():
         return direction
-    below += below
-    return np.subtract(direction, below * ng)
+    return np.subtract(direction, (below + below) * ng)

@@ -77,7 +77,8 @@ class PathBounce:
                 u = draws("choice", path, depth)
         if u is not None and self.scatter is not None and other is not None and len(other):
             if self.scatter.index is not None:
-                boundary = self.scatter.boundary(hits, other, depth)
+                way = other if path is None else path.take(other)
+                boundary = self.scatter.boundary(hits, other, way, depth, draws)
             after, kind = self._chosen(self.scatter, hits, beta, after, other, boundary, u[0])
         goes_on, after = survivors(
             self.path_tracing, after, u[-1] if survival and u is not None else None
@@ -113,7 +114,7 @@ class PathBounce:
         if len(back):
             mirrored = self.scatter.mirrored(hits, back, path[optical:crossing], depth, draws)
             directions.append(mirrored)
-            self._weigh(after[:, optical:crossing], hits, back, mirrored, depth, False)
+            self._weigh(after[:, optical:crossing], hits, back, mirrored, False)
         if len(through):
             assert other is not None
             assert boundary is not None
@@ -122,7 +123,7 @@ class PathBounce:
             within = boundary.of(np.flatnonzero(refracts))
             refracted = self.scatter.refracted(hits, through, within, path[crossing:], depth, draws)
             directions.append(refracted)
-            self._weigh(after[:, crossing:], hits, through, refracted, depth, True)
+            self._weigh(after[:, crossing:], hits, through, refracted, True)
             if medium is not None:
                 medium[crossing:] = self.scatter.medium_behind(hits, through)
         direction = np.concatenate(directions, axis=1)
@@ -131,11 +132,11 @@ class PathBounce:
         return rays, np.arange(len(which)) >= optical
 
     def _weigh(
-        self, after: Floats32, hits: Hits, which: Indices, way: Floats32, depth: int, through: bool
+        self, after: Floats32, hits: Hits, which: Indices, way: Floats32, through: bool
     ) -> None:
         """Multiply the throughput (3, m) of mirrored or refracted rays by what their directions count."""
         if isinstance(self.scatter, FullScatter):
-            count = self.scatter.weights(hits, which, way, depth, through)
+            count = self.scatter.weights(hits, which, way, through)
             if count is not None:
                 after *= count
 

@@ -1,7 +1,6 @@
 """Scattering by metals, rough glass and microfacets, and without correcting directions that point into the surface."""
 
 from dataclasses import dataclass, replace
-from functools import partial
 
 import numpy as np
 
@@ -13,6 +12,7 @@ from course.core.types import Floats32, Indices, Media
 from course.core.vectors import dot, reflect
 from course.extras import microfacets, rough_glass
 from course.extras.conductors import Conductors
+from course.extras.hits_on import hits_on
 from course.extras.microfacets import Microfacets
 from course.extras.rough_glass import RoughGlass
 
@@ -54,31 +54,32 @@ class FullScatter(Scatter):
             direction, ns = direction.take(which, axis=1), ns.take(which, axis=1)
         return self.conductors.weakened(mirror, material, -dot(direction, ns))
 
-    def boundary(self, hits: Hits, which: Indices | None, depth: int) -> Boundary:
+    def boundary(
+        self,
+        hits: Hits,
+        which: Indices | None,
+        path: Indices | None,
+        depth: int,
+        draws: Draws,
+    ) -> Boundary:
         """See ``Scatter``."""
-        smooth = self._smooth(hits, which, depth)
-        if not self.rough or self.index is None:
+        smooth = super().boundary(hits, which, path, depth, draws)
+        if self.index is None or not (self.rough or self.microfacets):
             return smooth
-        material, entering, direction, ns = hits.material, hits.entering, hits.direction, hits.ns
-        if which is not None:
-            material, entering = material.take(which), entering.take(which)
-            direction, ns = direction.take(which, axis=1), ns.take(which, axis=1)
+        which = np.arange(hits.size) if which is None else which
+        path = which if path is None else path
+        material, entering = hits.material.take(which), hits.entering.take(which)
+        direction, ns = hits.direction.take(which, axis=1), hits.ns.take(which, axis=1)
         # If directions are kept, another renderer is reproduced, which loses that light.
         ends = ~entering if depth + 1 == self.max_depth and not self.keeps else None
         share = smooth.reflected
         cos_i, cos_t, eta = smooth.cos_i, smooth.cos_t, smooth.eta
         bent = rough_glass.bend(self.rough, material, direction, ns, cos_i, eta, ends, share)
+        facets = self.microfacets
+        bent = microfacets.bend(facets, hits, which, path, depth, draws, eta, share, bent)
         glass = self.index(material) > 0
         arrays = share * glass, (1 - share) * glass, cos_i, cos_t, eta
         return Boundary(*arrays) if bent is None else RoughBoundary(*arrays, bent)
-
-    def _smooth(self, hits: Hits, which: Indices | None, depth: int) -> Boundary:
-        """The boundary before rough glass bends its rays, with the chances of microfacets."""
-        smooth = super().boundary(hits, which, depth)
-        if self.microfacets:
-            material = hits.material if which is None else hits.material.take(which)
-            microfacets.chances(self.microfacets, material, smooth)
-        return smooth
 
     def mirrored(
         self, hits: Hits, which: Indices, path: Indices, depth: int, draws: Draws
@@ -121,19 +122,17 @@ class FullScatter(Scatter):
         if not self.keeps:
             way = kept_above(way, -ng)
         if isinstance(boundary, RoughBoundary):
-            arrays = hits.material.take(which), boundary.rough_direction, ng, path
+            material = hits.material.take(which)
+            for one, some in hits_on(self.microfacets, material):
+                if one.k is None:
+                    way[:, some] = boundary.rough_direction.take(some, axis=1)
+            arrays = material, boundary.rough_direction, ng, path
             rough_glass.scatter(self.rough, self.keeps, *arrays, depth, draws, direction=way)
-        microfacets.scatter(self.microfacets, hits, which, path, depth, draws, way, boundary.eta)
         return way
 
-    def weights(
-        self, hits: Hits, which: Indices, way: Floats32, depth: int, through: bool
-    ) -> Floats32 | None:
+    def weights(self, hits: Hits, which: Indices, way: Floats32, through: bool) -> Floats32 | None:
         """What directions count besides their throughput; see ``course.extras.microfacets``."""
-        if not self.microfacets:
-            return None
-        smooth = partial(self._smooth, hits, depth=depth)
-        return microfacets.weights(self.microfacets, hits, which, way, smooth, through)
+        return microfacets.weights(self.microfacets, hits, which, way, through)
 
     def _leaving(
         self,
@@ -150,5 +149,5 @@ class FullScatter(Scatter):
         if rays is None or not self.microfacets or rays.throughput is None:
             return rays
         which = np.flatnonzero(throughput.max(axis=0) > self.cutoff)
-        count = self.weights(hits, which, rays.direction, depth, boundary is not None)
+        count = self.weights(hits, which, rays.direction, boundary is not None)
         return rays if count is None else replace(rays, throughput=rays.throughput * count)

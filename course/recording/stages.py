@@ -371,12 +371,14 @@ class RecordedScatter(Scatter):
 
     recorder: Recorder
 
-    def boundary(self, hits: Hits, which: Indices | None, depth: int) -> Boundary:
+    def boundary(
+        self, hits: Hits, which: Indices | None, path: Indices | None, depth: int, draws: Draws
+    ) -> Boundary:
         """See ``Scatter``."""
         recorder, ids = self.recorder, self.recorder.ids
         recorder.ids, recorder.stage = ids if which is None else ids.take(which), "refracted"
         recorder.material = hits.material if which is None else hits.material.take(which)
-        boundary = super().boundary(hits, which, depth)
+        boundary = super().boundary(hits, which, path, depth, draws)
         recorder.ids, recorder.material = ids, None
         return boundary
 

@@ -78,6 +78,23 @@ def test_from_the_inside_rough_glass_refracts_what_is_not_totally_reflected(
     check_mean(estimates(below), 0.6519, 2e-3)
 
 
+@pytest.mark.parametrize("roughness", [0.1, 0.4, 1.0])
+def test_no_path_through_rough_glass_brings_more_than_the_sky_has(
+    make_scene: MakeScene, roughness: float
+) -> None:
+    """Where a microfacet reflects everything and the smooth surface little, paths would bring several times as much."""
+    scene = make_scene(
+        camera={"eye": [0, 0, 4], "look_at": [0, 0, 0], "vertical_fov": 30},
+        film={"width": 64, "height": 64},
+        sampler={"type": "random", "samples": 1},
+        environment={"type": "constant", "radiance": 1},
+        materials={"glass": {"color": 0} | glass(roughness)},
+        objects=[{"shape": "sphere", "material": "glass"}],
+        integrator={"type": "path", "max_depth": 12},
+    )
+    assert render(scene).linear.max() <= 1 + 1e-5
+
+
 def test_compiled_stages_draw_the_same_microfacets(make_scene: MakeScene) -> None:
     for material in (metal(0.3), glass(0.3)):
         scene = sheet(make_scene, material)

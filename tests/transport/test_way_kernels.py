@@ -84,12 +84,12 @@ def test_the_same_division_and_refracted_directions(some: bool) -> None:
     which = np.arange(0, hits.size, 3) if some else None
     index = np.array([0, 1.5, 0.7], np.float32)
     results = []
+    draws: Any = None
     for scatter in both_forms(index):
-        boundary = scatter.boundary(hits, which, 0)
+        boundary = scatter.boundary(hits, which, None, 0, draws)
         chosen = np.arange(hits.size) if which is None else which
         glass = np.flatnonzero(index[hits.material[chosen]] > 0)
         there = boundary.of(glass)
-        draws: Any = None
         way = scatter.refracted(hits, chosen[glass], there, glass, 0, draws)
         shares = boundary.reflected, boundary.refracted
         results.append((*shares, there.cos_i, there.cos_t, there.eta, way))
