@@ -38,8 +38,8 @@ MODULE = "course.rendering.background_compile"
 
 COMPILING = "compiling loops that this machine has not compiled yet, which takes some 15 s, once"
 
-_COMPILING: list[subprocess.Popen[bytes]] = []
-"""Kept, for Python warns of a process that runs on when its object goes."""
+_COMPILING: dict[bytes, subprocess.Popen[bytes]] = {}
+"""By task: the process of this program that compiles, if there is one. Python warns of one whose object goes first."""
 
 
 class NotCompiledError(Exception):
@@ -174,10 +174,11 @@ class BackgroundCompiler:
     def _compile(self) -> bool:
         """Wait for a process that compiles, at most until the picture is there; true if it has compiled all."""
         process = _started(self._task)
+        if process is None:
+            return False
         while process.poll() is None:
             if self._closed.wait(POLL):
                 return False
-        _COMPILING.remove(process)
         return process.returncode == 0
 
     def close(self) -> None:
@@ -211,8 +212,13 @@ def compile_stages(scene: Scene, settings: Settings) -> None:
     _started(_task_of_stages(scene, settings))
 
 
-def _started(task: tuple[Any, ...]) -> subprocess.Popen[bytes]:
-    """A process that compiles."""
+def _started(task: tuple[Any, ...]) -> subprocess.Popen[bytes] | None:
+    """A process that compiles; None while one that this program started compiles something else."""
+    asked = pickle.dumps(task)
+    for known in [known for known, process in _COMPILING.items() if process.poll() is not None]:
+        del _COMPILING[known]
+    if _COMPILING:
+        return _COMPILING.get(asked)
     path = os.pathsep.join([str(PACKAGE.parent), *filter(None, sys.path)])
     process = subprocess.Popen(
         [sys.executable, "-m", MODULE],
@@ -224,10 +230,10 @@ def _started(task: tuple[Any, ...]) -> subprocess.Popen[bytes]:
         # would be no guest: Linux shares processors between sessions first, and only then by niceness.
         process_group=0,
     )
-    _COMPILING.append(process)
+    _COMPILING[asked] = process
     assert process.stdin is not None
     with process.stdin as pipe:
-        pipe.write(pickle.dumps(task))
+        pipe.write(asked)
     return process
 
 

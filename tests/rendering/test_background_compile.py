@@ -6,6 +6,7 @@ import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -131,6 +132,7 @@ def test_a_render_waits_for_no_compiler(
         return answer
 
     monkeypatch.setattr(background_compile.subprocess, "Popen", Process)
+    monkeypatch.setattr(background_compile, "_COMPILING", {})
     numpy = bind(scene, scene.settings)
     pool = Pool(numpy, 1)
     ready = background_compile.BackgroundCompiler(pool, make, scene, scene.settings)
@@ -140,6 +142,10 @@ def test_a_render_waits_for_no_compiler(
         assert ready._thread is not None
         ready._thread.join()
     assert len(started) == 1
+    # While it runs, renders of other pictures start none; one that has ended is forgotten.
+    other = background_compile._task(scene, replace(scene.settings, seed=7))
+    assert (background_compile._started(other) is None) == (status is None)
+    assert len(started) == (1 if status is None else 2)
     # A process that ended with 1 left it to another one, and NumPy renders to the end.
     assert pool.tracer is (compiled if status == 0 else numpy)
     assert "numba" in sys.modules
@@ -170,6 +176,7 @@ def test_students_functions_are_not_called_to_see_whether_loops_are_ready(
             return 0
 
     monkeypatch.setattr(background_compile.subprocess, "Popen", Process)
+    monkeypatch.setattr(background_compile, "_COMPILING", {})
     monkeypatch.setattr(background_compile, "tried", None)
     compiled = bind(scene, scene.settings, compiled=True)
     make = iter([None, lambda: compiled])
