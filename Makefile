@@ -8,6 +8,7 @@ VENV := .venv
 DEMO_FOLDER ?= out/demo
 SITE ?= out/site
 PORT ?= 8000
+EXTRAS ?= dev
 
 # The newest Python that runs and can make an environment; only asked for where there is none yet.
 ifeq ($(OS),Windows_NT)
@@ -50,10 +51,15 @@ endif
 # A sign of life every two seconds beside the program that follows on the same line, until that line's shell ends.
 DOTS := while sleep 2 && kill -0 $$$$ 2>/dev/null; do printf .; done &
 
+# The extras are installed by uv, in a quarter of pip's time; by pip where uv can't be had or fails.
+PIP := "$(RUN)" -m pip --disable-pip-version-check -qq install
+UV := "$(RUN)" -m uv pip install --quiet --compile-bytecode --python "$(RUN)"
+INSTALL = { $(PIP) uv && $(UV) --editable ".[$(EXTRAS)]"; } >/dev/null 2>&1 || $(PIP) --editable ".[$(EXTRAS)]"
+
 $(STAMP): pyproject.toml
-	@printf "installing into $(VENV): about 210 MB to download, a minute, once "
+	@printf "installing into $(VENV): about 210 MB to download, half a minute, once "
 	@$(DOTS) $(RUNS) || $(or $(PYTHON),$(error no Python 3.11 or newer with venv and pip was found: install one, or say make PYTHON=...)) -m venv --clear $(VENV)
-	@$(DOTS) "$(RUN)" -m pip --disable-pip-version-check -qq install --editable ".[dev]"
+	@$(DOTS) $(INSTALL)
 	@echo
 	@"$(RUN)" -c "open('$(STAMP)', 'w').close()"
 

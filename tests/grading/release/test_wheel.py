@@ -197,7 +197,7 @@ def test_another_python_installs_the_wheel_and_works(
     run(interpreter, "-m", "venv", "env")
     binaries = tmp_path / "env" / ("Scripts" if sys.platform == "win32" else "bin")
     (wheel,) = site.glob("*.whl")
-    run(binaries / "python", "-m", "pip", "install", "-q", wheel)
+    run(binaries / "python", "-m", "pip", "install", "-q", "--no-compile", wheel)
     course, mine = binaries / "course", tmp_path / "mine"
     run(course, "start", "mine")
     run(course, "render", "scenes/soft_shadows.yaml", "--size", "60x40", folder=mine)
