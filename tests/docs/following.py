@@ -40,7 +40,7 @@ NOT_RUN = {
 }
 """What is not run, and why."""
 
-TOOLS = {"ruff", "mypy", "sphinx", "http.server", "pip", "pytest"}
+TOOLS = {"ruff", "mypy", "sphinx", "http.server", "pip", "pytest", "uv"}
 """Programs that recipes of the Makefile call beside the course."""
 
 TINY = ["--size", "48x32"]
@@ -54,6 +54,7 @@ SHORTER: dict[str, list[str]] = {
     "grade": FEW,
     "calibrate": ["--seeds", "1"],
     "quiz": ["--modules", "film"],
+    "portfolio": ["--time-limit", "1"],
 }
 """Options added to a command to make it short; of two equal options the last one holds."""
 
@@ -72,6 +73,12 @@ ONCE = {
     "course bench": "docs/performance.md",
 }
 """What takes seconds however small its scenes are, and the one page for which it is run."""
+
+LIKE = {
+    r"course check \w+ --watch": "docs/modules/soft_shadows.md",
+    r"course check \w+ --html report.html": "docs/modules/thin_lens.md",
+}
+"""What the pages of modules say alike, each of its own, and the one page for which it is run."""
 
 TWINS = {"docs/accuracy.md": "docs/performance.md"}
 """Pages that are written by the same commands: what stands on the other is run there."""
@@ -145,6 +152,8 @@ class Page:
                     done = "as above"
                 elif ONCE.get(line, self.name) != self.name and block.kind == "command":
                     done = f"as in {ONCE[line]}"
+                elif other := self._like(line):
+                    done = f"like in {other}"
                 elif self.name in TWINS and line in self._twin():
                     done = f"as in {TWINS[self.name]}"
                 else:
@@ -161,6 +170,13 @@ class Page:
         for extra in re.findall(r'"\.\[(\w+)\]"', text):
             if extra not in extras():
                 raise FollowingError(f"{self.name}: pyproject.toml has no extra {extra}")
+
+    def _like(self, line: str) -> str | None:
+        """The page for which a line of another module is run."""
+        if self.name != f"docs/modules/{line.removeprefix('course check ').partition(' ')[0]}.md":
+            return None
+        pages = [page for known, page in LIKE.items() if re.fullmatch(known, line)]
+        return pages[0] if pages and pages[0] != self.name else None
 
     def _twin(self) -> set[str]:
         return {_without_comment(block.text) for block in blocks(Path(TWINS[self.name]))}
@@ -277,7 +293,12 @@ class Page:
             return False
         if self.cluster is None:
             self.cluster = LocalCluster(
-                n_workers=1, threads_per_worker=1, dashboard_address=None, host="127.0.0.1"
+                n_workers=1,
+                threads_per_worker=1,
+                dashboard_address=None,
+                host="127.0.0.1",
+                processes=False,
+                protocol="tcp",
             )
         return True
 
