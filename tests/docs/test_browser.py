@@ -1,4 +1,7 @@
-"""The site in a browser without a network: no error, nothing missing, nothing wider than the window, and the slider."""
+"""The site in a browser without a network: the slider between two pictures, and formulas.
+
+Every page is opened by tests/docs/test_accessibility.py.
+"""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -6,19 +9,7 @@ from typing import Any
 
 import pytest
 
-from tests.browser import assert_fits, tab_to, untroubled
-
-
-def test_every_page_opens_without_trouble(browser: Any, site: Path) -> None:
-    # On a telephone, tests/docs/test_accessibility.py opens them.
-    files = sorted(site.rglob("*.html"))
-    assert len(files) > 25
-    view = {"viewport": {"width": 1280, "height": 800}, "color_scheme": "light"}
-    with untroubled(browser, **view) as page:
-        for file in files:
-            page.goto(file.as_uri())
-            assert_fits(page, 1280)
-            page.emulate_media(color_scheme="light")
+from tests.browser import tab_to
 
 
 def test_no_line_begins_with_the_punctuation_of_a_formula(browser: Any, site: Path) -> None:
