@@ -127,15 +127,18 @@ def _coarser(corners: Floats64, most: int = MOST_TRIANGLES) -> Floats64:
             return corners
         size = max(float((high - low).max()) / cells, 1e-12)
         cell = np.round((corners - low) / size).astype(np.int64)
-        # One number for a cell, and one for three of them: numbers are sorted faster than rows.
-        numbers = (cell[..., 0] * 64 + cell[..., 1]) * 64 + cell[..., 2]
-        _, inverse = np.unique(numbers.ravel(), return_inverse=True)
+        # Cells that hold corners are numbered in order without sorting the corners, of which there may be millions.
+        numbers = ((cell[..., 0] * 64 + cell[..., 1]) * 64 + cell[..., 2]).ravel()
+        there = np.zeros(64**3, np.bool_)
+        there[numbers] = True
+        inverse = (np.cumsum(there) - 1)[numbers]
         sums = [np.bincount(inverse, axis) for axis in corners.reshape(-1, 3).T]
         mean = np.stack(sums, axis=1) / np.bincount(inverse)[:, None]
         flat = inverse.reshape(-1, 3)
         a, b, c = np.sort(flat, axis=1).T
         distinct = flat[(a != b) & (b != c)]
         a, b, c = np.sort(distinct, axis=1).T
+        # One number for three cells: numbers are sorted faster than rows.
         _, first = np.unique((a * len(mean) + b) * len(mean) + c, return_index=True)
         coarse: Floats64 = mean[distinct[first]]
         if 0 < len(coarse) <= most:

@@ -1,5 +1,6 @@
 """Pictures as the site has them: WebP files, whole or not there."""
 
+from functools import cache
 from io import BytesIO
 from pathlib import Path
 
@@ -34,5 +35,13 @@ def save(image: Image.Image, path: Path, quality: int, *, lossless: bool = False
 def save_blank(path: Path, size: tuple[int, int]) -> Path:
     """Write a grey picture, for builds that must not wait."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    Image.new("RGB", size, GREY).save(path, "WEBP")
+    path.write_bytes(_blank(size))
     return path
+
+
+@cache
+def _blank(size: tuple[int, int]) -> bytes:
+    """The file of a grey picture: a site has thousands of a few sizes."""
+    file = BytesIO()
+    Image.new("RGB", size, GREY).save(file, "WEBP")
+    return file.getvalue()
