@@ -8,7 +8,7 @@ import errno
 import os
 import stat
 import zipfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from io import BufferedReader
@@ -111,8 +111,10 @@ def read_input(
     return content
 
 
-def read_arrays(path: Path, what: str) -> dict[str, NDArray[Any]]:
-    """Arrays of an .npz file by their names.
+def read_arrays(
+    path: Path, what: str, wanted: Callable[[str], bool] = lambda _name: True
+) -> dict[str, NDArray[Any]]:
+    """Arrays of an .npz file by their names, those that are wanted.
 
     Raises CourseError as `opened` does, and for a file that isn't one, that holds objects, or arrays of more than
     LARGEST_ARRAYS.
@@ -125,7 +127,7 @@ def read_arrays(path: Path, what: str) -> dict[str, NDArray[Any]]:
                 raise CourseError(_too_large(path, what, Bound(LARGEST_ARRAYS)))
             stream.seek(0)
             with np.load(stream, allow_pickle=False) as arrays:
-                found = {name: arrays[name] for name in arrays.files}
+                found = {name: arrays[name] for name in arrays.files if wanted(name)}
             # What is in the archive beside arrays comes as bytes.
             if not all(isinstance(each, np.ndarray) for each in found.values()):
                 raise ValueError("not all in it are arrays")

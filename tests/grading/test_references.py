@@ -1,15 +1,19 @@
 """References for whatever is asked, and no solution loaded that nobody needs."""
 
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 from course.effects import EffectError
+from course.errors import CourseError
 from course.grading import references as place
 from course.grading.catalog import module_checks
 from course.grading.checks.check import Caller, Check
-from course.grading.references import reference, references
+from course.grading.references import make_references, read_references, reference, references
+from course.inputs import read_arrays
 
 
 def checks(module: str, *, prepared: bool) -> list[Check]:
@@ -45,3 +49,26 @@ def test_a_solution_that_is_missing_is_missed_where_it_is_needed(
     assert find("motion_blur", checks("motion_blur", prepared=False)[0]) == {}
     with pytest.raises(EffectError, match="motion_blur"):
         find("motion_blur", checks("motion_blur", prepared=True)[0])
+
+
+def test_of_a_file_only_the_arrays_of_one_module_are_unpacked(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "references.npz"
+    make_references(("motion_blur", "thin_lens"), 0, path)
+    every, read = read_references(path, 0), []
+
+    def reading(file: Path, what: str, wanted: Callable[[str], bool]) -> dict[str, Any]:
+        arrays = read_arrays(file, what, wanted)
+        read.extend(arrays)
+        return arrays
+
+    monkeypatch.setattr(place, "read_arrays", reading)
+    one = read_references(path, 0, "thin_lens")
+    assert {name.partition(".")[0] for name in read} == {"thin_lens", "seed"}
+    check = checks("thin_lens", prepared=True)[0]
+    assert every("thin_lens", check)
+    for name, array in every("thin_lens", check).items():
+        assert np.array_equal(one("thin_lens", check)[name], array)
+    with pytest.raises(CourseError, match="no references for motion_blur"):
+        one("motion_blur", checks("motion_blur", prepared=True)[0])
