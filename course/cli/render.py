@@ -189,7 +189,6 @@ def _render_one(
     with closing(ahead):
         with told_of(scene, file), progress_bar(f"reading {scene.name}"):
             world = load_scene(file, effects=effects, described=described)
-        ahead.go_on()
         if file != scene:
             _check_error(scene, world.settings.sampler, world.settings.samples, choices)
         warn_of_darkness(world, scene, packets=ahead.begun)

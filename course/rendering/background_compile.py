@@ -48,8 +48,25 @@ class NotCompiledError(Exception):
 
 @contextmanager
 def compiling_nothing() -> Iterator[None]:
-    """Let loops be read from disk; NotCompiledError where one would be compiled."""
+    """Let loops be read from disk; NotCompiledError where one would be compiled.
+
+    Whatever Numba reads, it first imports all that it can compile, of Python's and of NumPy's: that takes as long as to
+    read the loops, and is left out. Where something is compiled afterwards, Numba imports it then.
+    """
     from numba.core import event
+    from numba.core.caching import Cache
+    from numba.core.registry import cpu_target
+    from numba.core.runtime import rtsys
+
+    load = Cache.load_overload
+
+    def read(cache: Any, signature: Any, context: Any) -> Any:
+        # Numba's lock keeps others from compiling meanwhile.
+        context.refresh = lambda: None
+        try:
+            return load(cache, signature, context)
+        finally:
+            del context.refresh
 
     class Refusal(event.Listener):  # type: ignore[misc]
         def on_start(self, event: Any) -> None:
@@ -58,8 +75,14 @@ def compiling_nothing() -> Iterator[None]:
         def on_end(self, event: Any) -> None:
             pass
 
-    with event.install_listener("numba:compile", Refusal()):
-        yield
+    # What loops allocate arrays with; it would have come with the imports.
+    rtsys.initialize(cpu_target.target_context)
+    Cache.load_overload = read
+    try:
+        with event.install_listener("numba:compile", Refusal()):
+            yield
+    finally:
+        Cache.load_overload = load
 
 
 @contextmanager

@@ -503,7 +503,7 @@ QUANTIZE = function(
             "Codes are next to the value",
             _neighbour,
             "one of the two codes next to 255 encoded",
-            "The noise is one code wide, and no more.",
+            "The noise is one code wide, and no more. A type of 8 bits with a sign ends at 127.",
         ),
         close(
             "border",
@@ -527,7 +527,7 @@ QUANTIZE = function(
             "The upper code comes where u is at least 1 - f",
             _codes,
             "the lower code where u < 1 - f, and the upper one else",
-            "Each value has a u of its own.",
+            "Each value has a u of its own, and the codes 254 and 255 are chosen like all others.",
             whole=True,
         ),
     ),
