@@ -181,7 +181,7 @@ SPHERE_UV = function(
             "everywhere",
             "Points have their places, at any distance from any centre",
             _round,
-            "Only the direction from the centre matters, not how far the point is.",
+            "Only the direction from the centre matters. Where does u begin, and which way does it grow?",
             what="coordinate (u, v) on the sphere:",
             scales=SCALES,
             whole=True,
