@@ -235,11 +235,12 @@ def _laid(value: Any, layout: Callable[[Array], Array]) -> Any:
 
 
 def _columns(function: Function, trial: Trial) -> None:
-    a = function.make(Draw(trial.rng, 60, np.float32))
+    total = min(60, function.most)
+    a = function.make(Draw(trial.rng, total, np.float32))
     every = _parts(function.call(trial, a))
     # As many as there are rows is a case of its own where something is broadcast.
     for n in (40, 1, 2, 3, 4):
-        order, some = trial.rng.permutation(60)[:n], Arguments(a)
+        order, some = trial.rng.permutation(total)[:n], Arguments(a)
         for argument in function.arguments:
             if argument.axis is not None:
                 columns = a[argument.name].take(order, argument.axis)
@@ -249,7 +250,9 @@ def _columns(function: Function, trial: Trial) -> None:
             there = COLUMNS in result.sizes
             wanted.append(part.take(order, result.sizes.index(COLUMNS)) if there else part)
         what = (
-            f"the same column among {n}, in another order:" if n > 1 else "the same column alone:"
+            f"the same column among {len(order)}, in another order:"
+            if n > 1
+            else "the same column alone:"
         )
         _same(found, wanted, some, what, "not-by-its-column")
 

@@ -10,7 +10,7 @@ declaration adds how arguments are made, and the laws.
 
 from collections.abc import Callable, Iterable, Mapping
 from copy import deepcopy
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from importlib import import_module
 from math import gcd
@@ -182,6 +182,7 @@ class Function:
     features : (arguments, results) -> (k, N) numbers whose distribution tells mistakes of functions that are free
     scales : factors of all lengths that the conventions are tried with
     speed : columns of a call whose time is compared; 0 for none
+    most : columns of any call; few where a right way may take a tenth of a second for one
     """
 
     name: str
@@ -197,6 +198,7 @@ class Function:
     features: Callable[[Arguments, Any], Array] | None = None
     scales: tuple[float, ...] = (1.0, 1e-6, 1e6)
     speed: int = 16384
+    most: int = 1 << 20
 
     def argument(self, name: str) -> Argument:
         """The argument of that name."""
@@ -209,7 +211,7 @@ class Function:
 
     def make(self, draw: Draw, case: Case | None = None) -> Arguments:
         """Legal arguments: a case's, and the others as they are declared; batches have the dtype that was asked for."""
-        case = case or self.case
+        case, draw = case or self.case, replace(draw, n=min(draw.n, self.most))
         given = dict(case(draw)) if case else {}
         found = Arguments()
         for argument in self.arguments:

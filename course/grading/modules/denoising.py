@@ -253,6 +253,9 @@ CRITICAL_VALUE = function(
         ),
     ),
     scales=(1.0,),
+    speed=20,
+    # Any method will do: one that integrates the density at each step of a bisection is right, and slow.
+    most=20,
 )
 
 # ---------------------------------------------------------------- pair_weights
