@@ -61,12 +61,12 @@ def compiling_nothing() -> Iterator[None]:
     load = Cache.load_overload
 
     def read(cache: Any, signature: Any, context: Any) -> Any:
-        # Numba's lock keeps others from compiling meanwhile.
+        # Numba's lock keeps others from compiling meanwhile. What is read may import, and so read, something else.
         context.refresh = lambda: None
         try:
             return load(cache, signature, context)
         finally:
-            del context.refresh
+            vars(context).pop("refresh", None)
 
     class Refusal(event.Listener):  # type: ignore[misc]
         def on_start(self, event: Any) -> None:
