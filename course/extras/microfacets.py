@@ -46,13 +46,17 @@ class Microfacets:
     k: Floats64 | None
     functions: Functions
 
-    def normals(self, direction: Floats32, ns: Floats32, u: Floats32) -> Floats32:
-        """Microfacets (3, n) that rays (3, n) meet, about the normals (3, n)."""
+    def met(
+        self, hits: Hits, which: Indices, path: Indices, depth: int, draws: Draws
+    ) -> tuple[Floats32, Floats32]:
+        """Directions (3, n) of the rays of the hits (n,), and the microfacets (3, n) that they meet."""
+        direction, ns = hits.direction.take(which, axis=1), hits.ns.take(which, axis=1)
+        u = draws(NUMBERS[0], path, depth)
         one, none = np.ones_like(u[0]), np.zeros_like(u[0])
         frame = turned(ns, one, none, none), turned(ns, none, one, none), ns
         wo = np.stack([-dot(axis, direction) for axis in frame])
         np.maximum(wo[2], FLATTEST, out=wo[2])
-        return turned(ns, *self.functions.sample_visible_normal(wo, self.alpha, u))
+        return direction, turned(ns, *self.functions.sample_visible_normal(wo, self.alpha, u))
 
     def reflectance(self, cos: Floats32) -> Floats32:
         """Fresnel reflectance (3, n) of a metal's microfacets."""
@@ -93,9 +97,7 @@ def bend(
         if bent is None:
             bent = np.zeros((3, len(which)), np.float32)
         chosen = which.take(some)
-        direction = hits.direction.take(chosen, axis=1)
-        u = draws(NUMBERS[0], path.take(some), depth)
-        wm = one.normals(direction, hits.ns.take(chosen, axis=1), u)
+        direction, wm = one.met(hits, chosen, path.take(some), depth, draws)
         cos = np.clip(-dot(direction, wm), 0, 1)
         share[some] = one.share(cos, hits.entering.take(chosen))
         bent[:, some] = _refract(direction, wm, eta.take(some))
@@ -113,11 +115,7 @@ def scatter(
 ) -> None:
     """Write the directions that microfacets mirror into ``way`` (3, m)."""
     for one, some in hits_on(rough, hits.material.take(which)):
-        chosen = which.take(some)
-        direction = hits.direction.take(chosen, axis=1)
-        u = draws(NUMBERS[0], path.take(some), depth)
-        wm = one.normals(direction, hits.ns.take(chosen, axis=1), u)
-        way[:, some] = reflect(direction, wm)
+        way[:, some] = reflect(*one.met(hits, which.take(some), path.take(some), depth, draws))
 
 
 def _refract(direction: Floats32, wm: Floats32, eta: Floats32) -> Floats32:
