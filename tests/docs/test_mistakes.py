@@ -14,7 +14,7 @@ from course.modules import COURSE
 
 pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')
 
-from sitebuild.mistakes import figures, part
+from sitebuild.mistakes import figures, part, rendered
 from sitebuild.mistakes.bullets import bullets, plain
 from sitebuild.mistakes.catalog import look, look_at, looks
 from sitebuild.mistakes.figures import Figure, Studio, draw
@@ -146,6 +146,19 @@ def test_the_built_page_shows_them_all(module: str, site: Path) -> None:
         assert "**" not in text
     alternatives = [picture["alt"] for _, picture, _ in found]
     assert len(set(alternatives)) == len(alternatives)
+
+
+@pytest.mark.parametrize(
+    "name", [name for name in ASKED if any(one.renders for one in looks(name))]
+)
+def test_every_scene_that_is_looked_at_is_a_scene(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A stricter scene file had ended the build of the whole site: pictures are left out of it in other tests."""
+    monkeypatch.setattr(rendered, "rendered", lambda *_, **__: np.zeros((3, *SIZE[::-1])))
+    for seen, one in enumerate(looks(name)):
+        if one.renders:
+            draw(Figure(name, "", seen))
 
 
 def pixels(figure: Figure) -> np.ndarray:

@@ -152,20 +152,36 @@ def _left(processes: set[BaseProcess], seconds: float) -> set[BaseProcess]:
     return left
 
 
+_WORKING = threading.Event()
+"""Whether this process is at an item."""
+
+
 def _call(function: Callable[[Item, Shared], Value], item: Item, shared: Shared) -> Value:
     try:
+        _WORKING.set()
         return function(item, shared)
     except SystemExit:
         # Told to end; the pool would take it for the item's error and go on.
         os._exit(1)
+    finally:
+        _WORKING.clear()
 
 
 def _start() -> None:
     """Prepare a process: Ctrl-C is the parent's business, and none outlives the parent."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    # By an exception, so that a student's process is ended on the way.
-    signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))
+    signal.signal(signal.SIGTERM, _terminated)
     threading.Thread(target=_follow_parent, daemon=True).start()
+
+
+def _terminated(*_: object) -> None:
+    """End this process: by an exception, which ends a student's process on the way, or at once if there is none.
+
+    The pool takes an exception that comes while it sends a value for the value's error, and waits for more work.
+    """
+    if _WORKING.is_set():
+        sys.exit(1)
+    os._exit(1)
 
 
 def _follow_parent() -> None:

@@ -29,6 +29,9 @@ MOST_BYTES = 200_000_000
 LARGEST_TAR = 64_000_000
 """Bytes of an unpacked tar archive, which is held in memory."""
 
+LONGEST_PART, LONGEST_PATH = 255, 4096
+"""Letters of a name in an archive, and of a path, as file systems bound them."""
+
 DEEPEST = 2
 """Archives that may lie in each other."""
 
@@ -167,6 +170,9 @@ def archive_entries(name: str, content: bytes, budget: Budget) -> list[Entry]:
         raise SubmissionError(f"{name}: is no {kind} file that can be read: {error}") from error
     for entry in found:
         parts = entry.path.parts
+        longest, whole = max(map(len, parts), default=0), len(str(entry.path))
+        if longest > LONGEST_PART or whole > LONGEST_PATH:
+            raise SubmissionError(f"{name}: a name in it has {whole} letters: too long for a file")
         if entry.path.is_absolute() or ".." in parts or ":" in "".join(parts[:1]):
             raise SubmissionError(f"{name}: {str(entry.path)!r} leads out of the archive")
     return found

@@ -17,6 +17,7 @@ from course.grading.catalog import with_whole
 from course.grading.classes.engines import Engine, Outcome
 from course.grading.classes.job import RESULTS, Graded, Job, grade_job, report_files, troubled
 from course.grading.classes.keeping import fingerprint, keep, kept
+from course.grading.classes.names import NOT_CERTAIN
 from course.grading.classes.policy import MODIFIED, Mark, Rules, mark
 from course.grading.classes.roster import Listed, Matched, match
 from course.grading.classes.settings import INSTRUCTOR, Settings
@@ -32,10 +33,7 @@ FAULT = "grader error"
 TOTAL = 100.0
 """Of the score where no policy says another."""
 
-NOT_CERTAIN = "not_protected_"
-"""Before the names of tables for learning systems in which a grade may be forged. Canvas makes an assignment of every
-column that it doesn't know, Moodle refuses such a table or asks for a meaning, and any line is a student's: so only the
-name can say it."""
+_LAST = datetime.max.replace(tzinfo=UTC, microsecond=0).timestamp()
 
 ClassEngine = Engine[Job, Path | bytes, Graded]
 
@@ -231,7 +229,7 @@ def finish(
     total = None if rules is None else rules.policy.total
     matched = None
     if roster is not None:
-        matched = match(roster, {one.student: one.names for one in submissions})
+        matched = match(roster, {one.student: one.claims for one in submissions})
     told = [report.unprotected for report in reports if report.unprotected]
     unprotected = f"{told[0]} ({len(told)} of {len(reports)} graded so)" if told else ""
     grades, page = out / "grades.csv", out / "class.html"
@@ -275,23 +273,24 @@ def _marks(
         return {}
     by_file = rules.policy.times == MODIFIED
     found = {
-        one.student: mark(report, rules, one.names, _modified(one) if by_file else None)
+        one.student: mark(report, rules, one.names, modified(one) if by_file else None)
         for one, report in zip(submissions, reports, strict=True)
     }
     return {student: score for student, score in found.items() if score is not None}
 
 
-def _modified(submission: Submission) -> datetime | None:
+def modified(submission: Submission) -> datetime | None:
     """When the newest file of a submission was written."""
     times = []
     for path in submission.paths:
         for file in [path, *(path.rglob("*") if path.is_dir() else ())]:
             try:
                 if not file.is_dir():
-                    times.append(file.lstat().st_mtime)
+                    times.append(max(0.0, file.lstat().st_mtime))
             except OSError:
                 continue
-    return datetime.fromtimestamp(max(times), UTC) if times else None
+    # An archive may have given a file any time: also one after all years that a date can have.
+    return datetime.fromtimestamp(min(max(times), _LAST), UTC) if times else None
 
 
 def _write_for_systems(

@@ -12,11 +12,13 @@ PYTHON, NOTEBOOK = ".py", ".ipynb"
 LONGEST_NAME = 150
 """Bytes of a student's name, quoted; file systems take 255."""
 
+NOT_CERTAIN = "not_protected_"
+"""Before the names of tables for learning systems in which a grade may be forged. Canvas makes an assignment of every
+column that it doesn't know, Moodle refuses such a table or asks for a meaning, and any line is a student's: so only the
+name can say it."""
+
 _CANVAS = re.compile(r"(?P<name>[^_]+)(?P<late>_LATE)?_(?P<id>\d+)_\d+_(?P<file>.+)", re.DOTALL)
-_MOODLE = re.compile(
-    r"(?P<name>.+)_(?P<id>\d+)_assignsubmission_(?P<kind>file|onlinetext)(?:_(?P<file>.*))?",
-    re.DOTALL,
-)
+_MOODLE = re.compile(r"_(?P<id>\d+)_assignsubmission_(?P<kind>file|onlinetext)(?:_|$)")
 _COPY = re.compile(r"(?:\s*\(\d{1,3}\)|[-_\s]+\d{1,2}|[-_\s]+(?:copy|kopie|copie|copia))+$", re.I)
 _SEPARATORS = "-_. \t"
 _PLAIN = " -_@+,()'."
@@ -26,7 +28,7 @@ _DEVICES = {
 }
 _OUTPUTS = (
     *("grades.csv", "canvas.csv", "moodle.csv", "class.html"),
-    *("lecture.html", "references_", "instructor"),
+    *("lecture.html", "references_", "instructor", NOT_CERTAIN),
 )
 
 
@@ -52,15 +54,21 @@ class Sent:
         return f"{self.name}_{self.id}"
 
 
-def sent(name: str) -> Sent | None:
-    """The meaning of a name that Canvas or Moodle gave a download; None if neither gave it."""
-    if found := _MOODLE.fullmatch(name):
-        text = "typed into Moodle" if found["kind"] == "onlinetext" else ""
-        return Sent(found["name"], found["id"], found["file"] or "", text)
-    if found := _CANVAS.fullmatch(name):
-        late = "Canvas says that it is late" if found["late"] else ""
-        return Sent(found["name"], found["id"], found["file"], late)
-    return None
+def sent(name: str) -> tuple[Sent, ...]:
+    """What a name says that Canvas or Moodle gave a download: nothing if neither gave it.
+
+    The end of the name is the student's own, with Moodle its beginning, too. So a name that can be read in more than
+    one way says nothing that is certain.
+    """
+    found = []
+    if by := _CANVAS.fullmatch(name):
+        late = "Canvas says that it is late" if by["late"] else ""
+        found.append(Sent(by["name"], by["id"], by["file"], late))
+    for by in _MOODLE.finditer(name):
+        if by.start():
+            text = "typed into Moodle" if by["kind"] == "onlinetext" else ""
+            found.append(Sent(name[: by.start()], by["id"], name[by.end() :], text))
+    return tuple(found)
 
 
 @dataclass(frozen=True)

@@ -88,10 +88,10 @@ def read_table(path: Path, what: str) -> tuple[list[str], list[tuple[int, dict[s
         raise CourseError(f"{shown(path)}: can't be read: {error}") from None
 
 
-def match(roster: Sequence[Listed], submissions: Mapping[str, Sequence[str]]) -> Matched:
+def match(roster: Sequence[Listed], submissions: Mapping[str, Sequence[Sequence[str]]]) -> Matched:
     """Find whose submission each is: by numbers first, then by logins, then by names.
 
-    ``submissions``: the name of each -> all names that its student may go by
+    ``submissions``: the name of each -> what may be its student's number, what the login, and what the name
     """
     found: dict[str, int] = {}
     # A login is a word as it is written; names are written in many ways.
@@ -101,9 +101,9 @@ def match(roster: Sequence[Listed], submissions: Mapping[str, Sequence[str]]) ->
             for key in one.keys[level]:
                 owners.setdefault(key, set()).add(number)
         claims: dict[int, list[str]] = {}
-        for student, names in submissions.items():
+        for student, texts in submissions.items():
             if student not in found:
-                named = set[int]().union(*(owners.get(read(name), set()) for name in names))
+                named = set[int]().union(*(owners.get(read(text), set()) for text in texts[level]))
                 # Two of one name are for somebody else to tell apart.
                 if len(named) == 1:
                     claims.setdefault(named.pop(), []).append(student)

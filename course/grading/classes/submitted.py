@@ -9,10 +9,11 @@ Which files of a submission are its modules their names say, and where no name t
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path, PurePosixPath
 
 from course.errors import CourseError
+from course.grading.classes.engines import LARGEST_SPACE, apart
 from course.grading.classes.entries import (
     LARGEST_ARCHIVE,
     Entry,
@@ -44,6 +45,11 @@ MOST_READ = 50
 
 MOST_LISTED = 4
 
+READING = 60.0
+"""Seconds that reading one submission may take if there are archives in it."""
+
+_ENDLESS = f"its archives can't be read within {READING:g} s and {LARGEST_SPACE // 10**9} GB"
+
 _DEFINED = re.compile(rb'(?:^|"|\\n)(?:async\s+)?def\s+(\w+)', re.MULTILINE)
 """In a program at the beginning of a line, in a notebook at that of a string or after an escaped end of line."""
 
@@ -65,6 +71,7 @@ class Submission:
     trouble : why it can't be graded; empty if it can
     remarks : what was guessed, and what was left out
     names : by which lists of a learning system or the instructor may know the student
+    number : that a learning system knows the student by; empty where it is none's download
     """
 
     student: str
@@ -73,6 +80,15 @@ class Submission:
     trouble: str = ""
     remarks: tuple[str, ...] = ()
     names: tuple[str, ...] = ()
+    number: str = ""
+
+    @property
+    def claims(self) -> tuple[tuple[str, ...], tuple[str, ...], tuple[str, ...]]:
+        """What may be the student's number, login and name in a roster.
+
+        In a download only the number is certain: who may change the own name there could take another's login.
+        """
+        return ((self.number,), (), self.names) if self.number else (self.names,) * 3
 
 
 @dataclass
@@ -83,7 +99,7 @@ class _Handed:
     ----------
     owner : the student, as the names say it
     parts : path, and the name of the file in the submission; "" for what is a submission as a whole
-    names : as in `Submission`
+    names, number : as in `Submission`
     """
 
     owner: str
@@ -91,6 +107,7 @@ class _Handed:
     trouble: str = ""
     remarks: list[str] = field(default_factory=list)
     names: tuple[str, ...] = ()
+    number: str = ""
 
 
 def find_submissions(folder: Path, modules: Iterable[str] = tuple(COURSE)) -> list[Submission]:
@@ -115,19 +132,18 @@ def find_submissions(folder: Path, modules: Iterable[str] = tuple(COURSE)) -> li
     if not found:
         raise CourseError(f"{folder}: holds no submissions (folders, archives or files)")
     _mark_clashes([*found.values()])
-    submissions = []
     taken: set[str] = set()
-    for one in found.values():
-        student = _own_name(one.owner, taken)
+    named = {_own_name(one.owner, taken): one for one in found.values()}
+    for student, one in named.items():
         if student != safe_name(one.owner):
             one.remarks.append(f"the name {one.owner} is shortened or numbered here")
-        submissions.append(_read(student, one, modules))
-    return sorted(submissions, key=lambda one: one.student)
+    return sorted(_read_all(named, modules), key=lambda one: one.student)
 
 
 def read_one(student: str, path: Path, modules: Iterable[str] = tuple(COURSE)) -> Submission:
     """One submission, a folder or an archive; whatever is wrong with it is its trouble."""
-    return _read(student, _Handed(student, [(path, "")]), tuple(modules))
+    (found,) = _read_all({student: _Handed(student, [(path, "")])}, tuple(modules))
+    return found
 
 
 def _is_file_manager_s(name: str) -> bool:
@@ -139,9 +155,15 @@ def _is_file_manager_s(name: str) -> bool:
 def _handed(path: Path, modules: tuple[str, ...]) -> tuple[tuple[str, str], _Handed]:
     """The submission at one path, and a key of its student: parts of one submission have the same."""
     if by := sent(path.name):
-        handed = _Handed(by.owner, [(path, by.file)], names=(by.name, by.id))
-        handed.remarks += [f"{by.file or path.name}: {by.remark}"] if by.remark else []
-        return ("sent", by.owner), handed
+        if len(by) > 1:
+            told = f"its name can be read as that of {' and of '.join(one.owner for one in by)}"
+            return ("none", path.name), _Handed(path.name, [(path, "")], f"{told}: rename it")
+        (one,) = by
+        # A name of digits alone could be another student's number.
+        names = (one.id,) if one.name.isdecimal() else (one.name, one.id)
+        handed = _Handed(one.owner, [(path, one.file)], names=names, number=one.id)
+        handed.remarks += [f"{one.file or path.name}: {one.remark}"] if one.remark else []
+        return ("sent", one.owner), handed
     if path.is_dir() or path.is_symlink():
         return ("whole", path.name), _Handed(path.name, [(path, "")], names=(path.name,))
     named = read_name(path.name, modules)
@@ -199,6 +221,34 @@ def _own_name(owner: str, taken: set[str]) -> str:
     return name
 
 
+def _read_all(handed: dict[str, _Handed], modules: tuple[str, ...]) -> list[Submission]:
+    """Submissions by their students' names, read; those with archives in another process.
+
+    What unpacks archives can be made to take hours, or all memory.
+    """
+    packed = {student: one for student, one in handed.items() if _is_packed(one)}
+    work = [(student, one, modules) for student, one in packed.items()]
+    read = apart(_read_packed, work, seconds=READING) if work else {}
+    ended = dict(zip(packed, (read[i] for i in range(len(work))), strict=True))
+    return [
+        ended.get(student)
+        or _read(student, replace(one, trouble=_ENDLESS) if student in ended else one, modules)
+        for student, one in handed.items()
+    ]
+
+
+def _is_packed(handed: _Handed) -> bool:
+    """Whether there are archives among the files; what can't be read has none."""
+    try:
+        return any(archive_suffix(entry.path.name) for entry in _entries(handed))
+    except CourseError:
+        return False
+
+
+def _read_packed(work: tuple[str, _Handed, tuple[str, ...]]) -> Submission:
+    return _read(*work)
+
+
 def _read(student: str, handed: _Handed, modules: tuple[str, ...]) -> Submission:
     paths = tuple(path for path, _ in handed.parts)
     remarks: list[str] = []
@@ -210,9 +260,8 @@ def _read(student: str, handed: _Handed, modules: tuple[str, ...]) -> Submission
     except CourseError as error:
         trouble, remarks = str(error), []
     trouble, *told = (_without_folders(text, handed) for text in (trouble, *remarks))
-    return Submission(
-        student, paths, sources, trouble, (*handed.remarks, *told), (student, *handed.names)
-    )
+    remarks, names = [*handed.remarks, *told], (student, *handed.names)
+    return Submission(student, paths, sources, trouble, tuple(remarks), names, handed.number)
 
 
 def _entries(handed: _Handed) -> Iterator[Entry]:

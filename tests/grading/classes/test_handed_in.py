@@ -89,14 +89,29 @@ def test_what_a_file_s_name_says(name: str, module: str, owner: str) -> None:
     ],
 )
 def test_names_of_canvas_and_moodle(name: str, owner: str, file: str) -> None:
-    found = sent(name)
-    assert found is not None
+    (found,) = sent(name)
     assert (found.owner, found.file) == (owner, file)
 
 
 def test_names_of_nobody_s_system() -> None:
-    assert sent("alice_thin_lens.py") is None
-    assert sent("alice_2_thin_lens.py") is None
+    assert sent("alice_thin_lens.py") == ()
+    assert sent("alice_2_thin_lens.py") == ()
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "leemallory_12345_67891_x_888_assignsubmission_file_thin_lens.py",
+        "Lee Mallory_12345_assignsubmission_file_x_888_assignsubmission_file_thin_lens.py",
+        "Lee_888_1_Mallory_12345_assignsubmission_file_thin_lens.py",
+    ],
+)
+def test_a_name_that_claims_another_s_number_is_nobody_s(tmp_path: Path, name: str) -> None:
+    """What a student may choose in the name of a file, or as the own name, is no claim to another's grade."""
+    put(tmp_path, **{name: LENS})
+    (found,) = find_submissions(tmp_path)
+    assert "can be read as that of" in found.trouble
+    assert not found.number
 
 
 def test_a_download_of_canvas(tmp_path: Path) -> None:

@@ -3,12 +3,15 @@
 from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
 from course.errors import CourseError
 from course.grading.checks.result import Result, Status
+from course.grading.classes.grading import modified
 from course.grading.classes.policy import Mark, mark, read_policy
+from course.grading.classes.submitted import Submission
 from course.grading.report import Report
 
 MODULES = ("thin_lens", "glossy", "sampling")
@@ -109,6 +112,17 @@ def test_attempts_and_times_of_a_table(tmp_path: Path) -> None:
     found = score(tmp_path, text)
     assert found.adjusted == pytest.approx(50 * 0.8 * 0.9)
     assert found.why == ("2 days late: -20 %", "5 attempts: -10 %")
+
+
+@pytest.mark.parametrize("seconds", [1e15, -1e15])
+def test_a_file_may_have_any_time(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, seconds: float
+) -> None:
+    """Archives give files the times that they like, and some file systems keep them."""
+    monkeypatch.setattr(Path, "lstat", lambda _: SimpleNamespace(st_mtime=seconds))
+    found = modified(Submission("ada", (tmp_path / "thin_lens.py",)))
+    assert found is not None
+    assert (found.year == 9999) == (seconds > 0)
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,8 @@ from pathlib import Path
 import pytest
 
 from course.errors import CourseError
-from course.grading.classes.roster import match, read_roster
+from course.grading.classes.roster import Matched, match, read_roster
+from course.grading.classes.submitted import find_submissions
 from course.grading.reports.classes import write_gradebook
 
 CANVAS = """\
@@ -30,8 +31,13 @@ def roster(tmp_path: Path, text: str) -> Path:
     return path
 
 
+def matched_names(tmp_path: Path, text: str, submissions: dict[str, tuple[str, ...]]) -> Matched:
+    claims = {student: (known,) * 3 for student, known in submissions.items()}
+    return match(read_roster(roster(tmp_path, text)), claims)
+
+
 def names(tmp_path: Path, text: str, **submissions: tuple[str, ...]) -> dict[str, str]:
-    matched = match(read_roster(roster(tmp_path, text)), submissions)
+    matched = matched_names(tmp_path, text, submissions)
     return {student: listed.name for student, listed in matched.students.items()}
 
 
@@ -48,24 +54,35 @@ def test_each_way_to_say_who_it_is(tmp_path: Path, name: str) -> None:
 
 
 def test_two_of_one_name_are_not_guessed(tmp_path: Path) -> None:
-    matched = match(read_roster(roster(tmp_path, CANVAS)), {"Bo Wu": ("Bo Wu",), "eve": ("eve",)})
+    matched = matched_names(tmp_path, CANVAS, {"Bo Wu": ("Bo Wu",), "eve": ("eve",)})
     assert not matched.students
     assert matched.unknown == ("Bo Wu", "eve")
     assert matched.without == ("Lee, Ann", "Wu, Bo", "Müller, Zoë", "Wu, Bo")
 
 
 def test_two_submissions_of_one_student_are_not_guessed(tmp_path: Path) -> None:
-    matched = match(read_roster(roster(tmp_path, CANVAS)), {"a": ("Ann Lee",), "b": ("lee ann",)})
+    matched = matched_names(tmp_path, CANVAS, {"a": ("Ann Lee",), "b": ("lee ann",)})
     assert not matched.students
     assert matched.unknown == ("a", "b")
     # A number is surer than a name.
-    matched = match(read_roster(roster(tmp_path, CANVAS)), {"a": ("11",), "b": ("lee ann",)})
+    matched = matched_names(tmp_path, CANVAS, {"a": ("11",), "b": ("lee ann",)})
     assert {*matched.students} == {"a"}
 
 
 def test_downloads_of_moodle_are_found_by_participant_and_address(tmp_path: Path) -> None:
     found = names(tmp_path, MOODLE, first=("Somebody Else_11", "11"), second=("bo",))
     assert found == {"first": "Ann Lee", "second": "Bo Wu"}
+
+
+@pytest.mark.parametrize("name", ["12", "bwu", "U12"])
+def test_the_own_name_in_a_download_is_no_number_and_no_login(tmp_path: Path, name: str) -> None:
+    """Where students may change their names, one could call himself by another's number or login."""
+    (tmp_path / f"{name}_999_1_thin_lens.py").write_text("def thin_lens(): ...")
+    submissions = find_submissions(tmp_path, ["thin_lens"])
+    matched = match(
+        read_roster(roster(tmp_path, CANVAS)), {one.student: one.claims for one in submissions}
+    )
+    assert not matched.students
 
 
 def test_other_delimiters_and_separate_names(tmp_path: Path) -> None:

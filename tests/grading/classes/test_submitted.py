@@ -3,12 +3,14 @@
 import errno
 import os
 import struct
+import tarfile
 import zipfile
 from pathlib import Path
 
 import pytest
 
 from course.errors import CourseError
+from course.grading.classes import submitted
 from course.grading.classes.names import safe_name
 from course.grading.classes.submitted import find_submissions
 
@@ -66,6 +68,30 @@ def test_a_bomb_that_lies_about_its_size(tmp_path: Path) -> None:
 def test_paths_that_lead_out(tmp_path: Path, name: str) -> None:
     zipped(tmp_path / "out.zip", **{name: STUB})
     assert "leads out" in trouble(tmp_path)
+
+
+@pytest.mark.parametrize("name", ["_" * 1_000_000 + ".py", "a/" * 3000 + "x.py"])
+def test_names_no_file_can_have(tmp_path: Path, name: str) -> None:
+    """An archive may hold names of any length; a million signs took hours to read."""
+    with tarfile.open(tmp_path / "x.tar.gz", "w:gz", format=tarfile.PAX_FORMAT) as archive:
+        archive.addfile(tarfile.TarInfo(name))
+    assert trouble(tmp_path).endswith("letters: too long for a file")
+
+
+def test_an_archive_that_takes_hours_stops_nobody(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Some versions of Python read three million digits of a header in a time that grows with their square."""
+    monkeypatch.setattr(submitted, "READING", 2.0)
+    with tarfile.open(tmp_path / "x.tar", "w", format=tarfile.PAX_FORMAT) as archive:
+        inner = tarfile.TarInfo("motion_blur.py")
+        inner.pax_headers = {"9" * 3_000_000 + " a": "b"}
+        archive.addfile(inner)
+    zipped(tmp_path / "ada.zip", **{"motion_blur.py": STUB})
+    ada, x = find_submissions(tmp_path)
+    assert ada.sources == {"motion_blur": STUB}
+    assert not x.sources
+    assert x.trouble
 
 
 def test_a_link_in_a_zip_file(tmp_path: Path) -> None:
@@ -177,6 +203,7 @@ def test_a_name_too_long_for_a_folder_is_graded_under_a_shorter_one(tmp_path: Pa
         ("a\nb", "a%0Ab"),
         ("con", "%63on"),
         ("grades.csv", "%67rades.csv"),
+        ("not_protected_canvas.csv", "%6Eot_protected_canvas.csv"),
         ("end.", "end%2E"),
         ("\udcff", "%FF"),
     ],

@@ -6,11 +6,12 @@ from types import ModuleType
 from typing import TYPE_CHECKING
 
 import numpy as np
+from PIL import Image
 
 from course.grading.pictures import scenes
-from sitebuild.mistakes.look import Draw, Look
+from sitebuild.mistakes.look import SIZE, Draw, Look
 from sitebuild.mistakes.plots import INK, SECOND, Array, curves, dots, label, plot, square, view
-from sitebuild.mistakes.rendered import checked
+from sitebuild.mistakes.rendered import checked, shown
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -22,6 +23,9 @@ ACROSS, DOWN = 3, 2
 """Pixels that are shown."""
 
 SIGMA = 0.25
+
+LARGE = 10
+"""Pixels of the figure along the side of a pixel that is shown large."""
 
 
 def _pixels(axes: Axes, points: Array, k: int = 0) -> None:
@@ -93,6 +97,17 @@ def _bars(sigma: float) -> Draw:
     return checked("supersampling.resolve", lambda rng: scenes.edges(rng, "regular", 4, **film))
 
 
+def _starved(made: ModuleType, right: ModuleType) -> Image.Image:
+    """Slanted bars, in pixels whose samples all weigh 0: so narrow a filter is refused in scenes."""
+    across, down = SIZE[0] // LARGE, SIZE[1] // LARGE
+    offsets = right.regular(K, across * down)
+    row, column = np.divmod(np.arange(across * down), across)
+    bright = (column[:, None] + offsets[0] + 2 * (row[:, None] + offsets[1])) % 6 < 2.5
+    radiance = np.broadcast_to(bright, (3, *bright.shape)).astype(np.float32)
+    picture = made.resolve(radiance, right.gaussian_weights(offsets, np.float32(0.005)))
+    return shown(picture.reshape(3, down, across).repeat(LARGE, axis=1).repeat(LARGE, axis=2))
+
+
 LOOKS = {
     "regular": (
         Look("Six pixels, with the cells of each, and the points in it", plot(_regular)),
@@ -133,10 +148,9 @@ LOOKS = {
             renders=True,
         ),
         Look(
-            "The bars with a filter so narrow that all weights are 0; what is no number is magenta here",
-            _bars(0.01),
+            "Large pixels with bars, with a filter so narrow that all weights are 0; what is no number is magenta here",
+            _starved,
             ("resolve_zero_weights_nan", "resolve_zero_weights_black"),
-            renders=True,
         ),
     ),
 }
