@@ -122,6 +122,11 @@ class Effects:
         return self._rest is not None or self._stands_in
 
     @property
+    def all_own(self) -> bool:
+        """True if no function that was asked for until now is a student's."""
+        return self.trusted or (self.mixed and not self._functions)
+
+    @property
     def on_solutions(self) -> bool:
         """True if the solutions are in the place of functions that are not written."""
         return self._rest is not None

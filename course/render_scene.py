@@ -123,9 +123,9 @@ def render(
         unread = later and _read_first(settings, time_limit)
         if unread:
             make = partial(bind, scene, settings, bound, True)
-            if (tracer := loops.read(make, scene.effects.trusted)) is not None:
+            if (tracer := loops.read(make, scene.effects)) is not None:
                 later = False
-                if not scene.effects.trusted:
+                if not scene.effects.all_own:
                     # Whatever is compiled when it is first called.
                     closed.enter_context(loops.compiling_told())
                 job = replace(job, compiled=settings.error is None or loops.film_is_read())

@@ -86,8 +86,14 @@ def modules_from(
 def _instead(ctx: click.Context, name: str) -> str:
     """What may be meant by a name of no module: the file of one, its function, or a slip; else all that there are."""
     stem = Path(name).stem if name.endswith(".py") else name
-    if near := meant(stem.lower(), COURSE):
+    word = stem.lower()
+    if near := meant(word, COURSE):
         return f"; did you mean {near}?"
+    # A part of a name, or one that goes wrong after its beginning.
+    for part in (word, word[:3]):
+        begun = [name for name in COURSE if len(part) > 2 and part in name]
+        if len(begun) == 1:
+            return f"; did you mean {begun[0]}?"
     module, _, function = stem.replace("/", ".").rpartition(".")
     for other in [module] if module else COURSE:
         if function in COURSE.get(other, ()):

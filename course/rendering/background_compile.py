@@ -9,7 +9,7 @@ import os
 import pickle
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import replace
 from functools import partial
@@ -21,6 +21,7 @@ from course.core.tiles import Tile, pass_size
 from course.core.tracer import Tracer
 from course.effects import PACKAGE, PROJECT, Effects, NothingWritten
 from course.errors import CourseError
+from course.modules import COURSE
 from course.rendering.threads import Pool
 from course.scene.scene import Scene, Settings, load_scene
 
@@ -113,15 +114,16 @@ def tried(tracer: Tracer) -> Tracer:
     return tracer
 
 
-def read(compiled: Callable[[], Tracer], trusted: bool) -> Tracer | None:
+def read(compiled: Callable[[], Tracer], effects: Effects) -> Tracer | None:
     """The compiled tracer that this makes, if all its loops are on disk.
 
-    ``trusted``: whether its functions are the course's own: a student's aren't called to see that. The stages that call
-    them are compiled when they are imported.
+    ``effects``: where its functions are from. A student's aren't called to see that: the stages that call them are
+    compiled when they are imported.
     """
     try:
         with compiling_nothing():
-            return tried(compiled()) if trusted else compiled()
+            tracer = compiled()
+            return tried(tracer) if effects.all_own else tracer
     except (NotCompiledError, ImportError):
         # An older Numba refuses a newer NumPy; that is no reason to have no picture.
         return None
@@ -163,7 +165,7 @@ class BackgroundCompiler:
         tried_to_read: bool = False,
     ) -> None:
         self._pool, self._compiled = pool, compiled
-        self._task, self._trusted = _task(scene, settings), scene.effects.trusted
+        self._task, self._effects = _task(scene, settings), scene.effects
         self._closed = Event()
         # Once Numba is there, loops are read from disk before the first piece of work is done.
         at_once = "numba" in sys.modules and not tried_to_read
@@ -186,11 +188,11 @@ class BackgroundCompiler:
         if self._compile() and not self._closed.is_set():
             # What that process has not compiled, for the scene may differ from its file, is compiled here.
             tracer = self._compiled()
-            self._pool.tracer = tried(tracer) if self._trusted else tracer
+            self._pool.tracer = tried(tracer) if self._effects.all_own else tracer
 
     def _read(self) -> bool:
         """Exchange the tracer if all its loops are on disk."""
-        if (tracer := read(self._compiled, self._trusted)) is not None:
+        if (tracer := read(self._compiled, self._effects)) is not None:
             self._pool.tracer = tracer
         return tracer is not None
 
@@ -213,16 +215,26 @@ class BackgroundCompiler:
 
 
 def _task(scene: Scene, settings: Settings) -> tuple[Any, ...]:
-    if scene.effects.trusted:
-        return scene.path.resolve(), scene.effects.folder.resolve(), settings, False
+    effects = scene.effects
+    if effects.trusted:
+        return scene.path.resolve(), effects.folder.resolve(), settings, ()
+    if effects.all_own:
+        return scene.path.resolve(), None, settings, ()
     return _task_of_stages(scene, settings)
 
 
 def _task_of_stages(scene: Scene, settings: Settings) -> tuple[Any, ...]:
-    """With the solutions, or with stand-ins for them, on a small picture."""
+    """On a small picture, with functions that aren't known in the place of a student's."""
     width, height = LITTLE
     little = replace(settings, width=width, height=height, samples=4, subdivision=None)
-    return scene.path.resolve(), None, little, True
+    effects = scene.effects
+    unknown = tuple(
+        f"{module}.{name}"
+        for module, names in COURSE.items()
+        for name in names
+        if not effects.mixed or effects.written(module, name)
+    )
+    return scene.path.resolve(), None, little, unknown
 
 
 def compile_loops(scene: Scene, settings: Settings) -> None:
@@ -273,17 +285,23 @@ def _another_compiles() -> bool:
     return False
 
 
-class Unknown(Effects):
-    """Functions of which the compiler knows no more than of a student's, so that stages call them."""
+class Own(Effects):
+    """The course's own functions, or stand-ins for them.
 
-    def __init__(self) -> None:
+    ``unknown``: those of which the compiler knows no more than of a student's, so that stages call them;
+    "module.function"
+    """
+
+    def __init__(self, unknown: Iterable[str]) -> None:
         solved = (PROJECT / "solutions").is_dir()
         self._source = Effects("solutions") if solved else NothingWritten()
         vars(self).update(vars(self._source))
+        self._unknown = frozenset(unknown)
 
     def function(self, module: str, name: str) -> Callable[..., Any]:
         """See ``Effects``."""
-        return partial(self._source.function(module, name))
+        function = self._source.function(module, name)
+        return partial(function) if f"{module}.{name}" in self._unknown else function
 
 
 def main() -> None:
@@ -291,16 +309,16 @@ def main() -> None:
 
     It ends with 1 if another process compiles already.
     """
-    path, folder, settings, stages = pickle.load(sys.stdin.buffer)
+    path, folder, settings, unknown = pickle.load(sys.stdin.buffer)
     if _another_compiles():
         sys.exit(1)
     if hasattr(os, "nice"):
         os.nice(LAST)
     from course.rendering.binding import bind
 
-    scene = load_scene(path, Unknown() if stages else folder)
+    scene = load_scene(path, folder or Own(unknown))
     tracer = bind(scene, settings, compiled=True)
-    if stages:
+    if unknown:
         whole = Tile(0, 0, 0, settings.width, settings.height)
         tracer.render_tile(whole, 0, settings.samples, Counters())
     else:

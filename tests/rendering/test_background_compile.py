@@ -19,7 +19,8 @@ from course.casters.choice import chosen
 from course.compiled import library
 from course.core.accelerator import StaticAccelerator
 from course.core.tracer import Tracer
-from course.effects import PROJECT
+from course.effects import PROJECT, Effects
+from course.modules import COURSE
 from course.rendering.binding import bind
 from course.rendering.threads import Pool
 
@@ -99,10 +100,31 @@ def test_only_a_render_that_waits_for_loops_tells_of_them(
         yield
 
     monkeypatch.setattr(background_compile, "compiling_told", telling)
-    monkeypatch.setattr(background_compile, "read", lambda make, _trusted: make())
+    monkeypatch.setattr(background_compile, "read", lambda make, _effects: make())
     scene = load_scene(PROJECT / "scenes" / "soft_shadows.yaml", effects=folder)
     render(scene, spp=1, size=(12, 8), compiled=asked)
     assert bool(told) == (folder != "solutions" and asked is None)
+
+
+@pytest.mark.parametrize("written", [False, True])
+def test_where_nothing_is_written_loops_are_those_of_the_course(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, written: bool
+) -> None:
+    """A student's first picture waited for a minute of compiling, for no function was taken to be known."""
+    if written:
+        shutil.copy(PROJECT / "solutions" / "soft_shadows.py", tmp_path)
+    effects = Effects(tmp_path, filled=True)
+    scene = load_scene(PROJECT / "scenes" / "soft_shadows.yaml", effects=effects)
+    called: list[Tracer] = []
+    monkeypatch.setattr(background_compile, "tried", lambda tracer: called.append(tracer) or tracer)
+    tracer = background_compile.read(lambda: bind(scene, scene.settings), effects)
+    assert called == ([] if written else [tracer])
+    _, folder, settings, unknown = background_compile._task(scene, scene.settings)
+    assert folder is None
+    assert unknown == tuple(
+        f"soft_shadows.{name}" for name in COURSE["soft_shadows"][: 5 * written]
+    )
+    assert (settings == scene.settings) == (not written)
 
 
 @pytest.mark.parametrize("status", [None, 0, 1])
@@ -191,8 +213,9 @@ def test_students_functions_are_not_called_to_see_whether_loops_are_ready(
     assert ready._thread is not None
     ready._thread.join()
     assert pool.tracer is compiled
-    ((path, folder, settings, stages),) = sent
-    assert (path, folder, stages) == (scene.path.resolve(), None, True)
+    ((path, folder, settings, unknown),) = sent
+    assert (path, folder) == (scene.path.resolve(), None)
+    assert "soft_shadows.point_on_sphere" in unknown
     assert (settings.width, settings.height) == background_compile.LITTLE
 
 

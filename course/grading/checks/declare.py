@@ -8,7 +8,7 @@ What arguments and results there are, and of which shape, says the function's co
 declaration adds how arguments are made, and the laws.
 """
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from copy import deepcopy
 from dataclasses import dataclass, replace
 from functools import cache
@@ -272,8 +272,9 @@ class Function:
             raise Failure(f"{len(self.results)} results: {names}", described(value))
         parts = value if several else (value,)
         sizes = self.sizes(a)
+        batches = [one.name for one in self.arguments if _is_batch(one, a[one.name])]
         looked = tuple(
-            _looked(part, result, sizes, dtype)
+            _looked(part, result, sizes, dtype, batches)
             for part, result in zip(parts, self.results, strict=True)
         )
         return looked if several else looked[0]
@@ -361,7 +362,9 @@ def described(value: Any) -> str:
 _NUMBERS = {"int": "iu", "floating": "f"}
 
 
-def _looked(value: Any, result: Result, sizes: dict[str, int], dtype: Any) -> Array:
+def _looked(
+    value: Any, result: Result, sizes: dict[str, int], dtype: Any, batches: Sequence[str]
+) -> Array:
     if not result.sizes and not isinstance(value, np.ndarray):
         value = _number(value, result)
     if type(value) is not np.ndarray:
@@ -376,11 +379,8 @@ def _looked(value: Any, result: Result, sizes: dict[str, int], dtype: Any) -> Ar
     wanted = dtype if result.dtype is None else result.dtype
     kinds = _NUMBERS.get(wanted) if isinstance(wanted, str) else None
     if kinds is None and wanted is not None and dtype is not None and value.dtype != wanted:
-        hint = (
-            _DTYPES
-            if result.dtype is None
-            else f"Cast at the end: result.astype(np.{np.dtype(wanted)})."
-        )
+        own = result.dtype is not None or not batches
+        hint = f"Cast at the end: result.astype(np.{np.dtype(wanted)})." if own else _cast(batches)
         raise Failure(
             f"{result.name} of dtype {np.dtype(wanted)}",
             f"{value.dtype}",
@@ -401,10 +401,14 @@ def _looked(value: Any, result: Result, sizes: dict[str, int], dtype: Any) -> Ar
     return value.astype(np.float64) if value.dtype.kind == "f" else value
 
 
-_DTYPES = (
-    "The dtype of a result is that of the batch arguments; single points and numbers, NumPy's own too, "
-    "never change it. Cast at the end: result.astype(u.dtype), where u is such an argument."
-)
+def _cast(batches: Sequence[str]) -> str:
+    """How a result gets the dtype of its batch arguments."""
+    several = len(batches) > 1
+    dtype = f"np.result_type({', '.join(batches)})" if several else f"{batches[0]}.dtype"
+    return (
+        f"The dtype of a result is that of {' and '.join(batches)}; single points and numbers, NumPy's own too, "
+        f"never change it. Cast at the end: result.astype({dtype})."
+    )
 
 
 def _number(value: Any, result: Result) -> Any:

@@ -254,8 +254,6 @@ ROWS = "Several rows become one array by np.stack([x, y, z])."
 
 TURNED = "It is turned over: coordinates are in the first axis, and the columns of the batch in the last."
 
-LAST = "The last axis has a column for each ray: it is as long as that of the arguments."
-
 
 class Gate:
     """A ``Caller`` between a student's functions and a check: it lets no value through that a check could stumble over.
@@ -346,7 +344,9 @@ def _remedy(part: Any, shape: tuple[int, ...] | None) -> str:
         return ""
     if part.shape == shape[::-1]:
         return TURNED
-    return LAST if part.shape[-1:] != shape[-1:] else ""
+    if part.shape[-1:] == shape[-1:]:
+        return ""
+    return f"The last axis has a column for each ray or point that is asked for: {shape[-1]} here."
 
 
 def _column(declared: Function, part: Any, arguments: tuple[Any, ...]) -> str:
