@@ -19,11 +19,11 @@ from course.building.materials import Columns, base_color, material_columns
 from course.building.motion import shutter_of
 from course.building.objects import object_mesh
 from course.core.environment import CubeEnvironment
-from course.core.triangles import Mesh
 from course.formats.meshes.parts import same
 from course.formats.yaml import description as d
 from course.formats.yaml.description import rgb
 from course.scene.scene import Scene
+from course.shapes.mesh import Mesh
 
 LOBES = ("", "jitter_on_plane", "jitter_in_ball", "sample_phong_lobe")
 """Kinds of gloss by number; 0 is a perfect mirror."""

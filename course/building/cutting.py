@@ -20,11 +20,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from course.core.triangles import Mesh
 from course.core.types import Floats64, Indices, Mask
 from course.extras.painting import Paint
 from course.extras.surface import FullPart
 from course.formats.meshes.parts import same
+from course.shapes.mesh import Mesh
 
 
 @dataclass(frozen=True)

@@ -9,10 +9,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from course.core.triangles import Mesh
 from course.core.types import Floats32, Floats64
 from course.formats.yaml.document import KeyPath
 from course.formats.yaml.loading import Loaded
+from course.shapes.mesh import Mesh
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ from course.core.lights.rectangle import RectangleLight
 from course.core.lights.sample import Light
 from course.core.lights.sphere import SphereLight
 from course.core.materials import MaterialTable
-from course.core.triangles import Mesh, Triangles
+from course.core.triangles import Triangles
 from course.core.types import Floats32, Floats64, Functions
 from course.effects import Bound
 from course.errors import FunctionError
@@ -29,6 +29,7 @@ from course.extras.visible_sphere import VisibleSphereLight
 from course.formats.yaml import description as d
 from course.formats.yaml.description import rgb
 from course.formats.yaml.loading import Loaded
+from course.shapes.mesh import Mesh
 
 
 @dataclass(frozen=True)

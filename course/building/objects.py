@@ -5,13 +5,13 @@ from pathlib import Path
 import msgspec
 
 from course import shapes
-from course.core.triangles import Mesh
 from course.errors import GeometryError, SceneError
 from course.formats.meshes import transforms
 from course.formats.yaml import description as d
 from course.formats.yaml.document import Document
 from course.formats.yaml.loading import bytes_of_files
 from course.inputs import Bound
+from course.shapes.mesh import Mesh
 
 CONVEX = (d.Sphere, d.Box, d.Cylinder, d.Cone)
 """Shapes that are closed and convex, however they are transformed."""

@@ -9,11 +9,11 @@ import numpy as np
 from course.building.cutting import SmallThings
 from course.building.frame import FARTHEST, Frame, frame_of
 from course.building.motion import Shutter
-from course.core.triangles import Mesh
 from course.core.types import Floats64
 from course.errors import CourseWarning
 from course.formats.yaml import description as d
 from course.formats.yaml.loading import Loaded
+from course.shapes.mesh import Mesh
 
 TOO_LARGE = 1024.0
 """Largest size of a triangle beside an object, in sizes of the object, at which the offset of its rays is invisible.

@@ -7,7 +7,6 @@ import numpy as np
 
 from course.building.materials import ambient_color, base_color, has_body
 from course.building.objects import object_mesh
-from course.core.triangles import Mesh
 from course.core.types import Floats32, Floats64
 from course.effects import Bound
 from course.extras.painting import Paint
@@ -17,6 +16,7 @@ from course.formats.yaml import description as d
 from course.formats.yaml.description import TextureDescription, rgb
 from course.formats.yaml.document import KeyPath
 from course.formats.yaml.loading import Loaded, read_named_picture
+from course.shapes.mesh import Mesh
 
 
 def shows_texture(material: d.MaterialDescription) -> bool:

@@ -29,7 +29,6 @@ from course.building.small_objects import (
 )
 from course.building.textures import Painter, shows_specular_texture, shows_texture
 from course.core.camera import Camera
-from course.core.triangles import Mesh
 from course.core.types import Floats64
 from course.effects import Bound, Effects, Need
 from course.extras.own_lamp import without_own_lamp
@@ -39,6 +38,7 @@ from course.formats.yaml import description as d
 from course.formats.yaml.description import rgb
 from course.formats.yaml.loading import Loaded
 from course.formats.yaml.surroundings import in_its_surroundings, outsides, warn_of_nested
+from course.shapes.mesh import Mesh
 
 
 @dataclass(frozen=True)

@@ -89,16 +89,16 @@ def _instead(ctx: click.Context, name: str) -> str:
     word = stem.lower()
     if near := meant(word, COURSE):
         return f"; did you mean {near}?"
-    # A part of a name, or one that goes wrong after its beginning.
-    for part in (word, word[:3]):
-        begun = [name for name in COURSE if len(part) > 2 and part in name]
-        if len(begun) == 1:
-            return f"; did you mean {begun[0]}?"
     module, _, function = stem.replace("/", ".").rpartition(".")
     for other in [module] if module else COURSE:
         if function in COURSE.get(other, ()):
             way = f": course check {other} --only {function}" if ctx.info_name == "check" else ""
             return f" is a function of {other}{way}"
+    # A part of a name, or one that goes wrong after its beginning.
+    for part in (word, word[:3]):
+        begun = [name for name in COURSE if len(part) > 2 and part in name]
+        if len(begun) == 1:
+            return f"; did you mean {begun[0]}?"
     return f"; the modules are {', '.join(COURSE)}"
 
 

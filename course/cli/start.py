@@ -26,16 +26,17 @@ def start(folder: Path, instructor: bool) -> None:
     """
     from course.grading.release.archive import LICENSES, PAGES, SCENES, project_files, write_folder
     from course.grading.release.folder import made_contents
+    from course.grading.release.pages import plain_pages
 
     if not (PROJECT / "solutions").is_dir():
         raise CourseError("this is a student's copy: its stubs are in assignments/ already")
     solutions = PROJECT / "solutions"
     folders = SCENES | PAGES | ({"solutions": {".py", ".md"}} if instructor else {})
     made = made_contents(solutions, copy=False, instructor=instructor)
-    contents = made | project_files(PROJECT, LICENSES, folders)
+    contents = project_files(PROJECT, LICENSES, folders)
     if instructor:
         contents[TEACHING] = _with_tables(contents[TEACHING].decode()).encode()
-    files = write_folder(contents, folder)
+    files = write_folder(made | plain_pages(contents), folder)
     click.echo(f"{folder}: {count(files, 'file')}. Begin with README.md there:")
     click.echo(f"    cd {folder}")
     click.echo("    course check sampling")

@@ -61,7 +61,7 @@ class Accelerator(Protocol):
         direction : (3, N) float32, any length but 0
         stats : the seconds or the tests of the query are added to it
         time : (N,) float32 of each ray, as a share of the exposure; None if nothing moves
-        coherent : true if neighbouring rays have similar directions
+        coherent : true if neighbouring rays have similar directions, which makes packets of compiled loops faster
         excluded : the rays' ``Surface.excluded_objects``
         """
 

@@ -77,13 +77,16 @@ class Surface:
 
     @property
     def turns_normals(self) -> bool:
-        """True if ``turn_to_viewer`` turns interpolated shading normals."""
+        """True if ``turn_to_viewer`` turns interpolated shading normals; not where METU's pictures are reproduced."""
         return True
 
     def intersect(
         self, rays: Rays, stats: QueryStats, coherent: bool, of_camera: bool
     ) -> Intersections:
-        """Nearest hits of camera rays, or of bounced rays; see ``Accelerator.intersect``."""
+        """Nearest hits of camera rays, or of bounced rays; see ``Accelerator.intersect``.
+
+        Here they are the same; ``course.extras.surface`` clips what the camera sees.
+        """
         arrays = rays.origin, rays.direction, stats, rays.time
         return self.accelerator.intersect(*arrays, coherent=coherent, excluded=rays.excluded)
 
@@ -127,10 +130,10 @@ class Surface:
 
         # ---- points, by barycentrics: the error of origin + t * direction would grow with t
         edges = gather(triangles.edges, triangle)
-        p, along_2, widest = edges[0:3], edges[3:6], edges[6]
-        p *= u
+        along_1, along_2, widest = edges[0:3], edges[3:6], edges[6]
+        along_1 *= u
         along_2 *= v
-        p += along_2
+        p = np.add(along_1, along_2, out=along_1)
         p += corner
         pull_off_edges(triangles, p, triangle, u, v, widest)
 
@@ -174,7 +177,7 @@ class Surface:
         return normal
 
     def excluded_objects(self, hits: Hits, which: Indices, direction: Floats32) -> Any:
-        """The convex object that each ray (3, m) leaves and can't hit again; None if the accelerator needs none."""
+        """The convex object that each ray (3, m) leaves and can't hit again; only compiled loops make use of it."""
         return None
 
 

@@ -1,7 +1,7 @@
 """Distribution ray tracing: follow a batch of camera rays from depth to depth and add up their radiance.
 
 This is Whitted's ray tree (1980) with Cook's random sampling of lens, time, gloss and lights (1984). Each hit casts at
-most one shadow ray per light, one reflected ray and one refracted ray.
+most one reflected ray, one refracted ray, and one shadow ray per light (two next to the terminator of smooth meshes).
 """
 
 from collections.abc import Callable
@@ -125,7 +125,8 @@ class Integrator:
     ) -> tuple[Hits, Floats32 | None, Indices | None, Media | None]:
         """Hits of the rays, with throughput, path and medium of the rays that hit.
 
-        ``adds_lights``, (N,) or one bool, selects the rays that add the environment's radiance if they hit nothing.
+        ``adds_lights``, (N,) or one bool, selects the rays that add the environment's radiance if they hit nothing: all
+        of them here, and in path tracing those for which no shadow ray has asked for it.
         """
         counters, surface, of_camera = draws.counters, self.surface, depth == 0
         coherent = depth <= self.coherent_depth

@@ -93,8 +93,8 @@ def blinn_phong_highlight(
     squared = dot(half, half)
     cosine = dot(half, normal)
     cosine /= np.sqrt(np.maximum(squared, np.float32(1e-12)))
-    # NumPy's exp and log are ten times faster than `power`. The clamp makes no visible difference: for exponents of
-    # at least 1 the power is negligible there, and for exponent 0 it is 1 everywhere.
+    # NumPy's exp and log are ten times faster than `power`. The clamp makes no visible difference for exponents of
+    # at least 1, whose power is negligible there, and of 0, which gives 1 everywhere. Below 1 no highlight quite ends.
     np.clip(cosine, np.float32(1e-6), 1, out=cosine)
     np.log(cosine, out=cosine)
     cosine *= exponent

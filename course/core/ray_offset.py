@@ -8,7 +8,8 @@ from the round surface, higher by
 
     h(u, v) = 1/2 (w u k01 + w v k02 + u v k12),    k_ij = (p_j - p_i) . (n_j - n_i)
 
-Along an edge, h is a parabola that is perpendicular to the corner normals at both ends. An edge of length L on a sphere
+Along an edge, h is the parabola through both ends that bends as much as the normals turn: if they lean equally to both
+sides, it is perpendicular to them, but for terms of the third order. An edge of length L on a sphere
 of radius R has k = L^2 / R, and h at its middle is the sagitta L^2 / (8 R). Hanika ("Hacking the shadow
 terminator", Ray Tracing Gems II, ch. 4) projects the point to the tangent planes instead. His point lies twice as high.
 """

@@ -60,7 +60,7 @@ class Rays:
         return rays.part(slice(middle, None)), rays.part(slice(middle))
 
     def part(self, columns: slice) -> "Rays":
-        """The rays in some columns. If ``path`` is None, the paths of the part are counted from 0 again."""
+        """The rays in some columns. If ``path`` is None, the part doesn't know any more which paths it has."""
         arrays = [getattr(self, field.name) for field in fields(self)]
         # A shared origin has one column.
         whole = [array is None or array.shape[-1] != self.size for array in arrays]

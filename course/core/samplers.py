@@ -5,7 +5,8 @@ pixel ``p // samples``. So an array (paths,), reshaped to (pixels, samples), has
 
 A classic sampler places its points in the pixel (dimensions 0 and 1) by the functions of `supersampling`. In the
 other dimensions it has points of the same kind, shuffled independently. Without the shuffle, the sample in the corner
-of the pixel would always use the point in the corner of the light (Cook 1984, section 4.2).
+of the pixel would always use the point in the corner of the light (R. Cook, "Stochastic sampling in computer
+graphics", 1986).
 """
 
 from abc import ABC, abstractmethod

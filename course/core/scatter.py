@@ -76,6 +76,7 @@ class Scatter:
             return self._leaving(hits, weight, None, path, medium, depth, draws)
         boundary = self.boundary(hits, None, path, depth, draws)
         weight = weight + boundary.reflected
+        # Radiance changes by (n_t / n_i)^2, too: left out, for it cancels where a ray is outside again.
         through = np.repeat(boundary.refracted[None], 3, axis=0)
         if throughput is not None:
             weight, through = weight * throughput, through * throughput

@@ -21,7 +21,7 @@ PASS = 16
 
 PAGE, APART = 1024, 64
 """Lengths in float32 values. Two addresses whose distance is a multiple of PAGE map to the same set of the first-level
-cache. Rows have sets of their own if their length differs from every multiple of PAGE by at least APART."""
+cache, of 64 sets of 64 bytes. A length that differs from every multiple of PAGE by at least APART spreads rows."""
 
 
 class Area(Protocol):
@@ -81,7 +81,7 @@ class Tile:
 
 
 def spread_over_cache(rays: int) -> bool:
-    """True if the rows of a (3, rays) array start in different sets of the first-level cache.
+    """True if the rows of a (3, rays) array don't all start in the same set of the first-level cache.
 
     A loop over hits reads thirty rows side by side. With 65536 rays, all rows start in the same set, which holds
     eight lines. The geometry of hits then took twice the time, and a whole render up to 10% more.

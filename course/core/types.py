@@ -11,12 +11,14 @@ Floats = NDArray[np.floating[Any]]
 
 Floats32 = NDArray[np.float32]
 Floats64 = NDArray[np.float64]
-Words = NDArray[np.uint32]
 Indices = NDArray[np.intp]
 Mask = NDArray[np.bool_]
 
+Words = NDArray[np.uint32]
+"""Numbers of pixels in the picture, and words of random bits."""
+
 Numbers = NDArray[np.int32]
-"""Triangle numbers, as Embree returns them."""
+"""Numbers of triangles, as Embree returns them, and of samples."""
 
 Materials = NDArray[np.uint16]
 """Material numbers."""

@@ -7,7 +7,8 @@ with a probability in proportion to its area times the root mean square, over th
     cos / d^2 = height / d^3
 
 where d is the distance and the height is that above the triangle's plane. If a group is chosen first, and then a
-uniform point in it, these probabilities have the least variance. The mean square is estimated from the moments of the
+uniform point in it, these probabilities have the least variance, as far as nothing is hidden. In a closed body, backs
+are chosen less often than that (``TRUST``). The mean square is estimated from the moments of the
 group. The result is still unbiased, for each sample is divided by the probability that was used. (Light trees do this
 level by level: Conty Estevez and Kulla, "Importance Sampling of Many Lights with Adaptive Tree Splitting", 2018. Our
 groups are so few that all can be evaluated.)

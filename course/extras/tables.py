@@ -17,11 +17,12 @@ from course.casters.choice import static_accelerator
 from course.core.accelerator import Accelerator
 from course.core.motion import Motion, Mover, MovingAccelerator
 from course.core.ray_offset import offset_and_inset
-from course.core.triangles import Mesh, Triangles
+from course.core.triangles import Triangles
 from course.core.types import Floats, Floats32, Floats64, Functions, Numbers
 from course.core.vectors import cross, dot
 from course.extras.own import courses_own
 from course.extras.swept_movers import SweptMovers
+from course.shapes.mesh import Mesh
 
 CHUNK = 8192
 """Triangles whose tables are made at once: numbers in between are 600 bytes a triangle, which stay in the cache."""

@@ -19,7 +19,6 @@ from course.building.frame import Frame
 from course.building.lights import rectangle_mesh
 from course.building.materials import base_color
 from course.building.objects import object_mesh
-from course.core.triangles import Mesh
 from course.core.types import Floats32, Floats64, Indices, Mask
 from course.effects import Effects
 from course.formats.yaml import description as d
@@ -27,6 +26,7 @@ from course.formats.yaml.description import rgb
 from course.formats.yaml.loading import Loaded
 from course.radiosity.accepting import check_accepted
 from course.scene.scene import Scene
+from course.shapes.mesh import Mesh
 
 
 class Functions:

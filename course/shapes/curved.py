@@ -12,8 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from course.core.triangles import Mesh
 from course.shapes.grid import circle, lattice_triangles, lattice_uv, normalised
+from course.shapes.mesh import Mesh
 
 WAVES = 8
 

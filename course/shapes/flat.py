@@ -5,8 +5,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from course.core.triangles import Mesh
 from course.shapes.grid import circle, join, lattice_triangles, lattice_uv
+from course.shapes.mesh import Mesh
 
 
 def quad(width: float = 1.0, depth: float = 1.0) -> Mesh:

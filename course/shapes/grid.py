@@ -12,7 +12,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from course.core.triangles import Mesh
+from course.shapes.mesh import Mesh
 
 
 def lattice_triangles(across: int, up: int) -> NDArray[np.int32]:

@@ -10,8 +10,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from course.core.triangles import Mesh
 from course.shapes.grid import circle, lattice_triangles, lattice_uv, normalised
+from course.shapes.mesh import Mesh
 
 Array = NDArray[np.float64]
 

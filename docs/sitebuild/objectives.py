@@ -48,7 +48,7 @@ def _for_readers(name: str, module: Module) -> Iterator[str]:
 
 def _for_teachers(name: str, module: Module) -> Iterator[str]:
     """On the page for those who teach: each objective with the checks that show it."""
-    yield f"### {title(name).capitalize().replace('carlo', 'Carlo')}\n"
+    yield f"### {title(name)[0].upper()}{title(name)[1:]}\n"
     yield f"[The page of the module](../modules/{name}.md).{_needs(module, '../modules/')}\n"
     yield "| objective | shown by |"
     yield "| --- | --- |"

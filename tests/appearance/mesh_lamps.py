@@ -3,11 +3,11 @@
 import numpy as np
 
 from course import shapes
-from course.core.triangles import Mesh
 from course.core.types import Floats32
 from course.extras.mesh_light import MeshLight, areas, shares
 from course.extras.surface import build_surface
 from course.extras.tables import Part
+from course.shapes.mesh import Mesh
 
 
 def lamp(mesh: Mesh) -> MeshLight:

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 from course import shapes
-from course.core.triangles import Mesh
 from course.core.types import Floats32, Floats64
 from course.extras.mesh_groups import GROUPS, TRUST
 from course.extras.mesh_light import MeshLight, areas
+from course.shapes.mesh import Mesh
 from tests.appearance.mesh_lamps import BALL, KNOT, around, lamp, moved, without
 
 LAMPS = {"ball": BALL, "knot": KNOT, "box": shapes.box(), "open": without(BALL, *range(400))}

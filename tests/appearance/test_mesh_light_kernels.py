@@ -6,7 +6,7 @@ import pytest
 from course import shapes
 from course.compiled import library
 from course.core.lights.sample import towards
-from course.core.triangles import Mesh
+from course.shapes.mesh import Mesh
 from tests.appearance.mesh_lamps import BALL, KNOT, around, lamp, moved, without
 
 if not library.available():

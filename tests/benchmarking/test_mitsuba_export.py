@@ -27,8 +27,8 @@ from benchmarks.mitsuba_llvm import LlvmScene
 from benchmarks.mitsuba_scalar import NativeScene, native_overrides
 from benchmarks.mitsuba_variants import start_scalar
 from course import Scene, render, shapes
-from course.core.triangles import Mesh
 from course.effects import PROJECT
+from course.shapes.mesh import Mesh
 from tests.conftest import MakeScene
 from tests.tables import put, rows
 

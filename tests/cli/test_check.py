@@ -41,6 +41,8 @@ def test_a_name_of_no_module_is_told_with_the_names_that_are(
     [
         ("THIN_LENS", "; did you mean thin_lens?"),
         ("thinlens", "; did you mean thin_lens?"),
+        ("sofft", "; did you mean soft_shadows?"),
+        ("lens", "; did you mean thin_lens?"),
         ("assignments/thin_lens.py", "; did you mean thin_lens?"),
         ("lens_rays", " is a function of thin_lens: course check thin_lens --only lens_rays"),
         ("thin_lens.lens_rays", " is a function of thin_lens: course check thin_lens --only"),

@@ -13,8 +13,8 @@ import pytest
 
 from course import Scene, render
 from course.compiled import library
-from course.core.triangles import Mesh
 from course.formats.meshes.files import save_ply
+from course.shapes.mesh import Mesh
 from tests.conftest import MakeScene
 from tests.estimates import estimate, fresnel
 from tests.forms import in_both_forms

@@ -9,11 +9,11 @@ import pytest
 from course import render
 from course.building.textures import Painter
 from course.compiled import library
-from course.core.triangles import Mesh
 from course.errors import SceneError
 from course.extras.normal_maps import NormalMap, _turned
 from course.formats.meshes.files import save_ply
 from course.formats.pictures.files import save, write_exr
+from course.shapes.mesh import Mesh
 from tests.conftest import MakeScene
 from tests.imaging.picture_files import png
 

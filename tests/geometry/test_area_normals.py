@@ -5,9 +5,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from course.core.triangles import Mesh
 from course.formats.meshes.files import read_mesh, save_ply
 from course.formats.meshes.smooth_normals import area_normals, smooth_normals
+from course.shapes.mesh import Mesh
 
 # At vertex 0 meet a right triangle of area 1/2 that looks along z, and one of area 3 that looks along x; their corners
 # there are both right angles, so by angle they count alike.

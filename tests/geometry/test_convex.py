@@ -11,12 +11,12 @@ from course.compiled import library
 from course.compiled.convex import ConvexObjects, convex_objects
 from course.core.accelerator import NO_HIT, Intersections, QueryStats, StaticAccelerator
 from course.core.hits import Hits, Surface
-from course.core.triangles import Mesh
 from course.core.types import Functions
 from course.core.vectors import cross, dot
 from course.extras.surface import FullPart, FullSurface, build_surface
 from course.formats.meshes import transforms
 from course.formats.yaml import description as d
+from course.shapes.mesh import Mesh
 from tests.forms import needs_numba
 
 TURN = transforms.compose(

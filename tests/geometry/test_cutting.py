@@ -13,11 +13,11 @@ from course.building import cutting
 from course.building.cutting import NEAR, SmallThings, cut
 from course.core.accelerator import QueryStats
 from course.core.ray_offset import OFFSET
-from course.core.triangles import Mesh
 from course.core.types import Floats32
 from course.extras.painting import Paint
 from course.extras.surface import FullPart, FullSurface, build_surface
 from course.formats.meshes import transforms
+from course.shapes.mesh import Mesh
 
 RATIO = 64.0
 SIZES = (1e-4, 1e-7, 1e-10)

@@ -10,10 +10,10 @@ from course.compiled import library
 from course.core.accelerator import Intersections
 from course.core.hits import Hits
 from course.core.materials import Lookup
-from course.core.triangles import Mesh
 from course.extras.scatter import FullScatter
 from course.extras.surface import FullPart, FullSurface, build_surface
 from course.formats.meshes import transforms
+from course.shapes.mesh import Mesh
 
 if not library.available():
     pytest.skip("Numba is not installed (pip install .[fast])", allow_module_level=True)

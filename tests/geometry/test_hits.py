@@ -10,9 +10,10 @@ from course import Scene, render, shapes
 from course.core.accelerator import QueryStats
 from course.core.hits import Hits
 from course.core.ray_offset import bulge
-from course.core.triangles import Mesh, Triangles
+from course.core.triangles import Triangles
 from course.extras.surface import FullPart, FullSurface, build_surface
 from course.formats.meshes import transforms
+from course.shapes.mesh import Mesh
 from tests.conftest import MakeScene, PixelRays
 
 Array = NDArray[np.float64]

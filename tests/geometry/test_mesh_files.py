@@ -14,11 +14,11 @@ import pytest
 from numpy.typing import NDArray
 
 from course import shapes
-from course.core.triangles import Mesh
 from course.errors import GeometryError, OutputError
 from course.formats.meshes.files import read_mesh, save_ply
 from course.formats.meshes.smooth_normals import smooth_normals
 from course.formats.meshes.transforms import apply, compose, rotate, scale, translate
+from course.shapes.mesh import Mesh
 
 TORUS = shapes.torus(2.0, 0.5, 24, 12)
 

@@ -5,9 +5,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from course.core.triangles import Mesh
 from course.errors import GeometryError
 from course.formats.meshes.files import read_mesh
+from course.shapes.mesh import Mesh
 
 V = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\n"
 VT = "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from course.core.triangles import Mesh
 from course.errors import GeometryError
 from course.formats.meshes.files import read_mesh
+from course.shapes.mesh import Mesh
 
 ORDERS = ("ascii", "binary_little_endian", "binary_big_endian")
 CODES = {

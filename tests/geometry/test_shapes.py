@@ -8,7 +8,7 @@ import pytest
 from numpy.typing import NDArray
 
 from course import shapes
-from course.core.triangles import Mesh
+from course.shapes.mesh import Mesh
 from course.shapes.tubes import thickest_tube
 
 # Every closed shape with its Euler characteristic, coarse and fine, thin and thick, tiny and huge.

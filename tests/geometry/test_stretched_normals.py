@@ -7,9 +7,9 @@ from numpy.typing import NDArray
 from course import shapes
 from course.core.accelerator import Intersections
 from course.core.hits import Hits
-from course.core.triangles import Mesh
 from course.extras.surface import FullPart, FullSurface, build_surface
 from course.formats.meshes import transforms
+from course.shapes.mesh import Mesh
 from tests.forms import needs_numba
 
 Array = NDArray[np.float64]

@@ -23,9 +23,9 @@ from course import render, shapes
 from course.core import ray_offset
 from course.core.accelerator import QueryStats
 from course.core.hits import Hits
-from course.core.triangles import Mesh
 from course.extras.surface import FullPart, FullSurface, build_surface
 from course.formats.meshes import transforms
+from course.shapes.mesh import Mesh
 from tests.conftest import MakeScene
 
 Array = NDArray[np.float64]

@@ -11,12 +11,12 @@ import pytest
 from course import shapes
 from course.core.accelerator import QueryStats, StaticAccelerator
 from course.core.motion import Motion, MovingAccelerator
-from course.core.triangles import Mesh
 from course.core.types import Functions
 from course.extras.boxes import box_tree
 from course.extras.plan import same_fields
 from course.extras.surface import FullPart, build_surface
 from course.extras.swept_movers import SweptMovers
+from course.shapes.mesh import Mesh
 from solutions import motion_blur
 
 N = 4000

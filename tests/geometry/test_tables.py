@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from course import shapes
-from course.core.triangles import Mesh
 from course.extras import tables
 from course.extras.surface import FullPart, build_surface
 from course.extras.tables import Part, join_tables, make_tables
+from course.shapes.mesh import Mesh
 
 
 def parts() -> list[Part]:

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from course import shapes
-from course.core.triangles import Mesh
 from course.formats.meshes.transforms import SHORTEST, apply, compose, rotate, scale, translate
+from course.shapes.mesh import Mesh
 
 TILTED = compose(
     [scale((2.0, 0.5, 3.0)), rotate((1.0, 2.0, 3.0), 40.0), translate((5.0, -6.0, 7.0))]

@@ -9,9 +9,9 @@ import pytest
 import trimesh
 
 from course import shapes
-from course.core.triangles import Mesh
 from course.errors import CourseWarning
 from course.formats.meshes.files import read_mesh, save_ply
+from course.shapes.mesh import Mesh
 
 QUAD = "v -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nvn 0 1 0\n"
 

@@ -9,8 +9,8 @@ import pytest
 from course import Scene, render
 from course.building.objects import object_mesh
 from course.building.world import compile_camera
-from course.core.triangles import Mesh
 from course.errors import SceneError
+from course.shapes.mesh import Mesh
 from tests.tables import put, rows
 
 MakeScene = Callable[..., Scene]

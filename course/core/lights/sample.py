@@ -34,6 +34,7 @@ class Sample:
 
 
 Towards = Callable[..., Sample]
+"""Makes the sample of points on a light (3, n) for shading points (3, n): ``towards``, or its compiled form."""
 
 CLOSEST = 1e-7
 """Distances [unit of the compiled scene] are clamped to at least this, so that no light is infinitely bright."""

@@ -59,14 +59,15 @@ class SphereLight(Light):
                 on_light = self.soft_shadows.point_on_sphere(center, self.radius, u)
             case "ball":
                 on_light = self.soft_shadows.point_in_ball(center, self.radius, u)
-            case _:
+            case _:  # a facing disk
                 points = np.ascontiguousarray(points)
                 on_light = self.soft_shadows.point_on_facing_disk(center, self.radius, points, u)
         return on_light
 
     def _sample_emitter(self, points: Floats32, u: Floats32) -> Sample:
         # Drawn on a sphere around the origin, a point is its own normal. Around a distant centre, rounding could move
-        # it by more than the radius.
+        # it by more than the radius. With x the point, c the centre, d the distance and r the radius,
+        # cos' = -(x - c) . to_light / (r d).
         from_center = self._on_light(np.zeros(3, np.float32), points, u)
         to_light = from_center + self.center[:, None]
         to_light -= points

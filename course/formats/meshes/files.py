@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from course.atomic import replacing
-from course.core.triangles import Mesh
 from course.errors import CourseWarning, GeometryError
 from course.formats.meshes.glb import parse_glb
 from course.formats.meshes.obj import parse_obj
@@ -21,6 +20,7 @@ from course.formats.meshes.smooth_normals import area_normals, edges_and_faces, 
 from course.formats.meshes.transforms import apply
 from course.inputs import LARGEST_DATA, Bound, read_input, shown
 from course.shapes.grid import join
+from course.shapes.mesh import Mesh
 
 FORMATS = {".ply": parse_ply, ".obj": parse_obj, ".stl": parse_stl, ".glb": parse_glb}
 

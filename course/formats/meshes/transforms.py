@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from course.core.triangles import Mesh
+from course.shapes.mesh import Mesh
 
 Matrix = NDArray[np.float64]
 

@@ -13,7 +13,6 @@ from typing import Final
 import numpy as np
 
 from course.atomic import make_folder
-from course.core.triangles import Mesh
 from course.core.types import Floats32, Floats64, Indices
 from course.errors import GeometryError, SceneError
 from course.formats.meshes.files import read_mesh, save_ply
@@ -23,6 +22,7 @@ from course.formats.metu.lights import tangents
 from course.formats.pictures.files import write_exr
 from course.formats.yaml.document import show
 from course.inputs import LARGEST_DATA, Bound, opened
+from course.shapes.mesh import Mesh
 
 LONGEST_HEADER = 1 << 16  # bytes
 

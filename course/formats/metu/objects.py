@@ -14,7 +14,6 @@ from typing import Any
 
 import numpy as np
 
-from course.core.triangles import Mesh
 from course.core.types import Floats64, Indices
 from course.formats.meshes.files import read_mesh
 from course.formats.metu.element import Element, Notes
@@ -35,6 +34,7 @@ from course.formats.metu.transformations import normal as transformed_normal
 from course.formats.metu.transformations import point as moved
 from course.formats.yaml.document import show
 from course.formats.yaml.suggestions import suggest
+from course.shapes.mesh import Mesh
 
 SEGMENTS = ((8, 512), (32, 256), (128, 128))
 """Spheres a scene may have at most for so many flat pieces around each: a million triangles, or two, in all."""

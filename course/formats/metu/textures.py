@@ -11,7 +11,6 @@ from typing import Any, Final
 
 import numpy as np
 
-from course.core.triangles import Mesh
 from course.core.types import Floats64
 from course.errors import SceneError
 from course.formats.metu.element import Element
@@ -20,6 +19,7 @@ from course.formats.metu.meshes import MeshTable
 from course.formats.pictures.reading import LINEAR, read_picture
 from course.formats.yaml.document import show
 from course.formats.yaml.suggestions import suggest
+from course.shapes.mesh import Mesh
 
 KINDS: Final = {
     "replace_all": "color",

@@ -21,7 +21,7 @@ from course.formats.yaml.document import Document
 
 if TYPE_CHECKING:
     # The core imports embreex, which a scene that is only read needs not.
-    from course.core.triangles import Mesh
+    from course.shapes.mesh import Mesh
 
 NOWHERE = np.int16(-1)
 """What surrounds a dielectric in vacuum, and the column of what no object is made of."""

@@ -16,6 +16,7 @@ from course.errors import CourseError, OutputError
 from course.grading.pictures.whole import NAME
 from course.grading.references import make_references
 from course.grading.release.folder import made_contents
+from course.grading.release.pages import plain_pages
 from course.grading.release.stubs import find_regions
 from course.grading.report import USUAL_SEED
 from course.modules import COURSE
@@ -63,7 +64,7 @@ def archive_contents(project: Path) -> dict[str, bytes]:
     Raises LeakError: a line of a solution stands somewhere in it; names the file and the line.
     """
     contents = made_contents(project / "solutions", copy=True)
-    contents |= project_files(project, FILES, FOLDERS)
+    contents |= plain_pages(project_files(project, FILES, FOLDERS))
     contents[REFERENCES] = reference_file((*COURSE, NAME), USUAL_SEED)
     _search(contents, project)
     return contents

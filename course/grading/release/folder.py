@@ -45,7 +45,9 @@ def made_contents(solutions: Path, *, copy: bool, instructor: bool = False) -> d
     copy : true for a student's copy, which holds the course; false for a folder beside an installed course
     instructor : true where the README tells how to grade
     """
-    values = {"copy": copy, "instructor": instructor, "version": __version__, "modules": COURSE}
+    # The warm-up first.
+    modules = {"sampling": COURSE["sampling"]} | COURSE
+    values = {"copy": copy, "instructor": instructor, "version": __version__, "modules": modules}
     contents = {
         name: from_template("course.grading.release", template, values)
         for name, template in (TEMPLATES | (OF_A_COPY if copy else {})).items()

@@ -153,6 +153,30 @@ def encode_srgb(linear):
 """Function -> how the engine answers it, in whole or nearly."""
 
 
+RETYPED = {
+    "soft_shadows.point_on_rectangle": ("_sample", "course/compiled/lamp_kernels.py"),
+    "soft_shadows.point_in_ball": ("_sample", "course/compiled/lamp_kernels.py"),
+    "soft_shadows.point_on_facing_disk": ("_on_facing_disk", "course/compiled/lamp_kernels.py"),
+    "thin_lens.point_on_disk": ("_through_lens", "course/compiled/number_kernels.py"),
+    "thin_lens.lens_rays": ("_through_lens", "course/compiled/number_kernels.py"),
+    "glossy.jitter_on_plane": ("_jitter", "course/compiled/bounce_kernels.py"),
+    "glossy.jitter_in_ball": ("_jitter", "course/compiled/bounce_kernels.py"),
+    "glossy.sample_phong_lobe": ("_jitter", "course/compiled/bounce_kernels.py"),
+    "cube_map.lookup": ("look_up", "course/compiled/cube_kernels.py"),
+    "cube_map.lookup_seamless": ("across", "course/compiled/cube_kernels.py"),
+    "multiple_importance.cone_density": ("_cone_density", "course/compiled/lobe_kernels.py"),
+    "many_lights.importance": ("_importance", "course/compiled/light_tree_kernels.py"),
+    "many_lights.tree_choice": ("walk", "course/compiled/light_tree_kernels.py"),
+    "many_lights.tree_probability": ("walk", "course/compiled/light_tree_kernels.py"),
+    "bounding_volumes.slab_test": ("_enters", "course/casters/batches.py"),
+    "bounding_volumes.build": ("build", "course/casters/build_kernels.py"),
+    "bounding_volumes.traverse": ("_walk", "course/casters/cast_kernels.py"),
+    "supersampling.gaussian_weights": ("_weights", "course/studio/engine.py"),
+    "supersampling.resolve": ("_mean", "course/studio/engine.py"),
+}
+"""Function -> name and file of a form of it, to be written anew for arrays: most handle sixteen rays in turn."""
+
+
 def copied(answer: Answer) -> str:
     """A module made of the engine's text and the adapter."""
     text = (PROJECT / answer.file).read_text(encoding="utf-8")

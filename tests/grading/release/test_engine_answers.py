@@ -10,7 +10,7 @@ from course.grading.grading import grade
 from course.grading.references import references
 from course.grading.release.archive import FOLDERS
 from course.modules import COURSE
-from tests.grading.release.engine_answers import ANSWERS, copied
+from tests.grading.release.engine_answers import ANSWERS, PROJECT, RETYPED, copied
 
 PAGE = Path(__file__).parents[3] / "docs" / "grading.md"
 
@@ -27,7 +27,24 @@ def test_the_page_names_each_function_and_its_answer() -> None:
         r"`(\w+)`",
         PAGE.read_text("utf-8").partition("modules that have none\n")[2].partition(").")[0],
     )
-    assert {*free} == {*COURSE} - {name.partition(".")[0] for name in ANSWERS}
+    answered = {name.partition(".")[0] for name in ANSWERS | RETYPED}
+    assert {*free} == {*COURSE} - answered
+
+
+def test_the_page_names_what_can_be_retyped() -> None:
+    text = PAGE.read_text("utf-8").partition("<!-- retyped: begin -->")[2]
+    text = text.partition("<!-- retyped: end -->")[0]
+    told = {
+        f"{module}.{function}": (name, file)
+        for module, functions, name, file in re.findall(
+            r"^\| `(\w+)`: (.*) \| `(\w+)` in `(\S+)` \|$", text, re.MULTILINE
+        )
+        for function in re.findall(r"`(\w+)`", functions)
+    }
+    assert told == RETYPED
+    assert f"forms of {len(RETYPED)} others" in PAGE.read_text("utf-8")
+    for name, file in RETYPED.values():
+        assert re.search(rf"^def {name}\(", (PROJECT / file).read_text("utf-8"), re.MULTILINE), name
 
 
 @pytest.mark.parametrize("name", ANSWERS)

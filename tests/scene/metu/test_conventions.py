@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from course.core.triangles import Mesh
 from course.formats.meshes.files import read_mesh, save_ply
+from course.shapes.mesh import Mesh
 from tests.scene.metu.conftest import MATT, Metu, Tree, tree
 
 POINT = {"_id": "1", "Position": "3 0 0", "Intensity": "800 800 800"}

@@ -13,10 +13,10 @@ import pytest
 from numpy.typing import NDArray
 
 from course import Scene, load_scene, render
-from course.core.triangles import Mesh
 from course.errors import SceneError
 from course.formats.meshes.files import save_ply
 from course.radiosity.accepting import check_accepted
+from course.shapes.mesh import Mesh
 
 MakeScene = Callable[..., Scene]
 PixelRays = Callable[[Scene], tuple[NDArray[np.float64], NDArray[np.float64]]]

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from course.core.triangles import Mesh
 from course.errors import SceneError
 from course.extras.perlin import noise
 from course.formats.meshes.files import save_ply
+from course.shapes.mesh import Mesh
 from tests.imaging.picture_files import png
 from tests.scene.metu.conftest import WALL, Metu, Tree, tree
 
