@@ -10,6 +10,7 @@ import sys
 import warnings
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from difflib import get_close_matches
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
@@ -157,6 +158,8 @@ class Effects:
 
         Raises EffectError when the file or the function is missing or the file can't be imported.
         """
+        if self.mixed and not self.written(module, name):
+            self._tell_of_slip(module, name)
         if self._rest is not None and not self.written(module, name):
             return self._rest.function(module, name)
         if self.stand_in(module, name):
@@ -177,6 +180,17 @@ class Effects:
             function = guarded(f"{module}.{name}", function, file)
         self._functions[module, name] = function
         return function
+
+    def _tell_of_slip(self, module: str, name: str) -> None:
+        """Warn of a file that has no such function, but one with a name that is much like it."""
+        file = self.folder / f"{module}.py"
+        others = [each for each in self._written[module] if each not in COURSE[module]]
+        if others and not _defines(file, name) and (near := get_close_matches(name, others, 1)):
+            warnings.warn(
+                f"{file} has no {name}, and a {near[0]}: not yours, but the course's {name} is called",
+                CourseWarning,
+                stacklevel=3,
+            )
 
     def _module(self, name: str) -> ModuleType:
         if name not in self._modules:
@@ -219,6 +233,12 @@ def written_functions(file: Path) -> frozenset[str]:
         elif isinstance(node, ast.Assign):
             names |= {target.id for target in node.targets if isinstance(target, ast.Name)}
     return frozenset(names)
+
+
+def _defines(file: Path, name: str) -> bool:
+    """True if a file has the function, written or not."""
+    body = ast.parse(file.read_bytes()).body
+    return any(isinstance(node, ast.FunctionDef) and node.name == name for node in body)
 
 
 def _returns(node: ast.AST) -> bool:

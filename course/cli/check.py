@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import json
+import re
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -166,19 +167,26 @@ def _print_lines(report: Report, folder: Path) -> None:
     from course.grading.reports.formats import clean
 
     click.echo()
-    for function in (function for module in grouped(report) for function in module.functions):
-        if function.state == "right":
+    for module in grouped(report):
+        path = folder / f"{module.name}.py"
+        if module.trouble and module.functions[0].state != "to do":
+            # Where Python has stopped: the last of its lines that is of this file.
+            lines = re.findall(rf"{module.name}\.py\"?, line (\d+)", clean(module.trouble.where))
+            line = lines[-1] if lines else 1
+            click.echo(f"{path}:{line}: error: {_short(clean(module.trouble.found))}")
             continue
-        path = folder / f"{function.module}.py"
-        severity = "warning" if function.state == "to do" else "error"
-        told = function.told[0]
-        text = (
-            function.state
-            if severity == "warning"
-            else f"{told.title}: {_short(clean(told.found))}"
-        )
-        line = line_of(path, function.name)
-        click.echo(f"{path}:{line}: {severity}: {function.name}: {text}")
+        for function in module.functions:
+            if function.state == "right":
+                continue
+            to_do = function.state == "to do"
+            text = "warning" if to_do else "error"
+            text += f": {function.name}: "
+            if to_do or not function.told:
+                text += function.state
+            else:
+                told = function.told[0]
+                text += f"{told.title}: {_short(clean(told.found))}"
+            click.echo(f"{path}:{line_of(path, function.name)}: {text}")
 
 
 def _chooser(only: str | None) -> Callable[[Check], bool] | None:

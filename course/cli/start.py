@@ -4,6 +4,7 @@ import re
 import sys
 from importlib import import_module
 from pathlib import Path
+from shlex import quote
 
 import click
 
@@ -38,7 +39,7 @@ def start(folder: Path, instructor: bool) -> None:
         contents[TEACHING] = _with_tables(contents[TEACHING].decode()).encode()
     files = write_folder(made | plain_pages(contents), folder)
     click.echo(f"{folder}: {count(files, 'file')}. Begin with README.md there:")
-    click.echo(f"    cd {folder}")
+    click.echo(f"    cd {quote(str(folder))}")
     click.echo("    course check sampling")
     if instructor:
         click.echo(f"To plan lectures and weeks, read {TEACHING}.")

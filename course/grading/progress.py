@@ -130,7 +130,7 @@ def _told(function: FunctionResults) -> dict[str, Any]:
     if function.state in ("wrong", "undecided") and function.told:
         first = function.told[0]
         found = dict(findings(first, 1))
-        told["title"] = first.title
+        told["title"] = clean(first.found) if first.module_wide else first.title
         told["found"] = clean("; ".join(filter(None, (found.get("found"), found.get("hint")))))
         told["again"] = f"{reproduce(first, 0)} --hint 2"
     return told

@@ -18,11 +18,12 @@ USUAL_SEED = 0
 UNPROTECTED = "NOT PROTECTED"
 """How the protection begins that says what a submission's code could have done, where some are missing."""
 
-_LAST = ("untouched", "refuses", "layouts", "columns")
+_LAST = ("refuses", "layouts", "columns")
 """Checks whose failures say the least where others have failed as well."""
 
-_FIRST = ("contract", "unit_length")
-"""Checks that say why others failed: wrong shapes above all, then lengths, on which distributions hang."""
+_FIRST = ("contract", "untouched", "unit_length")
+"""Checks that say why others failed: wrong shapes above all, then arguments that were written to, then lengths, on
+which distributions depend."""
 
 _DRAWN = ("picture", "bias", "order", "speed")
 """Kinds that say that something is wrong, and not what."""

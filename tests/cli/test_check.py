@@ -157,6 +157,13 @@ def test_a_syntax_error_is_told_once(run: Run, folder: Path) -> None:
     assert not any("right" in line for line in lines)
 
 
+def test_an_editor_is_told_the_line_of_a_syntax_error_once(run: Run, folder: Path) -> None:
+    (folder / "motion_blur.py").write_text("import numpy\ndef f(:\n", encoding="utf-8")
+    told = run("check", "motion_blur", "--folder", folder, "--lines").stdout.splitlines()
+    assert [line for line in told if ": error: " in line or ": warning: " in line] == told[-1:]
+    assert told[-1].startswith(f"{folder / 'motion_blur.py'}:2: error: motion_blur.py can't be")
+
+
 def test_a_long_exception_is_cut_and_told_once(run: Run, folder: Path) -> None:
     own = "\n\ndef displacement(*_):\n    raise KeyError('long ' * 800)\n"
     (folder / "motion_blur.py").write_text(SOLUTION + own, encoding="utf-8")

@@ -2,6 +2,7 @@
 
 import json
 import shutil
+import warnings
 from pathlib import Path
 from typing import Any
 
@@ -224,3 +225,14 @@ def test_without_radiosity_only_lamps_are_bright(solver: str) -> None:
     codes = np.asarray(Image.open("l.png").convert("L"), int)
     assert codes.max() > 200
     assert 0 < (codes > 10).mean() < 0.1
+
+
+@pytest.mark.parametrize("name", ["point_on_spehre", "helper"])
+def test_a_name_that_is_spelt_wrongly_is_pointed_out(tmp_path: Path, name: str) -> None:
+    (tmp_path / "soft_shadows.py").write_text(f"def {name}(center, radius, u): return u\n")
+    effects = Effects(tmp_path, filled=True)
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        effects.function("soft_shadows", "point_on_sphere")
+    assert bool(told) == (name != "helper")
+    assert all("has no point_on_sphere, and a point_on_spehre" in str(one.message) for one in told)

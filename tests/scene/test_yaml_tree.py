@@ -216,7 +216,7 @@ def test_a_file_over_the_limit_is_refused(tmp_path: Path, monkeypatch: pytest.Mo
 def test_files_that_cannot_be_read_are_named_with_the_reason(tmp_path: Path) -> None:
     (tmp_path / "glass.yaml").write_text("a: 1")
     cases = {
-        tmp_path / "glas.yaml": 'no such file; did you mean "glass.yaml"?',
+        tmp_path / "glas.yaml": f"no such file; did you mean {tmp_path / 'glass.yaml'}?",
         tmp_path / "missing" / "a.yaml": "no such file; its folder is missing too",
         tmp_path: "is a folder",
         tmp_path / "glass.yaml" / "a.yaml": "",

@@ -12,15 +12,16 @@ PyYAML resolves, `1e-3` is a number and `yes`, `no`, `on`, `off` are texts.
 
 import math
 import re
+from contextlib import suppress
 from dataclasses import dataclass, field
+from difflib import get_close_matches
 from pathlib import Path
 from typing import Any, Final
 
 import yaml
 
 from course.errors import SceneError
-from course.formats.yaml.document import Document, Key, Lines, show, spell
-from course.formats.yaml.suggestions import suggest
+from course.formats.yaml.document import LONGEST, Document, Key, Lines, show, spell
 from course.inputs import LARGEST_SCENE, Bound, read_input, shown
 
 # The square of a number within these is finite and not zero in float64.
@@ -327,12 +328,20 @@ def _read(path: Path, what: str) -> bytes:
 
 
 def _near(path: Path) -> str:
-    try:
-        names = [entry.name for entry in path.parent.iterdir() if entry.suffix in {".yaml", ".yml"}]
-    except OSError:
-        return "" if path.parent.is_dir() else "; its folder is missing too"
-    hint = suggest(path.name, sorted(names))
-    return f"; {hint}" if hint.startswith("did") else ""
+    """Which file may be meant: beside it, or in a folder `scenes` there."""
+    if not path.parent.is_dir():
+        return "; its folder is missing too"
+    found: dict[str, Path] = {}
+    for folder in (path.parent, path.parent / "scenes"):
+        # A folder that can't be read has nothing to tell.
+        with suppress(OSError):
+            for entry in sorted(folder.iterdir()):
+                if entry.suffix in {".yaml", ".yml"}:
+                    found.setdefault(entry.name, entry)
+    known = found.get(path.name) or found.get(f"{path.name}.yaml")
+    near = get_close_matches(path.name[:LONGEST], found, n=1, cutoff=0.6)
+    known = known or (found[near[0]] if near else None)
+    return f"; did you mean {shown(known)}?" if known else ""
 
 
 def _decode(content: bytes, file: str) -> str:

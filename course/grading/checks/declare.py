@@ -398,7 +398,8 @@ def _looked(
         raise Failure(f"{result.name} to be finite", f"{value[index]}", f"at index {index}")
     if wanted is np.bool_:
         return value.astype(bool)
-    return value.astype(np.float64) if value.dtype.kind == "f" else value
+    # Truth values are taken for the numbers 0 and 1, which can be subtracted.
+    return value.astype(np.float64) if value.dtype.kind in "fb" else value
 
 
 def _cast(batches: Sequence[str]) -> str:

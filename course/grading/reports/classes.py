@@ -15,7 +15,7 @@ from course.atomic import write_text
 from course.grading.checks.result import Result, Status
 from course.grading.classes.policy import Mark
 from course.grading.classes.roster import Listed, Matched
-from course.grading.report import Report, ending, grouped
+from course.grading.report import FunctionResults, Report, ending, grouped
 from course.grading.reports.formats import clean, finite
 from course.grading.reports.insight import changes, misconceptions, without_name
 from course.grading.reports.page import render
@@ -31,7 +31,12 @@ PAIRS = 200
 
 _BAR_HEIGHT = 165
 _LONG = 20
-"""Rows of a table beyond which it is folded."""
+"""Rows of a table beyond which it, or the rest of it, is folded."""
+
+_MANY = 60
+"""Likewise of the table of students."""
+
+_NOT_FAILED = (Status.PASSED, Status.NOT_ATTEMPTED, Status.GRADER_ERROR)
 
 _FORMULA = tuple("=+-@\t\r\n\uff1d\uff0b\uff0d\uff20")
 """What makes a spreadsheet take a text for a formula: the four signs, full-width ones too, and blanks before them."""
@@ -184,14 +189,15 @@ def write_class_page(
         reports=reports,
         unprotected=[report for report in reports if report.unprotected],
         ungraded=[report for report in reports if report.trouble],
-        broken=[(report.student, report.broken) for report in graded if report.broken],
+        broken=[(report.student, result) for report in graded for result in report.broken],
         ending=ending,
         scores=scores,
         mean=fmean(scores) if scores else 0.0,
         median=median(scores) if scores else 0.0,
         bars=_bars(scores),
         failures=_failures(graded),
-        misconceptions=misconceptions(graded),
+        # Stable: those that as many make stay in the order of the course.
+        misconceptions=sorted(misconceptions(graded), key=lambda one: -len(one.students)),
         unnamed=without_name(graded),
         changes=changes(earlier, graded),
         counts=[
@@ -202,6 +208,7 @@ def write_class_page(
         similar=sorted(similar, key=lambda pair: -pair[3]),
         pairs=PAIRS,
         long=_LONG,
+        many=_MANY,
         students=students,
         remarked=[
             (student, (*(line.mark.why if line.mark else ()), *line.remarks))
@@ -238,21 +245,33 @@ def _bars(scores: Sequence[float]) -> list[dict[str, float]]:
 
 
 def _failures(graded: Sequence[Report]) -> list[dict[str, Any]]:
-    """Checks that somebody didn't pass, those that most failed first."""
-    by_check: dict[str, list[Result]] = {}
+    """Checks that somebody failed who has written the function, those that most failed first.
+
+    A check that broke with the reference, too, is nobody's failure.
+    """
+    by_check: dict[str, list[tuple[FunctionResults, Result]]] = {}
     for report in graded:
-        for result in report.results:
-            if result.status is not Status.PASSED:
-                by_check.setdefault(result.id, []).append(result)
-    rows = [
-        {
-            "id": check,
-            "title": results[0].title,
-            "number": len(results),
-            "share": len(results) / len(graded),
-            "statuses": Counter(str(result.status) for result in results).most_common(),
-            "mistakes": Counter(one.mistake for one in results if one.mistake).most_common(),
-        }
-        for check, results in by_check.items()
-    ]
+        for function in (one for module in grouped(report) for one in module.functions):
+            for result in function.results:
+                by_check.setdefault(result.id, []).append((function, result))
+    rows = []
+    for check, members in by_check.items():
+        failed = [result for _, result in members if result.status not in _NOT_FAILED]
+        if not failed:
+            continue
+        tried = sum(function.state != "to do" for function, _ in members)
+        statuses = Counter(str(result.status) for result in failed)
+        rows.append(
+            {
+                "id": check,
+                "title": failed[0].title,
+                "number": len(failed),
+                "tried": tried,
+                "untried": len(members) - tried,
+                "share": len(failed) / tried,
+                # That they failed is what the table says.
+                "otherwise": [pair for pair in statuses.most_common() if pair[0] != "failed"],
+                "mistakes": Counter(one.mistake for one in failed if one.mistake).most_common(),
+            }
+        )
     return sorted(rows, key=lambda row: (-row["number"], row["id"]))

@@ -9,7 +9,8 @@ import json
 import re
 import zlib
 from base64 import b64encode
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from io import BytesIO, StringIO
 from typing import Any, NamedTuple
 
@@ -23,6 +24,7 @@ from PIL import Image
 from course.core.types import Floats64
 from course.formats.pictures.display import linear_to_srgb8
 from course.grading.checks.check import Array, Figure
+from course.grading.checks.result import Result
 
 WORST = 12
 """Pixels across the enlarged region."""
@@ -32,6 +34,9 @@ LARGEST = 256
 
 NOISE_LIMIT = 5.0
 """Where the colours of the difference over the noise end."""
+
+FAINT = 0.01
+"""Difference that is hardly seen, as a share of the reference's brightest value (of white, where that is brighter)."""
 
 BROKEN = (255, 0, 255)
 """sRGB of pixels that are NaN or infinite."""
@@ -51,8 +56,9 @@ FURTHEST = 1e12
 _INK = "#123456"
 """Becomes the colour of the text around the plot."""
 
-_LABELS = {"yours": "Yours", "expected": "The reference"}
-_TITLES = {"yours": "Yours", "expected": "Reference"}
+# In the order in which they are looked at.
+_LABELS = {"expected": "The reference", "yours": "Yours"}
+_TITLES = {"expected": "Reference", "yours": "Yours"}
 
 
 class Scale(NamedTuple):
@@ -131,31 +137,55 @@ class Drawing:
     view: str = ""
 
 
-def draw(figure: Figure) -> Drawing:
+def draw(figure: Figure, *, noisy: bool = True) -> Drawing:
     """Draw a figure, whatever its arrays hold: they come from students.
 
     Returns Drawing: Without panels, but with a sentence, where nothing can be drawn.
+
+    ``noisy``: whether right functions may differ by noise; of others no difference is measured by it
     """
     try:
+        if figure.kind == "pictures":
+            return draw_pictures(figure, noisy=noisy)
         return _BY_KIND[figure.kind](figure)
     except Exception as error:  # noqa: BLE001 - a report without this figure is better than no report
         return Drawing(figure.title, notes=(f"This can't be drawn: {error}.",))
 
 
-def draw_pictures(figure: Figure) -> Drawing:
+def is_noisy(result: Result) -> bool:
+    """Whether a right function in its place may give another picture: it draws, or gets random numbers."""
+    from course.grading.checks.declare import declaration
+
+    # Of all modules together some do.
+    declared = declaration(result.module, result.function)
+    return declared is None or any(one.name in ("u", "rng") for one in declared.arguments)
+
+
+def reworded(drawing: Drawing, words: Mapping[str, str]) -> Drawing:
+    """The same drawing for other readers: each of the words becomes another, the first ones first."""
+
+    def said(text: str) -> str:
+        for old, new in words.items():
+            text = text.replace(old, new)
+        return text
+
+    panels = tuple(
+        replace(one, title=said(one.title), alt=said(one.alt), caption=said(one.caption))
+        for one in drawing.panels
+    )
+    return replace(drawing, panels=panels, notes=tuple(map(said, drawing.notes)))
+
+
+def draw_pictures(figure: Figure, *, noisy: bool = True) -> Drawing:
     """Draw ``yours`` beside ``expected``, both (3, H, W) linear RGB, where there are two, with what tells them apart.
 
-    That is the signed difference, the difference over the noise, and the worst region.
+    That is the signed difference, the difference over the noise if it is ``noisy``, and the worst region.
     """
     notes: list[str] = []
-    pictures = {
-        name: _picture(figure.arrays[name], _LABELS[name], notes)
-        for name in ("expected", "yours")
-        if name in figure.arrays
-    }
+    pictures = {name: _picture(array, _LABELS[name], notes) for name, array in _in_order(figure)}
     panels = [_plain(picture, _TITLES[name]) for name, picture in pictures.items()]
     if len(pictures) == 2:
-        panels += _compared(pictures["yours"], pictures["expected"], notes)
+        panels += _compared(pictures["yours"], pictures["expected"], notes, noisy)
     return Drawing(figure.title, tuple(panels), tuple(notes))
 
 
@@ -200,7 +230,7 @@ def _codes(picture: Floats64) -> NDArray[np.uint8]:
     return codes
 
 
-def _compared(yours: Floats64, expected: Floats64, notes: list[str]) -> list[Panel]:
+def _compared(yours: Floats64, expected: Floats64, notes: list[str], noisy: bool) -> list[Panel]:
     with np.errstate(all="ignore"):
         difference = yours - expected
     worst = _largest(difference)
@@ -212,22 +242,29 @@ def _compared(yours: Floats64, expected: Floats64, notes: list[str]) -> list[Pan
     with np.errstate(all="ignore"):
         magnitude = np.where(finite, np.abs(difference).sum(axis=0), np.inf)
     row, column = (int(i) for i in np.unravel_index(magnitude.argmax(), magnitude.shape))
-    scale = float(np.abs(worst[finite]).max(initial=0.0))
+    largest, faint = float(np.abs(worst[finite]).max(initial=0.0)), _faint(expected)
+    # What nobody sees is pale.
+    scale = max(largest, faint)
+    told = f"; the largest difference is {largest:.2g}" if largest < faint else ""
     panels = [
         Panel(
             "Signed difference",
             "Map of yours minus the reference. "
             f"The largest difference is at pixel ({column}, {row}).",
             "Yours minus the reference, of the colour that differs most: "
-            f"blue where yours is darker, red where brighter. Colours end at ±{scale:.3g}.",
+            f"blue where yours is darker, red where brighter. Colours end at ±{scale:.3g}{told}.",
             _map(worst, scale),
             scale=Scale(f"−{scale:.3g} darker", f"+{scale:.3g} brighter"),  # noqa: RUF001
         )
     ]
-    over_noise = _over_noise(difference, notes)
-    if over_noise is not None:
-        panels.append(over_noise)
+    if noisy:
+        panels += _over_noise(difference, 0.1 * faint, notes)
     return panels + _enlarged(yours, expected, row, column)
+
+
+def _faint(expected: Floats64) -> float:
+    brightest = float(expected[np.isfinite(expected)].max(initial=0.0))
+    return FAINT * min(brightest, 1.0) if brightest > 0 else FAINT
 
 
 def _largest(values: Floats64) -> Floats64:
@@ -249,26 +286,25 @@ def _map(values: Floats64, limit: float) -> NDArray[np.uint8]:
     return result
 
 
-def _over_noise(difference: Floats64, notes: list[str]) -> Panel | None:
+def _over_noise(difference: Floats64, least: float, notes: list[str]) -> list[Panel]:
+    """The map, if the noise is ``least`` [radiance] or more: rounding over rounding looks like a catastrophe."""
     noise = _noise(difference)
-    if not 0 < noise < np.inf:
-        notes.append(
-            "Most pixels agree exactly, so there is no noise to measure the difference by."
-        )
-        return None
+    if not least <= noise < np.inf:
+        notes.append("There is no noise to speak of that the difference could be measured by.")
+        return []
     with np.errstate(all="ignore"):
         largest = _largest(difference / noise)
     beyond = int((np.abs(largest[np.isfinite(largest)]) > 3).sum())
-    return Panel(
+    panel = Panel(
         "Difference over the noise",
         f"Map of the difference over the noise; it is beyond 3 at {beyond} of {largest.size} pixels.",
         f"How many times the noise the difference is; beyond 3 at {beyond} of {largest.size} pixels. "
         f"The noise is not known; it is taken as {noise:.2g}, from the median absolute difference between each pixel's "
-        "difference and its neighbours'; without noise the map only shows where the difference is large beside its own "
-        f"roughness. Colours end at ±{NOISE_LIMIT:g}.",
+        f"difference and its neighbours'. Colours end at ±{NOISE_LIMIT:g}.",
         _map(largest, NOISE_LIMIT),
         scale=Scale(f"−{NOISE_LIMIT:g} or less", f"+{NOISE_LIMIT:g} or more"),  # noqa: RUF001
     )
+    return [panel]
 
 
 def _noise(difference: Floats64) -> float:
@@ -307,22 +343,26 @@ def _rgb(picture: Floats64, row: int, column: int) -> str:
 
 
 def draw_points(figure: Figure) -> Drawing:
-    """Draw ``yours`` and, if they are there, ``expected``, (2, N) in the unit square or disk."""
+    """Draw ``expected``, if they are there, and ``yours``, (2, N) in the unit square or disk."""
     sets: dict[str, Floats64] = {}
     notes: list[str] = []
-    for name, array in figure.arrays.items():
+    for name, array in _in_order(figure):
         label, step = _LABELS[name], -(-array.shape[1] // MOST_POINTS)
         if step > 1:
             notes.append(f"{label} has {array.shape[1]} points; one in {step} is drawn.")
         sets[name] = _within(array[:, ::step].astype(np.float64), label, "points", notes)
     # The reference if it is there, else the student's.
-    disk = bool(([*sets.values()][-1] < 0).mean() > 0.05)
+    disk = bool((next(iter(sets.values())) < 0).mean() > 0.05)
     low, high = _view(sets, -1.0 if disk else 0.0)
     panels = [
         _scatter(points, _TITLES[name], YOURS if name == "yours" else EXPECTED, disk, low, high)
         for name, points in sets.items()
     ]
     return Drawing(figure.title, tuple(panels), tuple(notes))
+
+
+def _in_order(figure: Figure) -> list[tuple[str, Array]]:
+    return [(name, figure.arrays[name]) for name in _TITLES if name in figure.arrays]
 
 
 def _within(values: Floats64, label: str, what: str, notes: list[str]) -> Floats64:
@@ -378,26 +418,45 @@ def _scatter(
 
 
 def draw_histogram(figure: Figure) -> Drawing:
-    """Draw how often the values of ``yours`` occur."""
+    """Draw how often the values of ``expected``, if they are there, and of ``yours`` occur, over the same axis."""
     notes: list[str] = []
-    values = _within(figure.arrays["yours"].astype(np.float64).ravel(), "Yours", "values", notes)
-    low, high = float(values.min()), float(values.max())
-    told = f"{values.size} values from {low:.4g} to {high:.4g}, mean {values.mean():.4g}"
+    sets = {
+        name: _within(array.astype(np.float64).ravel(), _LABELS[name], "values", notes)
+        for name, array in _in_order(figure)
+    }
+    low = min(float(values.min()) for values in sets.values())
+    high = max(float(values.max()) for values in sets.values())
     if 0 < low < 0.1 * high:
         low = 0.0
     if low >= 0 and 0.5 < high <= 1:
         low, high = 0.0, 1.0
     if high - low < 1e-9 * max(abs(low), abs(high), 1e-30):
         low, high = low - 0.5 * max(1.0, abs(low)), high + 0.5 * max(1.0, abs(high))
+    panels = tuple(
+        _bars(
+            values,
+            _TITLES[name] if len(sets) > 1 else "How often each value occurs",
+            YOURS if name == "yours" else EXPECTED,
+            (low, high),
+        )
+        for name, values in sets.items()
+    )
+    return Drawing(figure.title, panels, tuple(notes))
+
+
+def _bars(values: Floats64, title: str, color: str, ends: tuple[float, float]) -> Panel:
+    told = (
+        f"{values.size} values from {values.min():.4g} to {values.max():.4g}, "
+        f"mean {values.mean():.4g}"
+    )
     canvas, axes = _axes((4.2, 2.9))
     bins = int(np.clip(np.sqrt(values.size), 8, 40))
-    axes.hist(values, bins, range=(low, high), density=True, color=YOURS)
-    axes.set_xlim(low, high)
+    axes.hist(values, bins, range=ends, density=True, color=color)
+    axes.set_xlim(*ends)
     axes.set_ylim(bottom=0)
     axes.set_xlabel("value")
     axes.set_ylabel("density")
-    panel = Panel("How often each value occurs", f"Histogram: {told}.", told, svg=_svg(canvas))
-    return Drawing(figure.title, (panel,), tuple(notes))
+    return Panel(title, f"Histogram: {told}.", told, svg=_svg(canvas))
 
 
 def draw_curve(points: tuple[tuple[int, float], ...]) -> str:

@@ -196,12 +196,12 @@ def _prairielearn_tests(report: Report) -> Iterator[dict[str, Any]]:
 
 
 def _prairielearn_images(report: Report) -> Iterator[dict[str, str]]:
-    from course.grading.reports.drawing import draw
+    from course.grading.reports.drawing import draw, is_noisy
 
     left = IMAGES_BYTES
     for result in report.results:
         for figure in () if result.status is Status.PASSED else result.figures:
-            drawing = draw(figure)
+            drawing = draw(figure, noisy=is_noisy(result))
             for panel in drawing.panels:
                 url = panel.data_uri(max(1, ENLARGED // max(1, panel.size[0])))
                 left -= len(url)

@@ -1,25 +1,47 @@
 """What a class has understood: mistakes by name, failures alike without one, and what handing in again has changed."""
 
 from collections import Counter, defaultdict
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from functools import lru_cache
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cache, lru_cache
 from itertools import count
 from pathlib import Path
 
 from markupsafe import Markup
 
 from course.atomic import write_text
-from course.grading.checks.check import Figure
-from course.grading.checks.result import Status
+from course.grading.catalog import module_checks
+from course.grading.checks.check import Check, Figure, References
+from course.grading.checks.result import Result, Status
+from course.grading.checks.running import run_checks
 from course.grading.grading import grade
 from course.grading.known import known
-from course.grading.references import references
-from course.grading.report import FunctionResults, Report, grouped
+from course.grading.references import reference, references
+from course.grading.report import USUAL_SEED, FunctionResults, Report, grouped
+from course.grading.reports.order import place
 from course.grading.reports.page import render
 
 PICTURES = 12
 """Most mistakes of which the page for the lecture hall shows a picture: each is graded once."""
+
+PANELS = 3
+"""As it should be, with the mistake, and the difference; what reports enlarge below is left out."""
+
+WORDS = {
+    "Yours minus the reference": "With the mistake, minus as it should be",
+    "yours minus the reference": "with the mistake, minus as it should be",
+    "Yours is ": "The one with the mistake is ",
+    "Yours has ": "The one with the mistake has ",
+    "Yours": "With this mistake",
+    "The reference": "The right one",
+    "Reference": "As it should be",
+    "yours": "the one with the mistake",
+    "the reference": "the right one",
+}
+"""What reports say of a student's code and the reference, and what the page for the lecture hall says instead."""
+
+_DRAWING = ("picture", "distribution")
+"""Kinds of checks that draw something."""
 
 
 @dataclass(frozen=True)
@@ -30,6 +52,7 @@ class Misconception:
     ----------
     says : what these students are told
     tried : how many students have written the function
+    untried : how many haven't
     """
 
     module: str
@@ -38,11 +61,26 @@ class Misconception:
     says: str
     students: tuple[str, ...]
     tried: int
+    untried: int
 
     @property
     def share(self) -> float:
         """Of those who have written the function."""
         return len(self.students) / self.tried
+
+
+@dataclass(frozen=True)
+class Example:
+    """The course's own submission with a mistake: what it draws beside the right one, and what its check says.
+
+    Attributes
+    ----------
+    figure : ``yours`` has the mistake, ``expected`` is right; None where nothing is drawn of it
+    result : of the check that is meant for the mistake; None if it passed
+    """
+
+    figure: Figure | None
+    result: Result | None
 
 
 @dataclass(frozen=True)
@@ -77,8 +115,10 @@ def misconceptions(graded: Sequence[Report]) -> list[Misconception]:
     """Known mistakes module by module, in each those that most make first."""
     made: dict[tuple[str, str, str], dict[str, str]] = defaultdict(dict)
     tried: Counter[tuple[str, str]] = Counter()
+    untried: Counter[tuple[str, str]] = Counter()
     for student, function in _functions(graded):
         if function.state == "to do":
+            untried[function.module, function.name] += 1
             continue
         tried[function.module, function.name] += 1
         for result in function.others:
@@ -86,11 +126,14 @@ def misconceptions(graded: Sequence[Report]) -> list[Misconception]:
                 key = function.module, function.name, result.mistake
                 made[key].setdefault(student, result.says)
     found = [
-        Misconception(*key, next(iter(said.values())), tuple(said), tried[key[:2]])
+        Misconception(
+            *key, next(iter(said.values())), tuple(said), tried[key[:2]], untried[key[:2]]
+        )
         for key, said in made.items()
     ]
-    order = list(dict.fromkeys(module for module, _ in tried))
-    return sorted(found, key=lambda one: (order.index(one.module), -len(one.students), one.mistake))
+    return sorted(
+        found, key=lambda one: (place(one.module), one.module, -len(one.students), one.mistake)
+    )
 
 
 def without_name(graded: Sequence[Report]) -> list[Alike]:
@@ -110,7 +153,7 @@ def without_name(graded: Sequence[Report]) -> list[Alike]:
         Alike(module, name, checks, tuple(student for student, _ in members), members[0][1])
         for (module, name, checks), members in groups.items()
     ]
-    return sorted(found, key=lambda one: (-len(one.students), one.module, one.function))
+    return sorted(found, key=lambda one: (-len(one.students), place(one.module), one.function))
 
 
 def changes(earlier: Mapping[str, Report], graded: Sequence[Report]) -> list[Changed]:
@@ -132,23 +175,31 @@ def changes(earlier: Mapping[str, Report], graded: Sequence[Report]) -> list[Cha
 def write_lecture_page(graded: Sequence[Report], path: Path) -> None:
     """Write what can be shown in the lecture hall: mistakes, shares and pictures, and nobody's name.
 
-    Pictures are those of the course's own wrong submissions, so nothing of a student's work is on the page.
+    Pictures and numbers are those of the course's own submissions, so nothing of a student's work is on the page.
     Raises OutputError: the file can't be written.
     """
-    from course.grading.reports.drawing import draw, with_own_ids
+    from course.grading.reports.drawing import draw, reworded, with_own_ids
 
     found = misconceptions(graded)
     most = sorted(found, key=lambda one: -one.share)[:PICTURES]
+    examples = {one: _example(one.module, one.function, one.mistake) for one in most}
+    drawings = {
+        one: reworded(draw(example.figure, noisy=False), WORDS)
+        for one, example in examples.items()
+        if example and example.figure
+    }
     plots = count(1)
     page = render(
         "lecture.html.jinja",
         graded=len(graded),
         found=found,
-        figures={
-            one: draw(figure)
-            for one in most
-            if (figure := _figure(one.module, one.function, one.mistake)) is not None
+        modules=list(dict.fromkeys(one.module for one in found)),
+        examples=examples,
+        drawings={
+            one: replace(drawing, panels=drawing.panels[:PANELS])
+            for one, drawing in drawings.items()
         },
+        pictures=PICTURES,
         unnamed=[one for one in without_name(graded) if len(one.students) > 1],
         # Made here from numbers.
         plot=lambda svg: Markup(with_own_ids(svg, f"p{next(plots)}")),
@@ -157,21 +208,52 @@ def write_lecture_page(graded: Sequence[Report], path: Path) -> None:
 
 
 @lru_cache(maxsize=64)
-def _figure(module: str, function: str, mistake: str) -> Figure | None:
-    """What the check that is meant for a mistake draws of it; None if that is nothing."""
+def _example(module: str, function: str, mistake: str) -> Example | None:
+    """The course's example of a mistake; None if it has none."""
     one = next(
         (one for one in known(module) if (one.function, one.mistake) == (function, mistake)), None
     )
     if one is None:
         return None
-    report = grade(
-        {module: one.source.encode()},
-        references(),
-        modules=[module],
-        only=lambda check: (check.function, check.name) == (function, one.caught_by),
+
+    def failed(only: Callable[[Check], bool]) -> list[Result]:
+        source = {module: one.source.encode()}
+        report = grade(source, _references(), modules=[module], only=only)
+        return [result for result in report.results if result.status is not Status.PASSED]
+
+    meant = failed(lambda check: (check.function, check.name) == (function, one.caught_by))
+    figure = _figure(meant)
+    # Where that check compares numbers, one that draws may show the mistake, too.
+    if figure is None:
+        figure = _figure(
+            failed(lambda check: check.function == function and check.kind in _DRAWING)
+        )
+    return Example(figure, meant[0] if meant else None)
+
+
+def _figure(results: Iterable[Result]) -> Figure | None:
+    """The first figure that can be shown, with what is right in it; None if there is none."""
+    shown = ((result, f) for result in results for f in result.figures if f.kind != "rays")
+    result, figure = next(shown, (None, None))
+    if result is None or figure is None or "expected" in figure.arrays:
+        return figure
+    right = run_checks(
+        module_checks(result.module),
+        reference(result.module),
+        _references(),
+        USUAL_SEED,
+        lambda check: (check.function, check.name) == (result.function, result.check),
     )
-    drawn = (figure for result in report.results for figure in result.figures)
-    return next((figure for figure in drawn if figure.kind != "rays"), None)
+    for one in (one for passed in right for one in passed.figures):
+        if (one.kind, one.title) == (figure.kind, figure.title):
+            arrays = {"yours": figure.arrays["yours"], "expected": one.arrays["yours"]}
+            return replace(figure, arrays=arrays)
+    return figure
+
+
+@cache
+def _references() -> References:
+    return references()
 
 
 def _functions(graded: Sequence[Report]) -> list[tuple[str, FunctionResults]]:

@@ -12,16 +12,26 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup, escape
 
 from course.grading.checks.result import Result, Status
-from course.grading.report import Report, docs_page, ending, findings, grouped, reproduce, unstarted
+from course.grading.report import (
+    Report,
+    as_points,
+    docs_page,
+    ending,
+    findings,
+    grouped,
+    reproduce,
+    unstarted,
+)
 from course.grading.reports.formats import clean
+from course.grading.reports.order import place
 
 
 def as_page(report: Report) -> str:
     """A student's report as a page; figures are drawn for the checks that didn't pass."""
-    from course.grading.reports.drawing import draw, with_own_ids
+    from course.grading.reports.drawing import draw, is_noisy, with_own_ids
     from course.recording.view import script, script_hash, style
 
-    modules = grouped(report)
+    modules = sorted(grouped(report), key=lambda module: place(module.name))
     plots = count(1)
     return render(
         "page.html.jinja",
@@ -30,7 +40,7 @@ def as_page(report: Report) -> str:
         undecided=any(module.count("undecided") for module in modules),
         names={module.name for module in modules},
         counts=[(str(status), report.count(status)) for status in Status if report.count(status)],
-        draw=draw,
+        drawings=lambda result: [draw(figure, noisy=is_noisy(result)) for figure in result.figures],
         # Made here from numbers and the scenes' own names: the view's data are text to the page.
         as_markup=Markup,
         rays={"style": Markup(style()), "script": Markup(script()), "hash": Markup(script_hash())}
@@ -68,7 +78,7 @@ def _environment() -> Environment:
         lstrip_blocks=True,
     )
     environment.filters |= {
-        "number": lambda value: f"{value:.6g}",
+        "number": as_points,
         "percent": lambda value: f"{100 * value:.0f}\N{NO-BREAK SPACE}%",
         "plural": lambda number, noun: f"{number} {noun}{'' if number == 1 else 's'}",
         "marked": _marked,

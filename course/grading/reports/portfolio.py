@@ -23,6 +23,7 @@ from course.effects import Effects
 from course.errors import CourseError
 from course.grading.progress import Progress
 from course.grading.reports.drawing import data_uri, draw_curve, with_own_ids
+from course.grading.reports.order import place
 from course.grading.reports.page import render as fill
 from course.jobs.picture import Picture
 from course.render_scene import render
@@ -100,6 +101,7 @@ def portfolio(
     seconds : for all pictures together
     before : called with the name of each module whose pictures are rendered
     """
+    found = sorted(filter(None, found), key=lambda functions: place(functions[0].module))
     begun = [functions for functions in found if any(f.state != "to do" for f in functions)]
     plots = count(1)
     return fill(
@@ -109,7 +111,7 @@ def portfolio(
         points=sum(one.points for functions in found for one in functions),
         of=sum(one.of for functions in found for one in functions),
         functions=sum(map(len, found)),
-        left=[f[0].module for f in found if f and f not in begun],
+        left=[f[0].module for f in found if f not in begun],
         plot=lambda svg: Markup(with_own_ids(svg, f"p{next(plots)}")),
     )
 
@@ -130,7 +132,8 @@ def _shown(
         try:
             yield _rendered(module, tuple(functions), effects, scenes, share)
         except (CourseError, NotImplementedError) as error:
-            said = str(error) or type(error).__name__
+            # Two callers, one in the other, may each have added which line asks for the function.
+            said = "; ".join(dict.fromkeys(str(error).split("; "))) or type(error).__name__
             yield Shown(module, (), "", "", (0, 0), "", None, (), said, tuple(functions))
 
 

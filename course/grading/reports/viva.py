@@ -7,7 +7,7 @@ from itertools import count
 from markupsafe import Markup
 
 from course.grading.checks.check import Figure
-from course.grading.reports.drawing import Drawing, Panel, draw, with_own_ids
+from course.grading.reports.drawing import Drawing, draw, reworded, with_own_ids
 from course.grading.reports.page import render
 from course.grading.viva.asking import Answer, Asked
 
@@ -49,31 +49,5 @@ def drawings(answer: Answer) -> list[Drawing]:
     if before is None or after is None:
         return []
     both = {"yours": after.arrays["yours"], "expected": before.arrays["yours"]}
-    if after.kind == "histogram":
-        pair = (("As it is", before), ("Changed", after))
-        return [_titled(_yours(figure), title) for title, figure in pair]
-    drawn = draw(Figure(after.kind, after.title, both))
-    notes = tuple(_said(note) for note in drawn.notes)
-    return [replace(drawn, panels=tuple(map(_renamed, drawn.panels[:PANELS])), notes=notes)]
-
-
-def _yours(figure: Figure) -> Drawing:
-    return draw(Figure(figure.kind, figure.title, {"yours": figure.arrays["yours"]}))
-
-
-def _titled(drawing: Drawing, title: str) -> Drawing:
-    return replace(
-        drawing, panels=tuple(replace(_renamed(one), title=title) for one in drawing.panels)
-    )
-
-
-def _renamed(panel: Panel) -> Panel:
-    return replace(
-        panel, title=_said(panel.title), alt=_said(panel.alt), caption=_said(panel.caption)
-    )
-
-
-def _said(text: str) -> str:
-    for old, new in WORDS.items():
-        text = text.replace(old, new)
-    return text
+    drawn = reworded(draw(Figure(after.kind, after.title, both), noisy=False), WORDS)
+    return [replace(drawn, panels=drawn.panels[:PANELS])]

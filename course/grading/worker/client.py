@@ -120,14 +120,14 @@ class Worker:
         changed = {RANDOM_STATE: head.get("moved"), EARLIER_RESULT: head.get("overwrote")}
         return values[0], after, frozenset(what for what, so in changed.items() if so)
 
-    def lend(self, deadline: float, function: str, *arguments: Any, **named: Any) -> Any:
-        """The function's value, for another worker whose call has to end at the deadline.
+    def lend(self, call: _Call, deadline: float) -> Any:
+        """The value of a call, for another worker whose own call has to end at the deadline.
 
         Raises StudentError: "timeout": it took longer; nobody's patience is lost.
         """
         with self._lock:
             self._ready()
-            return self._once(_Call(function, arguments, named), deadline)[0][0]
+            return self._once(call, deadline)[0][0]
 
     def calls(self, function: str, other: str) -> bool:
         """True if the student's function calls another of the same file; as the worker says, so good for a hint."""
@@ -215,7 +215,8 @@ class Worker:
                 raise self._broken from None
         self._names = head.get("names")
         calls = head.get("calls")
-        self._calls = frozenset(calls if isinstance(calls, list) else [])
+        calls = calls if isinstance(calls, list) else []
+        self._calls = frozenset(call for call in calls if isinstance(call, str))
 
     def _started(self, seconds: float) -> dict[str, Any]:
         """The head that a new process sends when it has imported the file."""
@@ -259,12 +260,14 @@ class Worker:
             or name not in self._lent
             or type(names) is not list
             or len(names) > len(values)
+            or not all(type(each) is str for each in names)
         ):
             raise self._process.lost("it asks for what it hasn't been lent")
         split = len(values) - len(names)
         named = dict(zip(names, values[split:], strict=True))
         try:
-            return pack({}, [self._lender.lend(deadline, name, *values[:split], **named)])
+            asked = _Call(name, tuple(values[:split]), named)
+            return pack({}, [self._lender.lend(asked, deadline)])
         except StudentError as error:
             if error.kind == "timeout":
                 self._process.close()

@@ -16,6 +16,9 @@ LONGEST_LINE = 160
 LONGEST_TRACEBACK = 3000
 """Characters of an exception's text, of one line of its traceback, and of all its lines."""
 
+LONGEST_TYPE, LONGEST_TEXT = 80, 600
+"""Characters of the exception's class, and of a text that is looked through: the time grows with its square."""
+
 ONE_EACH = "(a * b).sum(axis=0) gives the dot product of each column"
 
 REMEDIES = {
@@ -82,7 +85,7 @@ REMEDIES = {
 }
 """What the exception's text holds -> what to do; the first that fits is told."""
 
-_SHAPE = re.compile(r"\(([0-9, ]{1,80})\)")
+_SHAPE = re.compile(r"\(((?:\d{1,9}, ?)*\d{0,9})\)")
 
 MOST_PARTS = 6
 LONGEST_NUMBER = 24
@@ -95,14 +98,14 @@ def replied(kind: Trouble, head: Mapping[str, Any], arguments: str = "") -> Stud
     ``arguments``: those of the call, as ``said``
     """
     lines = str(head.get("traceback", ""))[:LONGEST_TRACEBACK].splitlines()
-    message = str(head.get("message", ""))
+    message, type_ = str(head.get("message", "")), str(head.get("type", ""))[:LONGEST_TYPE]
     return StudentError(
         kind,
         _cut(message, LONGEST_MESSAGE),
-        str(head.get("type", ""))[:80],
+        type_,
         "\n".join(_cut(line, LONGEST_LINE) for line in lines),
         arguments=arguments if kind == "raised" else "",
-        remedy=remedy(f"{head.get('type', '')}: {message}") if kind == "raised" else "",
+        remedy=remedy(f"{type_}: {message[:LONGEST_TEXT]}") if kind == "raised" else "",
     )
 
 
@@ -187,7 +190,7 @@ def remedy(message: str) -> str:
 
 
 def _sizes(shape: str) -> tuple[int, ...]:
-    return tuple(int(size) for size in shape.split(",") if size.strip())
+    return tuple(map(int, re.findall(r"\d+", shape)))
 
 
 def _broadcast(shapes: Sequence[tuple[int, ...]]) -> str:

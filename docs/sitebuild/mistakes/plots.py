@@ -14,12 +14,26 @@ from sitebuild.mistakes.look import SIZE, Draw
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 INK, RIGHT, LINE, SECOND = "#a1440b", "#8a8a8a", "#b9b9b9", "#1f5fa8"
 """Of what the function made, of what the right one makes, of outlines, and of a second thing."""
 
+BELOW: dict[str, Any] = {"linewidth": 3.2, "alpha": 0.6}
+ABOVE: dict[str, Any] = {"linewidth": 1.4}
+"""Lines of what is right, and of what was made, which lies over it."""
+
 SHARPNESS = 2
 """Pixels of the picture for a pixel of the page."""
+
+BINS, PLACES = 24, 16
+"""Of a histogram, and where in each of them its density is asked for."""
+
+MARGIN = 2 * SHARPNESS
+"""Pixels of the picture between its border and what is written next to it."""
+
+SMALL = 7
+"""Size of the numbers at ticks."""
 
 Array = np.ndarray[Any, Any]
 Plot = Callable[["Axes", ModuleType, ModuleType], None]
@@ -43,14 +57,46 @@ def _plotted(draw: Plot, curve: bool, made: ModuleType, right: ModuleType) -> Im
     canvas = FigureCanvasAgg(figure)
     axes = figure.add_axes((0.13, 0.2, 0.84, 0.75) if curve else (0.01, 0.01, 0.98, 0.98))
     if curve:
-        axes.tick_params(labelsize=7, length=2, pad=1.5)
+        axes.tick_params(labelsize=SMALL, length=2, pad=1.5)
         axes.locator_params(nbins=4)
+        axes.ticklabel_format(scilimits=(-3, 4), useMathText=True, useOffset=False)
+        axes.yaxis.get_offset_text().set_size(SMALL)
         axes.spines[["top", "right"]].set_visible(False)
     else:
         axes.set_axis_off()
     draw(axes, made, right)
+    if curve:
+        _make_room(axes, canvas)
     canvas.draw()
     return Image.fromarray(np.asarray(canvas.buffer_rgba())[..., :3])
+
+
+def _make_room(axes: Axes, canvas: FigureCanvasAgg) -> None:
+    """Move the sides of axes inwards until nothing that is written around them is cut off."""
+    renderer = canvas.get_renderer()
+    width, height = canvas.get_width_height()
+    name = axes.xaxis.label
+    if name.get_window_extent(renderer).width > width - 2 * MARGIN:
+        name.set_text(_in_two_lines(name.get_text()))
+    written = axes.get_tightbbox(renderer, for_layout_only=True)
+    place = axes.get_position()
+    left = place.x0 + max(MARGIN - written.x0, 0) / width
+    bottom = place.y0 + max(MARGIN - written.y0, 0) / height
+    right = place.x1 - max(written.x1 - (width - MARGIN), 0) / width
+    top = place.y1 - max(written.y1 - (height - MARGIN), 0) / height
+    axes.set_position((left, bottom, right - left, top - bottom))
+    # A name that is wider than the axes isn't below their middle.
+    extent = name.get_window_extent(renderer)
+    middle = (left + right) / 2 * width
+    half = extent.width / 2 + MARGIN
+    name.set_x(0.5 + (np.clip(middle, half, width - half) - middle) / axes.bbox.width)
+
+
+def _in_two_lines(words: str) -> str:
+    """Break them at the space that is nearest to the middle."""
+    spaces = [place for place, letter in enumerate(words) if letter == " "]
+    middle = min(spaces, key=lambda place: abs(place - len(words) / 2))
+    return f"{words[:middle]}\n{words[middle + 1 :]}"
 
 
 def label(axes: Axes, x: str, size: float = 7.5) -> None:
@@ -91,20 +137,52 @@ def circle(axes: Axes, x: float, y: float, radius: float, turn: float = 1, **sty
     axes.plot(x + radius * np.cos(angle), y + radius * np.sin(angle), **style)
 
 
-def curves(axes: Axes, x: Array, made: Array, right: Array, **style: Any) -> None:
-    """What the function makes over what the right one makes."""
-    axes.plot(x, right, color=RIGHT, linewidth=3.2, alpha=0.6)
-    axes.plot(x, made, **{"color": INK, "linewidth": 1.4} | style)
+def curves(
+    axes: Axes, x: Array, made: Array, right: Array, drawstyle: str = "default", **style: Any
+) -> None:
+    """What the function makes over what the right one makes, as the same kind of line."""
+    made, right = np.asarray(made), np.asarray(right)
+    below, above = {"color": RIGHT, **BELOW}, {"color": INK, **ABOVE} | style
+    axes.plot(x, right, drawstyle=drawstyle, **below)
+    axes.plot(x, made, drawstyle=drawstyle, **above)
+    _mark_lost(axes, x, made, right)
+
+
+def steps(axes: Axes, made: Array, right: Array) -> None:
+    """A value for each whole number, from 0 on: those that the function makes over those of the right one."""
+    for values, color, style in ((right, RIGHT, BELOW), (made, INK, ABOVE)):
+        edges = np.arange(np.size(values) + 1) - 0.5
+        axes.stairs(np.asarray(values, float), edges, baseline=None, color=color, **style)
+    _mark_lost(axes, np.arange(np.size(right)), made, right)
+
+
+def _mark_lost(axes: Axes, x: Array, made: Array, right: Array) -> None:
+    """Say that there is no number where a line has a gap, or isn't there at all."""
+    lost = np.isnan(made) & ~np.isnan(right)
+    if lost.any():
+        place = np.broadcast_to(x, lost.shape)[lost]
+        middle = (place.min() + place.max()) / 2
+        axes.text(
+            middle,
+            0.5,
+            "no number",
+            transform=axes.get_xaxis_transform(),
+            fontsize=8,
+            ha="center",
+            va="center",
+            color=INK,
+        )
 
 
 def histogram(
     axes: Axes, values: Array, density: Callable[[Array], Array], span: tuple[float, float]
 ) -> None:
-    """How often values are in each bin, and the density that they should have."""
+    """How often values are in each bin, and how often they should be."""
     values = values[np.isfinite(values)]
-    count, edges = np.histogram(values, 24, span)
+    count, edges = np.histogram(values, BINS, span)
     axes.stairs(count / max(len(values), 1) / np.diff(edges), edges, fill=True, color=INK)
-    x = np.linspace(*span, 200)
-    axes.plot(x, density(x), color="#333", linewidth=1.4, zorder=4)
+    x = np.linspace(*span, BINS * PLACES, endpoint=False) + (span[1] - span[0]) / (2 * BINS * PLACES)
+    expected = density(x).reshape(BINS, PLACES).mean(axis=1)
+    axes.stairs(expected, edges, baseline=None, color="#333", linewidth=1.4, zorder=4)
     axes.set_xlim(*span)
     axes.set_yticks([])

@@ -245,6 +245,17 @@ def test_what_is_lent_may_refuse_or_end_and_who_asks_goes_on() -> None:
         assert error.value.kind == "raised"
 
 
+@pytest.mark.parametrize("name", ["self", "function", "deadline", "call"])
+@pytest.mark.usefixtures("nothing_here")
+def test_the_names_of_lent_arguments_are_the_students(name: str) -> None:
+    """A name that means something to the grader had been an error of its own."""
+    worker, _ = borrowing("quasi_monte_carlo", "halton", f"halton({name}=1)", Limits())
+    with worker:
+        with pytest.raises(StudentError) as error:
+            worker.call("f")
+        assert error.value.kind == "raised"
+
+
 HOLDS = b"""
 import time
 import numpy as np

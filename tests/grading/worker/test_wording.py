@@ -10,7 +10,7 @@ from course.grading.checks.check import Check
 from course.grading.checks.result import troubled
 from course.grading.errors import StudentError
 from course.grading.worker.client import Worker
-from course.grading.worker.wording import remedy, said, told
+from course.grading.worker.wording import remedy, replied, said, told
 
 U = np.ones((2, 17))
 V = np.ones((3, 17))
@@ -67,9 +67,17 @@ def test_forged_texts_make_no_trouble() -> None:
     for text in (
         f"operands could not be broadcast together with shapes ({huge},) ({huge},3)",
         "could not be broadcast (,,,) (, )",
+        "could not be broadcast together with shapes (1 2) (3)",
         "could not be broadcast " + "(1,2) " * 1000,
     ):
         assert isinstance(remedy(text), str)
+
+
+def test_a_long_forged_text_is_cut_before_it_is_looked_through() -> None:
+    """The time grows with the square of its length: this one would take minutes."""
+    error = replied("raised", {"type": "shape " * 166_000, "message": "shape " * 166_000})
+    assert len(error.type) < 100
+    assert len(str(error)) < 400
 
 
 def test_arguments_are_told_by_name_shape_and_dtype() -> None:

@@ -105,14 +105,19 @@ def _spectrum(axes: Axes, made: ModuleType, right: ModuleType) -> None:
     label(axes, "cycles per pixel")
 
 
-def _seen(axes: Axes, made: ModuleType, right: ModuleType) -> None:
-    """White noise and a light edge, over the width of the blur."""
-    error = np.random.default_rng(7).normal(size=(12, 16))
-    error[:, 0] += 1.5
-    sigma = np.linspace(0.3, 4, 24)
-    found = ([float(m.perceptual_rmse(error, s)) for s in sigma] for m in (made, right))
-    curves(axes, sigma, *map(np.array, found))
-    label(axes, "sigma")
+def _seen(mean: float) -> Plot:
+    """White noise about a mean, and a light edge, over the width of the blur."""
+
+    def draw(axes: Axes, made: ModuleType, right: ModuleType) -> None:
+        error = np.random.default_rng(7).normal(size=(12, 16)) + mean
+        error[:, 0] += 1.5
+        sigma = np.linspace(0.3, 4, 24)
+        found = ([float(m.perceptual_rmse(error, s)) for s in sigma] for m in (made, right))
+        curves(axes, sigma, *map(np.array, found))
+        axes.set_ylim(bottom=0)
+        label(axes, "sigma")
+
+    return draw
 
 
 LOOKS = {
@@ -139,5 +144,12 @@ LOOKS = {
     ),
     "dithered_points": (Look("Two points, moved for six pixels", plot(_moved)),),
     "radial_spectrum": (Look("The spectrum of noise and a wave", plot(_spectrum, curve=True)),),
-    "perceptual_rmse": (Look("An error over the width of the blur", plot(_seen, curve=True)),),
+    "perceptual_rmse": (
+        Look("An error over the width of the blur", plot(_seen(0), curve=True)),
+        Look(
+            "An error that is nearly even, over the width of the blur",
+            plot(_seen(3), curve=True),
+            ("seen_dark_edges",),
+        ),
+    ),
 }

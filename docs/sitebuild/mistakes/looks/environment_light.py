@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from sitebuild.mistakes.look import Look
-from sitebuild.mistakes.plots import curves, dots, label, plot, square, view
+from sitebuild.mistakes.plots import curves, dots, label, plot, square, steps, view
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -29,21 +29,26 @@ def _weighed(axes: Axes, made: ModuleType, right: ModuleType) -> None:
 def _cumulated(axes: Axes, made: ModuleType, right: ModuleType) -> None:
     with np.errstate(all="ignore"):
         found = [np.concatenate([np.ravel(x) for x in m.cumulate(WEIGHTS)]) for m in (made, right)]
-    curves(axes, np.arange(found[1].size), *found, drawstyle="steps-mid")
+    steps(axes, *found)
     label(axes, "rows, and then the texels of each")
 
 
-def _on_the_map(axes: Axes, made: ModuleType, right: ModuleType) -> None:
-    rows, columns = right.cumulate(WEIGHTS)
-    u = np.random.default_rng(2).random((2, 900))
-    u[0, :40] = 0.5
-    x, y, z = made.sample_direction(rows, columns, u)
-    longitude, latitude = np.arctan2(x, -z) / np.pi, np.arcsin(np.clip(y, -1, 1)) / np.pi
-    for row, column in np.ndindex(WEIGHTS.shape):
-        left, top = column / 2 - 1, 0.5 - row / 4
-        square(axes, left, top - 0.25, left + 0.5, top)
-    dots(axes, np.stack((longitude, latitude)), size=2)
-    view(axes, (-1.05, 1.05), (-0.55, 0.55))
+def _on_the_map(weights: Array, first: float) -> Any:
+    """Directions by random numbers; the first number of some is given."""
+
+    def draw(axes: Axes, made: ModuleType, right: ModuleType) -> None:
+        rows, columns = right.cumulate(weights)
+        u = np.random.default_rng(2).random((2, 900))
+        u[0, :40] = first
+        x, y, z = made.sample_direction(rows, columns, u)
+        longitude, latitude = np.arctan2(x, -z) / np.pi, np.arcsin(np.clip(y, -1, 1)) / np.pi
+        for row, column in np.ndindex(weights.shape):
+            left, top = column / 2 - 1, 0.5 - row / 4
+            square(axes, left, top - 0.25, left + 0.5, top)
+        dots(axes, np.stack((longitude, latitude)), size=2)
+        view(axes, (-1.05, 1.05), (-0.55, 0.55))
+
+    return draw
 
 
 def _densities(axes: Axes, made: ModuleType, right: ModuleType) -> None:
@@ -61,7 +66,7 @@ def _shared(axes: Axes, made: ModuleType, right: ModuleType) -> None:
         own = np.array(probability, float)
         np.add.at(own, np.clip(alias, 0, 5), 1 - np.asarray(probability))
         found.append(own / 6)
-    curves(axes, np.arange(6), *found, drawstyle="steps-mid")
+    steps(axes, *found)
     label(axes, "outcome")
 
 
@@ -82,7 +87,12 @@ LOOKS = {
     ),
     "cumulate": (Look("Sums of four rows of four texels", plot(_cumulated, curve=True)),),
     "sample_direction": (
-        Look("The map of the sky, and directions drawn from it", plot(_on_the_map)),
+        Look("The map of the sky, and directions drawn from it", plot(_on_the_map(WEIGHTS, 0.5))),
+        Look(
+            "Directions drawn from a sky whose upper row is black; some numbers are 0",
+            plot(_on_the_map(np.roll(WEIGHTS, 2, axis=0), 0)),
+            ("direction_black_texel",),
+        ),
     ),
     "density": (Look("Densities along a spiral from pole to pole", plot(_densities, curve=True)),),
     "alias_table": (Look("What each of six outcomes gets", plot(_shared, curve=True)),),

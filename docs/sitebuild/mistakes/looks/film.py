@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from sitebuild.mistakes.look import Look
-from sitebuild.mistakes.plots import curves, label, plot
+from sitebuild.mistakes.plots import curves, label, plot, steps
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -22,11 +22,14 @@ REC2020 = np.array([(0.708, 0.292), (0.170, 0.797), (0.131, 0.046), (0.3127, 0.3
 SRGB = np.array([(0.64, 0.33), (0.30, 0.60), (0.15, 0.06), (0.3127, 0.3290)]).T
 
 
-def _bars(axes: Axes, made: Array, right: Array) -> None:
-    """What comes of each colour's channels, as steps, over what should."""
-    x = np.arange(right.size)
-    curves(axes, x, np.ravel(made), np.ravel(right), drawstyle="steps-mid")
-    label(axes, "red, green, blue, white, bright")
+NAMES = ("red", "green", "blue", "white", "bright")
+
+
+def _of_colors(axes: Axes, made: Array, right: Array) -> None:
+    """What comes of each colour, one value or three, as steps."""
+    steps(axes, np.ravel(made), np.ravel(right))
+    each = right.size / len(NAMES)
+    axes.set_xticks((np.arange(len(NAMES)) + 0.5) * each - 0.5, NAMES)
 
 
 def _exposed(axes: Axes, made: ModuleType, right: ModuleType) -> None:
@@ -38,24 +41,33 @@ def _exposed(axes: Axes, made: ModuleType, right: ModuleType) -> None:
 
 
 def _luminances(axes: Axes, made: ModuleType, right: ModuleType) -> None:
-    _bars(axes, made.luminance(COLORS), right.luminance(COLORS))
+    _of_colors(axes, made.luminance(COLORS), right.luminance(COLORS))
 
 
 def _converted(axes: Axes, made: ModuleType, right: ModuleType) -> None:
     found = (m.convert_gamut(COLORS, REC2020, SRGB).T for m in (made, right))
-    _bars(axes, *found)
+    _of_colors(axes, *found)
+    label(axes, "red, green and blue of each")
 
 
-def _picture(black: float) -> Array:
-    """A wedge of five powers of ten in orange light; the first part of its pixels is black."""
+def _wedge(black: float = 0) -> Array:
+    """Five powers of ten; the first part of its pixels is black."""
     y = 10.0 ** np.linspace(-3, 2, 200)
     y[: int(200 * black)] = 0
-    return np.array([[1.3], [1.0], [0.5]]) * y
+    return y
 
 
-def _toned(black: float, row: int, burn: float, saturation: float) -> Any:
+def _dim() -> Array:
+    """Two powers of ten, and more dark pixels than bright ones: no mean of any kind is in the middle."""
+    y: Array = 10.0 ** (2 * np.linspace(0, 1, 200) ** 2)
+    return y
+
+
+def _toned(luminances: Array, row: int, burn: float, saturation: float) -> Any:
+    """A picture in orange light."""
+
     def draw(axes: Axes, made: ModuleType, right: ModuleType) -> None:
-        picture = _picture(black)
+        picture = np.array([[1.3], [1.0], [0.5]]) * luminances
         with np.errstate(all="ignore"):
             found = [
                 np.asarray(m.photographic(picture, 0.4, burn, saturation))[row]
@@ -93,14 +105,33 @@ def _codes(first: float, last: float, row: int = 0) -> Any:
     return draw
 
 
+def _whites(axes: Axes, made: ModuleType, right: ModuleType) -> None:
+    ramp = np.tile(np.minimum(np.linspace(0, 1.5, 60), 1), (3, 1))
+    u = np.full_like(ramp, 1 - 1e-7)
+    found = (np.asarray(m.quantize(ramp, u), float)[0] for m in (made, right))
+    steps(axes, *found)
+    label(axes, "pixels, from black to white")
+
+
 LOOKS = {
     "expose": (Look("A radiance of 0.6 over stops", plot(_exposed, curve=True)),),
     "luminance": (Look("Luminances of five colours", plot(_luminances, curve=True)),),
     "photographic": (
-        Look("Red of a wedge of five powers of ten", plot(_toned(0, 0, 5, 0.6), curve=True)),
+        Look("Red of a wedge of five powers of ten", plot(_toned(_wedge(), 0, 5, 0.6), curve=True)),
+        Look(
+            "Red of more dark pixels than bright ones; a quarter may burn out",
+            plot(_toned(_dim(), 0, 25, 0.6), curve=True),
+            (
+                "tone_median",
+                "tone_simple",
+                "tone_white_unscaled",
+                "tone_burn_ignored",
+                "tone_burn_fraction",
+            ),
+        ),
         Look(
             "Green of a wedge, a third of it black",
-            plot(_toned(0.3, 1, 30, 1), curve=True),
+            plot(_toned(_wedge(0.3), 1, 30, 1), curve=True),
             ("tone_black_counted", "tone_no_number", "tone_percentile_of_lit"),
         ),
     ),
@@ -109,13 +140,23 @@ LOOKS = {
         Look(
             "The curve next to black",
             plot(_encoded(0, 0.04), curve=True),
-            ("srgb_gamma", "srgb_knee", "srgb_line_forgotten"),
+            ("srgb_gamma", "srgb_knee"),
+        ),
+        Look(
+            "The line next to black",
+            plot(_encoded(0, 0.006), curve=True),
+            ("srgb_line_forgotten",),
         ),
     ),
     "convert_gamut": (Look("Channels of five colours", plot(_converted, curve=True)),),
     "quantize": (
         Look("Codes of a ramp", plot(_codes(3, 7), curve=True)),
         Look("Green codes of a ramp", plot(_codes(3, 7, 1), curve=True), ("codes_one_u",)),
-        Look("Codes up to white", plot(_codes(252, 255), curve=True), ("codes_256", "codes_wrap")),
+        Look("Codes up to white", plot(_codes(252, 255), curve=True), ("codes_256",)),
+        Look(
+            "Codes up to white where u is nearly 1; a third of the pixels is white",
+            plot(_whites, curve=True),
+            ("codes_wrap",),
+        ),
     ),
 }

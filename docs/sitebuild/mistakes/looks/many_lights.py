@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from sitebuild.mistakes.look import Look
-from sitebuild.mistakes.plots import INK, LINE, RIGHT, curves, label, plot, square, view
+from sitebuild.mistakes.plots import INK, LINE, RIGHT, curves, label, plot, square, steps, view
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -83,14 +83,18 @@ def _fan(axes: Axes, axis: Array, angle: float, size: float, color: str, width: 
 
 
 def _boxes(axes: Axes, made: ModuleType, _right: ModuleType) -> None:
+    """Of the street's lamps in a square, so that no axis is the longest everywhere."""
     own = street()
+    place = np.arange(12) * 5 % 12
+    x, z = place % 4 - 1.5, place // 4 - 1.0
+    middle = np.stack((2 * x + 0.5 * z, 0 * x + 1, 2 * z - 0.5 * x))
+    own |= {"lo": middle - 0.05, "hi": middle + 0.05}
     lo, hi = made.light_tree(*own.values())[:2]
     for k in range(1, 11):
         style = {"color": INK, "linewidth": 0.9}
         square(axes, lo[0, k] - 0.1, lo[2, k] - 0.1, hi[0, k] + 0.1, hi[2, k] + 0.1, **style)
-    middle = (own["lo"] + own["hi"]) / 2
     axes.scatter(middle[0], middle[2], s=14, c="#333333", linewidths=0, zorder=3)
-    view(axes, (-6.2, 6.2), (-2.6, 2.6))
+    view(axes, (-3.8, 3.8), (-3.2, 3.2))
 
 
 def _nodes(part: int) -> Any:
@@ -100,7 +104,7 @@ def _nodes(part: int) -> Any:
         own["axis"] = np.stack((np.sin(np.arange(12.0)), -np.cos(np.arange(12.0)), np.zeros(12)))
         found = [np.asarray(m.light_tree(*own.values())[part], float) for m in (made, right)]
         found = [values[0] if values.ndim == 2 else values for values in found]
-        curves(axes, np.arange(found[1].size), *found, drawstyle="steps-mid")
+        steps(axes, *found)
         label(axes, "leaf, from left to right" if part == 5 else "node, from the root")
 
     return draw
@@ -137,10 +141,7 @@ def _walk(result: int) -> Any:
             lamp, probability = module.tree_choice(tree, p, n, u)
             seen = place[np.clip(lamp, 0, 11)] if result == 0 else probability
             axes.scatter(p[0], seen, s=size, c=color, linewidths=0)
-        label(
-            axes,
-            "place of the point; upwards: of the lamp" if result == 0 else "place of the point",
-        )
+        label(axes, "place of the point")
 
     return draw
 
@@ -199,7 +200,7 @@ LOOKS = {
         ),
     ),
     "tree_choice": (
-        Look("Lamps that points along a street choose", plot(_walk(0), curve=True)),
+        Look("Places of the lamps that points along a street choose", plot(_walk(0), curve=True)),
         Look(
             "Probability of the lamp that is chosen",
             plot(_walk(1), curve=True),

@@ -17,6 +17,7 @@ Array = np.ndarray[Any, Any]
 
 ANGLE = np.linspace(-1.5, 1.9, 300)
 ALPHA = 0.4
+SHARP = 0.001
 GOLD = np.array([0.18, 0.42, 1.37]), np.array([3.42, 2.35, 1.77])
 FLAT = np.array([[0.95], [0.0], [np.sqrt(1 - 0.95**2)]])
 
@@ -31,10 +32,13 @@ def _distribution(axes: Axes, made: ModuleType, right: ModuleType) -> None:
 
 
 def _sharp(axes: Axes, made: ModuleType, right: ModuleType) -> None:
-    angle = np.linspace(0, 0.008, 300)
-    cos = np.cos(angle).astype(np.float32)
-    curves(axes, 1000 * angle, *(m.ggx(cos, 0.002) for m in (made, right)))
-    label(axes, "angle of the microfacet, thousandths")
+    """At all cosines next to 1 that single precision has."""
+    cos = (1 - np.arange(60) * 2.0**-24).astype(np.float32)
+    exact = right.ggx(cos.astype(np.float64), SHARP)
+    found = (m.ggx(cos, SHARP) / exact for m in (made, right))
+    curves(axes, 1000 * np.arccos(cos.astype(np.float64)), *found)
+    axes.set_ylim(0.97, 1.01)
+    label(axes, "angle, thousandths of a radian")
 
 
 def _masking(axes: Axes, made: ModuleType, right: ModuleType) -> None:
@@ -68,22 +72,25 @@ def _reflectance(axes: Axes, made: ModuleType, right: ModuleType) -> None:
     angle = np.linspace(0, np.pi / 2, 200)
     found = [m.fresnel_complex(np.cos(angle), *GOLD)[2] for m in (made, right)]
     curves(axes, np.degrees(angle), *found)
-    label(axes, "angle of the light, degrees; blue light, gold")
-
-
-def _value(axes: Axes, made: ModuleType, right: ModuleType) -> None:
-    angle = np.linspace(-1.9, 1.9, 300)
-    wo = np.repeat(_in_plane(np.array([0.9])), angle.size, axis=1)
-    found = [np.asarray(m.brdf(wo, _in_plane(angle), ALPHA, *GOLD))[0] for m in (made, right)]
-    curves(axes, np.degrees(angle), *found)
     label(axes, "angle of the light, degrees")
+
+
+def _value(view: float, channel: int) -> Any:
+    def draw(axes: Axes, made: ModuleType, right: ModuleType) -> None:
+        angle = np.linspace(-1.9, 1.9, 300)
+        wo = np.repeat(_in_plane(np.array([view])), angle.size, axis=1)
+        found = (m.brdf(wo, _in_plane(angle), ALPHA, *GOLD)[channel] for m in (made, right))
+        curves(axes, np.degrees(angle), *found)
+        label(axes, "angle of the light, degrees")
+
+    return draw
 
 
 LOOKS = {
     "ggx": (
         Look("D over the angle", plot(_distribution, curve=True)),
         Look(
-            "D of alpha 0.002, in single precision",
+            "D of alpha 0.001 in single precision, over that in double precision",
             plot(_sharp, curve=True),
             ("ggx_loses_digits",),
         ),
@@ -93,5 +100,12 @@ LOOKS = {
     "sample_visible_normal": (Look("Normals from above; the large dot is the view", plot(_drawn)),),
     "visible_normal_pdf": (Look("Densities in the plane of the view", plot(_density, curve=True)),),
     "fresnel_complex": (Look("What gold mirrors of blue light", plot(_reflectance, curve=True)),),
-    "brdf": (Look("Values in the plane of the view", plot(_value, curve=True)),),
+    "brdf": (
+        Look("Values in the plane of the view", plot(_value(0.9, 0), curve=True)),
+        Look(
+            "Values for blue light in the plane of a flat view",
+            plot(_value(1.2, 2), curve=True),
+            ("brdf_fresnel_of_surface",),
+        ),
+    ),
 }

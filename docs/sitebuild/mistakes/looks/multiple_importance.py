@@ -50,7 +50,8 @@ def _far_away(axes: Axes, made: ModuleType, right: ModuleType) -> None:
     distance = (10 ** np.linspace(1, 4, 300)).astype(np.float32)
     found = [m.cone_density(1.0, distance) / distance**2 for m in (made, right)]
     curves(axes, np.log10(distance), *(np.minimum(x, 1) for x in found))
-    label(axes, "logarithm of the distance; density over its square")
+    axes.set_ylim(0, 1.05)
+    label(axes, "logarithm of the distance")
 
 
 def _weighed(exponent: float, row: int, scale: float = 1.0, kind: Any = np.float64) -> Any:
@@ -65,7 +66,7 @@ def _weighed(exponent: float, row: int, scale: float = 1.0, kind: Any = np.float
 
 def _nobody(axes: Axes, made: ModuleType, right: ModuleType) -> None:
     densities = np.where(np.abs(X) < 0.3, 0, DENSITIES)
-    curves(axes, X, *(m.heuristic_weights(COUNTS, densities, 2.0)[1] for m in (made, right)))
+    curves(axes, X, *(m.heuristic_weights(COUNTS, densities, 2.0)[2] for m in (made, right)))
     label(axes, "direction")
 
 
@@ -117,7 +118,7 @@ def _one_each(axes: Axes, made: ModuleType, right: ModuleType) -> None:
     order = np.argsort(x)
     f = np.stack((x**2,) * 3)[:, order]
     curves(axes, x[order], *(m.one_sample(odds, f, densities[:, order])[0] for m in (made, right)))
-    label(axes, "x; estimates of the integral of its square")
+    label(axes, "x")
 
 
 LOOKS = {
@@ -125,7 +126,9 @@ LOOKS = {
     "cone_density": (
         Look("A ball, from its centre outwards", plot(_away, curve=True)),
         Look(
-            "A ball far away, in single precision", plot(_far_away, curve=True), ("cone_cancelled",)
+            "A ball far away, in single precision: density over the square of the distance",
+            plot(_far_away, curve=True),
+            ("cone_cancelled",),
         ),
     ),
     "heuristic_weights": (
@@ -138,7 +141,12 @@ LOOKS = {
         Look(
             "The weight of one of three strategies of small densities",
             plot(_weighed(2.0, 0, 1e-12, np.float32), curve=True),
-            ("weights_overflow", "weights_enlarged"),
+            ("weights_enlarged",),
+        ),
+        Look(
+            "The weight of one of three strategies of densities near 1e20, in single precision",
+            plot(_weighed(2.0, 0, 1e20, np.float32), curve=True),
+            ("weights_overflow",),
         ),
         Look(
             "The weight where nobody draws the middle",
@@ -155,5 +163,5 @@ LOOKS = {
         ),
     ),
     "multi_sample": (Look("Integrals by three strategies", plot(_summed, curve=True)),),
-    "one_sample": (Look("A hundred estimates", plot(_one_each, curve=True)),),
+    "one_sample": (Look("A hundred estimates of the integral of the square of x", plot(_one_each, curve=True)),),
 }

@@ -169,9 +169,9 @@ def _limits(axes: Axes, made: ModuleType, _: ModuleType) -> None:
         except ArithmeticError as error:
             value = type(error).__name__
         axes.text(
-            0.04, 0.8 - 0.3 * row, f"object at {name}:", fontsize=8.5, va="center", color="#333"
+            0.02, 0.8 - 0.3 * row, f"object at {name}:", fontsize=8.5, va="center", color="#333"
         )
-        axes.text(0.46, 0.8 - 0.3 * row, value, fontsize=8.5, va="center", color=INK, weight="bold")
+        axes.text(0.48, 0.8 - 0.3 * row, value, fontsize=8.5, va="center", color=INK, weight="bold")
     axes.set_xlim(0, 1)
     axes.set_ylim(0, 1)
 

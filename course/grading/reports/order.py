@@ -1,0 +1,15 @@
+"""Modules in the order in which they are taught: the warm-up, then the order of the course."""
+
+from course.modules import COURSE
+
+WARM_UP = "sampling"
+"""What the site, too, shows first."""
+
+_PLACES = {
+    name: place for place, name in enumerate(sorted(COURSE, key=lambda name: name != WARM_UP))
+}
+
+
+def place(module: str) -> int:
+    """Of a module among all; what is none of them comes last."""
+    return _PLACES.get(module, len(_PLACES))
