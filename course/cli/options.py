@@ -102,6 +102,13 @@ def _instead(ctx: click.Context, name: str) -> str:
     return f"; the modules are {', '.join(COURSE)}"
 
 
+def module_from(ctx: click.Context, _option: click.Parameter, name: str | None) -> str | None:
+    """Return the name of one module, or None where none is given."""
+    if name is not None and name not in COURSE:
+        raise click.BadParameter(f"{name!r}{_instead(ctx, name)}")
+    return name
+
+
 PATH = click.Path(path_type=Path)
 FOLDER = click.Path(path_type=Path, exists=True, file_okay=False)
 OUT_FILE = click.Path(path_type=Path, dir_okay=False)

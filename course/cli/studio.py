@@ -11,14 +11,13 @@ from course.cli.metu import check_not_metu
 from course.cli.serving import port_option, serve
 from course.effects import PROJECT
 from course.errors import CourseError
-from course.modules import COURSE
 
 
 @click.command()
 @click.argument("scene", metavar="[SCENE]", type=options.PATH, required=False)
 @click.option(
     "--module",
-    type=click.Choice(tuple(COURSE)),
+    callback=options.module_from,
     metavar="MODULE",
     help="Whose functions come first.  [default: those that the scene calls]",
 )

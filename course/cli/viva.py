@@ -6,7 +6,7 @@ import click
 
 from course.atomic import write_text
 from course.cli.classes import trust_option
-from course.cli.options import FOLDER, OUT_FILE, modules_from
+from course.cli.options import OUT_FILE, modules_from
 from course.cli.outputs import check_outputs
 from course.cli.tables import count
 from course.effects import PROJECT
@@ -16,7 +16,7 @@ QUESTIONS = 3
 
 
 @click.command()
-@click.argument("folder", type=FOLDER)
+@click.argument("submission", type=click.Path(path_type=Path, exists=True))
 @click.option("--html", type=OUT_FILE, help="Write a page with the pictures before and after.")
 @click.option(
     "--modules",
@@ -28,16 +28,16 @@ QUESTIONS = 3
 @click.option("--seed", type=click.IntRange(0), default=0, help="Choose other questions.")
 @trust_option
 def viva(
-    folder: Path, html: Path | None, modules: tuple[str, ...], seed: int, trusted: bool
+    submission: Path, html: Path | None, modules: tuple[str, ...], seed: int, trusted: bool
 ) -> None:
-    """Ask three questions about the code in FOLDER, one student's modules.
+    """Ask three questions about the code in SUBMISSION, one student's folder, archive or file.
 
     Each changes one place in a function that is right, makes the change, and says what comes of it. The answers are
     for the instructor. The student's code runs as in `course grade`.
     """
+    from course.grading.classes.submitted import read_one
     from course.grading.references import references
     from course.grading.reports.formats import clean
-    from course.grading.submissions import find_modules, read_found
     from course.grading.viva.asking import viva as questions
     from course.grading.worker.sandbox import protected, sandbox
 
@@ -45,10 +45,11 @@ def viva(
     if not solutions.is_dir():
         raise CourseError("questions need the solutions to compare with, and this copy has none")
     check_outputs(files=[("--html", html)])
-    sources = read_found(folder, find_modules(folder, modules))
-    if not sources:
-        raise CourseError(f"{folder}: holds none of {', '.join(f'{one}.py' for one in modules)}")
-    shut_in = sandbox(secrets=(folder,)) if trusted else protected((folder,))
+    found = read_one(submission.stem, submission, modules)
+    if found.trouble:
+        raise CourseError(f"{submission}: {found.trouble}")
+    sources = found.sources
+    shut_in = sandbox(secrets=(submission,)) if trusted else protected((submission,))
     asked = []
     for one in questions(
         sources,
@@ -66,7 +67,7 @@ def viva(
             click.echo(f"   {clean(said)}")
     if not asked:
         raise CourseError(
-            f"{folder}: no function is right, written by the student and changed to any effect; "
+            f"{submission}: no function is right, written by the student and changed to any effect; "
             "`course check` says what is wrong"
         )
     if len(asked) < QUESTIONS:
@@ -76,5 +77,5 @@ def viva(
         from course.grading.reports.viva import viva_page
 
         unprotected = Report("", (), protections=shut_in.protections).unprotected
-        write_text(html, viva_page(folder.resolve().name, asked, unprotected))
+        write_text(html, viva_page(submission.resolve().stem, asked, unprotected))
         click.echo(f"\n{html} written: with answers, not for the student")

@@ -269,7 +269,8 @@ class Studio:
         samples = self._samples()
         reference = min(REFERENCE * samples, max(MOST, samples))
         if self.mine is None:
-            return [(self.course, SOON), (self.course, max(samples, GOOD))]
+            asked = ("sampler", "samples") in self.values
+            return [(self.course, SOON), (self.course, samples if asked else max(samples, GOOD))]
         return [
             (self.mine, min(SOON, samples)),
             (self.course, min(GOOD, reference)),

@@ -512,7 +512,9 @@ def _pip(words: list[str]) -> str:
     match words:
         case ["install", "-e", "."]:
             pass
-        case ["install", "-e", what] if found := re.fullmatch(r"\.\[(\w+)\]", what):
+        case ["install", "-e", what] | ["install", what] if found := re.fullmatch(
+            r"(?:\.|penumbra-course)\[(\w+)\]", what
+        ):
             if found[1] not in extras():
                 raise FollowingError(f"pyproject.toml has no extra {found[1]}")
         case _:

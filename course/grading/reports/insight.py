@@ -17,7 +17,7 @@ from course.grading.checks.running import run_checks
 from course.grading.grading import grade
 from course.grading.known import known
 from course.grading.references import reference, references
-from course.grading.report import USUAL_SEED, FunctionResults, Report, grouped
+from course.grading.report import USUAL_SEED, FunctionResults, Report, ending, grouped
 from course.grading.reports.order import place
 from course.grading.reports.page import render
 
@@ -147,7 +147,7 @@ def without_name(graded: Sequence[Report]) -> list[Alike]:
             continue
         checks = tuple(result.check for result in function.others)
         first = (function.told or function.others)[0]
-        said = f"{first.title}: expected {first.expected or 'a value'}, found {first.found}"
+        said = f"{first.title}: expected {first.expected or 'a value'}, found {first.found or ending(first)}"
         groups[function.module, function.name, checks].append((student, said))
     found = [
         Alike(module, name, checks, tuple(student for student, _ in members), members[0][1])

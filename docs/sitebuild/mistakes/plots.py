@@ -60,7 +60,8 @@ def _plotted(draw: Plot, curve: bool, made: ModuleType, right: ModuleType) -> Im
         axes.tick_params(labelsize=SMALL, length=2, pad=1.5)
         axes.locator_params(nbins=4)
         axes.ticklabel_format(scilimits=(-3, 4), useMathText=True, useOffset=False)
-        axes.yaxis.get_offset_text().set_size(SMALL)
+        for axis in (axes.xaxis, axes.yaxis):
+            axis.get_offset_text().set_size(SMALL)
         axes.spines[["top", "right"]].set_visible(False)
     else:
         axes.set_axis_off()
@@ -167,7 +168,7 @@ def _mark_lost(axes: Axes, x: Array, made: Array, right: Array) -> None:
             0.5,
             "no number",
             transform=axes.get_xaxis_transform(),
-            fontsize=8,
+            fontsize=SMALL,
             ha="center",
             va="center",
             color=INK,

@@ -12,7 +12,8 @@ import pytest
 from PIL import Image
 
 from course.grading.checks.check import Figure
-from course.grading.reports.drawing import BROKEN, Drawing, draw, with_own_ids
+from course.grading.checks.result import Result, Status
+from course.grading.reports.drawing import BROKEN, Drawing, draw, is_noisy, with_own_ids
 
 
 def pictures(**arrays: Any) -> Drawing:
@@ -94,6 +95,42 @@ def test_without_any_noise_there_is_no_such_map_but_a_sentence() -> None:
     assert "no noise" in " ".join(drawing.notes)
 
 
+@pytest.mark.parametrize(("deviation", "noisy"), [(0.05, False), (1e-5, True)])
+def test_what_is_no_noise_or_next_to_none_measures_nothing(deviation: float, noisy: bool) -> None:
+    expected = some_picture()
+    yours = expected + np.random.default_rng(1).normal(0, deviation, expected.shape)
+    yours[:, 10:14, 10:14] += 0.1
+    figure = Figure("pictures", "", {"yours": yours, "expected": expected})
+    drawing = draw(figure, noisy=noisy)
+    titles = [panel.title for panel in drawing.panels]
+    assert "Signed difference" in titles
+    assert "Difference over the noise" not in titles
+    assert bool(drawing.notes) == noisy
+
+
+def test_functions_that_draw_or_get_random_numbers_make_noise() -> None:
+    paths = {"soft_shadows.light_grid": False, "soft_shadows.point_on_sphere": True}
+    paths |= {"sampling.ball_by_rejection": True, "textures.texture_lookup": False}
+    for path, noisy in paths.items():
+        module, function = path.split(".")
+        result = Result(module, function, "", "", "picture", Status.FAILED, 0, 1)
+        assert is_noisy(result) == noisy
+
+
+def test_a_difference_that_nobody_sees_is_pale_and_told() -> None:
+    expected = some_picture()
+    yours = expected.copy()
+    yours[:, 3, 4] += 1e-5
+    drawing = pictures(yours=yours, expected=expected)
+    (panel,) = [panel for panel in drawing.panels if panel.title == "Signed difference"]
+    assert "Colours end at ±0.005; the largest difference is 1e-05." in panel.caption
+    assert (np.abs(codes(drawing, "Signed difference").astype(int) - 247) < 3).all()
+    # Of a dark picture more is seen.
+    dark = pictures(yours=yours * 1e-3 + 1e-4, expected=expected * 1e-3)
+    (panel,) = [panel for panel in dark.panels if panel.title == "Signed difference"]
+    assert "±0.0001" in panel.caption
+
+
 def test_of_large_pictures_some_pixels_are_drawn_and_that_is_told() -> None:
     drawing = pictures(yours=np.full((3, 360, 480), 0.5))
     assert codes(drawing, "Yours").shape == (180, 240, 3)
@@ -160,9 +197,9 @@ def test_points_stand_beside_the_expected_ones() -> None:
     drawing = draw(
         Figure("points", "", {"yours": rng.random((2, 90)), "expected": rng.random((2, 80))})
     )
-    assert [panel.title for panel in drawing.panels] == ["Yours", "Reference"]
-    assert "90 points" in drawing.panels[0].caption
-    assert "unit square" in drawing.panels[0].caption
+    assert [panel.title for panel in drawing.panels] == ["Reference", "Yours"]
+    assert "90 points" in drawing.panels[1].caption
+    assert "unit square" in drawing.panels[1].caption
     disk = draw(Figure("points", "", {"yours": rng.random((2, 90)) - 0.5}))
     assert "unit disk" in disk.panels[0].caption
 
@@ -180,6 +217,10 @@ def test_points_that_lie_far_off_are_told() -> None:
 def test_a_histogram_says_its_range() -> None:
     drawing = draw(Figure("histogram", "", {"yours": np.linspace(0, 1, 1000) ** 2}))
     assert "1000 values from 0 to 1, mean 0.33" in drawing.panels[0].caption
+    values = {"yours": np.linspace(0, 2, 90), "expected": np.linspace(0, 1, 90)}
+    both = draw(Figure("histogram", "", values)).panels
+    assert [panel.title for panel in both] == ["Reference", "Yours"]
+    assert ["to 1, mean 0.5" in both[0].caption, "to 2, mean 1" in both[1].caption] == [True, True]
 
 
 def test_plots_take_the_colour_of_the_page_and_load_nothing() -> None:

@@ -209,7 +209,7 @@ def test_prairielearn_images_stay_below_its_limit(with_figure: Callable[..., Rep
     report = with_figure(
         "pictures", yours=rng.random((3, 36, 48)), expected=rng.random((3, 36, 48))
     )
-    assert len(prairielearn(report)["images"]) == 6
+    assert len(prairielearn(report)["images"]) == 5
     large = with_figure("pictures", yours=rng.random((3, 250, 250)))
     many = replace(large, results=large.results * 40)
     assert len(json.dumps(prairielearn(many))) < 1_000_000

@@ -57,7 +57,8 @@ def test_mistakes_are_counted_among_those_who_have_written_the_function() -> Non
         report("dan", NOT_WRITTEN),
     ]
     (found,) = misconceptions(graded)
-    assert (found.mistake, found.students, found.tried) == ("crowded-poles", ("ada", "bob"), 3)
+    assert (found.mistake, found.students) == ("crowded-poles", ("ada", "bob"))
+    assert (found.tried, found.untried) == (3, 1)
     assert found.share == pytest.approx(2 / 3)
     assert found.says == "You crowded-poles."
 
@@ -105,6 +106,35 @@ def test_the_page_for_the_lecture_hall_has_no_names(tmp_path: Path) -> None:
     assert re.search(r"<svg|<img", text)
 
 
+def made(path: str) -> Result:
+    """What a student gets who makes the mistake of a known submission, "module.name"."""
+    module, name = path.split(".")
+    (one,) = [one for one in known(module) if one.name == name]
+    return result(f"{module}.{one.function}", one.caught_by, one.mistake)
+
+
+def test_beside_a_mistake_is_what_is_right(tmp_path: Path) -> None:
+    paths = "soft_shadows.sphere_crowded_poles", "soft_shadows.grid_both_edges"
+    paths += "thin_lens.circle_radius", "sampling.disk_rim"
+    graded = [report("ada", *map(made, paths)), report("bob", result("glossy.f", "c", "slip"))]
+    write_lecture_page(graded, tmp_path / "lecture.html")
+    text = (tmp_path / "lecture.html").read_text(encoding="utf-8")
+    modules = re.findall('<h2 id="(.*?)"', text)
+    assert modules == ["sampling", "soft_shadows", "glossy", "thin_lens"]
+    sections = re.findall('<section class="misconception">(.*?)</section>', text, re.DOTALL)
+    shown = {str(re.search("<code>(.*?)</code>", one)[1]): one for one in sections}  # type: ignore[index]
+    for function in ("disk_by_polar", "point_on_sphere", "light_grid"):
+        titles = re.findall("<figcaption><b>(.*?)</b>", shown[function])
+        assert titles[:2] == ["As it should be", "With this mistake"]
+    assert "<img" in shown["light_grid"]
+    assert "Signed difference" in shown["light_grid"]
+    # Nothing is drawn of it, but there are numbers.
+    assert "compare numbers" in shown["circle_of_confusion"]
+    assert "aperture_radius" in shown["circle_of_confusion"]
+    assert "the course has no example" in shown["f"]
+    assert not re.search(r"\b([Yy]ours|[Rr]eference|noise)\b", re.sub("<p class=.says.*", "", text))
+
+
 def test_a_page_of_500_students_is_small_and_leads_to_each(tmp_path: Path) -> None:
     rng = np.random.default_rng(0)
     checks = [f"check {k}" for k in range(6)]
@@ -127,6 +157,10 @@ def test_a_page_of_500_students_is_small_and_leads_to_each(tmp_path: Path) -> No
     for k in range(500):
         assert f'href="./student%20{k}/report.html"' in text
     assert "<h2>Misconceptions</h2>" in text
+    # What is long is folded, so that the page is as long as that of a small class.
+    assert "<details><summary>500 students</summary>" in text
+    shown = re.sub("<details>.*?</details>", "", text, flags=re.DOTALL)
+    assert shown.count("<tr>") < 100
 
 
 def test_long_tables_do_not_bury_what_a_lecturer_looks_for(tmp_path: Path) -> None:

@@ -10,8 +10,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from course.effects import PROJECT
 from course.grading.catalog import module_checks
-from course.grading.checks.result import Result
+from course.grading.checks.result import Result, Status
 from course.grading.checks.running import run_checks
 from course.grading.checks.trusted import TrustedModule
 from course.grading.classes.policy import Mark
@@ -19,6 +20,7 @@ from course.grading.classes.roster import Matched
 from course.grading.references import prepared, reference
 from course.grading.report import FunctionResults, Report, docs_page, reproduce
 from course.grading.reports.classes import Line, write_class_page
+from course.grading.reports.order import WARM_UP
 from course.grading.reports.page import as_page
 from course.modules import COURSE
 
@@ -273,7 +275,11 @@ def test_the_class_at_a_glance(report: Report, tmp_path: Path) -> None:
     ):
         assert text in page.text
     assert page.text.index("93 %") < page.text.index("glossy 50 %")
-    links = {attributes["href"] for tag, attributes in page.tags if tag == "a"}
+    hrefs = {attributes["href"] for tag, attributes in page.tags if tag == "a"}
+    sections = {f"#{attributes['id']}" for _, attributes in page.tags if "id" in attributes}
+    assert {href for href in hrefs if href.startswith("#")} == sections
+    assert {"#students", "#ungraded", "#misconceptions", "#failures", "#similar"} <= sections
+    links = hrefs - sections
     assert links == {
         "./ada/report.html",
         "./bob/report.html",
@@ -287,9 +293,56 @@ def test_the_class_at_a_glance(report: Report, tmp_path: Path) -> None:
 
 def test_the_most_frequent_failure_comes_first(report: Report, tmp_path: Path) -> None:
     late = replace(report, results=(replace(report.results[-1], status=report.results[1].status),))
-    page = class_page([late, report, replace(report, results=report.results[:2])], [], tmp_path)
+    right = replace(report, results=(replace(report.results[1], status=Status.PASSED, mistake=""),))
+    twice = replace(report, results=report.results[:2])
+    page = class_page([late, report, twice, right], [], tmp_path)
     assert page.text.index("lens_rays/focus") < page.text.index("lens_rays/picture")
-    assert "67 %" in page.text
+    assert "2 of 3 67 % thin_lens.lens_rays/focus" in page.text
+
+
+def test_what_was_not_attempted_is_no_failure_and_told_apart(
+    report: Report, tmp_path: Path
+) -> None:
+    failed = report.results[1]
+    not_written = replace(failed, status=Status.NOT_ATTEMPTED, mistake="", says="")
+    results = {"bob": failed, "cyd": not_written, "dan": not_written}
+    reports = [replace(report, student=name, results=(one,)) for name, one in results.items()]
+    text = class_page([report, *reports], [], tmp_path).text
+    mistakes, _, failures = text.rpartition("Failures of each check")
+    for found in (mistakes, failures):
+        assert "2 of 2 100 %" in found
+        assert "not attempted by 2" in found
+    # Nobody has written the one, and the other has broken by itself.
+    assert "jitter_on_plane" not in failures
+    assert "jitter_in_ball" not in failures
+
+
+def test_whoever_opens_the_page_sees_the_students_first(report: Report, tmp_path: Path) -> None:
+    class_page([report] * 30, [], tmp_path)
+    text = (tmp_path / "class.html").read_text(encoding="utf-8")
+    first, *_, last = re.findall("<h2>(.*?)</h2>", text)
+    assert (first, last) == ("Students", "How this was graded")
+    assert text.index("<nav") < text.index("<h2>")
+
+
+def test_points_have_two_decimals_at_most(report: Report, tmp_path: Path) -> None:
+    results = tuple(replace(one, points=one.points / 3, of=one.of / 3) for one in report.results)
+    thirds = replace(report, results=results)
+    assert "0 of 0.83" in read(thirds).text
+    lines = {"ada": Line((), Mark(100 / 3, 200 / 3, 500 / 3))}
+    write_class_page([thirds], [], tmp_path / "class.html", lines, 100.0)
+    for text in (as_page(thirds), (tmp_path / "class.html").read_text(encoding="utf-8")):
+        assert not re.search(r"(?<![\w.])\d+\.\d{3,} (of|points)|of \d+\.\d{3,}", text)
+    assert "33.33 66.67 166.67" in Page(text).text
+
+
+def test_modules_come_in_the_order_in_which_they_are_taught(report: Report) -> None:
+    names = "soft_shadows", "unheard_of", "sampling", "supersampling"
+    results = tuple(replace(report.results[1], module=name) for name in names)
+    found = re.findall("<h2>(.*?)</h2>", as_page(replace(report, results=results)))
+    assert found[:4] == ["sampling", "supersampling", "soft_shadows", "unheard_of"]
+    cards = (PROJECT / "docs" / "sitebuild" / "cards.py").read_text(encoding="utf-8")
+    assert f'WARM_UP = "{WARM_UP}"' in cards
 
 
 def test_a_class_of_hostile_texts(hostile_report: Report, hostile: str, tmp_path: Path) -> None:

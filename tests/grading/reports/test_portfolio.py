@@ -12,6 +12,7 @@ import pytest
 from PIL import Image
 
 from course.effects import PROJECT, Effects
+from course.errors import FunctionError
 from course.grading.progress import Progress
 from course.grading.reports import portfolio as made
 from course.grading.reports.drawing import Panel, draw_curve
@@ -76,6 +77,26 @@ def test_a_function_that_fails_is_told_and_the_others_go_on(folder: Path) -> Non
     assert "not a &lt;lamp&gt;" in page
     assert page.count("data:image/webp") == 1
     assert "None of one's own functions is called here" in page
+
+
+def test_which_line_asks_for_a_function_is_told_once(
+    monkeypatch: pytest.MonkeyPatch, folder: Path
+) -> None:
+    def rendered(*_: object) -> Shown:
+        asked = FunctionError("it failed", "film.expose").asked_by("film.yaml:16", ("film", "tone"))
+        raise asked.asked_by("film.yaml:16", ("film", "tone"))
+
+    monkeypatch.setattr(made, "_rendered", rendered)
+    page = portfolio(FOUND[:1], Effects(folder, filled=True), folder, seconds=4)
+    assert page.count("film.yaml:16: film.tone asks for it") == 1
+    assert "1 of 1 function is right" in page
+
+
+def test_the_warm_up_comes_first(monkeypatch: pytest.MonkeyPatch, folder: Path) -> None:
+    monkeypatch.setattr(made, "_rendered", lambda module, *_: replace(shown(""), module=module))
+    found = [FOUND[0], [progress("sampling", "disk_by_polar", "right")]]
+    page = portfolio(found, Effects(folder, filled=True), folder, seconds=4)
+    assert page.index('id="sampling"') < page.index('id="soft_shadows"')
 
 
 def test_addresses_of_large_pictures_are_printed_whole() -> None:

@@ -114,7 +114,8 @@ def _seen(mean: float) -> Plot:
         sigma = np.linspace(0.3, 4, 24)
         found = ([float(m.perceptual_rmse(error, s)) for s in sigma] for m in (made, right))
         curves(axes, sigma, *map(np.array, found))
-        axes.set_ylim(bottom=0)
+        if mean:
+            axes.set_ylim(0, 1.2 * mean)
         label(axes, "sigma")
 
     return draw

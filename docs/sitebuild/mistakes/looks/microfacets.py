@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from sitebuild.mistakes.look import Look
-from sitebuild.mistakes.plots import circle, curves, dots, label, plot, view
+from sitebuild.mistakes.plots import LINE, circle, curves, dots, label, plot, view
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -61,6 +61,17 @@ def _drawn(axes: Axes, made: ModuleType, _: ModuleType) -> None:
     view(axes, (-1.05, 1.05), (-1.05, 1.05))
 
 
+def _drawn_in_the_middle(axes: Axes, made: ModuleType, _: ModuleType) -> None:
+    """Normals of a small alpha, seen from the right along the surface; a cross is at the middle."""
+    u = np.random.default_rng(4).random((2, 900))
+    wo = np.repeat(_in_plane(np.array([1.5])), 900, axis=1)
+    found = np.asarray(made.sample_visible_normal(wo, 0.05, u))
+    axes.axhline(0, color=LINE, linewidth=1)
+    axes.axvline(0, color=LINE, linewidth=1)
+    dots(axes, found[:2], size=2)
+    view(axes, (-0.2, 0.2), (-0.2, 0.2))
+
+
 def _density(axes: Axes, made: ModuleType, right: ModuleType) -> None:
     wo = np.repeat(FLAT, ANGLE.size, axis=1)
     found = (m.visible_normal_pdf(wo, _in_plane(ANGLE), ALPHA) for m in (made, right))
@@ -97,7 +108,14 @@ LOOKS = {
     ),
     "smith_g1": (Look("What is seen over the angle of the view", plot(_masking, curve=True)),),
     "smith_g2": (Look("What both ends see, the view being flat", plot(_both, curve=True)),),
-    "sample_visible_normal": (Look("Normals from above; the large dot is the view", plot(_drawn)),),
+    "sample_visible_normal": (
+        Look("Normals from above; the large dot is the view", plot(_drawn)),
+        Look(
+            "Normals of alpha 0.05 around the cross, from above; the view is flat, from the right",
+            plot(_drawn_in_the_middle),
+            ("sample_view_not_stretched",),
+        ),
+    ),
     "visible_normal_pdf": (Look("Densities in the plane of the view", plot(_density, curve=True)),),
     "fresnel_complex": (Look("What gold mirrors of blue light", plot(_reflectance, curve=True)),),
     "brdf": (
