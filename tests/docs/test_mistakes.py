@@ -3,6 +3,7 @@
 import re
 from html.parser import HTMLParser
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -19,6 +20,7 @@ from sitebuild.mistakes.bullets import bullets, plain
 from sitebuild.mistakes.catalog import look, look_at, looks
 from sitebuild.mistakes.figures import Figure, Studio, draw
 from sitebuild.mistakes.look import SIZE
+from sitebuild.mistakes.plots import is_plot
 from sitebuild.mistakes.submissions import submission
 from sitebuild.place import Place
 
@@ -187,6 +189,32 @@ def test_what_is_wrong_looks_wrong(name: str, wrong: str) -> None:
     # The same pixels each time: a difference is the mistake's.
     assert np.array_equal(pixels(right), pixels(right))
     assert np.abs(pixels(right) - pixels(Figure(name, wrong, seen))).mean() > 1
+
+
+@pytest.mark.parametrize(
+    "name", [name for name in ASKED if any(is_plot(one.draw) for one in looks(name))]
+)
+def test_nothing_that_is_written_in_a_plot_is_cut_off(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    plotting = pytest.importorskip(
+        "matplotlib.figure", reason='plots need: pip install -e ".[bench]"'
+    )
+    drawn: list[Any] = []
+
+    class Kept(plotting.Figure):  # type: ignore[misc, name-defined]
+        def __init__(self, **given: Any) -> None:
+            super().__init__(**given)
+            drawn.append(self)
+
+    monkeypatch.setattr(plotting, "Figure", Kept)
+    for seen, one in enumerate(looks(name)):
+        if is_plot(one.draw):
+            draw(Figure(name, "", seen))
+            whole, written = drawn[-1].bbox_inches, drawn[-1].get_tightbbox()
+            assert whole.x0 <= written.x0 and written.x1 <= whole.x1, one.shows
+            assert whole.y0 <= written.y0 and written.y1 <= whole.y1, one.shows
+    assert drawn
 
 
 def test_a_figure_is_drawn_once_and_anew_when_its_sources_change(

@@ -11,7 +11,7 @@ from course.grading.checks.declare import Arguments, Case, Law, Made, function
 from course.grading.checks.drawing import Draw
 from course.grading.checks.laws import Look, close, holds, law
 from course.grading.checks.vectors import unit_vectors
-from course.grading.modules.hierarchies import around, balanced, cost, walkable
+from course.grading.modules.hierarchies import area, around, balanced, cost, walkable
 from course.grading.modules.traversing import TRAVERSE
 
 SCALES = (1.0, 2.0**-10, 2.0**10)
@@ -76,8 +76,12 @@ PLACES = (0.6, -0.25, 1.0, -1.0, 1.5, -4.0)
 """Between two faces, on them, and beside them."""
 
 
+FAR = (100.0, 1e4, 1e9)
+"""From where lines come that are nearly parallel to faces: the last in double precision only."""
+
+
 def _along(draw: Draw) -> Mapping[str, Any]:
-    """Lines along the faces of one box: one component or two are +0 or -0."""
+    """Lines along the faces of one box: one component or two are +0 or -0, or one so small that far away it matters."""
     columns = np.arange(draw.n)
     axis = draw.rng.integers(0, 3, draw.n)
     o = np.where(draw.rng.random((3, draw.n)) < 0.5, -8.0, 8.0)
@@ -89,6 +93,17 @@ def _along(draw: Draw) -> Mapping[str, Any]:
         o[chosen, columns] = np.where(zero, place, o[chosen, columns])
         null = draw.rng.choice((0.0, -0.0), draw.n)
         d[chosen, columns] = np.where(zero, null, d[chosen, columns])
+    # Some lines have the box behind them.
+    d *= draw.rng.choice((1.0, 1.0, -1.0), draw.n)
+    # And some begin between two faces and leave, or come from beside them, a long way before the box.
+    for k in np.flatnonzero(draw.rng.random(draw.n) < 0.3):
+        far = draw.rng.choice(FAR if draw.dtype is np.float64 else FAR[:2])
+        before, there = draw.rng.permutation((0.5, 1.6)) * draw.rng.choice((-1.0, 1.0), 2)
+        near, other, main = (axis[k] + np.arange(3)) % 3
+        o[near, k], d[near, k] = before * HALF[near], (there - before) * HALF[near] / far
+        o[other, k], d[other, k] = 0, 0
+        d[main, k] = draw.rng.choice((-1.0, 1.0))
+        o[main, k] = -far * d[main, k]
     return {
         "origins": draw.scale * o,
         "directions": d,
@@ -107,9 +122,18 @@ def _spans(a: Arguments, r: Any) -> tuple[Any, ...]:
 
 
 def _between(a: Arguments, r: Any) -> Any:
-    """Whether exactly those lines are met that lie between the faces that they run along."""
-    within = (np.abs(a.origins) <= np.abs(a.hi)[:, None]) | (a.directions != 0)
-    return np.where(within.all(axis=0), r[0] <= r[1], r[0] > r[1])
+    """Whether exactly those lines are met that are between all faces at the same time, and where they should."""
+    o, d = (np.asarray(v, np.float64) for v in (a.origins, a.directions))
+    lo, hi = (np.asarray(v, np.float64)[:, None] for v in (a.lo, a.hi))
+    parallel = d == 0
+    always = np.where((lo <= o) & (o <= hi), np.inf, -np.inf)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        ends = np.sort(((lo - o) / d, (hi - o) / d), axis=0)
+    near = np.where(parallel, -always, ends[0]).max(axis=0)
+    far = np.where(parallel, always, ends[1]).min(axis=0)
+    slack = 1e-4 * (np.abs(near) + np.abs(far) + np.ptp((lo, hi)))
+    alike = (np.abs(r[0] - near) <= slack) & (np.abs(r[1] - far) <= slack)
+    return np.where(near <= far, (r[0] <= r[1]) & alike, r[0] > r[1])
 
 
 SLAB_TEST = function(
@@ -127,11 +151,13 @@ SLAB_TEST = function(
         ),
         holds(
             "parallel",
-            "Components of +0 or -0: between two faces, beside them, on them",
+            "Components of +0 or -0, or next to 0: between two faces, beside them, on them",
             _between,
             "a line that runs along faces to be met just where it is between them, on them counts",
-            "Along two faces: between them for all t or for none. Zero over zero is no number.",
+            "Along two faces: between them for all t or for none. Zero over zero is no number. A component that is not "
+            "zero is none of these: far away it leads to the box, or past it.",
             case=_along,
+            n=200,
             scales=SCALES,
         ),
         close(
@@ -202,7 +228,7 @@ SPREADS = {
 
 def _held(a: Arguments, r: Any) -> None:
     """Every box is in one leaf of a hierarchy that can be walked."""
-    (_, _, first, count, order), _ = walkable(r)
+    (_, _, first, count, order), _ = walkable(r, a.lo.shape[1])
     held = [order[f : f + c] for f, c in zip(first, count, strict=True) if c > 0]
     boxes = a.lo.shape[1]
     times = np.bincount(np.concatenate(held).clip(0, boxes), minlength=boxes)
@@ -217,7 +243,7 @@ def _held(a: Arguments, r: Any) -> None:
 
 
 def _leaves(a: Arguments, r: Any) -> None:
-    walkable(r)
+    walkable(r, a.lo.shape[1])
     if r[3].max() > a.leaf_size:
         raise Failure(
             f"leaves of at most {a.leaf_size}",
@@ -229,7 +255,7 @@ def _leaves(a: Arguments, r: Any) -> None:
 
 def _tight(a: Arguments, r: Any) -> None:
     """Each node's box is the smallest around all that is below it."""
-    boxes = around(*walkable(r), a.lo, a.hi)
+    boxes = around(*walkable(r, a.lo.shape[1]), a.lo, a.hi)
     for what, box, expected in zip(("lo", "hi"), r, boxes, strict=False):
         wrong = np.flatnonzero((box != expected).any(axis=0))
         if wrong.size:
@@ -254,13 +280,15 @@ def _ordinary(draw: Draw) -> Mapping[str, Any]:
 def _useful(a: Arguments, r: Any) -> None:
     """A hierarchy that loses nothing, and whose nodes are small."""
     _held(a, r)
-    low, high = around(*walkable(r), a.lo, a.hi)
+    hierarchy, levels = walkable(r, a.lo.shape[1])
+    low, high = around(hierarchy, levels, a.lo, a.hi)
     if (r[0] > low).any() or (r[1] < high).any():
         raise Failure("boxes around all that is below their nodes", "smaller ones")
     if a.lo.shape[1] == MANY:
         # As many as halves make leaves alike of.
         limit = CHEAP * cost(balanced(a.lo[:, :1024], a.hi[:, :1024], 8))
-        tests = cost(walkable(r)[0])
+        # By the root's true surface: a larger one would make the others small.
+        tests = cost(hierarchy) * area(r[0], r[1])[0] / area(low, high)[0]
         if not tests <= limit:
             sides = np.ptp(a.lo, axis=1)
             raise Failure(

@@ -16,13 +16,17 @@ Hierarchy = tuple[Array, Array, Array, Array, Array]
 """lo (3, M), hi (3, M), first (M,), count (M,), order (T,), as the module's ``build`` describes them."""
 
 
-def walkable(value: Any) -> tuple[Hierarchy, list[Array]]:
+def walkable(value: Any, boxes: int) -> tuple[Hierarchy, list[Array]]:
     """A student's hierarchy, numbers of nodes and boxes as integers, and the nodes of each level.
 
-    Raises Failure: the walk from the root leaves the arrays, comes to a node twice, or misses one.
+    Raises Failure: there are more nodes than so many boxes need, or the walk from the root leaves the arrays, comes to
+    a node twice, or misses one.
     """
     lo, hi, *rest = value
     first, count, order = (array.astype(np.int64) for array in rest)
+    # The walk takes a time that grows with their square.
+    if first.size > 2 * boxes - 1:
+        raise Failure(f"at most {2 * boxes - 1} nodes for {boxes} boxes", f"{first.size}")
     visits = np.zeros(first.size, np.int64)
     levels, level = [], np.zeros(min(first.size, 1), np.int64)
     while level.size:
@@ -63,7 +67,8 @@ def around(hierarchy: Hierarchy, levels: list[Array], lo: Array, hi: Array) -> t
     return low, high
 
 
-def _area(lo: Array, hi: Array) -> Array:
+def area(lo: Array, hi: Array) -> Array:
+    """Surfaces (M,) of boxes (3, M)."""
     x, y, z = (hi - lo).astype(np.float64)
     return np.asarray(2 * (x * y + y * z + z * x))
 
@@ -71,7 +76,7 @@ def _area(lo: Array, hi: Array) -> Array:
 def cost(hierarchy: Hierarchy) -> float:
     """Mean number of tests of a random line through the root that meets boxes by their surface."""
     lo, hi, _, count, _ = hierarchy
-    share = _area(lo, hi) / _area(lo, hi)[0]
+    share = area(lo, hi) / area(lo, hi)[0]
     return float((share * (1 + count)).sum())
 
 

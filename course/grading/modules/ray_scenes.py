@@ -8,12 +8,14 @@ import numpy as np
 from course.grading.checks.check import Array
 from course.grading.checks.declare import Case
 from course.grading.checks.drawing import Draw
+from course.grading.checks.vectors import unit_vectors
 from course.grading.modules.hierarchies import (
     Hierarchy,
     Vectors,
     balanced,
     boxes_around,
     chain,
+    exact_hit,
     lopsided,
     one_leaf,
 )
@@ -126,6 +128,38 @@ def two_heaps(draw: Draw) -> Mapping[str, Any]:
     one = draw.rng.random() < 0.5
     hierarchy = one_leaf(p) if one else balanced(*boxes_around(p), 1)
     return scene(p, hierarchy, o, np.array((0, 0, 1.0))[:, None].repeat(draw.n, axis=1))
+
+
+def swarm(draw: Draw) -> Mapping[str, Any]:
+    """Small triangles anywhere, in a hierarchy as bad as they come, and rays that hit none and graze no box."""
+    triangles = int(draw.rng.integers(20, 60))
+    middle = draw.rng.uniform(-1, 1, (3, triangles))
+    p: Vectors = tuple(middle + draw.rng.uniform(-0.05, 0.05, middle.shape) for _ in range(3))  # type: ignore[assignment]
+    hierarchy = lopsided(draw.rng, *boxes_around(p))
+    o = np.zeros((3, 0))
+    d = np.zeros((3, 0))
+    while o.shape[1] < draw.n:
+        some = 4 * unit_vectors(draw.rng, 4 * draw.n)
+        way = draw.rng.uniform(-1, 1, some.shape) - some
+        t, least, _ = exact_hit([c[:, :, None] for c in p], some[:, None], way[:, None])
+        near, far = spans(hierarchy, some, way)
+        clear = ((least < -0.01) | ~np.isfinite(t)).all(axis=0)
+        clear &= (np.abs(near - far) > 1e-3).all(axis=0)
+        o, d = (
+            np.concatenate((all_, new[:, clear]), axis=1) for all_, new in ((o, some), (d, way))
+        )
+    return scene(p, hierarchy, o[:, : draw.n], d[:, : draw.n])
+
+
+def spans(hierarchy: Hierarchy, o: Array, d: Array) -> tuple[Array, Array]:
+    """Where rays with no component 0 enter and leave the boxes, (M, N) each."""
+    ends = [(c[:, :, None] - o[:, None]) / d[:, None] for c in hierarchy[:2]]
+    return np.minimum(*ends).max(axis=0), np.maximum(*ends).min(axis=0)
+
+
+def counted(draw: Draw) -> Mapping[str, Any]:
+    """Two heaps, or a swarm."""
+    return two_heaps(draw) if draw.rng.random() < 0.5 else swarm(draw)
 
 
 def camera(rng: np.random.Generator) -> tuple[Array, Array]:
