@@ -1,6 +1,7 @@
 """The whole class: tables of grades for a spreadsheet, Canvas and Moodle, and one page for the instructor."""
 
 import csv
+import re
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -151,7 +152,8 @@ def _write_table(rows: Iterable[Sequence[str]], path: Path) -> None:
 
 def safe_cell(text: str) -> str:
     """A text that no spreadsheet runs as a formula: an apostrophe goes before one that looks like it."""
-    text = clean(text)
+    # Where numbers have commas in them, tables are divided at semicolons: cells begin there, too.
+    text = re.sub(rf"([;|\t]\s*)(?=[{re.escape(''.join(_FORMULA))}])", r"\1'", clean(text))
     return f"'{text}" if text.startswith(_FORMULA) or text.lstrip().startswith(_FORMULA) else text
 
 

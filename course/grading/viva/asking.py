@@ -7,11 +7,13 @@ whose effect says most is kept.
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path
 from random import Random
 
 from course.grading.checks.check import Figure, References
 from course.grading.checks.result import Result, Status
+from course.grading.classes.engines import apart
 from course.grading.grading import grade
 from course.grading.pictures.catalog import SCENES
 from course.grading.release.stubs import make_stub
@@ -22,6 +24,9 @@ from course.modules import COURSE
 
 TRIED = 6
 """Changes of one function that are tried at most."""
+
+LARGEST, MOST = 200_000, 1000
+"""Characters of a text that is looked through, and changes of all its functions."""
 
 TOLD = 3
 """Failed checks that an answer names at most."""
@@ -91,6 +96,15 @@ class Asked:
             yield f"{result.check}: {result.title}: {found or result.found}"
 
 
+def _listed(work: tuple[str, str, str, str]) -> list[Change]:
+    """Changes of one function of a student's text; in another process, for a text can be made to take hours."""
+    source, module, function, given = work
+    if len(source) > LARGEST:
+        return []
+    found = islice(changes(source, COURSE[module], given), MOST)
+    return [one for one in found if one.function == function]
+
+
 def _is_pictures(figure: Figure | None) -> bool:
     return figure is not None and figure.kind == "pictures"
 
@@ -125,7 +139,7 @@ def viva(
         given = make_stub(
             (solutions / f"{module}.py").read_text(encoding="utf-8"), module, f"{module}.py"
         ).text
-        found = [one for one in changes(source, COURSE[module], given) if one.function == function]
+        (found,) = apart(_listed, [(source, module, function, given)]).values()
         if not found:
             continue
         each(f"{module}.{function}")

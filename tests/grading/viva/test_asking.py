@@ -82,3 +82,13 @@ def test_a_function_that_is_wrong_is_not_asked_about(usual_references: Reference
 def test_the_code_never_runs_in_the_graders_process(usual_references: References) -> None:
     spy = source("motion_blur") + f"\nimport os\nassert os.getpid() != {os.getpid()}\n"
     assert asked({"motion_blur": spy}, usual_references, 1)
+
+
+@pytest.mark.parametrize(
+    "text", ["x = " + "-" * 50_000 + "1\n", "def f(): return 1" + " + 1" * 50_000]
+)
+def test_a_text_that_can_t_be_taken_apart_costs_its_own_module(
+    usual_references: References, text: str
+) -> None:
+    sources = {"soft_shadows": source("soft_shadows") + text, "motion_blur": source("motion_blur")}
+    assert {one.module for one in asked(sources, usual_references, 1)} == {"motion_blur"}
