@@ -12,7 +12,7 @@ from sitebuild.teaching_file import DOCS, minutes, teaching
 
 WARM_UP = "sampling"
 
-LEVELS = {100: "short", 149: "of middle length"}
+LEVELS = {100: "short", 149: "medium"}
 """Most minutes of writing, and how a module of so many is called; the others are long."""
 
 
@@ -31,7 +31,7 @@ def _card(place: Place, number: int, module: str) -> str:
     after = f", after {' and '.join(map(title, needs))}" if needs else ""
     level = next((level for most, level in LEVELS.items() if writing <= most), "long")
     seen = ""
-    if pictures.scene_path(f"before/{module}").is_file():
+    if pictures.scene_path(module).is_file():
         seen, _ = image(place, pictures.shot(module), f"{title(module)}: the scene of the module")
     name = title(module)
     return (

@@ -24,7 +24,7 @@ def _heights(function: str, cosine: bool) -> Plot:
     def draw(axes: Axes, made: ModuleType, _: ModuleType) -> None:
         height = getattr(made, function)(_u(60000))[2]
         histogram(
-            axes, height, lambda c: (2 * c if cosine else 1.0) * ((c >= 0) & (c <= 1)), (-1, 1.1)
+            axes, height, lambda c: (2 * c if cosine else 1.0) * ((c >= 0) & (c <= 1)), (-1, 1)
         )
         label(axes, "cosine: 0 the horizon, 1 the pole")
 

@@ -163,5 +163,7 @@ LOOKS = {
         ),
     ),
     "multi_sample": (Look("Integrals by three strategies", plot(_summed, curve=True)),),
-    "one_sample": (Look("A hundred estimates of the integral of the square of x", plot(_one_each, curve=True)),),
+    "one_sample": (
+        Look("A hundred estimates of the integral of the square of x", plot(_one_each, curve=True)),
+    ),
 }

@@ -84,7 +84,7 @@ def _leaving(axes: Axes, made: ModuleType, _: ModuleType) -> None:
 def _heights(axes: Axes, made: ModuleType, _: ModuleType) -> None:
     normal = np.repeat(np.array([[0], [0], [1]], np.float32), 60000, axis=1)
     u = np.random.default_rng(3).random((2, 60000), np.float32)
-    histogram(axes, made.diffuse_bounce(normal, u)[2], lambda c: 2 * c * (c <= 1), (0, 1.05))
+    histogram(axes, made.diffuse_bounce(normal, u)[2], lambda c: 2 * c * (c <= 1), (0, 1.2))
     label(axes, "cosine: 0 the surface, 1 the normal")
 
 
