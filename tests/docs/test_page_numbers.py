@@ -21,6 +21,7 @@ from course.benchmarking.estimators import FURTHER_BENCHED
 from course.benchmarking.plot_data import Plot, read_records
 from course.compiled.library import available
 from course.effects import PROJECT
+from course.modules import COURSE
 from course.radiosity.radiosity import PATCHES
 from course.radiosity.solving import GATHERED, KEPT_BYTES
 from course.rendering.box_tests import box_tests as boxes_met
@@ -720,7 +721,9 @@ def test_what_grading_costs() -> None:
         r"right and wrong submissions, takes N minutes with the core modules and N with these fifteen\. .* the N graded renders "
         r"take N times as long with workers as without\. The worst single one takes N times as long \(`(.*?)`\)",
     )
-    core, whole, all_modules, kinds, core_class, whole_class, renders, pipe, worst, slowest = numbers
+    core, whole, all_modules, kinds, core_class, whole_class, renders, pipe, worst, slowest = (
+        numbers
+    )
     measured = {name: figure["value"] for name, figure in figures("grading").items()}
     assert int(all_modules) == len(COURSE)
     for text, name in (
