@@ -171,7 +171,8 @@ class _Handler(BaseHTTPRequestHandler):
             return None
         try:
             told = json.loads(data)
-        except ValueError:
+        # Brackets in brackets, 16,000 deep.
+        except (ValueError, RecursionError):
             return None
         return told if isinstance(told, dict) else None
 

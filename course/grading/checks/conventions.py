@@ -161,6 +161,8 @@ def _untouched_by(function: Function, trial: Trial) -> Iterator[Arguments]:
     # Twice as many columns: memory that is used again is mostly that of as large a result.
     for n in (3, 50, 50):
         yield function.make(Draw(trial.rng, n, np.float32))
+    # What converts its arguments to double precision has a copy of others, but not of these.
+    yield function.make(Draw(trial.rng, 20, np.float64))
     yield from function.ends(Draw(trial.rng, 1, np.float32))
     for law in function.laws:
         if law.case and np.float32 in law.dtypes:

@@ -14,7 +14,7 @@ import threading
 from collections.abc import Callable, Generator, Sequence
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import closing
+from contextlib import closing, suppress
 from dataclasses import dataclass
 from functools import cache
 from multiprocessing import get_context
@@ -101,6 +101,8 @@ def _each(
     """Outcomes as they end; each of as many threads has a process, so it is known whose item a process was at."""
     before = set(multiprocessing.active_children())
     pools: dict[int, ProcessPoolExecutor] = {}
+    shares: dict[int, set[int]] = {}
+    processes = max(1, min(jobs, len(items)))
     starting, closed = threading.Lock(), threading.Event()
 
     def outcome(item: Item) -> Outcome[Item, Value]:
@@ -110,7 +112,8 @@ def _each(
                 if closed.is_set():
                     return Outcome(item, None, DIED)
                 if thread not in pools:
-                    pools[thread] = ProcessPoolExecutor(1, get_context("spawn"), _start)
+                    share = shares.setdefault(thread, _share(len(shares), processes))
+                    pools[thread] = ProcessPoolExecutor(1, get_context("spawn"), _start, (share,))
                 work = pools[thread].submit(_call, function, item, shared)
             return Outcome(item, work.result())
         except BrokenProcessPool:
@@ -119,7 +122,7 @@ def _each(
         except Exception as error:  # noqa: BLE001 - of the work on this item, and of no other
             return Outcome(item, None, _told(error))
 
-    threads = ThreadPoolExecutor(max(1, min(jobs, len(items))))
+    threads = ThreadPoolExecutor(processes)
     try:
         for future in as_completed([threads.submit(outcome, item) for item in items]):
             yield future.result()
@@ -167,8 +170,23 @@ def _call(function: Callable[[Item, Shared], Value], item: Item, shared: Shared)
         _WORKING.clear()
 
 
-def _start() -> None:
+def _share(number: int, processes: int) -> set[int]:
+    """The processors for one of so many processes, and for all that it starts; empty for all there are.
+
+    Many threads of one submission would else take the time of others.
+    """
+    if processes == 1 or not hasattr(os, "sched_getaffinity"):
+        return set()
+    there = sorted(os.sched_getaffinity(0))
+    return {*there[number % processes :: processes]} or {there[number % len(there)]}
+
+
+def _start(processors: set[int]) -> None:
     """Prepare a process: Ctrl-C is the parent's business, and none outlives the parent."""
+    if processors:
+        # A system may refuse it: then whatever one takes the others lack.
+        with suppress(OSError):
+            os.sched_setaffinity(0, processors)
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, _terminated)
     threading.Thread(target=_follow_parent, daemon=True).start()

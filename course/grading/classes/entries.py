@@ -207,6 +207,7 @@ def _tar_entries(name: str, content: bytes, budget: Budget) -> list[Entry]:
     data = _unpacked(content)
     if len(data) > LARGEST_TAR:
         raise too_large(name)
+    budget.spend(name, len(data) - len(content))
     found = []
     # Everything is in memory, so no size that a header claims makes it read more than that.
     with tarfile.open(fileobj=BytesIO(data), mode="r:") as archive:

@@ -259,7 +259,9 @@ def _read(student: str, handed: _Handed, modules: tuple[str, ...]) -> Submission
             sources = choose([*unfolded(_entries(handed), remarks)], modules, remarks)
     except CourseError as error:
         trouble, remarks = str(error), []
-    trouble, *told = (_without_folders(text, handed) for text in (trouble, *remarks))
+    trouble, *told = (
+        " ".join(_without_folders(text, handed).splitlines()) for text in (trouble, *remarks)
+    )
     remarks, names = [*handed.remarks, *told], (student, *handed.names)
     return Submission(student, paths, sources, trouble, tuple(remarks), names, handed.number)
 

@@ -1,11 +1,14 @@
 """A pool of processes that outlives the death of one of them."""
 
 import multiprocessing
+import os
 from collections import Counter
 from pathlib import Path
 from time import sleep
 
-from course.grading.classes.engines import DIED, in_processes
+import pytest
+
+from course.grading.classes.engines import DIED, _share, in_processes
 from tests.grading.classes.work import work
 
 
@@ -28,6 +31,21 @@ def test_the_one_that_kills_its_process_twice_loses_nobody_else(tmp_path: Path) 
     assert calls(tmp_path)["die-once"] == 2
     # What was done when the pool broke is not done again.
     assert calls(tmp_path)["a"] == 1
+
+
+@pytest.mark.parametrize("processors", [1, 2, 5, 16])
+@pytest.mark.parametrize("processes", [2, 3, 16])
+def test_processes_share_no_processor_where_there_are_enough(
+    monkeypatch: pytest.MonkeyPatch, processors: int, processes: int
+) -> None:
+    """Threads of one submission had taken the time of the one beside it."""
+    monkeypatch.setattr(os, "sched_getaffinity", lambda _: set(range(processors)), raising=False)
+    shares = [_share(number, processes) for number in range(processes)]
+    assert all(shares)
+    assert set[int]().union(*shares) == set(range(processors))
+    if processes <= processors:
+        assert sum(map(len, shares)) == processors
+    assert _share(0, 1) == set()
 
 
 def test_closing_ends_work_that_is_under_way(tmp_path: Path) -> None:
