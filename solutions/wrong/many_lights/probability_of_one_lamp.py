@@ -2,8 +2,7 @@
 
 FUNCTION = "tree_probability"
 CAUGHT_BY = "sum"
-MISTAKE = "one-lamp-lost"
-SAYS = "In a tree of one lamp, that lamp is always chosen: its probability is 1."
+MISTAKE = None
 
 _right = tree_probability
 
