@@ -82,18 +82,19 @@
     return box;
   };
 
-  // Slides that are too high are set smaller, then with the text beside the figure; beyond that they scroll.
+  // The largest type with which a slide fits: the text over its figure, over a smaller one, or beside it, where a wide
+  // formula takes half of the slide. What doesn't fit at all scrolls.
   const fit = (box) => {
     const seen = box.querySelector(".seen");
     const both = seen.querySelector(".text").children.length && seen.querySelector(".last").children.length;
-    const ways = [100, 90, 80].map((size) => [size, false]);
-    for (const size of [100, 90, 80, 70, 60, 50]) ways.push([size, Boolean(both)]);
-    for (const [size, beside] of ways) {
-      seen.classList.toggle("beside", beside);
+    const layouts = both ? [["", 62], ["", 45], ["beside", 62], ["beside even", 62]] : [["", 62], ["", 45]];
+    const ways = [100, 90, 80, 70, 60, 50].flatMap((size) => layouts.map(([layout, picture]) => [size, layout, picture]));
+    for (const [size, layout, picture] of ways) {
+      seen.className = `seen ${layout}`;
       seen.style.fontSize = `${size}%`;
-      seen.style.setProperty("--picture", `${0.62 * size}vh`);
+      seen.style.setProperty("--picture", `${picture}vh`);
       const fits = (part) => part.scrollWidth <= part.clientWidth + 2;
-      if (seen.scrollHeight <= seen.clientHeight && [seen, ...seen.querySelectorAll(".formula")].every(fits)) break;
+      if (seen.scrollHeight <= seen.clientHeight && [seen, ...seen.querySelectorAll(".formula, pre")].every(fits)) break;
     }
   };
 

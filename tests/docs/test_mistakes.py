@@ -212,8 +212,8 @@ def test_nothing_that_is_written_in_a_plot_is_cut_off(
         if is_plot(one.draw):
             draw(Figure(name, "", seen))
             whole, written = drawn[-1].bbox_inches, drawn[-1].get_tightbbox()
-            assert whole.x0 <= written.x0 and written.x1 <= whole.x1, one.shows
-            assert whole.y0 <= written.y0 and written.y1 <= whole.y1, one.shows
+            assert whole.x0 <= written.x0 <= written.x1 <= whole.x1, one.shows
+            assert whole.y0 <= written.y0 <= written.y1 <= whole.y1, one.shows
     assert drawn
 
 

@@ -717,8 +717,9 @@ def test_what_lamps_and_lobes_together_gain() -> None:
 def test_what_grading_costs() -> None:
     numbers = said(
         "grading",
-        r"One submission takes N s with the six core modules and N s with fifteen of the N, .* A class of 200, made of N "
-        r"right and wrong submissions, takes N minutes with the core modules and N with these fifteen\. .* the N graded renders "
+        r"One submission takes N s with the six core modules and N s with fifteen of the N, .* A class of 200, made "
+        r"of N right and wrong submissions, takes N minutes with the core modules and N with these fifteen\. "
+        r".* the N graded renders "
         r"take N times as long with workers as without\. The worst single one takes N times as long \(`(.*?)`\)",
     )
     core, whole, all_modules, kinds, core_class, whole_class, renders, pipe, worst, slowest = (

@@ -182,10 +182,9 @@ def histogram(
     values = values[np.isfinite(values)]
     count, edges = np.histogram(values, BINS, span)
     axes.stairs(count / max(len(values), 1) / np.diff(edges), edges, fill=True, color=INK)
-    x = np.linspace(*span, BINS * PLACES, endpoint=False) + (span[1] - span[0]) / (
-        2 * BINS * PLACES
-    )
-    expected = density(x).reshape(BINS, PLACES).mean(axis=1)
+    share = (np.arange(BINS * PLACES) + 0.5) / (BINS * PLACES)
+    places = span[0] + share * (span[1] - span[0])
+    expected = density(places).reshape(BINS, PLACES).mean(axis=1)
     axes.stairs(expected, edges, baseline=None, color="#333", linewidth=1.4, zorder=4)
     axes.set_xlim(*span)
     axes.set_yticks([])

@@ -17,6 +17,7 @@ from sitebuild.mistakes.plots import (
     circle,
     curves,
     dots,
+    histogram,
     label,
     plot,
     square,
@@ -88,6 +89,19 @@ def _aside(axes: Axes, made: ModuleType, _: ModuleType) -> None:
     view(axes, (-1.1, 1.3), (-1.1, 0.8))
 
 
+def _depths(axes: Axes, made: ModuleType, right: ModuleType) -> None:
+    direction, normal = _rays(np.full(20000, 74.0))
+
+    def degrees(module: ModuleType) -> Array:
+        found = module.jitter_refraction(direction, normal, 1.2, _u(20000))
+        return np.degrees(np.arcsin(np.clip(-found[1], -1, 1)))
+
+    count, edges = np.histogram(degrees(right), 48, (0, 60), density=True)
+    middle = (edges[1:] + edges[:-1]) / 2
+    histogram(axes, degrees(made), lambda x: np.interp(x, middle, count), (0, 60))
+    label(axes, "degrees below the surface")
+
+
 def _across(axes: Axes, made: ModuleType, right: ModuleType) -> None:
     """Where directions pierce a plane at right angles to the refracted one."""
     direction, normal = _rays(np.full(500, 20.0))
@@ -140,6 +154,11 @@ LOOKS = {
         Look(
             "Directions that a rough surface makes of one (the arrow), from the side; glass is below",
             plot(_aside),
+        ),
+        Look(
+            "How far below the surface those directions go",
+            plot(_depths, curve=True),
+            ("clamped",),
         ),
         Look(
             "Directions on a plane across the refracted one, and the square",
