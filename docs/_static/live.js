@@ -142,7 +142,7 @@ void main() {
   const OFF = { lamp: 0, rough: 0, aperture: 0, focus: 5, shutter: 0, texels: 6, seamless: 0, sky: 0 };
   const VIEWS = {
     home: { knobs: ["lamp", "rough", "aperture", "shutter"], names: ["One ray each", "Distributed rays"], off: ["lamp", "rough", "aperture", "shutter"] },
-    soft_shadows: { knobs: ["lamp"], names: ["A point", "A ball"], off: ["lamp"] },
+    soft_shadows: { knobs: ["lamp"], names: ["A point", "A ball"], off: ["lamp"], start: { lamp: 0.7, samples: 6 } },
     glossy: { knobs: ["rough"], names: ["A mirror", "A glossy one"], off: ["rough"] },
     thin_lens: { knobs: ["aperture", "focus"], names: ["A pinhole", "A lens"], off: ["aperture"] },
     motion_blur: { knobs: ["shutter"], names: ["A moment", "While the shutter is open"], off: ["shutter"] },
@@ -227,7 +227,7 @@ void main() {
       const truth = pixels(values, CONVERGED, 2);
       both().forEach((each, k) => {
         const off = error(pixels(each, samples, 1), truth).toFixed(4);
-        canvases[k].said.textContent = `${canvases[k].name}, ${samples} samples a pixel: error ${off}`;
+        canvases[k].said.textContent = `${canvases[k].name}, ${samples} ${samples === 1 ? "sample" : "samples"} a pixel: error ${off}`;
       });
     };
     // Where drawing is slow, moving pictures are small, and the whole follows when the slider rests.
@@ -254,9 +254,10 @@ void main() {
     };
     for (const name of view.knobs) {
       const [text, low, high, step, start] = KNOBS[name];
-      knob(text, low, high, step, start, (value) => (values[name] = value), (value) => String(value));
+      knob(text, low, high, step, view.start?.[name] ?? start, (value) => (values[name] = value), (value) => String(value));
     }
-    knob("Samples a pixel", 0, 6, 1, 4, (value) => (samples = 2 ** value), (value) => String(2 ** value));
+    // Few samples of a large lamp err by more than none of its size does.
+    knob("Samples a pixel", 0, 6, 1, view.start?.samples ?? 4, (value) => (samples = 2 ** value), (value) => String(2 ** value));
     const caption = document.createElement("figcaption");
     caption.textContent =
       `Computed here, by your graphics card or in its place. Errors: root mean square of linear radiance against ${CONVERGED} ` +
