@@ -132,7 +132,9 @@ def _between(a: Arguments, r: Any) -> Any:
     near = np.where(parallel, -always, ends[0]).max(axis=0)
     far = np.where(parallel, always, ends[1]).min(axis=0)
     slack = 1e-4 * (np.abs(near) + np.abs(far) + np.ptp((lo, hi)))
-    alike = (np.abs(r[0] - near) <= slack) & (np.abs(r[1] - far) <= slack)
+    # Of lines that miss, both may be infinite.
+    with np.errstate(invalid="ignore"):
+        alike = (np.abs(r[0] - near) <= slack) & (np.abs(r[1] - far) <= slack)
     return np.where(near <= far, (r[0] <= r[1]) & alike, r[0] > r[1])
 
 
