@@ -148,6 +148,7 @@ def swarm(draw: Draw) -> Mapping[str, Any]:
         o, d = (
             np.concatenate((all_, new[:, clear]), axis=1) for all_, new in ((o, some), (d, way))
         )
+    d *= draw.rng.choice((0.1, 1.0, 10.0), d.shape[1])
     return scene(p, hierarchy, o[:, : draw.n], d[:, : draw.n])
 
 
