@@ -187,7 +187,7 @@ class Effects:
         others = [each for each in self._written[module] if each not in COURSE[module]]
         if others and not _defines(file, name) and (near := get_close_matches(name, others, 1)):
             warnings.warn(
-                f"{file} has no {name}, and a {near[0]}: not yours, but the course's {name} is called",
+                f"{file} has no {name}, and a {near[0]}: {name} counts as not written",
                 CourseWarning,
                 stacklevel=3,
             )

@@ -40,7 +40,10 @@ class FunctionError(EffectError):
     def asked_by(self, where: str, keys: Iterable[str | int]) -> "FunctionError":
         """The same with the place of the scene that makes the function necessary: file and line, and the key path."""
         place = f"{where}: {'.'.join(map(str, keys))} asks for it"
-        return FunctionError(f"{self}; {place}", self.function)
+        # Of two callers, one in the other, each may add it.
+        return (
+            self if str(self).endswith(place) else FunctionError(f"{self}; {place}", self.function)
+        )
 
 
 class Ended(SystemExit):

@@ -42,3 +42,9 @@ FURTHER = _named(
 
 COURSE = MODULES | FURTHER
 """All modules of the course."""
+
+WARM_UP = "sampling"
+"""The module to begin with."""
+
+TAUGHT = {WARM_UP: COURSE[WARM_UP]} | COURSE
+"""The same in the order in which they are taught."""

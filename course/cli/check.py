@@ -178,15 +178,11 @@ def _print_lines(report: Report, folder: Path) -> None:
         for function in module.functions:
             if function.state == "right":
                 continue
-            to_do = function.state == "to do"
-            text = "warning" if to_do else "error"
-            text += f": {function.name}: "
-            if to_do or not function.told:
-                text += function.state
-            else:
-                told = function.told[0]
-                text += f"{told.title}: {_short(clean(told.found))}"
-            click.echo(f"{path}:{line_of(path, function.name)}: {text}")
+            severity = "warning" if function.state == "to do" else "error"
+            told = function.told[:1] if severity == "error" else ()
+            text = "".join(f"{one.title}: {_short(clean(one.found))}" for one in told)
+            line = line_of(path, function.name)
+            click.echo(f"{path}:{line}: {severity}: {function.name}: {text or function.state}")
 
 
 def _chooser(only: str | None) -> Callable[[Check], bool] | None:

@@ -78,8 +78,7 @@ def modules_from(
     """Return modules in the order of the course from names, several in one separated by commas."""
     given = [name for text in names for name in text.split(",")]
     for name in given:
-        if name not in COURSE:
-            raise click.BadParameter(f"{name!r}{_instead(ctx, name)}")
+        module_from(ctx, _option, name)
     return tuple(name for name in COURSE if not given or name in given)
 
 

@@ -19,7 +19,7 @@ from course.grading.report import FunctionResults, docs_page, findings, grouped,
 from course.grading.reports.formats import clean
 from course.grading.submissions import find_modules, read_found
 from course.grading.worker.sandbox import plain
-from course.modules import COURSE
+from course.modules import COURSE, WARM_UP
 
 KEPT = Path(".course", "checked.json")
 """In the folder of the functions: what checks have found, for files that haven't changed since."""
@@ -85,17 +85,14 @@ def progress(
         ]
 
 
-FIRST = "sampling"
-"""The module to begin with, though it isn't the first in the course's order."""
-
-
 def next_one(functions: list[Progress]) -> Progress | None:
     """What is wrong first, then what is to do in a module that somebody has begun, then in the others."""
     begun = {function.module for function in functions if function.state != "to do"}
     order = ("wrong", "to do", "undecided")
     left = [function for function in functions if function.state != "right"]
     ranked = sorted(
-        left, key=lambda one: (order.index(one.state), one.module not in begun, one.module != FIRST)
+        left,
+        key=lambda one: (order.index(one.state), one.module not in begun, one.module != WARM_UP),
     )
     return ranked[0] if ranked else None
 

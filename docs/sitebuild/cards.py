@@ -3,14 +3,12 @@
 import re
 from html import escape
 
-from course.modules import COURSE
+from course.modules import TAUGHT
 from sitebuild import pictures
 from sitebuild.objectives import title
 from sitebuild.place import Place
 from sitebuild.shots import image
 from sitebuild.teaching_file import DOCS, minutes, teaching
-
-WARM_UP = "sampling"
 
 LEVELS = {100: "short", 149: "medium"}
 """Most minutes of writing, and how a module of so many is called; the others are long."""
@@ -18,8 +16,7 @@ LEVELS = {100: "short", 149: "medium"}
 
 def cards(place: Place, name: str = "", words: str = "") -> str:  # noqa: ARG001
     """Show all modules, the warm-up first."""
-    order = [WARM_UP, *(module for module in COURSE if module != WARM_UP)]
-    shown = "\n".join(_card(place, number, module) for number, module in enumerate(order, start=1))
+    shown = "\n".join(_card(place, number, module) for number, module in enumerate(TAUGHT, start=1))
     return f'<ol class="cards">\n{shown}\n</ol>\n'
 
 

@@ -20,7 +20,7 @@ from course.formats.yaml.description import MaterialDescription, SceneDescriptio
 from course.formats.yaml.document import Document
 
 if TYPE_CHECKING:
-    # The core imports embreex, which a scene that is only read needs not.
+    # A scene that is only read needs no shapes.
     from course.shapes.mesh import Mesh
 
 NOWHERE = np.int16(-1)

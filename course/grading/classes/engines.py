@@ -178,7 +178,7 @@ def _share(number: int, processes: int) -> set[int]:
     if processes == 1 or not hasattr(os, "sched_getaffinity"):
         return set()
     there = sorted(os.sched_getaffinity(0))
-    return {*there[number % processes :: processes]} or {there[number % len(there)]}
+    return {*there[number::processes]} or {there[number % len(there)]}
 
 
 def _start(processors: set[int]) -> None:

@@ -226,15 +226,16 @@ def _read_all(handed: dict[str, _Handed], modules: tuple[str, ...]) -> list[Subm
 
     What unpacks archives can be made to take hours, or all memory.
     """
-    packed = {student: one for student, one in handed.items() if _is_packed(one)}
-    work = [(student, one, modules) for student, one in packed.items()]
-    read = apart(_read_packed, work, seconds=READING) if work else {}
-    ended = dict(zip(packed, (read[i] for i in range(len(work))), strict=True))
-    return [
-        ended.get(student)
-        or _read(student, replace(one, trouble=_ENDLESS) if student in ended else one, modules)
-        for student, one in handed.items()
-    ]
+    packed, found = [], []
+    for student, one in handed.items():
+        if _is_packed(one):
+            packed.append((student, one, modules))
+        else:
+            found.append(_read(student, one, modules))
+    for i, read in apart(_read_packed, packed, seconds=READING).items():
+        student, one, _ = packed[i]
+        found.append(read or _read(student, replace(one, trouble=_ENDLESS), modules))
+    return found
 
 
 def _is_packed(handed: _Handed) -> bool:

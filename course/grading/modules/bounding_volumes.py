@@ -11,7 +11,7 @@ from course.grading.checks.declare import Arguments, Case, Law, Made, function
 from course.grading.checks.drawing import Draw
 from course.grading.checks.laws import Look, close, holds, law
 from course.grading.checks.vectors import unit_vectors
-from course.grading.modules.hierarchies import area, around, balanced, cost, walkable
+from course.grading.modules.hierarchies import around, balanced, cost, spans, walkable
 from course.grading.modules.traversing import TRAVERSE
 
 SCALES = (1.0, 2.0**-10, 2.0**10)
@@ -115,22 +115,16 @@ def _along(draw: Draw) -> Mapping[str, Any]:
 def _spans(a: Arguments, r: Any) -> tuple[Any, ...]:
     """Where lines enter the last slab and leave the first; no component of theirs is zero."""
     lo, hi = (np.broadcast_to(x.reshape(3, -1), a.origins.shape) for x in (a.lo, a.hi))
-    ends = np.stack(((lo - a.origins) / a.directions, (hi - a.origins) / a.directions))
     reach = np.abs(np.stack((a.origins, lo, hi))).max(axis=(0, 1))
     size = 2 * reach / np.abs(a.directions).min(axis=0)
-    return np.stack(r), np.stack((ends.min(axis=0).max(axis=0), ends.max(axis=0).min(axis=0))), size
+    return np.stack(r), np.stack(spans(lo, hi, a.origins, a.directions)), size
 
 
 def _between(a: Arguments, r: Any) -> Any:
     """Whether exactly those lines are met that are between all faces at the same time, and where they should."""
     o, d = (np.asarray(v, np.float64) for v in (a.origins, a.directions))
     lo, hi = (np.asarray(v, np.float64)[:, None] for v in (a.lo, a.hi))
-    parallel = d == 0
-    always = np.where((lo <= o) & (o <= hi), np.inf, -np.inf)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        ends = np.sort(((lo - o) / d, (hi - o) / d), axis=0)
-    near = np.where(parallel, -always, ends[0]).max(axis=0)
-    far = np.where(parallel, always, ends[1]).min(axis=0)
+    near, far = spans(lo, hi, o, d)
     slack = 1e-4 * (np.abs(near) + np.abs(far) + np.ptp((lo, hi)))
     # Of lines that miss, both may be infinite.
     with np.errstate(invalid="ignore"):
@@ -289,8 +283,8 @@ def _useful(a: Arguments, r: Any) -> None:
     if a.lo.shape[1] == MANY:
         # As many as halves make leaves alike of.
         limit = CHEAP * cost(balanced(a.lo[:, :1024], a.hi[:, :1024], 8))
-        # By the root's true surface: a larger one would make the others small.
-        tests = cost(hierarchy) * area(r[0], r[1])[0] / area(low, high)[0]
+        # Beside a larger root all other boxes would be small.
+        tests = cost(hierarchy, (low[:, :1], high[:, :1]))
         if not tests <= limit:
             sides = np.ptp(a.lo, axis=1)
             raise Failure(

@@ -67,16 +67,18 @@ def around(hierarchy: Hierarchy, levels: list[Array], lo: Array, hi: Array) -> t
     return low, high
 
 
-def area(lo: Array, hi: Array) -> Array:
-    """Surfaces (M,) of boxes (3, M)."""
+def _area(lo: Array, hi: Array) -> Array:
     x, y, z = (hi - lo).astype(np.float64)
     return np.asarray(2 * (x * y + y * z + z * x))
 
 
-def cost(hierarchy: Hierarchy) -> float:
-    """Mean number of tests of a random line through the root that meets boxes by their surface."""
+def cost(hierarchy: Hierarchy, root: tuple[Array, Array] | None = None) -> float:
+    """Mean number of tests of a random line through the root that meets boxes by their surface.
+
+    ``root``: its box, lo and hi (3, 1), where the hierarchy's own isn't believed
+    """
     lo, hi, _, count, _ = hierarchy
-    share = area(lo, hi) / area(lo, hi)[0]
+    share = _area(lo, hi) / _area(*(root or (lo, hi)))[0]
     return float((share * (1 + count)).sum())
 
 
@@ -146,6 +148,17 @@ def lopsided(rng: np.random.Generator, lo: Array, hi: Array) -> Hierarchy:
     ]
     numbers = (np.array([column[k] for k in range(len(runs))]) for column in (first, count))
     return boxes[0], boxes[1], *numbers, order  # type: ignore[return-value]
+
+
+def spans(lo: Array, hi: Array, o: Array, d: Array) -> tuple[Array, Array]:
+    """Where lines enter boxes and where they leave them, the coordinates being the first axis of each."""
+    parallel = d == 0
+    always = np.where((lo <= o) & (o <= hi), np.inf, -np.inf)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        ends = (lo - o) / d, (hi - o) / d
+        near, far = np.minimum(*ends), np.maximum(*ends)
+    near, far = np.where(parallel, -always, near), np.where(parallel, always, far)
+    return near.max(axis=0), far.min(axis=0)
 
 
 def boxes_around(p: Vectors) -> tuple[Array, Array]:

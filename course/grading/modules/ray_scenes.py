@@ -18,6 +18,7 @@ from course.grading.modules.hierarchies import (
     exact_hit,
     lopsided,
     one_leaf,
+    spans,
 )
 from course.shapes import torus
 
@@ -136,26 +137,23 @@ def swarm(draw: Draw) -> Mapping[str, Any]:
     middle = draw.rng.uniform(-1, 1, (3, triangles))
     p: Vectors = tuple(middle + draw.rng.uniform(-0.05, 0.05, middle.shape) for _ in range(3))  # type: ignore[assignment]
     hierarchy = lopsided(draw.rng, *boxes_around(p))
-    o = np.zeros((3, 0))
-    d = np.zeros((3, 0))
+    o, d = np.zeros((2, 3, 0))
     while o.shape[1] < draw.n:
         some = 4 * unit_vectors(draw.rng, 4 * draw.n)
         way = draw.rng.uniform(-1, 1, some.shape) - some
         t, least, _ = exact_hit([c[:, :, None] for c in p], some[:, None], way[:, None])
-        near, far = spans(hierarchy, some, way)
+        near, far = crossed(hierarchy, some, way)
         clear = ((least < -0.01) | ~np.isfinite(t)).all(axis=0)
         clear &= (np.abs(near - far) > 1e-3).all(axis=0)
-        o, d = (
-            np.concatenate((all_, new[:, clear]), axis=1) for all_, new in ((o, some), (d, way))
-        )
+        o, d = np.append(o, some[:, clear], axis=1), np.append(d, way[:, clear], axis=1)
     d *= draw.rng.choice((0.1, 1.0, 10.0), d.shape[1])
     return scene(p, hierarchy, o[:, : draw.n], d[:, : draw.n])
 
 
-def spans(hierarchy: Hierarchy, o: Array, d: Array) -> tuple[Array, Array]:
-    """Where rays with no component 0 enter and leave the boxes, (M, N) each."""
-    ends = [(c[:, :, None] - o[:, None]) / d[:, None] for c in hierarchy[:2]]
-    return np.minimum(*ends).max(axis=0), np.maximum(*ends).min(axis=0)
+def crossed(hierarchy: Hierarchy, o: Array, d: Array) -> tuple[Array, Array]:
+    """Where each of N lines enters and leaves each of M boxes, (M, N) each."""
+    lo, hi = (corner[:, :, None] for corner in hierarchy[:2])
+    return spans(lo, hi, o[:, None], d[:, None])
 
 
 def counted(draw: Draw) -> Mapping[str, Any]:

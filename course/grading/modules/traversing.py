@@ -122,7 +122,7 @@ def _counted(a: Arguments, r: Any) -> Any:
 def _counted_without_hits(a: Arguments, r: Any) -> Any:
     """The same where rays hit nothing, so that no order and no skipping makes a difference."""
     _, _, first, count, _ = a.hierarchy
-    near, far = ray_scenes.spans(a.hierarchy, a.origins, a.directions)
+    near, far = ray_scenes.crossed(a.hierarchy, a.origins, a.directions)
     met, inner = near <= far, count == 0
     # Children come after their parents in no order that is known: down from the root, level by level.
     reached, level = np.zeros_like(met), np.array([0])

@@ -10,7 +10,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from course import __version__
 from course.formats.yaml.schema import json_schema
 from course.grading.release.stubs import make_stubs
-from course.modules import COURSE
+from course.modules import TAUGHT
 
 TEMPLATES = {
     "README.md": "README.md",
@@ -45,9 +45,7 @@ def made_contents(solutions: Path, *, copy: bool, instructor: bool = False) -> d
     copy : true for a student's copy, which holds the course; false for a folder beside an installed course
     instructor : true where the README tells how to grade
     """
-    # The warm-up first.
-    modules = {"sampling": COURSE["sampling"]} | COURSE
-    values = {"copy": copy, "instructor": instructor, "version": __version__, "modules": modules}
+    values = {"copy": copy, "instructor": instructor, "version": __version__, "modules": TAUGHT}
     contents = {
         name: from_template("course.grading.release", template, values)
         for name, template in (TEMPLATES | (OF_A_COPY if copy else {})).items()

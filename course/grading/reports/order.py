@@ -1,13 +1,8 @@
 """Modules in the order in which they are taught: the warm-up, then the order of the course."""
 
-from course.modules import COURSE
+from course.modules import TAUGHT
 
-WARM_UP = "sampling"
-"""What the site, too, shows first."""
-
-_PLACES = {
-    name: place for place, name in enumerate(sorted(COURSE, key=lambda name: name != WARM_UP))
-}
+_PLACES = {name: place for place, name in enumerate(TAUGHT)}
 
 
 def place(module: str) -> int:

@@ -132,8 +132,7 @@ def _shown(
         try:
             yield _rendered(module, tuple(functions), effects, scenes, share)
         except (CourseError, NotImplementedError) as error:
-            # Two callers, one in the other, may each have added which line asks for the function.
-            said = "; ".join(dict.fromkeys(str(error).split("; "))) or type(error).__name__
+            said = str(error) or type(error).__name__
             yield Shown(module, (), "", "", (0, 0), "", None, (), said, tuple(functions))
 
 

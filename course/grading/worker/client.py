@@ -19,7 +19,6 @@ from course.grading.worker.wording import no_such, not_loaded, replied, said
 LARGEST_SOURCE = 1_000_000
 """Bytes; a file that is larger was not written by a student."""
 
-
 SHORT = 1.0
 """Seconds that starting a process and importing a file again may take, for which no module loses time."""
 

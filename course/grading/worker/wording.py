@@ -190,7 +190,7 @@ def remedy(message: str) -> str:
 
 
 def _sizes(shape: str) -> tuple[int, ...]:
-    return tuple(map(int, re.findall(r"\d+", shape)))
+    return tuple(int(size) for size in shape.split(",") if size.strip())
 
 
 def _broadcast(shapes: Sequence[tuple[int, ...]]) -> str:

@@ -20,9 +20,8 @@ from course.grading.classes.roster import Matched
 from course.grading.references import prepared, reference
 from course.grading.report import FunctionResults, Report, docs_page, reproduce
 from course.grading.reports.classes import Line, write_class_page
-from course.grading.reports.order import WARM_UP
 from course.grading.reports.page import as_page
-from course.modules import COURSE
+from course.modules import COURSE, TAUGHT, WARM_UP
 
 VOID = {"meta", "img", "br"}
 # What SVG writes as <path/> comes as handle_startendtag.
@@ -342,7 +341,8 @@ def test_modules_come_in_the_order_in_which_they_are_taught(report: Report) -> N
     found = re.findall("<h2>(.*?)</h2>", as_page(replace(report, results=results)))
     assert found[:4] == ["sampling", "supersampling", "soft_shadows", "unheard_of"]
     cards = (PROJECT / "docs" / "sitebuild" / "cards.py").read_text(encoding="utf-8")
-    assert f'WARM_UP = "{WARM_UP}"' in cards
+    assert "from course.modules import TAUGHT" in cards
+    assert [*TAUGHT][:2] == [WARM_UP, "supersampling"]
 
 
 def test_a_class_of_hostile_texts(hostile_report: Report, hostile: str, tmp_path: Path) -> None:
