@@ -8,8 +8,10 @@ import pytest
 from course.grading.checks.check import Failure
 from course.grading.checks.conventions import conventions
 from course.grading.checks.declare import Arguments
+from course.grading.checks.drawing import Draw
 from course.grading.checks.examples import call, where
 from course.grading.errors import StudentError
+from course.grading.modules.hierarchies import walkable
 from tests.grading.checks.declaring import SHIFTED, but, shifted, trial
 
 LAWS = {law.name: law for law in conventions(SHIFTED)}
@@ -18,6 +20,14 @@ LAWS = {law.name: law for law in conventions(SHIFTED)}
 def _writes(center: Any, direction: Any, radius: Any) -> Any:
     value = shifted(center, direction, radius)
     direction *= 2
+    return value
+
+
+def _writes_double(center: Any, direction: Any, radius: Any) -> Any:
+    value = shifted(center, direction, radius)
+    # A copy of what is in single precision.
+    same = np.asarray(direction, float)
+    same *= 2
     return value
 
 
@@ -49,6 +59,7 @@ BROKEN = {
     ),
     "not finite along an axis": ("contract", but(lambda v, a: v / np.sign(np.abs(a.direction)))),
     "writes to its argument": ("untouched", _writes),
+    "writes to its argument in double precision": ("untouched", _writes_double),
     "seeds NumPy": ("untouched", but(_seeds)),
     "takes any radius": ("refuses", _unchecked),
     "depends on its neighbours": ("columns", but(lambda v, _: v - v.mean(axis=1, keepdims=True))),
@@ -67,6 +78,24 @@ def test_each_convention_is_looked_at(name: str) -> None:
     law, function = BROKEN[name]
     with pytest.raises((Failure, StudentError)):
         LAWS[law].run(SHIFTED, trial(function))
+
+
+def test_truth_values_can_be_computed_with() -> None:
+    """A check had an error of its own where it subtracted them."""
+    made = SHIFTED.make(Draw(np.random.default_rng(1), 4, np.float32))
+    found = SHIFTED.seen(np.ones((3, 4), bool), made)
+    assert np.array_equal(found - found, np.zeros((3, 4)))
+
+
+def test_a_hierarchy_of_a_million_levels_is_refused_at_once() -> None:
+    """The walk through it took hours."""
+    nodes = 2_000_001
+    corners = np.zeros((3, nodes), np.int8)
+    first, count = np.zeros(nodes, np.int32), np.ones(nodes, np.int8)
+    inner = np.arange(0, nodes - 1, 2)
+    first[inner], count[inner] = inner + 1, 0
+    with pytest.raises(Failure, match="at most 13 nodes for 7 boxes"):
+        walkable((corners, corners, first, count, np.zeros(7, np.int8)), 7)
 
 
 def test_a_broken_contract_is_shown_by_a_call_of_few_columns() -> None:
