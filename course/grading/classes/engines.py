@@ -33,7 +33,11 @@ Value = TypeVar("Value")
 GRACE = 3.0
 """Seconds that processes have to end in when they are told to."""
 
-DIED = "the process that graded it has died twice"
+DIED = "the process that graded it has died twice, or was ended for it took too long"
+
+OWN_SECONDS = 600
+"""Processor time that a process may take for one item, its children's not counted: to grade all modules takes the
+grader 22 s besides what students' functions take."""
 
 SECONDS = 5.0
 """Wall clock that one item may take apart from the grader."""
@@ -114,7 +118,7 @@ def _each(
                 if thread not in pools:
                     share = shares.setdefault(thread, _share(len(shares), processes))
                     pools[thread] = ProcessPoolExecutor(1, get_context("spawn"), _start, (share,))
-                work = pools[thread].submit(_call, function, item, shared)
+                work = pools[thread].submit(_call, function, item, shared, OWN_SECONDS)
             return Outcome(item, work.result())
         except BrokenProcessPool:
             del pools[thread]
@@ -159,15 +163,27 @@ _WORKING = threading.Event()
 """Whether this process is at an item."""
 
 
-def _call(function: Callable[[Item, Shared], Value], item: Item, shared: Shared) -> Value:
+def _call(
+    function: Callable[[Item, Shared], Value], item: Item, shared: Shared, own_seconds: float
+) -> Value:
     try:
         _WORKING.set()
+        _limit_own_time(own_seconds)
         return function(item, shared)
     except SystemExit:
         # Told to end; the pool would take it for the item's error and go on.
         os._exit(1)
     finally:
+        _limit_own_time(0)
         _WORKING.clear()
+
+
+def _limit_own_time(seconds: float) -> None:
+    """End this process after so much processor time of its own, whatever it is at; 0 for no end."""
+    if hasattr(signal, "setitimer"):
+        # Not an exception: a value of a student's that nobody has thought of may keep the grader in compiled code.
+        signal.signal(signal.SIGPROF, signal.SIG_DFL)
+        signal.setitimer(signal.ITIMER_PROF, seconds)
 
 
 def _share(number: int, processes: int) -> set[int]:

@@ -2,12 +2,14 @@
 
 import multiprocessing
 import os
+import signal
 from collections import Counter
 from pathlib import Path
 from time import sleep
 
 import pytest
 
+from course.grading.classes import engines
 from course.grading.classes.engines import DIED, _share, in_processes
 from tests.grading.classes.work import work
 
@@ -31,6 +33,19 @@ def test_the_one_that_kills_its_process_twice_loses_nobody_else(tmp_path: Path) 
     assert calls(tmp_path)["die-once"] == 2
     # What was done when the pool broke is not done again.
     assert calls(tmp_path)["a"] == 1
+
+
+@pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="this system has no such timer")
+def test_who_keeps_the_grader_itself_busy_is_ended(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(engines, "OWN_SECONDS", 0.2)
+    items = ["match", "a", "rest", "b"]
+    outcomes = {one.item: one for one in in_processes(work, items, tmp_path, 2)}
+    assert outcomes["match"].fault == DIED
+    assert calls(tmp_path)["match"] == 2
+    # Waiting isn't counted: that is what students' functions are given their limits for.
+    assert {outcomes[item].value for item in ("a", "rest", "b")} == {"A", "REST", "B"}
 
 
 @pytest.mark.parametrize("processors", [1, 2, 5, 16])
