@@ -61,6 +61,67 @@ def test_a_ball_is_turned_where_it_is_wrong(tmp_path: Path, suffix: str, every: 
     assert (products[products != 0] > 0).all()
 
 
+@pytest.mark.parametrize("text", [False, True])
+def test_an_stl_files_facets_say_where_out_is(tmp_path: Path, text: bool) -> None:
+    right = trimesh.Trimesh(ball(lambda _: False).vertices, ball(lambda _: False).triangles)
+    wound = right.faces.copy()
+    wound[::3] = wound[::3, ::-1]
+    path = tmp_path / "ball.stl"
+    as_stl(path, right.vertices[wound], right.face_normals, text)
+    with pytest.warns(CourseWarning, match="wound against"):
+        mesh = read_mesh(path)
+    centers = mesh.vertices[mesh.triangles].mean(axis=1)
+    p0, p1, p2 = (mesh.vertices[mesh.triangles[:, corner]] for corner in range(3))
+    assert (np.sum(np.cross(p1 - p0, p2 - p0) * centers, axis=1) > 0).all()
+
+
+@pytest.mark.parametrize("facet", [(0, 0, 0), (0, 0, 1), (np.nan, 0, 1)])
+def test_facets_that_are_no_normals_say_nothing(
+    tmp_path: Path, facet: tuple[float, float, float]
+) -> None:
+    right = ball(lambda _: False)
+    path = tmp_path / "ball.stl"
+    corners = right.vertices[right.triangles]
+    as_stl(path, corners, np.array([facet] * len(corners)), False)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        mesh = read_mesh(path)
+    assert (ahead(mesh) >= 0).all()
+
+
+def as_stl(path: Path, corners: np.ndarray, facets: np.ndarray, text: bool) -> None:
+    """Write triangles (T, 3, 3) with their facets' normals (T, 3)."""
+    if not text:
+        rows = np.zeros(
+            len(corners), [("facet", "<f4", 3), ("corners", "<f4", (3, 3)), ("a", "<u2")]
+        )
+        rows["facet"], rows["corners"] = facets, corners
+        path.write_bytes(bytes(80) + np.uint32(len(rows)).tobytes() + rows.tobytes())
+        return
+    lines = ["solid ball"]
+    for facet, triangle in zip(facets, corners, strict=True):
+        vertices = (f"vertex {x} {y} {z}" for x, y, z in triangle)
+        x, y, z = facet
+        lines += [f"facet normal {x} {y} {z}", "outer loop", *vertices, "endloop", "endfacet"]
+    path.write_text("\n".join([*lines, "endsolid ball", ""]))
+
+
+@pytest.mark.parametrize("far", [0.0, 4e6])
+def test_what_lies_far_away_is_turned_too(tmp_path: Path, far: float) -> None:
+    """Its corners are told to half of its size only, and still it can't look the other way."""
+    names = [(name, "<f4") for name in ("x", "y", "z", "nx", "ny", "nz")]
+    rows = [(far - 1, 0, 1), (far + 1, 0, 1), (far + 1, 0, -1), (far - 1, 0, -1)]
+    vertices = np.array([(*row, 0, 1, 0) for row in rows], names)
+    faces = np.array([(3, (2, 1, 0)), (3, (3, 2, 0))], [("n", "u1"), ("v", "<i4", 3)])
+    header = ["ply", "format binary_little_endian 1.0", "element vertex 4"]
+    header += [f"property float {name}" for name, _ in names]
+    header += ["element face 2", "property list uchar int vertex_indices", "end_header", ""]
+    path = tmp_path / "quad.ply"
+    path.write_bytes("\n".join(header).encode() + vertices.tobytes() + faces.tobytes())
+    with pytest.warns(CourseWarning, match="2 of 2 triangles"):
+        assert (ahead(read_mesh(path)) > 0).all()
+
+
 def test_what_agrees_is_left_alone(tmp_path: Path) -> None:
     right = ball(lambda _: False)
     path = tmp_path / "ball.ply"

@@ -30,6 +30,12 @@ FARTHEST = 1e150
 # Areas of triangles of size 1 under which rounding decides where they look.
 SLIVER = 1e-6
 
+# Cosine of an angle to a normal, from which on rounding hasn't decided on which side it is.
+ALONG = 0.99
+
+# Share of an STL file's triangles along whose facet normals they must lie; else these are no normals, and tell nothing.
+MOSTLY = 0.99
+
 
 USUAL = Bound(LARGEST_DATA)
 
@@ -44,7 +50,8 @@ def read_mesh(path: Path, weights: Weights = "angle", bound: Bound = USUAL) -> M
     are smooth; vertices that only lie at the same place, as in every STL file, are smooth up to a
     crease of 40 degrees (`smooth_normals`), unless faces weigh by their areas (`area_normals`).
     Triangles without area are let through. Where the file has normals they say which side is out:
-    triangles that are wound the other way are turned, and a `CourseWarning` says how many.
+    triangles that are wound the other way are turned, and a `CourseWarning` says how many. An STL
+    file's normals are its facets'; where they don't lie along these, they say nothing.
     Raises GeometryError, naming the file and the trouble: missing, no regular file, too large, empty, unreadable, no
     triangles, an index out of range, a vertex or a normal that is not finite; in a PLY or OBJ file a face of fewer than
     three corners. Of text the line is told.
@@ -147,10 +154,14 @@ def _checked(name: str, part: Part, weights: Weights) -> Mesh:
     if len(vertices) <= np.iinfo(np.int32).max:
         triangles = triangles.astype(np.int32)
     normals, given = _normals(name, part, len(vertices))
+    stored = np.asarray(part.vertices).dtype
+    precision = float(np.finfo(stored).eps) if stored.kind == "f" else 0.0
     if given.any():
-        stored = np.asarray(part.vertices).dtype
-        precision = float(np.finfo(stored).eps) if stored.kind == "f" else 0.0
-        triangles = _outwards(name, vertices, triangles, normals, precision)
+        out = normals[triangles].sum(axis=1)
+        triangles = _outwards(name, vertices, triangles, out, precision)
+    elif part.facets is not None:
+        facets = unit(np.nan_to_num(np.array(part.facets, np.float64), posinf=0.0, neginf=0.0))
+        triangles = _outwards(name, vertices, triangles, facets, precision, MOSTLY)
     if not given.all():
         compute = area_normals if weights == "area" else smooth_normals
         normals = np.where(given, normals, compute(vertices, triangles))
@@ -172,17 +183,27 @@ def _outwards(
     name: str,
     vertices: NDArray[np.float64],
     triangles: NDArray[np.integer],
-    normals: NDArray[np.float64],
+    out: NDArray[np.float64],
     precision: float,
+    mostly: float = 0.0,
 ) -> NDArray[np.integer]:
-    """Return triangles that look where the sum of their corners' normals does; warn of those that were turned."""
+    """Return triangles that look to the same side as ``out`` (T, 3); warn of those that were turned.
+
+    Parameters
+    ----------
+    precision : a coordinate as the file holds it is right to so many times its distance from 0
+    mostly : least share of triangles along whose ``out`` they lie, on either side; of fewer none is turned
+    """
     _, faces, lengths = edges_and_faces(vertices, triangles)
-    ahead = np.sum(faces * normals[triangles].sum(axis=1), axis=1)
-    # A sliver that rounding alone gives an area looks nowhere: a coordinate as the file holds it is right to
-    # ``precision`` times its distance from 0.
+    ahead = np.sum(faces * out, axis=1)
+    sizes = np.sqrt(np.sum(faces * faces, axis=1) * np.sum(out * out, axis=1))
+    along = np.abs(ahead) > ALONG * sizes
+    # A sliver that rounding alone gives an area looks nowhere.
     far = np.abs(vertices[triangles]).max(axis=(1, 2), initial=0.0)
-    wrong = ahead < -(SLIVER + 16 * precision * far / lengths)
-    if not wrong.any():
+    rounding = np.where(along, 0.0, 16 * precision * far / lengths)
+    wrong = ahead < -(SLIVER + rounding)
+    looking = sizes > SLIVER
+    if not wrong.any() or np.count_nonzero(along & looking) < mostly * np.count_nonzero(looking):
         return triangles
     warnings.warn(
         f"{name}: {np.count_nonzero(wrong):,} of {len(wrong):,} triangles are wound against their "

@@ -31,6 +31,7 @@ class Part:
     normals : (V, 3) or None, of any length
     uv : (V, 2) or None, v upwards
     transform : (4, 4) float64, from the part's frame to the file's
+    facets : (T, 3) or None, the triangles' own normals as the file has them
     """
 
     vertices: Array
@@ -38,6 +39,7 @@ class Part:
     normals: Array | None
     uv: Array | None
     transform: NDArray[np.float64]
+    facets: Array | None = None
 
 
 def parse_stl(data: bytes) -> list[Part]:
@@ -66,6 +68,7 @@ def part_of(
         normals=geometry.get("vertex_normals"),
         uv=uv,
         transform=transform,
+        facets=geometry.get("face_normals"),
     )
 
 

@@ -19,8 +19,11 @@ DOWN_COLUMN = np.array([(0, -2, 0), (0, -2, 0), (0, 0, 2), (0, 0, -2), (0, -2, 0
 
 LENGTHS = (1e-6, 1e-3, 1e3, 1e6)
 
-NEAR = 1e-5
+NEAR = 1e-6
 """How near to an edge directions of no tie come: nearer, rounding may decide between two faces."""
+
+NEAREST = -6, -3
+"""Of a tenth of the places, the exponents of ten between which they lie away from an edge: a tie is a tie exactly."""
 
 
 def _on_cube(face: Array, u: Array, v: Array) -> Array:
@@ -45,7 +48,10 @@ def _directions(draw: Draw) -> Array:
         choice = np.array(((1, 0.5, 0), (-1, 0, 0.5), (0.5, 1, 0), (0, -1, 0.5), (0, 0.5, 1)))
         return draw.scale * choice.T[:, draw.rng.integers(0, 5, draw.n)]
     face = draw.rng.integers(0, 6, draw.n)
-    d = _on_cube(face, *draw.uniform(NEAR, 1 - NEAR, 2, draw.n))
+    places = draw.uniform(NEAR, 1 - NEAR, 2, draw.n)
+    near = 10 ** draw.uniform(*NEAREST, 2, draw.n)
+    near = np.where(draw.rng.random(near.shape) < 0.5, near, 1 - near)
+    d = _on_cube(face, *np.where(draw.rng.random(near.shape) < 0.1, near, places))
     return np.asarray(draw.scale * d / np.linalg.norm(d, axis=0))
 
 

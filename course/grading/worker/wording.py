@@ -68,8 +68,11 @@ REMEDIES = {
         "The first axis has the coordinates and the last one the columns: u[0] and u[1] are the rows of (2, N), "
         "and u[:, 0] is its first column."
     ),
-    r"index -?\d+ is out of bounds for axis [1-9]": (
+    r"index -?\d+ is out of bounds for axis [1-9] with size [01]\b": (
         "The last axis has N columns, and N may be 0 or 1: no column can be counted on."
+    ),
+    r"index -?\d+ is out of bounds for axis [1-9]": (
+        "Along an axis of that size, indices go from 0 to one less: how is the largest one made?"
     ),
     r"zero-size array to reduction|attempt to get arg(max|min) of an empty": (
         "N = 0 is a batch, too: the largest or smallest of no columns doesn't exist."
