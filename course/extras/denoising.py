@@ -116,7 +116,8 @@ class MomentsFilm(Film):
         return {
             "neighbours": joined,
             "noise": sqrt(noise),
-            "left": sqrt(left),
+            # A student's variance may be negative.
+            "left": sqrt(max(left, 0.0)),
             "bias": sqrt(max(bias, 0.0)),
         }
 

@@ -89,10 +89,18 @@ def test_infinity_is_refused(path: str, number: int, kind: str) -> None:
 
 
 @pytest.mark.parametrize(("path", "number"), [case[:2] for case in NUMBERS if case[2] == ""])
-def test_finite_numbers_whose_sum_overflows_are_taken(path: str, number: int) -> None:
-    """Their sum is looked at first, and each only if that isn't finite; infinities of both signs are no way past it."""
-    taken = spoiled(path, lambda a: np.full_like(a, 3e38), number)()
+def test_large_numbers_are_taken_and_those_whose_products_overflow_are_not(
+    path: str, number: int
+) -> None:
+    """Their sum is looked at first, and each only if that is large; infinities of both signs are no way past it.
+
+    Weights of 3e38 had given a picture without a number in it.
+    """
+    taken = spoiled(path, lambda a: np.full_like(a, 9e17), number)()
     assert taken is not None
+    for large in (1e18, -3e38):
+        with pytest.raises(FunctionError, match=r"expected numbers below 1e\+18"):
+            spoiled(path, put(large), number)()
 
     def spoil(array: Any) -> Any:
         changed = np.zeros((*array.shape[:-1], max(array.shape[-1], 2)), array.dtype)
