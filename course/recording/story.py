@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from course.core.types import Floats64
+from course.recording.developed import Step, developed
 from course.recording.recording import Recording
 from course.recording.segments import ENVIRONMENT, Segment
 
@@ -25,8 +26,18 @@ FEWEST = 8
 LEAST = 0.005
 """Share of the light that is too little to be told."""
 
+SHOWN = 1 / 255
+"""Of white: what is darker may be black in a PNG."""
+
+OTHER = 1e-3
+"""Relative difference of a colour from its samples' weighted mean that rounding doesn't make."""
+
 MOST_NAMES = 3
 """Objects that are named in a line."""
+
+
+WEIGHTS, RESOLVE = "supersampling.gaussian_weights", "supersampling.resolve"
+"""What makes a pixel's colour of its samples."""
 
 
 @dataclass
@@ -53,6 +64,20 @@ class Story:
         """(3,) mean linear radiance."""
         color: Floats64 = self.recording.linear.astype(np.float64).mean(axis=(1, 2))
         return color
+
+    @cached_property
+    def mean(self) -> Floats64:
+        """(3,) weighted mean of the samples over all pixels: what ``color`` is if it was resolved rightly."""
+        weights = self.recording.weights.astype(np.float64)
+        with np.errstate(all="ignore"):
+            means = (self.recording.radiance * weights).sum(axis=2) / weights.sum(axis=1)
+        mean: Floats64 = means.mean(axis=1)
+        return mean
+
+    @cached_property
+    def developed(self) -> list[Step]:
+        """What the functions of `film` make of the colour; see ``developed``."""
+        return developed(self.recording)
 
     @cached_property
     def shares(self) -> Floats64:
@@ -82,9 +107,15 @@ class Story:
             values = ", ".join(f"{v:g}" for v in radiance[:, wrong[0]])
             return f"{_of(len(wrong), n, 'sample')} {_are(len(wrong))} not finite: number {wrong[0]} is ({values})"
         if not recording.weights.sum():
-            return "the weights of all samples sum to 0"
+            made = f": {WEIGHTS} returned them" if WEIGHTS in recording.asked else ""
+            return f"the weights of all samples sum to 0{made}"
         if not self.color.max() > 0:
+            if self.mean.max() > 0 and RESOLVE in recording.asked:
+                return f"{RESOLVE} made {_rgb(self.color)} of samples whose weighted mean is {_rgb(self.mean)}"
             return self._why_black()
+        for step in self.developed:
+            if step.before.max() > SHOWN and not step.after.max() > 0:
+                return f"{step.function} made {_rgb(step.after)} of its colour, {_rgb(step.before)}"
         most = int(self.shares.argmax())
         if n >= FEWEST and self.shares[most] > LONE:
             path = [one for one in self.segments if one.sample == most % recording.settings.samples]
@@ -102,14 +133,19 @@ class Story:
         if blocked:
             ends = _counted(one.met for one in blocked)
             dark = f"; {_of(len(blocked), len(shadows), 'shadow ray')} end at {ends}"
-        return f"{brighter}its light comes {_listed(parts[:MOST_NAMES])}{dark}"
+        other = ""
+        if RESOLVE in recording.asked and not np.allclose(self.color, self.mean, OTHER, OTHER / 10):
+            other = f"; {RESOLVE} made {_rgb(self.color)} of samples whose weighted mean is {_rgb(self.mean)}"
+        return f"{brighter}its light comes {_listed(parts[:MOST_NAMES])}{dark}{other}"
 
     def _why_black(self) -> str:
         """Why nothing arrives."""
         camera = [one for one in self.segments if one.kind == "camera"]
         reached = [one for one in self.segments if one.light is None and one.met != ENVIRONMENT]
         if all(one.met == ENVIRONMENT for one in camera):
-            return "nothing is there: its rays hit no object, and the environment is black"
+            asked = Counter(call.function for one in camera for call in one.calls[-1:])
+            made = _listed([f"{name} returned 0" for name in asked]) if asked else ""
+            return f"nothing is there: its rays hit no object, and {made or 'the environment is black'}"
         shadows = [one for one in self.segments if one.light is not None]
         unlit = Counter((light, why) for one in reached for light, why in one.unlit.items())
         reasons = []
@@ -154,6 +190,10 @@ class Story:
         )
         root.below.append(Line(self.reason))
         root.below += self._followed([one for one in self.segments if one.parent is None])
+        root.below += [
+            Line(f"{step.function} made {_rgb(step.after)} of {_rgb(step.before)}")
+            for step in self.developed
+        ]
         if any(one.calls for one in self.segments):
             frame = recording.scene.compiled.frame
             root.below.append(

@@ -207,3 +207,50 @@ def test_other_files_are_refused(tmp_path: Path) -> None:
     result = command(tmp_path / "showroom.xml", "1,1")
     assert result.exit_code == 1
     assert "course convert" in result.stderr
+
+
+WRONG = {
+    "cube_map.lookup_seamless": (
+        "cube_map.yaml",
+        "lookup_seamless = lambda faces, direction: np.zeros_like(direction)",
+        "nothing is there: its rays hit no object, and cube_map.lookup_seamless returned 0",
+    ),
+    "supersampling.resolve": (
+        "soft_shadows.yaml",
+        "resolve = lambda radiance, weights: np.zeros(radiance.shape[:2], radiance.dtype)",
+        "supersampling.resolve made 0 0 0 of samples whose weighted mean is 0.",
+    ),
+    "supersampling.gaussian_weights": (
+        "soft_shadows.yaml",
+        "gaussian_weights = lambda offsets, sigma: np.zeros(offsets.shape[1:], offsets.dtype)",
+        "the weights of all samples sum to 0: supersampling.gaussian_weights returned them",
+    ),
+    "film.encode_srgb": (
+        "film.yaml",
+        "encode_srgb = lambda linear: np.zeros_like(linear)",
+        "film.encode_srgb made 0 0 0 of its colour, ",
+    ),
+}
+"""Function -> a scene, how it is written, and what is told of a pixel that is black for that reason."""
+
+
+@pytest.mark.parametrize("function", WRONG)
+def test_a_function_that_makes_a_pixel_black_is_named(function: str, tmp_path: Path) -> None:
+    """They had been told as a black environment, a black material, and light brighter than white."""
+    scene, text, told = WRONG[function]
+    folder = tmp_path / "mine"
+    shutil.copytree(
+        PROJECT / "solutions", folder, ignore=lambda _, names: {"wrong", "right"} & {*names}
+    )
+    with (folder / f"{function.split('.')[0]}.py").open("a", encoding="utf-8") as file:
+        file.write(f"\n{text}\n")
+    story = pixel(PROJECT / "scenes" / scene, 5, 5, spp=16, size=(48, 32), effects=folder)
+    assert story.reason.startswith(told)
+
+
+def test_another_colour_than_the_samples_mean_is_told(make_scene: MakeScene) -> None:
+    scene = make_scene(objects=[BALL], lights=[LAMP])
+    story = pixel(scene, 16, 16)
+    assert "resolve" not in story.reason
+    other = Story(replace(story.recording, linear=story.recording.linear * np.float32(1.01)))
+    assert "; supersampling.resolve made " in other.reason
