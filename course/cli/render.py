@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import json
-import sys
 from contextlib import closing
+from functools import cache
 from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING, Any
@@ -17,7 +17,7 @@ from course.cli.metu import check_camera, converted, told_of
 from course.cli.outputs import check_outputs
 from course.cli.progress import progress_bar
 from course.cli.tables import print_sections, receipt_sections
-from course.cli.watching import again_and_again
+from course.cli.watching import run_again_and_again, times
 from course.effects import Effects
 from course.errors import CourseError, OutputError
 from course.formats.metu.suffixes import is_metu
@@ -30,8 +30,18 @@ SAMPLERS = (
     *("blue_noise", "dithered"),
 )
 
+TYPED = "course.render.typed"
+"""Where a command's context has its arguments as they were typed."""
 
-@click.command()
+
+class _Typed(click.Command):
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Keep the arguments."""
+        ctx.meta[TYPED] = [*args]
+        return super().parse_args(ctx, args)
+
+
+@click.command(cls=_Typed)
 @options.scene_argument
 @click.option(
     "-o",
@@ -115,14 +125,28 @@ def render(
     _check_engine(engine, choices["address"], choices["threads"])
     check_camera(scene, camera)
 
-    def work() -> None:
-        _render_all(scene, out, camera, effects, choices, heat_map, receipt_path)
-
     if watch:
-        # What is saved within the second in which it was compiled before would be taken for the same.
-        sys.dont_write_bytecode = True
-        again_and_again(work, lambda: [scene, *Effects(effects).folder.glob("*.py")])
-    work()
+        typed = click.get_current_context().meta[TYPED]
+        arguments = ["render", *(each for each in typed if each != "--watch")]
+        folder = Effects(effects).folder
+        run_again_and_again(
+            arguments, lambda: [scene, *folder.glob("*.py"), *_named(scene, *times([scene]))]
+        )
+    _render_all(scene, out, camera, effects, choices, heat_map, receipt_path)
+
+
+@cache
+def _named(scene: Path, _saved: int) -> list[Path]:
+    """The files that a scene names, as it was saved then; none where it can't be read."""
+    from course.formats.yaml.loading import load_description
+    from course.formats.yaml.named_files import named_files
+
+    if is_metu(scene):
+        return []
+    try:
+        return [scene.parent / name for name in named_files(load_description(scene).description)]
+    except CourseError:
+        return []
 
 
 def _render_all(

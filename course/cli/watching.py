@@ -1,15 +1,34 @@
 """Do something again whenever one of some files is saved."""
 
+import subprocess
+import sys
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
+from contextlib import suppress
 from pathlib import Path
+from typing import NoReturn
 
 import click
 
-from course.errors import CourseError
-
 POLL = 0.4
 """Seconds between two looks at the files."""
+
+GRACE = 3.0
+"""Seconds that a process may take to end after Ctrl-C."""
+
+SAID = (0, 1, 2)
+"""Exit codes of a command that has done its work, or has told why not."""
+
+PROGRAM = """
+import signal, sys
+signal.signal(signal.SIGINT, signal.SIG_IGN)
+import course.render_scene
+from course.cli.main import main
+if sys.stdin.readline():
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    main()
+"""
+"""Ctrl-C ends what is at work; what waits ends with its pipe."""
 
 
 def times(files: Iterable[Path]) -> list[int]:
@@ -30,12 +49,52 @@ def await_change(files: Callable[[], Iterable[Path]], seen: list[int]) -> None:
         time.sleep(POLL)
 
 
-def again_and_again(work: Callable[[], None], files: Callable[[], Iterable[Path]]) -> None:
-    """Do the work, and again whenever a file is saved, until Ctrl-C; mistakes in the input are told and waited out."""
-    while True:
-        seen = times(files())
-        try:
-            work()
-        except (CourseError, NotImplementedError) as error:
-            click.echo(f"error: {error}", err=True)
-        await_change(files, seen)
+def run_again_and_again(arguments: Sequence[str], files: Callable[[], Iterable[Path]]) -> NoReturn:
+    """Run a command in another process, and anew whenever a file is saved, until Ctrl-C.
+
+    A save ends the process that is still at it: a student's function may never end, or end its process.
+    ``arguments``: of `course`, without what asks to watch
+    """
+    at_work = prepared = _prepared(arguments)
+    try:
+        while True:
+            seen = times(files())
+            at_work, prepared = prepared, _prepared(arguments)
+            _begin(at_work)
+            while times(files()) == seen and at_work.poll() is None:
+                time.sleep(POLL)
+            if (code := at_work.poll()) is not None:
+                if code not in SAID:
+                    click.echo(
+                        f"error: the process has ended by itself: exit code {code}", err=True
+                    )
+                await_change(files, seen)
+            _end(at_work)
+    finally:
+        _end(prepared)
+        with suppress(subprocess.TimeoutExpired, KeyboardInterrupt):
+            # Ctrl-C has reached it as well, and it may be keeping what there is.
+            at_work.wait(GRACE)
+        _end(at_work)
+
+
+def _prepared(arguments: Sequence[str]) -> subprocess.Popen[bytes]:
+    """A process that has imported what takes long, and waits."""
+    # Without bytecode: what is saved within the second in which it was compiled would be taken for the same.
+    return subprocess.Popen(
+        [sys.executable, "-B", "-c", PROGRAM, *arguments], stdin=subprocess.PIPE
+    )
+
+
+def _begin(process: subprocess.Popen[bytes]) -> None:
+    assert process.stdin is not None
+    with suppress(OSError), process.stdin:
+        process.stdin.write(b"begin\n")
+
+
+def _end(process: subprocess.Popen[bytes]) -> None:
+    process.kill()
+    process.wait()
+    if process.stdin is not None:
+        with suppress(OSError):
+            process.stdin.close()

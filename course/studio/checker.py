@@ -12,9 +12,8 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
-import psutil
-
 from course.effects import PACKAGE
+from course.grading.worker.limits import end_tree
 
 NICE = 10
 """Added to its niceness: pictures come first."""
@@ -65,11 +64,7 @@ class Checker:
         self.run += 1
         if process is None:
             return
-        with contextlib.suppress(psutil.Error):
-            for each in psutil.Process(process.pid).children(recursive=True):
-                with contextlib.suppress(psutil.Error):
-                    each.kill()
-        process.kill()
+        end_tree(process.pid)
         process.wait()
 
     def _listen(self, process: subprocess.Popen[str], run: int) -> None:

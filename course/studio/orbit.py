@@ -25,20 +25,40 @@ def orbited(
     turn, tilt : radians
     zoom : factor of the distance
     """
+    turn, tilt, zoom = within_limits(camera, turn, tilt, zoom)
     center = np.array(camera.look_at)
-    up = _unit(np.array(camera.up))
-    out = np.array(camera.eye) - center
-    distance = float(np.linalg.norm(out))
-    height = float(out @ up) / distance
-    flat = out / distance - height * up
-    level = float(np.linalg.norm(flat))
-    east = _unit(flat if level > 1e-6 else _across(up))
+    out, distance, up = _ways(camera)
+    flat = out - float(out @ up) * up
+    east = _unit(flat if float(np.linalg.norm(flat)) > 1e-6 else _across(up))
     north = np.cross(up, east)
-    angle = max(-STEEPEST, min(STEEPEST, atan2(height, level) + tilt))
-    distance *= max(CLOSEST, min(FARTHEST, zoom))
+    angle = _tilt(camera) + tilt
+    distance *= zoom
     way = cos(angle) * (cos(turn) * east + sin(turn) * north) + sin(angle) * up
     x, y, z = (float(f"{value:.6g}") for value in center + distance * way)
     return x, y, z
+
+
+def within_limits(
+    camera: CameraDescription, turn: float, tilt: float, zoom: float
+) -> tuple[float, float, float]:
+    """The turn, tilt and zoom that are left where the camera can go no further; see ``orbited``."""
+    begin = _tilt(camera)
+    tilt = max(-STEEPEST - begin, min(STEEPEST - begin, tilt))
+    return turn, tilt, max(CLOSEST, min(FARTHEST, zoom))
+
+
+def _tilt(camera: CameraDescription) -> float:
+    """The file's."""
+    out, _, up = _ways(camera)
+    height = float(out @ up)
+    return atan2(height, float(np.linalg.norm(out - height * up)))
+
+
+def _ways(camera: CameraDescription) -> tuple[Floats64, float, Floats64]:
+    """From the centre to the eye, as a unit vector and a distance, and the up direction."""
+    out = np.array(camera.eye) - np.array(camera.look_at)
+    distance = float(np.linalg.norm(out))
+    return out / distance, distance, _unit(np.array(camera.up))
 
 
 def _unit(vector: Floats64) -> Floats64:

@@ -262,7 +262,7 @@ def _fits(told: dict[str, Any], wanted: dict[str, Any]) -> bool:
         for name, kind in wanted.items()
         if name in told
     )
-    numbers = [value for value in told.values() if isinstance(value, float)]
+    numbers = [value for value in told.values() if isinstance(value, int | float)]
     return kinds and all(name in told for name in needed) and all(abs(n) < 1e9 for n in numbers)
 
 

@@ -30,7 +30,7 @@ from course.studio.differing import Shot, coloured, deviations, rms, share_diffe
 from course.studio.engine import ENGINE, NO_RAYS
 from course.studio.keys import Slider, sliders
 from course.studio.late import IMPORTING
-from course.studio.orbit import orbited
+from course.studio.orbit import orbited, within_limits
 from course.studio.prepared import fitting
 from course.studio.sides import PATIENCE, SILENT, Side
 from course.studio.worker import Worker
@@ -45,6 +45,9 @@ REFERENCE = 4
 """Times the samples of the picture that the reference gets, and at most ``MOST``."""
 
 MOST = 256
+
+TRIED_AGAIN = ("orbit", "value", "reset", "again")
+"""Wishes of the page after which the studio's own failure is told no longer, unless it fails again."""
 
 GONE = 1.0
 """Seconds after which a file that isn't there is gone: editors that save take it away for a moment."""
@@ -73,7 +76,7 @@ class Studio:
         self._queue: queue.Queue[tuple[Any, ...]] = queue.Queue()
         self._jobs = itertools.count(1)
         self.values: dict[KeyPath, Any] = {}
-        self._orbit = [0.0, 0.0, 1.0]
+        self._orbit = (0.0, 0.0, 1.0)
         self._listeners: list[queue.Queue[tuple[str, Any]]] = []
         self._guard = threading.Lock()
         self._needs: list[str] = []
@@ -199,6 +202,8 @@ class Studio:
             except queue.Empty:
                 what, more = "", []
             try:
+                if what in TRIED_AGAIN:
+                    self._own_trouble = ""
                 if what:
                     getattr(self, f"_on_{what}", lambda *_: None)(*more)
                 if (away := monotonic() - looked) >= POLL:
@@ -499,7 +504,7 @@ class Studio:
             self._say_state()
             return
         # The workers know the old file.
-        self.values, self._orbit = {}, [0.0, 0.0, 1.0]
+        self.values, self._orbit = {}, (0.0, 0.0, 1.0)
         for side in self.sides:
             side.close()
         self._lost_pixel("the scene was saved meanwhile")
@@ -620,11 +625,11 @@ class Studio:
 
     def _on_orbit(self, told: dict[str, Any]) -> None:
         turn, tilt, zoom = self._orbit
-        turn, tilt = turn + told["turn"], tilt + told["tilt"]
-        zoom *= told["zoom"]
-        self._orbit = [turn, tilt, zoom]
         camera = self.loaded.description.camera
-        self.values["camera", "eye"] = list(orbited(camera, turn, tilt, zoom))
+        self._orbit = within_limits(
+            camera, turn + told["turn"], tilt + told["tilt"], zoom * told["zoom"]
+        )
+        self.values["camera", "eye"] = list(orbited(camera, *self._orbit))
         self._begin()
         self._say_state()
 
@@ -640,7 +645,7 @@ class Studio:
         self._say_state()
 
     def _on_reset(self, _told: dict[str, Any]) -> None:
-        self.values, self._orbit = {}, [0.0, 0.0, 1.0]
+        self.values, self._orbit = {}, (0.0, 0.0, 1.0)
         self._begin()
         self._say_state()
 

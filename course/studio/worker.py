@@ -12,7 +12,7 @@ from collections.abc import Callable
 from typing import IO, Any
 
 from course.effects import PACKAGE
-from course.grading.worker.limits import Budget, Limits
+from course.grading.worker.limits import Budget, Limits, end_tree
 from course.studio.messages import Channel, messages
 
 PROGRAM = "course.studio.program"
@@ -74,6 +74,7 @@ class Worker:
     def end(self, why: str) -> None:
         """End it, and what a function has started; the first reason is told."""
         self._why = self._why or why
+        end_tree(self._process.pid)
         with contextlib.suppress(OSError):
             if os.name == "posix" and self._process.returncode is None:
                 os.killpg(self._process.pid, signal.SIGKILL)

@@ -1,31 +1,18 @@
 """Commands that do their work again whenever a file is saved."""
 
 import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 
-import pytest
-from click.testing import Result
-
-from course.cli import watching
+from course.cli.render import _named
+from course.cli.watching import times
 from course.effects import PROJECT
-from course.errors import CourseError
-
-Run = Callable[..., Result]
-
-
-class Saves:
-    """Stands in the place of a wait: each does the next thing, and after the last it is Ctrl-C."""
-
-    def __init__(self, *steps: Callable[[], None]) -> None:
-        self.steps = list(steps)
-        self.waits = 0
-
-    def __call__(self, _seconds: float) -> None:
-        self.waits += 1
-        if not self.steps:
-            raise KeyboardInterrupt
-        self.steps.pop(0)()
 
 
 def later(path: Path, text: str) -> None:
@@ -35,64 +22,86 @@ def later(path: Path, text: str) -> None:
     os.utime(path, ns=(stamp, stamp))
 
 
-def test_work_is_done_again_when_a_file_changes_comes_or_goes(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    file, done = tmp_path / "a.py", list[bool]()
-    saves = Saves(
-        lambda: None, lambda: later(file, "1"), lambda: later(file, "22"), lambda: None, file.unlink
-    )
-    monkeypatch.setattr(watching.time, "sleep", saves)
-    with pytest.raises(KeyboardInterrupt):
-        watching.again_and_again(lambda: done.append(file.exists()), lambda: [file])
-    assert done == [False, True, True, False]
-    assert saves.waits == 6
+class Watch:
+    """`course render --watch` in a process of its own, in a folder."""
+
+    def __init__(self, folder: Path, scene: Path) -> None:
+        self.picture, self.told = folder / "a.png", folder / "told.txt"
+        self._seen = b""
+        options = ["--size", "24x16", "--spp", "1", "--effects", "mine", "-o", "a.png", "--watch"]
+        with self.told.open("wb") as out:
+            self.process = subprocess.Popen(
+                [sys.executable, "-m", "course", "render", str(scene), *options],
+                cwd=folder,
+                stdout=out,
+                stderr=out,
+                env=os.environ | {"PYTHONPATH": str(PROJECT)},
+                start_new_session=True,
+            )
+
+    def pictured(self) -> bool:
+        """Whether there is another picture than at the last call."""
+        now = self.picture.read_bytes() if self.picture.exists() else b""
+        changed, self._seen = now not in (b"", self._seen), now
+        return changed
+
+    def until(self, what: Callable[[], bool]) -> None:
+        """Wait until it is so."""
+        deadline = time.monotonic() + 60
+        while not what():
+            assert time.monotonic() < deadline, self.told.read_text()
+            time.sleep(0.05)
+
+    def says(self, text: str) -> Callable[[], bool]:
+        """Whether it has said that since now."""
+        begin = self.told.stat().st_size
+        return lambda: text in self.told.read_bytes()[begin:].decode()
 
 
-def test_a_mistake_is_told_and_waited_out(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    file = tmp_path / "a.py"
-    monkeypatch.setattr(watching.time, "sleep", Saves(lambda: later(file, "1")))
-    seen: list[int] = []
-
-    def work() -> None:
-        seen.append(1)
-        raise [CourseError("a mistake"), NotImplementedError("m.f: not written yet")][len(seen) - 1]
-
-    with pytest.raises(KeyboardInterrupt):
-        watching.again_and_again(work, lambda: [file])
-    errors = capsys.readouterr().err.splitlines()
-    assert [line for line in errors if "error" in line] == [
-        "error: a mistake",
-        "error: m.f: not written yet",
-    ]
-
-
-def test_render_takes_a_function_as_it_was_saved_last(
-    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    scene = PROJECT / "scenes" / "soft_shadows.yaml"
+def test_render_takes_a_function_as_it_was_saved_last(tmp_path: Path) -> None:
+    """Also after one that never ends, one that ends the process, and one that can't be read."""
+    scene = tmp_path / "scene.yaml"
+    shutil.copy(PROJECT / "scenes" / "soft_shadows.yaml", scene)
     mine = tmp_path / "assignments" / "soft_shadows.py"
     mine.parent.mkdir()
     body = "def point_on_sphere(center, radius, u):\n    return center[:, None] + {} * u[:1]\n"
-    pictures: list[bytes] = []
+    watch = Watch(tmp_path, scene)
+    try:
+        watch.until(watch.pictured)
+        later(mine, body.format(0))
+        watch.until(watch.pictured)
+        later(mine, body.format("[print('asked', flush=True), 1][1]"))
+        watch.until(watch.pictured)
+        busy = watch.says("asked")
+        later(
+            mine,
+            "def point_on_sphere(*_):\n    print('asked', flush=True)\n    while True:\n        pass\n",
+        )
+        watch.until(busy)
+        ended = watch.says("the process has ended by itself: exit code 7")
+        later(mine, "import os\ndef point_on_sphere(*_):\n    os._exit(7)\n" + 40 * "\n")
+        watch.until(ended)
+        wrong = watch.says("SyntaxError")
+        later(mine, "def point_on_sphere(:\n")
+        watch.until(wrong)
+        assert not watch.pictured()
+        later(mine, body.format(2) + 10 * "\n")
+        watch.until(watch.pictured)
+        misspelt = watch.says("radianze")
+        later(scene, scene.read_text().replace("radiance", "radianze"))
+        watch.until(misspelt)
+        os.killpg(watch.process.pid, signal.SIGINT)
+        assert watch.process.wait(30) == 130
+    finally:
+        with suppress(ProcessLookupError):
+            os.killpg(watch.process.pid, signal.SIGKILL)
+        watch.process.wait()
+    assert "Traceback" not in watch.told.read_text()
 
-    def kept(text: str) -> Callable[[], None]:
-        def step() -> None:
-            pictures.append((tmp_path / "a.png").read_bytes())
-            later(mine, text)
 
-        return step
-
-    saves = Saves(
-        kept(body.format(0)), kept(body.format(1)), kept("def point_on_sphere(:\n"), kept("")
-    )
-    monkeypatch.setattr(watching.time, "sleep", saves)
-    options = ["--size", "24x16", "--spp", "1", "--effects", "mine", "-o", "a.png", "--watch"]
-    result = run("render", scene, *options)
-    assert result.exit_code == 130
-    assert result.stdout.count("a.png") == 4
-    assert "SyntaxError" in result.stderr
-    assert len(set(pictures[:3])) == 3
-    assert pictures[3] == pictures[2]
+def test_files_that_a_scene_names_are_watched_too(tmp_path: Path) -> None:
+    scene = tmp_path / "textures.yaml"
+    shutil.copy(PROJECT / "scenes" / "textures.yaml", scene)
+    names = {path.name for path in _named(scene, *times([scene]))}
+    assert names == {"studio.exr", "tiles.png", "globe.png", "weave.png"}
+    assert _named(tmp_path / "none.yaml", 0) == []

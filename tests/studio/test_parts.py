@@ -19,7 +19,7 @@ from course.render_scene import NO_COMPILER
 from course.studio.differing import Shot, coloured, deviations, share_differing
 from course.studio.engine import EngineEffects, engines_picture
 from course.studio.keys import ABOUT, sliders
-from course.studio.orbit import orbited
+from course.studio.orbit import CLOSEST, FARTHEST, orbited, within_limits
 from course.studio.passes import Progressive, even_tiles, picture_of
 from course.studio.prepared import PIXELS, changed, fitting, prepared, settings_of
 from tests.studio.conftest import RIGHT, SCENE, write
@@ -51,6 +51,20 @@ def test_no_tilt_turns_the_camera_over(ball: Path) -> None:
         eye = np.array(orbited(camera, 0, tilt, 1)) - camera.look_at
         level = np.hypot(eye[0], eye[2]) / np.linalg.norm(eye)
         assert 0.05 < level < 0.1
+
+
+def test_a_camera_that_can_go_no_further_turns_back_at_once(ball: Path) -> None:
+    """Sixty presses of a key had been added up, and had to be taken back one by one."""
+    camera = load_description(ball).description.camera
+    for tilt, zoom in ((9.0, 1e6), (-9.0, 1e-6)):
+        _, tilted, zoomed = within_limits(camera, 0.5, tilt, zoom)
+        there = orbited(camera, 0.5, tilt, zoom)
+        assert orbited(camera, 0.5, tilted, zoomed) == pytest.approx(there, rel=1e-5, abs=1e-5)
+        back = orbited(camera, 0.5, tilted - np.sign(tilt) * 0.1, zoomed)
+        distance = np.linalg.norm(np.array(there) - camera.look_at)
+        assert np.linalg.norm(np.array(back) - there) > 0.05 * distance
+        assert CLOSEST <= zoomed <= FARTHEST
+    assert within_limits(camera, 7.0, 0.1, 2.0) == (7.0, 0.1, 2.0)
 
 
 # ---------------------------------------------------------------- sliders

@@ -134,6 +134,7 @@ def test_it_listens_on_the_loopback_address_alone(server: Server) -> None:
         ("/orbit", json.dumps({"turn": True, "tilt": 0, "zoom": 1})),
         ("/orbit", '{"turn": NaN, "tilt": 0, "zoom": 1}'),
         ("/orbit", '{"turn": 1e400, "tilt": 0, "zoom": 1}'),
+        ("/orbit", json.dumps({"turn": 10**400, "tilt": 0, "zoom": 1})),
         ("/pixel", json.dumps({"x": 1.5, "y": 2})),
         ("/value", json.dumps({"path": "lights", "value": 1})),
         ("/stop", "{}"),

@@ -422,3 +422,17 @@ def test_a_studio_that_was_stopped_for_a_while_ends_nobody(
     monkeypatch.setattr(whole_studio, "monotonic", lambda: now() + 1000)
     until(lambda: mine(studio)["samples"] == DONE or mine(studio)["trouble"])
     assert not mine(studio)["trouble"]
+
+
+def test_a_failure_of_the_studio_itself_is_told_until_something_works(
+    studio: Studio, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fails(_told: dict[str, Any]) -> None:
+        raise OverflowError("too large")
+
+    with monkeypatch.context() as patched:
+        patched.setattr(studio, "_on_orbit", fails)
+        studio.ask("orbit", turn=0.1, tilt=0, zoom=1.0)
+        until(lambda: "too large" in studio.state()["own"])
+    studio.ask("orbit", turn=0.1, tilt=0, zoom=1.0)
+    until(lambda: not studio.state()["own"])

@@ -6,6 +6,7 @@ however long its checks take, so a machine that is busy costs nobody anything.
 
 import threading
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from time import monotonic, sleep
 
@@ -162,6 +163,13 @@ class Budget:
                 )
             looks += 1
             sleep(LOOK)
+
+
+def end_tree(pid: int) -> None:
+    """Kill a process and all that it has started, in whatever group or session; nothing if it has ended."""
+    for process in _tree(pid):
+        with suppress(psutil.Error):
+            process.kill()
 
 
 def _tree(pid: int) -> list[psutil.Process]:
