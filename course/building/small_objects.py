@@ -9,6 +9,7 @@ import numpy as np
 from course.building.cutting import SmallThings
 from course.building.frame import FARTHEST, Frame, frame_of
 from course.building.motion import Shutter
+from course.core.ray_offset import OFFSET
 from course.core.types import Floats64
 from course.errors import CourseWarning
 from course.formats.yaml import description as d
@@ -27,6 +28,12 @@ CUT = 64.0
 LARGEST_RATIO = 1e12
 """Largest ratio of half the scene's extent and the smallest object for which float32 can render both."""
 
+
+LARGEST = 64
+"""Number of the largest objects between which thin gaps are looked for."""
+
+THIN = 4.0
+"""Width of a gap from which on rays that leave one side see the other rightly, in offsets of theirs."""
 
 FEW = 64
 """Largest number of an object's triangles that are tested one by one; more are tested by their common box."""
@@ -176,6 +183,63 @@ def warn_of_small(loaded: Loaded, extents: Extents, frame: Frame) -> None:
         f"{loaded.document.where(('objects', worst))}: {named} is too small for a scene in which {there} reaches"
         f" {reaches[other]:.3g} away from its middle: float32 holds no more than the rough place of its"
         " surface; make the one larger or the other smaller, or move small objects closer together",
+        CourseWarning,
+        stacklevel=2,
+    )
+
+
+def warn_of_gaps(loaded: Loaded, extents: Extents, frame: Frame, meshes: Sequence[Mesh]) -> None:
+    """Say which gap between flat sides of two objects, or of one, rays that leave a surface would cross; once for all.
+
+    Parameters
+    ----------
+    extents : of the objects alone
+    meshes : of the objects
+    """
+    sizes = (extents.boxes[:, 1] / 2 - extents.boxes[:, 0] / 2).max(axis=1)
+    some = np.argsort(-sizes, kind="stable")[:LARGEST]
+    low, high = (extents.boxes[some] - frame.center).transpose(1, 0, 2)
+    # (S, S, 3): from one box to the next along each axis; negative where they reach over each other.
+    way = low[None] - high[:, None]
+    shared = np.maximum(low[:, None], low[None]), np.minimum(high[:, None], high[None])
+    own = np.arange(len(some))
+    # From an object's one side to the other it is as far as it is thick.
+    way[own, own] = high - low
+    for axis in range(3):
+        others = [k for k in range(3) if k != axis]
+        reach = np.maximum(-shared[0], shared[1])[:, :, others].max(axis=2)
+        beside = (shared[1] - shared[0])[:, :, others].min(axis=2)
+        gap = way[:, :, axis]
+        # What lies closer than float32's coordinates is meant to touch.
+        thin = (gap > reach * 2.0**-23) & (gap < THIN * OFFSET * reach) & (beside > 4 * gap)
+        for i, j in np.argwhere(thin).tolist():
+            first, second = int(some[i]), int(some[j])
+            sides = (0, 1) if i == j else (1, 0)
+            if all(
+                _is_flat(meshes[number], axis, side, gap[i, j] / 64)
+                for number, side in zip((first, second), sides, strict=True)
+            ):
+                _warn_of_gap(loaded, first, second, float(gap[i, j]), float(reach[i, j]))
+                return
+
+
+def _is_flat(mesh: Mesh, axis: int, side: int, within: float) -> bool:
+    """Whether the lowest or highest side of a mesh is more than a point or an edge."""
+    places = mesh.vertices[:, axis]
+    end = places.max() if side else places.min()
+    return int(np.count_nonzero(np.abs(places - end) < within)) > 2
+
+
+def _warn_of_gap(loaded: Loaded, first: int, second: int, gap: float, reach: float) -> None:
+    what = (
+        f"{_named(loaded, first)} is {gap:.3g} thick"
+        if first == second
+        else f"between {_named(loaded, first)} and {_named(loaded, second)} is a gap of {gap:.3g}"
+    )
+    warnings.warn(
+        f"{loaded.document.where(('objects', second))}: {what}, and reaches {reach:.3g} away from the scene's middle,"
+        f" where rays leave a surface by {OFFSET * reach:.2g}: one side's shadow on the other may be lost; make it"
+        " wider or the scene smaller",
         CourseWarning,
         stacklevel=2,
     )

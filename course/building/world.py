@@ -25,6 +25,7 @@ from course.building.small_objects import (
     extents_of_lamps,
     extents_of_objects,
     frame_for,
+    warn_of_gaps,
     warn_of_small,
 )
 from course.building.textures import Painter, shows_specular_texture, shows_texture
@@ -174,6 +175,7 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
     check_growth(loaded, columns.names, world)
     if small is not None:
         warn_of_small(loaded, extents, frame)
+    warn_of_gaps(loaded, extents, frame, meshes)
     triangles = tuple(len(mesh.triangles) for mesh in meshes)
     return Compiled(world, frame, triangles, tuple(bounds), pieces, bound.needs)
 

@@ -1,5 +1,6 @@
 """A small ball on a huge floor looks as closed forms in float64 say, whatever the floor's width."""
 
+import re
 import warnings
 from typing import Any
 
@@ -172,6 +173,45 @@ def test_what_is_too_thin_for_its_own_length_is_told(make_scene: MakeScene) -> N
     with pytest.warns(CourseWarning, match=r"in which it reaches 1.5 away") as told:
         on_floor(make_scene, 1.0, objects=[thin])
     assert "objects[0] (quad) of a width of 1e-15 is too small" in str(told[0].message)
+
+
+@pytest.mark.parametrize("width", [1e5, 1e6])
+@pytest.mark.parametrize("slab", [False, True])
+def test_a_gap_that_rays_would_cross_is_told(
+    make_scene: MakeScene, width: float, slab: bool
+) -> None:
+    """The roof's shadow was lost in silence; where it isn't, and where round things nearly touch, nothing is told."""
+    quad = {"shape": "quad", "width": width, "depth": width, "material": "grey"}
+    box = {"shape": "box", "size": [width, 1, width], "material": "grey", "name": "slab"}
+    roof = quad | {"width": width / 2, "name": "roof"}
+    roof["transform"] = [{"translate": [width / 4, 1, 0]}]
+    parts: dict[str, Any] = {
+        "materials": {"grey": {}},
+        "objects": [box] if slab else [quad, roof],
+        "camera": {"eye": [0, width / 2, width], "look_at": [0, 0, 0]},
+    }
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        make_scene(**parts)
+    said = [str(each.message) for each in told]
+    assert len(said) == (width == 1e6)
+    named = r'"slab"\) is 1 thick' if slab else r'\(quad\) and .*"roof"\) is a gap of 1,'
+    assert all(re.search(named, each) for each in said)
+
+
+def test_balls_that_nearly_touch_are_no_gap(make_scene: MakeScene) -> None:
+    balls = [
+        {
+            "shape": "sphere",
+            "radius": 1,
+            "material": "grey",
+            "transform": [{"translate": [x, 0, 0]}],
+        }
+        for x in (-1, 1.00001)
+    ]
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        make_scene(materials={"grey": {}}, objects=balls)
 
 
 def test_a_camera_on_a_floor_far_from_what_is_small_sees_what_is_above_it(
