@@ -56,7 +56,9 @@ CONTRACTS = {
     "microfacets.smith_g1": "cos: N, alpha -> the shares: N",
     "microfacets.smith_g2": "cos_o: N, cos_i: N, alpha -> the shares: N",
     "microfacets.sample_visible_normal": "wo: 3 N, alpha, u: 2 N -> the normals: unit 3 N",
+    "microfacets.visible_normal_pdf": "wo: 3 N, wm: 3 N, alpha -> the density: N",
     "microfacets.fresnel_complex": "cos: N, n: 3, k: 3 -> the reflectance: 3 N",
+    "microfacets.brdf": "wo: 3 N, wi: 3 N, alpha, n: 3, k: 3 -> the values: 3 N",
     "blurred_transparency.refract": "direction: 3 N, normal: 3 N, eta: N -> directions: unit 3 N, total: bool N",
     "blurred_transparency.jitter_refraction": "direction: 3 N, normal: 3 N, roughness, u: 2 N"
     " -> the directions: unit 3 N",

@@ -231,6 +231,14 @@ STAND_INS: dict[str, tuple[Callable[..., Any], str]] = {
         lambda cos, _n, _k: np.full((3, len(cos)), 0.5, cos.dtype),
         "rough metals and glass mirror half of the light",
     ),
+    "microfacets.visible_normal_pdf": (
+        lambda wo, _wm, _alpha: np.ones(wo.shape[1], wo.dtype),
+        "rough metals find lamps by points on them alone",
+    ),
+    "microfacets.brdf": (
+        lambda wo, _wi, _alpha, _n, _k: np.zeros_like(wo),
+        "rough metals show no light of points on lamps",
+    ),
     "blurred_transparency.refract": (
         lambda direction, _normal, _eta: (direction.copy(), np.zeros(direction.shape[1], bool)),
         _CLEAR,

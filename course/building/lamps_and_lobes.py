@@ -1,6 +1,7 @@
 """Which lamps and lobes of a scene are sampled together."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -11,10 +12,12 @@ from course.core.materials import MaterialTable
 from course.core.types import Functions
 from course.effects import Bound
 from course.extras.lamps_and_lobes import Combining, FlatLamp, Lamp, RoundLamp
+from course.extras.microfacets import Microfacets
 from course.extras.visible_sphere import VisibleSphereLight
 from course.formats.yaml import description as d
+from course.formats.yaml.document import KeyPath
 
-POWERS = {"lamp": None, "balance": 1.0, "power": 2.0}
+POWERS = {"lamp": None, "balance": 1.0, "power": 2.0, "automatic": 2.0}
 """Exponent of the heuristic for each value of ``gloss_sampling`` but ``lobe``."""
 
 
@@ -23,38 +26,57 @@ def compile_combining(
     bound: Bound,
     materials: MaterialTable,
     lobes: Sequence[Lobe],
+    microfacets: Mapping[str, Microfacets],
     lights: Sequence[Light],
 ) -> Combining | None:
     """None where a scene doesn't ask for it, or has no lamp and no lobe that could be sampled together.
 
-    Lobes are Phong's, and not on glass. Lamps stand still, rays can meet them, and their points have a density in
-    closed form. Where rays start far above surfaces all is left to the lobes; so it is where the distribution ray
-    tracer divides rays at glass.
+    ``microfacets``: by the names of their materials
+
+    Lobes are Phong's and not on glass, or those of rough metals, which ask by themselves. Lamps stand still, rays can
+    meet them, and their points have a density in closed form. Where rays start far above surfaces all is left to the
+    lobes; so it is, but for lights that no ray can meet, where the distribution ray tracer divides rays at glass.
     """
     integrator = scene.integrator
-    if integrator.gloss_sampling == "lobe" or integrator.surface_offset > 0:
+    way = integrator.gloss_sampling
+    metals = {name: one for name, one in microfacets.items() if one.k is not None}
+    if integrator.surface_offset > 0 or (way in ("automatic", "lobe") and not metals):
         return None
-    if integrator.type != "path" and materials.refracts.any():
-        return None
+    divides = integrator.type != "path" and materials.refracts.any()
     exponents = np.full(len(materials.exponent), -1, np.float32)
-    for lobe in lobes:
+    for lobe in lobes if way not in ("automatic", "lobe") else ():
         if type(lobe) is Lobe and lobe.kind == "phong" and not materials.refracts[lobe.material]:
             exponents[lobe.material] = lobe.parameter
     surfaces = _surfaces(scene, materials)
+    bare = tuple(light for light in lights if light.name not in surfaces) if metals else ()
     known = {light.name: light for light in lights if light.velocity is None}
     found = [(light, surfaces[name]) for name, light in known.items() if name in surfaces]
     found = [pair for pair in found if _has_density(pair[0])]
-    if not found or not (exponents >= 0).any():
+    if way == "lobe" or divides or not (metals or (exponents >= 0).any()):
+        found = []
+    if not found and not bare:
         return None
-    names = [] if integrator.gloss_sampling == "lamp" else ["heuristic_weights"]
+    # What is asked for by itself, the first of the metals asks for.
+    asked_by: KeyPath = ("integrator", "gloss_sampling")
+    for name in [*metals][:1] if way in ("automatic", "lobe") else []:
+        asked_by = _roughness(name)
+    names = [] if way == "lamp" or not found else ["heuristic_weights"]
     if any(isinstance(light, RectangleLight) for light, _ in found):
         names.append("area_density")
     if any(isinstance(light, VisibleSphereLight) for light, _ in found):
         names.append("cone_density")
-    asked_by = ("integrator", "gloss_sampling")
     functions = bound.functions("multiple_importance", *names, asked_by=asked_by)
     lamps = tuple(_lamp(light, surface, functions) for light, surface in found)
-    return Combining(lamps, exponents, POWERS[integrator.gloss_sampling], functions)
+    names = ["brdf", "visible_normal_pdf"] if found else ["brdf"]
+    lit = [
+        replace(one, functions=bound.functions("microfacets", *names, asked_by=_roughness(name)))
+        for name, one in metals.items()
+    ]
+    return Combining(lamps, exponents, POWERS.get(way), functions, tuple(lit), bare)
+
+
+def _roughness(material: str) -> KeyPath:
+    return "materials", material, "conductor", "roughness"
 
 
 def _surfaces(scene: d.SceneDescription, materials: MaterialTable) -> dict[str, int]:

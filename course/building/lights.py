@@ -58,10 +58,14 @@ def compile_lights(
 
     A light that is sampled as a grid becomes a point light for each cell.
     """
-    by_lobes = loaded.description.integrator.gloss_sampling != "lobe"
+    scene = loaded.description
+    by_lobes = scene.integrator.gloss_sampling not in ("automatic", "lobe") or any(
+        material.conductor is not None and material.conductor.roughness
+        for material in scene.materials.values()
+    )
     lights: list[Light] = []
     skipped: dict[str, str] = {}
-    for number, light in enumerate(loaded.description.lights):
+    for number, light in enumerate(scene.lights):
         name = f"light {number}"
         if isinstance(light, d.AmbientLight):
             continue

@@ -121,7 +121,10 @@ class Painter:
             return None
         asked_by = ("materials", thing.material, "normal_map")
         described = material.normal_map
-        corners, known = self._relief(described.image, described.repeat, number, mesh, asked_by)
+        nearest = described.interpolation == "nearest"
+        corners, known = self._relief(
+            described.image, described.repeat, number, mesh, asked_by, nearest
+        )
         return Paint(corners, known)
 
     def _bump(self, described: d.BumpDescription, number: int, mesh: Mesh) -> Paint:
@@ -146,14 +149,20 @@ class Painter:
         return Paint(corners, raised)
 
     def _relief(
-        self, image: str, repeat: tuple[float, float], number: int, mesh: Mesh, asked_by: KeyPath
+        self,
+        image: str,
+        repeat: tuple[float, float],
+        number: int,
+        mesh: Mesh,
+        asked_by: KeyPath,
+        nearest: bool = False,
     ) -> tuple[Floats64, Any]:
         """What an object's corners carry, and its normal map by a picture."""
         from course.extras.normal_maps import NormalMap
 
         colors = self._normals(image, (*asked_by, "image"))
         lookup = self._bound.function("textures", "texture_lookup", asked_by)
-        texture = Texture(colors, np.array(repeat, np.float32), lookup)
+        texture = Texture(colors, np.array(repeat, np.float32), lookup, nearest)
         corners, places = self._places(number, mesh, asked_by)
         wraps = places_function(self._loaded.description.objects[number]) == "sphere_uv"
         return corners, NormalMap(texture, places, wraps)

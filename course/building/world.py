@@ -150,6 +150,7 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
     named = list(zip(columns.names, used.values(), strict=True))
     mirrors = [(name, reflecting(material)) for name, material in named]
     lobes = compile_lobes(mirrors, bound, scene.integrator)
+    microfacets = compile_microfacets(named, bound, scene.integrator)
     world = FullWorld(
         surface=surface,
         materials=materials,
@@ -166,10 +167,15 @@ def compile_scene(loaded: Loaded, effects: Effects) -> Compiled:
         backdrop=scene.environment.seen_by == "camera",
         keeps=scene.integrator.into_surface == "keep",
         lifted=scene.integrator.surface_offset > 0,
-        microfacets=compile_microfacets(named, bound, scene.integrator),
+        microfacets=microfacets,
         choice=choice,
         combining=compile_combining(
-            scene, bound, materials, lobes, lights if choice is None else ()
+            scene,
+            bound,
+            materials,
+            lobes,
+            {columns.names[one.material]: one for one in microfacets},
+            lights if choice is None else (),
         ),
     )
     check_growth(loaded, columns.names, world)

@@ -122,7 +122,7 @@ class CompiledLampsAndLobes(LampsAndLobes):
         draws.cast("shadow", len(candidates.index), path, candidates.index)
         direct_kernels.spread(candidates.index, arriving, light.color, total)
 
-    def carried(self, hits: Hits, path: Indices | None, rays: Rays) -> LobeRays:
+    def carried(self, hits: Hits, path: Indices | None, rays: Rays) -> Rays:
         """See ``LampsAndLobes``."""
         from course.compiled import lobe_kernels
 
@@ -157,6 +157,7 @@ def compiled_lamps_and_lobes(stage: LampsAndLobes) -> LampsAndLobes:
         isinstance(lamp, RoundLamp) and type(lamp.light) is VisibleSphereLight
         for lamp in combining.lamps
     )
+    plain = plain and not combining.metals
     if not (numpy_kernels.AVAILABLE and plain and round_lamps):
         return stage
     names = ["cone_density"] if combining.power is None else ["cone_density", "heuristic_weights"]

@@ -5,9 +5,9 @@ are tried, and each counts by its weight (Veach and Guibas, "Optimally combining
 rendering", 1995). A ray of a lobe carries the density of its direction; where it meets a lamp, the lamp's light counts
 with the lobe's weight. The lamp's weight goes with a shadow ray from where the lobe is.
 
-What only one strategy finds is left to it: mirrors, point lights, and lobes and lamps of other kinds. So is a lamp that
-is far wider than a lobe (``ALONE``): both weights are decided there, and no point is looked for. Nor is one on a ball
-that the lobe doesn't reach.
+What only one strategy finds is left to it: mirrors, and lobes and lamps of other kinds. So is a lamp that is far wider
+than a lobe (``ALONE``): both weights are decided there, and no point is looked for. Nor is one on a ball that the lobe
+doesn't reach. Lights that no ray can meet shine on rough metals by their points alone, and are told from lamps by that.
 """
 
 from abc import ABC, abstractmethod
@@ -25,9 +25,11 @@ from course.core.materials import Lookup
 from course.core.motion import Motion
 from course.core.rays import Draws, Rays
 from course.core.scatter import Scatter, kept_above
-from course.core.types import Floats32, Functions, Indices, Materials
-from course.core.vectors import dot, reflect
+from course.core.types import Floats32, Functions, Indices, Mask, Materials
+from course.core.vectors import dot, reflect, repeated
+from course.extras.hits_on import hits_on
 from course.extras.light_choice import some_of
+from course.extras.microfacets import Microfacets
 
 ONCE = np.array([1, 1])
 """Samples of each strategy at a hit: one point on a lamp, one direction of the lobe."""
@@ -132,20 +134,36 @@ class Combining:
     Attributes
     ----------
     lamps : those that are looked for in both ways
-    exponents : (M,) float32 of the lobes, -1 for materials whose lamps the lobe finds alone
+    exponents : (M,) float32 of Phong's lobes, -1 for other materials
     power : exponent of the heuristic; None where lamps are looked for by their points alone
     functions : of the module multiple_importance
+    metals : rough metals, whose lobes are not Phong's
+    bare : lights that no ray can meet; only metals show them
     """
 
     lamps: tuple[Lamp, ...]
     exponents: Floats32
     power: float | None
     functions: Functions
+    metals: tuple[Microfacets, ...] = ()
+    bare: tuple[Light, ...] = ()
+
+    @cached_property
+    def is_metal(self) -> Mask:
+        """(M,) bool."""
+        found: Mask = np.isin(np.arange(len(self.exponents)), [one.material for one in self.metals])
+        return found
+
+    @cached_property
+    def is_glossy(self) -> Mask:
+        """(M,) bool, materials whose lamps aren't left to the lobe alone."""
+        found: Mask = (self.exponents >= 0) | self.is_metal
+        return found
 
     def lobe_density(
         self, material: Materials, incoming: Floats32, ns: Floats32, ng: Floats32, way: Floats32
     ) -> Floats32:
-        """How dense a Phong lobe's directions are (n,) [1/sr], those mirrored that fell below the surface included.
+        """How dense a lobe's directions are (n,) [1/sr]; of Phong's, those mirrored that fell below the surface, too.
 
         Parameters
         ----------
@@ -165,13 +183,22 @@ class Combining:
             cosine = np.log1p(-np.minimum(sunk, np.float32(1 - 1e-7)))
             dense += np.where(sunk < 1, np.exp(exponent * cosine), np.float32(0))
         dense *= (exponent + 1) / np.float32(2 * np.pi)
+        for one, some in hits_on(self.metals, material):
+            arrays = (each.take(some, axis=1) for each in (incoming, ns, way))
+            dense[some] = one.density(*arrays)
         dense *= height > 0
         return dense
 
+    @cached_property
+    def _peaks(self) -> Floats32:
+        peaks = (self.exponents + 1) / np.float32(2 * np.pi)
+        for one in self.metals:
+            peaks[one.material] = one.peak
+        return peaks
+
     def peak(self, material: Materials) -> Floats32:
         """The density (n,) of lobes in their middle [1/sr]."""
-        found: Floats32 = (self.exponents.take(material) + 1) / np.float32(2 * np.pi)
-        return found
+        return self._peaks.take(material)
 
     def weights(self, lamp: Floats32, lobe: Floats32, peak: Floats32) -> Floats32:
         """Weights (2, n) of points on the lamp and of directions of the lobe, by their densities (n,)."""
@@ -184,8 +211,9 @@ class Combining:
 
     @cached_property
     def reach(self) -> Floats32:
-        """(M,) cosines to a lobe's axis from which on it is 0 in float32."""
+        """(M,) cosines to a lobe's axis from which on it is 0 in float32; of metals it is 0 nowhere."""
         found: Floats32 = np.exp(NOTHING / np.maximum(self.exponents, np.float32(1e-3)))
+        found[self.is_metal] = -2
         return found
 
     def asks(self, hits: Hits, axis: Floats32, lamp: Lamp) -> Indices | None:
@@ -210,17 +238,49 @@ class Combining:
 
 
 @dataclass(frozen=True)
-class LobeLight(DirectLight):
-    """What a lobe reflects of the points of one lamp, before the surface's reflectance.
+class MetalLight(DirectLight):
+    """What rough metals reflect of lights' points, before the surface's reflectance.
 
-    Attributes
-    ----------
-    lamp : the only one among the lights
-    combining : weighs its points
+    ``combining`` : has the metals; None never stands in a plan
+    """
+
+    combining: Combining | None = None
+
+    def _accumulated(
+        self,
+        total: Floats32 | None,
+        hits: Hits,
+        candidates: Candidates,
+        values: Floats32,
+        color: Floats32,
+    ) -> Floats32:
+        """See ``DirectLight``; irradiance over pi, times pi and what metals reflect of it."""
+        assert self.combining is not None
+        added = values * color[:, None]
+        material = candidates.of(hits.material)
+        for one, some in hits_on(self.combining.metals, material):
+            direction, ns = (
+                candidates.of(each).take(some, axis=1) for each in (hits.direction, hits.ns)
+            )
+            to_light = repeated(candidates.to_light, added.shape[1]) * candidates.inverse_length
+            brdf = one.brdf(direction, ns, to_light.take(some, axis=1))
+            above = dot(candidates.of(hits.ng).take(some, axis=1), to_light.take(some, axis=1)) > 0
+            added[:, some] *= brdf * (np.float32(np.pi) * above)
+        if candidates.columns is not None:
+            spread = np.zeros((3, hits.size), np.float32)
+            spread[:, candidates.columns] = added
+            added = spread
+        return added if total is None else np.add(total, added, out=total)
+
+
+@dataclass(frozen=True)
+class LobeLight(MetalLight):
+    """What lobes reflect of the points of one lamp, before the surface's reflectance.
+
+    ``lamp`` : the only one among the lights
     """
 
     lamp: Lamp | None = None
-    combining: Combining | None = None
 
     def _candidates(self, hits: Hits, sample: Sample) -> Candidates | None:
         found = super()._candidates(hits, sample)
@@ -237,6 +297,10 @@ class LobeLight(DirectLight):
         sent = np.float32(np.pi / self.lamp.area) * lobe * share
         sent *= (found.irradiance > 0) & (lamp > 0)
         sent /= np.where(lamp > 0, lamp, np.float32(1))
+        if self.combining.metals:
+            # What these reflect is multiplied in when it is known what is visible.
+            metal = self.combining.is_metal.take(arrays[0])
+            sent = np.where(metal, found.irradiance * share * (lobe > 0), sent)
         # Outside of the lobe no shadow ray is needed.
         kept = np.flatnonzero(sent)
         if len(kept) == 0:
@@ -282,16 +346,19 @@ class LampsAndLobes:
     combining : what is combined
     scatter : casts the rays of the lobes
     by_points : a stage for each lamp
+    on_metals : a stage for the lights that no ray can meet; None where there are none
     """
 
     combining: Combining
     scatter: Scatter
     by_points: tuple[LobeLight, ...]
+    on_metals: MetalLight | None = None
 
     def seen_by(self, surface: Surface, scatter: Scatter) -> "LampsAndLobes":
         """The same with another surface to trace, and another way to scatter."""
         stages = tuple(replace(stage, surface=surface) for stage in self.by_points)
-        return replace(self, scatter=scatter, by_points=stages)
+        bare = None if self.on_metals is None else replace(self.on_metals, surface=surface)
+        return replace(self, scatter=scatter, by_points=stages, on_metals=bare)
 
     def light(
         self, hits: Hits, beta: Floats32 | None, path: Indices | None, depth: int, draws: Draws
@@ -302,8 +369,8 @@ class LampsAndLobes:
         ----------
         beta : (3, n) throughput of the rays that hit, or None for 1: where no ray follows, no point is looked for
         """
-        glossy = np.flatnonzero(self.combining.exponents.take(hits.material) >= 0)
-        reflectance = self.scatter.reflectance(hits, glossy)
+        glossy = np.flatnonzero(self.combining.is_glossy.take(hits.material))
+        reflectance = repeated(self.scatter.reflectance(hits, glossy), len(glossy))
         arriving = reflectance if beta is None else reflectance * beta.take(glossy, axis=1)
         worth = arriving.max(axis=0, initial=0) > self.scatter.cutoff
         glossy, reflectance = glossy.compress(worth), reflectance.compress(worth, axis=1)
@@ -317,17 +384,29 @@ class LampsAndLobes:
             found = stage.incident(some, axis, of, depth, draws)
             if found is not None:
                 total = found if total is None else np.add(total, found, out=total)
+        if self.on_metals is not None:
+            metal = np.flatnonzero(self.combining.is_metal.take(some.material))
+            which = of.take(metal)
+            found = self.on_metals._from_lights(some_of(some, metal), which, depth, draws)[0]
+            if found is not None:
+                total = np.zeros((3, some.size), np.float32) if total is None else total
+                total[:, metal] += found
         if total is None:
             return None
         radiance = np.zeros((3, hits.size), np.float32)
         radiance[:, glossy] = total * reflectance
         return radiance
 
-    def carried(self, hits: Hits, path: Indices | None, rays: Rays) -> LobeRays:
-        """The rays that leave hits of paths (n,), each path at most once, with the densities of their lobes."""
+    def carried(self, hits: Hits, path: Indices | None, rays: Rays) -> Rays:
+        """The rays that leave hits of paths (n,), each path at most once, with the densities of their lobes.
+
+        Where there are no lamps they need none, and a path may come twice.
+        """
+        if not self.combining.lamps:
+            return rays
         which = left_by(rays, path)
         density = np.full(rays.size, DELTA)
-        mine = np.flatnonzero(self.combining.exponents.take(hits.material.take(which)) >= 0)
+        mine = np.flatnonzero(self.combining.is_glossy.take(hits.material.take(which)))
         at = which.take(mine)
         ns, ng = hits.ns.take(at, axis=1), hits.ng.take(at, axis=1)
         way = rays.direction.take(mine, axis=1)
@@ -408,21 +487,18 @@ def plan_lamps_and_lobes(
     combining: Combining, surface: Surface, scatter: Scatter, motion: Motion | None
 ) -> LampsAndLobes:
     """The stage of a scene."""
-    stages = tuple(
-        LobeLight(
-            surface,
-            (lamp.light,),
-            motion,
-            shaded=None,
-            diffuse=Lookup(np.ones((3, 1), np.float32)),
-            specular=None,
-            exponent=Lookup(np.zeros(1, np.float32)),
-            lamp=lamp,
-            combining=combining,
-        )
-        for lamp in combining.lamps
-    )
-    return LampsAndLobes(combining, scatter, stages)
+    arrays: dict[str, Any] = {
+        "surface": surface,
+        "motion": motion,
+        "shaded": None,
+        "diffuse": Lookup(np.ones((3, 1), np.float32)),
+        "specular": None,
+        "exponent": Lookup(np.zeros(1, np.float32)),
+        "combining": combining,
+    }
+    stages = tuple(LobeLight(lights=(lamp.light,), lamp=lamp, **arrays) for lamp in combining.lamps)
+    bare = MetalLight(lights=combining.bare, **arrays) if combining.bare else None
+    return LampsAndLobes(combining, scatter, stages, bare)
 
 
 def left_by(rays: Rays, path: Indices | None) -> Indices:

@@ -52,11 +52,39 @@ class Microfacets:
         """Directions (3, n) of the rays of the hits (n,), and the microfacets (3, n) that they meet."""
         direction, ns = hits.direction.take(which, axis=1), hits.ns.take(which, axis=1)
         u = draws(NUMBERS[0], path, depth)
-        one, none = np.ones_like(u[0]), np.zeros_like(u[0])
-        frame = turned(ns, one, none, none), turned(ns, none, one, none), ns
-        wo = np.stack([-dot(axis, direction) for axis in frame])
+        wo = _upright(ns, -direction)
         np.maximum(wo[2], FLATTEST, out=wo[2])
         return direction, turned(ns, *self.functions.sample_visible_normal(wo, self.alpha, u))
+
+    def density(self, direction: Floats32, ns: Floats32, way: Floats32) -> Floats32:
+        """How dense the directions (n,) are [1/sr] that a metal's microfacets mirror rays to.
+
+        Parameters
+        ----------
+        direction : (3, n) of the rays
+        ns : (3, n) shading normals
+        way : (3, n) unit vectors
+        """
+        wm = way - direction
+        wm /= np.sqrt(np.maximum(dot(wm, wm), np.float32(1e-20)))
+        cosine = -dot(wm, direction)
+        wo, wm = _upright(ns, -direction), _upright(ns, wm)
+        np.maximum(wo[2], FLATTEST, out=wo[2])
+        dense = self.functions.visible_normal_pdf(wo, wm, self.alpha)
+        found: Floats32 = np.where(cosine > FLATTEST, dense / (4 * np.maximum(cosine, FLATTEST)), 0)
+        return found.astype(np.float32)
+
+    def brdf(self, direction: Floats32, ns: Floats32, way: Floats32) -> Floats32:
+        """A metal's BRDF (3, n) [1/sr]; arrays as in ``density``."""
+        found: Floats32 = self.functions.brdf(
+            _upright(ns, -direction), _upright(ns, way), self.alpha, self.n, self.k
+        )
+        return found
+
+    @property
+    def peak(self) -> float:
+        """About how dense the directions are in the middle [1/sr]."""
+        return 1 / (4 * np.pi * self.alpha**2)
 
     def reflectance(self, cos: Floats32) -> Floats32:
         """Fresnel reflectance (3, n) of a metal's microfacets."""
@@ -69,6 +97,13 @@ class Microfacets:
         outside, inside = reflectance(cos, self.n, clear)[0], reflectance(cos, 1 / self.n, clear)[0]
         share: Floats32 = np.clip(np.where(entering, outside, inside), 0, 1)
         return share
+
+
+def _upright(ns: Floats32, vectors: Floats32) -> Floats32:
+    """Vectors (3, n) in frames whose third axes are the normals (3, n)."""
+    one, none = np.ones_like(ns[0]), np.zeros_like(ns[0])
+    frame = turned(ns, one, none, none), turned(ns, none, one, none), ns
+    return np.stack([dot(axis, vectors) for axis in frame])
 
 
 def bend(

@@ -34,11 +34,13 @@ class Body:
     diffuse : its diffuse reflectance
     by : what that is multiplied by
     highlight : the keys of its highlight where its specular reflectance is 1
+    degamma : true if its own reflectances are codes of a screen
     """
 
     diffuse: list[float]
     by: float
     highlight: dict[str, Any]
+    degamma: bool
 
 
 def material_name(number: str) -> str:
@@ -68,7 +70,8 @@ def _material(
     kind = element.attribute("type")
     if kind and kind not in TYPES:
         raise element.error(f"type is {kind!r}: expected {', '.join(TYPES)} or none")
-    linear = DEGAMMA if element.flag("degamma") else 1.0
+    degamma = element.flag("degamma")
+    linear = DEGAMMA if degamma else 1.0
     ambient, diffuse, specular = (
         [value**linear for value in element.color_of(f"{name}Reflectance")]
         for name in ("Ambient", "Diffuse", "Specular")
@@ -84,7 +87,7 @@ def _material(
         material |= {"specular": [factor * value for value in specular]}
     if any(specular) or brdf.model == FACETS:
         material |= shine
-    body = Body(diffuse, by, {"specular": factor} | shine)
+    body = Body(diffuse, by, {"specular": factor} | shine, degamma)
     if kind in ("mirror", "conductor"):
         material["mirror"] = list(
             element.child("MirrorReflectance", "such as 0.9 0.9 0.9").color(1)

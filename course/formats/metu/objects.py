@@ -158,7 +158,7 @@ class Objects:
             mesh = inline_mesh(faces, self.vertices, mode == "smooth", places)
         if mesh is not None:
             if placed:
-                mesh = self.textures.placed(placed[0], mesh)
+                mesh = self.textures.placed(placed, mesh)
             count = len(self._bases if stem == "mesh" else self.lamps)
             path = self.meshes.add_own(mesh, f"{stem}-{count + 1}", faces)
         return {"shape": "mesh", "name": name, "file": path, "shading": mode, **normals, **common}

@@ -5,6 +5,7 @@ texture coordinates go down, and bilinear texels lie on their upper left corners
 their middles.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Final
@@ -14,7 +15,7 @@ import numpy as np
 from course.core.types import Floats64
 from course.errors import SceneError
 from course.formats.metu.element import Element
-from course.formats.metu.materials import Body
+from course.formats.metu.materials import DEGAMMA, Body
 from course.formats.metu.meshes import MeshTable
 from course.formats.pictures.reading import LINEAR, read_picture
 from course.formats.yaml.document import show
@@ -58,6 +59,7 @@ class Texture:
     normalizer : what the picture's values are divided by
     noise : of type perlin, in the place of a picture, the keys of a material's `noise`
     height : of bumps, that of a code, or of a noise, of 1
+    degamma : true if the values over the normalizer are codes of a screen
     """
 
     element: Element
@@ -68,6 +70,7 @@ class Texture:
     normalizer: float
     noise: dict[str, Any] | None = None
     height: float = 1.0
+    degamma: bool = False
 
     @property
     def has_places(self) -> bool:
@@ -83,6 +86,16 @@ class Texture:
     def pasted(self) -> bool:
         """True if its codes are seen as they are."""
         return self.mode in ("replace_all", "replace_background")
+
+    @property
+    def is_reflectance(self) -> bool:
+        """True for a picture of reflectances, which a material's own ones are like."""
+        return self.kind in ("color", "highlight") and not self.pasted and self.noise is None
+
+    @property
+    def nearest(self) -> bool:
+        """True if a place has the values of one texel; the slopes of bumps need more."""
+        return self.between == "nearest" and self.mode != "bump_normal"
 
     @property
     def linear(self) -> bool:
@@ -108,7 +121,35 @@ class Texture:
                 f"{show(self.file.name)} over its Normalizer, {self.normalizer:g}, goes up to {values.max():g}:"
                 " expected reflectances up to 1"
             )
-        return values
+        return values**DEGAMMA if self.degamma and self.is_reflectance else values
+
+    def remarks(self) -> Iterator[str]:
+        """What differs from METU's pictures, whatever object has it."""
+        bumpy = self.mode == "bump_normal"
+        if self.degamma and not self.is_reflectance:
+            yield "has degamma, which counts for pictures of reflectances only, and was left out"
+        if self.noise is not None:
+            yield (
+                "is Perlin's noise: its grains lie elsewhere than in other renderers, for the format doesn't say"
+                " which table of numbers there is"
+            )
+        elif self.between == "trilinear" and self.kind in ("color", "highlight"):
+            yield (
+                "is trilinear, and the format doesn't say which level a place has: here it is that of the area that"
+                " a pixel of the render covers"
+            )
+        elif self.between == "trilinear" and not bumpy:
+            yield "is trilinear, and only textures of reflectances have levels here: it is bilinear"
+        if bumpy:
+            yield (
+                "is a bump map: its heights, BumpFactor times a value over Normalizer, are taken for lengths of the"
+                " object's own unit"
+                + (
+                    ""
+                    if self.noise is not None or self.between == "bilinear"
+                    else ", and are bilinear"
+                )
+            )
 
 
 @dataclass
@@ -132,6 +173,7 @@ class Textures:
     files: MeshTable
     made: dict[str, dict[str, Any]] = field(default_factory=dict)
     _sizes: dict[str, tuple[int, int]] = field(default_factory=dict)
+    _told: set[str] = field(default_factory=set)
 
     def of(self, thing: Element) -> list[Texture]:
         """The textures of an object, of each kind at most one; SceneError for one that can't be converted."""
@@ -182,7 +224,8 @@ class Textures:
         texture = found[0]
         file = self.files.add_picture(texture.picture().astype(np.float32), "background")
         scale = 1.0 if texture.linear else WHITE
-        drawn = {"interpolation": "nearest"} if texture.between == "nearest" else {}
+        self._tell(texture)
+        drawn = {"interpolation": "nearest"} if texture.nearest else {}
         return {"type": "backdrop", "image": file, "scale": scale} | drawn
 
     def material(self, textures: list[Texture], number: str, keys: dict[str, Any]) -> str:
@@ -197,15 +240,16 @@ class Textures:
 
     def _with(self, texture: Texture, number: str, keys: dict[str, Any]) -> dict[str, Any]:
         body = self.bodies[number]
-        if texture.mode == "bump_normal":
+        self._tell(texture)
+        if body.degamma and texture.is_reflectance and not texture.degamma:
             self.files.notes.add(
                 texture.element,
-                "is a bump map: its heights, BumpFactor times a value over Normalizer, are taken for lengths of the"
-                " object's own unit",
+                f"is on material {number}, whose degamma counts for the material's own reflectances: the texture has"
+                " none, so its values are taken as they are",
             )
-            if texture.noise is not None:
-                return keys | {"bump": {"noise": texture.noise, "height": texture.height}}
-        elif texture.noise is not None:
+        if texture.noise is not None and texture.mode == "bump_normal":
+            return keys | {"bump": {"noise": texture.noise, "height": texture.height}}
+        if texture.noise is not None:
             pasted = texture.mode == "replace_all"
             painted = PASTED if pasted else self._painted(keys, body.by)
             return painted | {"noise": texture.noise}
@@ -215,7 +259,8 @@ class Textures:
         if texture.kind == "normals":
             file = self.files.add_picture(picture.astype(np.float32), f"{stem}-normals")
             if texture.mode == "replace_normal":
-                return keys | {"normal_map": {"image": file}}
+                drawn = {"interpolation": "nearest"} if texture.nearest else {}
+                return keys | {"normal_map": {"image": file} | drawn}
             height = texture.height * (1.0 if texture.linear else 255.0) / texture.normalizer
             return keys | {"bump": {"image": file, "height": height}}
         if texture.mode == "blend_kd":
@@ -235,6 +280,13 @@ class Textures:
             return PASTED | {"unlit": white, "texture": drawn}
         return self._painted(keys, body.by) | {"texture": drawn}
 
+    def _tell(self, texture: Texture) -> None:
+        """What there is to say of a texture, once."""
+        if texture.number not in self._told:
+            self._told.add(texture.number)
+            for remark in texture.remarks():
+                self.files.notes.add(texture.element, remark)
+
     def _painted(self, keys: dict[str, Any], by: float) -> dict[str, Any]:
         """The keys of a material whose texture is all of its diffuse reflectance."""
         of_ambient = np.array(keys.get("ambient_color", keys["color"])) * keys.get("ambient", 1.0)
@@ -247,17 +299,28 @@ class Textures:
             "emission": (of_ambient * self.ambient).tolist(),
         }
 
-    def placed(self, texture: Texture, mesh: Mesh) -> Mesh:
-        """A mesh whose uv are METU's, with those of this course; the texture's material has been asked for.
+    def placed(self, textures: list[Texture], mesh: Mesh) -> Mesh:
+        """A mesh whose uv are METU's, with those of this course; the material of the textures has been asked for.
 
-        ``texture``: the one by whose texels they are moved.
+        ``textures``: they are moved by the texels of the first.
         """
         assert mesh.uv is not None
         u, v = mesh.uv.T
-        width, height = self._sizes[texture.number]
-        half = 0.0 if texture.between == "nearest" and texture.kind != "normals" else 0.5
-        uv = np.stack((u + half / width, 1 - v - half / height), axis=1)
+        away, *others = (self._away(texture) for texture in textures)
+        for texture, other in zip(textures[1:], others, strict=True):
+            if other != away:
+                self.files.notes.add(
+                    texture.element,
+                    f"is on a mesh whose places are moved for the texels of texture {textures[0].number}: it is off"
+                    " by up to half a texel of the two",
+                )
+        uv = np.stack((u + away[0], 1 - v - away[1]), axis=1)
         return Mesh(mesh.vertices, mesh.triangles, mesh.normals, uv)
+
+    def _away(self, texture: Texture) -> tuple[float, float]:
+        """By how much of u and v the middles of this course's texels are away from the places of METU's."""
+        width, height = self._sizes[texture.number]
+        return (0.0, 0.0) if texture.nearest else (0.5 / width, 0.5 / height)
 
 
 @dataclass(frozen=True)
@@ -301,6 +364,7 @@ def _map(
     normalizer = 255.0 if scale is None else scale.number(0, above=True)
     for tag in ("ImageId", "NoiseScale", "NoiseConversion"):
         _word(element, tag)
+    degamma = element.flag("degamma")
     factor = element.maybe("BumpFactor")
     height = 1.0 if factor is None else factor.numbers(1, "10")[0]
     if kind not in ("image", "perlin"):
@@ -309,7 +373,7 @@ def _map(
         known = f"those that can be converted are {', '.join(KINDS)}"
         return Refused(element, f"its DecalMode is {show(mode)}: {known}")
     if kind == "perlin":
-        return _noise(element, number, mode, height)
+        return _noise(element, number, mode, height, degamma)
     if between not in ("nearest", "bilinear", "trilinear"):
         return Refused(
             element,
@@ -321,10 +385,12 @@ def _map(
         raise image.unexpected(f"the id of an Image; {suggest(name, images)}")
     file = " ".join(images[name].words())
     path = folder / file.replace("\\", "/")
-    return Texture(element, number, path, mode, between, normalizer, height=height)
+    return Texture(element, number, path, mode, between, normalizer, None, height, degamma)
 
 
-def _noise(element: Element, number: str, mode: str, height: float) -> Texture | Refused:
+def _noise(
+    element: Element, number: str, mode: str, height: float, degamma: bool
+) -> Texture | Refused:
     if mode not in OF_PERLIN:
         return Refused(
             element,
@@ -338,7 +404,7 @@ def _noise(element: Element, number: str, mode: str, height: float) -> Texture |
         "scale": 1.0 if scale is None else scale.number(0, above=True),
         "conversion": CONVERSIONS[conversion],
     }
-    return Texture(element, number, Path(), mode, "bilinear", 1.0, keys, height)
+    return Texture(element, number, Path(), mode, "bilinear", 1.0, keys, height, degamma)
 
 
 def _word(element: Element, tag: str) -> str:

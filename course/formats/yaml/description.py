@@ -273,6 +273,10 @@ class NormalMapDescription(Map, frozen=True, kw_only=True):
         tuple[_Times, _Times],
         about("How often the picture repeats along u and v, as of a texture."),
     ] = (1.0, 1.0)
+    interpolation: Annotated[
+        Literal["bilinear", "nearest"],
+        about("Which normal there is between the middles of pixels: a mixture, or the nearest one."),
+    ] = "bilinear"
 
 
 class NoiseDescription(Map, frozen=True, kw_only=True):
@@ -1095,13 +1099,14 @@ class IntegratorDescription(Map, frozen=True, kw_only=True):
         ),
     ] = "automatic"
     gloss_sampling: Annotated[
-        Literal["lobe", "lamp", "balance", "power"],
+        Literal["automatic", "lobe", "lamp", "balance", "power"],
         about(
             "How glossy surfaces find lamps with a size: by directions of the `lobe`, by points on the `lamp`, or by"
             " both, weighted by the `balance` or the `power` heuristic of the module multiple_importance. For Phong's"
-            " lobes, and for rectangles and `visible` spheres with a radiance; all others are found by the lobe."
+            " lobes and rough metals, and for rectangles and `visible` spheres with a radiance; all others are found by"
+            " the lobe. `automatic` is `power` for rough metals and `lobe` for Phong's."
         ),
-    ] = "lobe"
+    ] = "automatic"
     into_surface: Annotated[
         Literal["mirror", "keep"],
         about(

@@ -397,7 +397,6 @@ VISIBLE_NORMAL_PDF = function(
             whole=True,
         ),
     ),
-    contract="wo: 3 N, wm: 3 N, alpha -> the density: N",
     case=_anywhere,
     scales=(),
 )
@@ -618,7 +617,6 @@ BRDF = function(
             whole=True,
         ),
     ),
-    contract="wo: 3 N, wi: 3 N, alpha, n: 3, k: 3 -> the values: 3 N",
     case=_pairs,
     scales=(),
 )
