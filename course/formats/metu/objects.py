@@ -227,6 +227,7 @@ class Objects:
         textures = self.textures.of(element) if element.tag == "Sphere" else []
         center = element.child("Center", "the number of a vertex")
         middle = {"translate": self._vertex(center).tolist()}
+        self.textures.tell_of_sphere(textures)
         # METU's pictures begin at -x, on the other side.
         turned = [{"rotate": {"axis": [0, 1, 0], "degrees": 180}}] if textures else []
         thing = {

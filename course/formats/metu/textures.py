@@ -40,6 +40,7 @@ WHITE: Final = 255.0
 
 CONVERSIONS: Final = {"linear": "linear", "absval": "absolute"}
 
+HALF_A_TEXEL: Final = "it is off by half a texel"
 
 PASTED: Final[dict[str, Any]] = {"color": 1.0, "unlit": WHITE}
 """A material that shows its picture as it is."""
@@ -225,6 +226,10 @@ class Textures:
         file = self.files.add_picture(texture.picture().astype(np.float32), "background")
         scale = 1.0 if texture.linear else WHITE
         self._tell(texture)
+        if not texture.nearest:
+            self.files.notes.add(
+                texture.element, f"is the background, and not nearest: {HALF_A_TEXEL}"
+            )
         drawn = {"interpolation": "nearest"} if texture.nearest else {}
         return {"type": "backdrop", "image": file, "scale": scale} | drawn
 
@@ -286,6 +291,14 @@ class Textures:
             self._told.add(texture.number)
             for remark in texture.remarks():
                 self.files.notes.add(texture.element, remark)
+
+    def tell_of_sphere(self, textures: list[Texture]) -> None:
+        """Where they lie on a ball is no more than half a texel off."""
+        for texture in textures:
+            if texture.has_places and not texture.nearest:
+                self.files.notes.add(
+                    texture.element, f"is on a Sphere, and not nearest: {HALF_A_TEXEL}"
+                )
 
     def _painted(self, keys: dict[str, Any], by: float) -> dict[str, Any]:
         """The keys of a material whose texture is all of its diffuse reflectance."""

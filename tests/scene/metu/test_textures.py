@@ -57,17 +57,17 @@ def look(u: float, v: float, **more: Any) -> Tree:
     return {"Gaze": gaze, "NearPlane": "-1e-4 1e-4 -1e-4 1e-4", **more}
 
 
-def nearest(u: float, v: float) -> Any:
+def nearest(u: float, v: float, codes: Any = CODES) -> Any:
     """METU's: the texel in column floor(u nx) and row floor(v ny)."""
-    return CODES[int(v * 4) % 4, int(u * 6) % 6] / 255
+    return codes[int(v * 4) % 4, int(u * 6) % 6] / 255
 
 
-def bilinear(u: float, v: float) -> Any:
+def bilinear(u: float, v: float, codes: Any = CODES) -> Any:
     """METU's: texels lie on whole numbers of u nx and v ny."""
     i, j = u * 6, v * 4
     p, q = math.floor(i), math.floor(j)
     a, b = i - p, j - q
-    t = CODES / 255
+    t = codes / 255
     return (
         t[q % 4, p % 6] * (1 - a) * (1 - b)
         + t[q % 4, (p + 1) % 6] * a * (1 - b)
@@ -95,6 +95,69 @@ def test_from_afar_a_trilinear_picture_is_its_mean(xml: Metu) -> None:
     camera = look(*PLACES[0]) | {"NearPlane": "-20 20 -20 20"}
     pixel = xml.pixel(textured(xml.folder, between="trilinear", camera=camera))
     np.testing.assert_allclose(pixel, AMBIENT + 100 * CODES.mean(axis=(0, 1)) / 255, rtol=1e-4)
+
+
+def test_which_level_a_trilinear_picture_has_is_told(xml: Metu) -> None:
+    xml.load(textured(xml.folder, between="trilinear"))
+    (warning,) = xml.warnings
+    assert "TextureMap is trilinear, and the format doesn't say which level" in warning
+
+
+@pytest.mark.parametrize("mode", ["replace_kd", "blend_kd", "replace_ks"])
+@pytest.mark.parametrize("of_texture", [False, True])
+@pytest.mark.parametrize("of_material", [False, True])
+def test_degamma_is_the_textures_own(
+    metu: Metu, mode: str, of_texture: bool, of_material: bool
+) -> None:
+    """A power of its values, and of the material's reflectances; where the texture has none, a warning says so."""
+    lights = {"DirectionalLight": SUN["DirectionalLight"]}
+    scene = textured(metu.folder, mode=mode, camera=look(*PLACES[1]), lights=lights)
+    scene["Textures"]["TextureMap"] |= {"_degamma": "true"} if of_texture else {}
+    matt = MATT | {"SpecularReflectance": "0.5 0.5 0.5", "PhongExponent": "1e-9"}
+    scene["Materials"]["Material"] = [matt | ({"_degamma": "true"} if of_material else {})]
+    seen = nearest(*PLACES[1]) ** (2.2 if of_texture else 1)
+    kd = np.array([0.5, 0.25, 0]) ** (2.2 if of_material else 1)
+    ks = 0.5 ** (2.2 if of_material else 1)
+    kd, ks = {
+        "replace_kd": (seen, ks),
+        "blend_kd": ((seen + kd) / 2, ks),
+        "replace_ks": (kd, seen),
+    }[mode]
+    np.testing.assert_allclose(metu.pixel(scene), 100 * (kd + ks), rtol=1e-3, atol=0.01)
+    told = "is on material 1, whose degamma counts for the material's own reflectances"
+    assert [told in warning for warning in metu.warnings] == [True] * (of_material > of_texture)
+
+
+@pytest.mark.parametrize("mode", ["replace_all", "replace_normal", "bump_normal", "perlin"])
+def test_degamma_of_other_textures_is_left_out_and_a_warning_says_so(xml: Metu, mode: str) -> None:
+    scene = textured(xml.folder, mode="replace_kd" if mode == "perlin" else mode)
+    kind = {"_type": "perlin"} if mode == "perlin" else {}
+    scene["Textures"]["TextureMap"] |= {"_degamma": "true"} | kind
+    xml.load(scene)
+    assert "TextureMap has degamma, which counts for pictures of reflectances" in xml.warnings[0]
+
+
+def test_what_lies_half_a_texel_off_is_told(xml: Metu) -> None:
+    """Two pictures of unlike texels on one mesh, a bilinear one on a ball, and one of the background."""
+    scene = textured(xml.folder)
+    table = scene["Textures"]
+    maps = [table["TextureMap"] | {"_id": str(number)} for number in range(1, 5)]
+    maps[1] |= {"DecalMode": "replace_ks", "Interpolation": "bilinear"}
+    maps[2] |= {"Interpolation": "bilinear"}
+    maps[3] |= {"DecalMode": "replace_background", "Interpolation": "trilinear"}
+    table["TextureMap"] = maps
+    scene["Objects"]["Mesh"]["Textures"] = "1 2"
+    ball = {"_id": "1", "Material": "1", "Textures": "3", "Center": "1", "Radius": "2"}
+    scene["Objects"]["Sphere"] = ball
+    xml.load(scene)
+    for part in (
+        "TextureMap[2] is on a mesh whose places are moved for the texels of texture 1",
+        "TextureMap[3] is on a Sphere, and not nearest: it is off by half a texel",
+        "TextureMap[4] is the background, and not nearest: it is off by half a texel",
+        "TextureMap[4] is trilinear, and only textures of reflectances have levels",
+    ):
+        assert any(part in warning for warning in xml.warnings)
+    assert len(xml.warnings) == 4
 
 
 def test_blending_is_the_mean_with_the_material(metu: Metu) -> None:
@@ -175,6 +238,8 @@ def test_perlin_noise_is_that_of_this_course(xml: Metu, said: str, meant: str) -
     value = float(noise(np.array([[1.8], [3.6], [-4]], np.float32) * np.float32(3))[0])
     value = abs(value) if meant == "absolute" else (value + 1) / 2
     np.testing.assert_allclose(xml.pixel(scene), AMBIENT + 100 * value, rtol=1e-2, atol=0.1)
+    (warning,) = xml.warnings
+    assert "TextureMap is Perlin's noise: its grains lie elsewhere" in warning
 
 
 @pytest.mark.parametrize("also_a_picture", [False, True])
@@ -194,6 +259,29 @@ def test_a_normal_map_turns_the_normal_along_metus_u_and_v(xml: Metu, also_a_pic
     kd = nearest(*PLACES[0]) if also_a_picture else np.array([0.5, 0.25, 0])
     expected = 100 * kd * (n @ [0, 1, 1]) / math.sqrt(2)
     np.testing.assert_allclose(xml.pixel(scene), expected, rtol=1e-3, atol=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("between", "found"),
+    [("nearest", nearest), ("", nearest), ("bilinear", bilinear), ("trilinear", bilinear)],
+)
+@pytest.mark.parametrize("place", PLACES)
+def test_a_normal_map_is_nearest_unless_it_says_otherwise(
+    xml: Metu, between: str, found: Any, place: tuple[float, float]
+) -> None:
+    """The cosine is that of the normal of the place's code, for light along z."""
+    codes = CODES // 2 + np.array([60, 60, 120], np.uint8)
+    lights = {"DirectionalLight": SUN["DirectionalLight"]}
+    scene = textured(xml.folder, mode="replace_normal", lights=lights, camera=look(*place))
+    Image.fromarray(codes).save(xml.folder / "picture.png")
+    scene["Textures"]["TextureMap"]["Interpolation"] = between
+    if not between:
+        del scene["Textures"]["TextureMap"]["Interpolation"]
+    normal = found(*place, codes) - 0.5
+    expected = 100 * np.array([0.5, 0.25, 0]) * normal[2] / np.linalg.norm(normal)
+    np.testing.assert_allclose(xml.pixel(scene), expected, rtol=1e-3)
+    told = "TextureMap is trilinear, and only textures of reflectances have levels here"
+    assert [told in warning for warning in xml.warnings] == [True] * (between == "trilinear")
 
 
 @pytest.mark.parametrize("kind", ["image", "perlin"])
@@ -220,8 +308,9 @@ def test_nothing_else_is_seen_under_what_is_pasted_and_a_warning_says_so(xml: Me
     scene["Textures"]["TextureMap"] = [scene["Textures"]["TextureMap"], pasted]
     scene["Objects"]["Mesh"]["Textures"] = "1 2"
     np.testing.assert_allclose(xml.pixel(scene), 255 / 2, rtol=1e-4)
-    (warning,) = xml.warnings
-    assert "Textures has one that replaces all, under which 1 is not seen" in warning
+    assert "Textures has one that replaces all, under which 1 is not seen" in xml.warnings[0]
+    assert "TextureMap[2] is Perlin's noise: its grains lie elsewhere" in xml.warnings[1]
+    assert len(xml.warnings) == 2
 
 
 @pytest.mark.parametrize("model", ["", "ModifiedPhong"])
@@ -303,6 +392,7 @@ def test_a_bump_map_tilts_the_normal_by_the_slope_of_its_codes(
     expected = 100 * kd * max(n @ [0, 1, 1], 0) / math.sqrt(2)
     np.testing.assert_allclose(xml.pixel(scene), expected, rtol=1e-3, atol=1e-3)
     assert "is a bump map: its heights" in xml.warnings[0]
+    assert xml.warnings[0].endswith("own unit, and are bilinear")
 
 
 def test_bumps_of_perlin_noise_are_those_of_this_course(xml: Metu) -> None:
