@@ -15,6 +15,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from course.errors import SceneError
 from course.formats.metu.element import Element
 from course.formats.yaml.suggestions import suggest
 
@@ -40,12 +41,14 @@ class Brdf:
     model : one of METU's
     normalized : true if the diffuse term is divided by pi, and the highlight brought to its energy
     covers : true if the diffuse term gets what facets leave
+    unknown : an element of `BRDFs` whose model is none of those known
     """
 
     exponent: float | None = None
     model: str = "OriginalBlinnPhong"
     normalized: bool = False
     covers: bool = False
+    unknown: Element | None = None
 
     def keys(self, material: Element, exponent: float) -> dict[str, Any]:
         """The keys of a highlight but for its colour; SceneError for facets without an index of refraction."""
@@ -53,7 +56,9 @@ class Brdf:
         if self.model != FACETS:
             return keys
         facets: dict[str, Any] = {
-            "refraction_index": material.child("RefractionIndex", "1.5").number(0, above=True),
+            "refraction_index": material.child(
+                "RefractionIndex", f"such as 1.5, for its BRDF is {FACETS}"
+            ).number(0, above=True),
             "absorption_index": material.number_of("AbsorptionIndex", 0.0),
         }
         return keys | {"facets": facets | ({"covers": True} if self.covers else {})}
@@ -66,7 +71,7 @@ class Brdf:
 
 
 def read_brdfs(scene: Element) -> dict[str, Brdf]:
-    """The models by id."""
+    """The models by id; those that are not known stand for themselves, and are refused where they are used."""
     parent = scene.maybe("BRDFs")
     found: dict[str, Brdf] = {}
     for kind in HIGHLIGHTS if parent is not None else ():
@@ -80,6 +85,9 @@ def read_brdfs(scene: Element) -> dict[str, Brdf]:
             if covers and kind != FACETS:
                 raise element.error(f"kdfresnel is true: only {FACETS} has such a form")
             found[number] = Brdf(exponent, kind, normalized or kind == FACETS, covers)
+    for element in () if parent is None else parent.children:
+        if element.tag not in HIGHLIGHTS:
+            found.setdefault(element.attributes.get("id", "").strip(), Brdf(unknown=element))
     return found
 
 
@@ -91,6 +99,16 @@ def brdf_of(material: Element, brdfs: Mapping[str, Brdf]) -> Brdf:
     if name not in brdfs:
         raise material.error(f"BRDF is {name}: expected the id of one; {suggest(name, brdfs)}")
     return brdfs[name]
+
+
+def refused_brdf(brdf: Brdf) -> SceneError | None:
+    """The error of an object whose material has a model that is not known."""
+    if brdf.unknown is None:
+        return None
+    known = ", ".join(HIGHLIGHTS)
+    return brdf.unknown.refused(
+        f"this course has no such model, only {known}; take the attribute BRDF from its materials to render without it"
+    )
 
 
 def pi_is_of_surfaces(scene: Element) -> bool:

@@ -87,11 +87,15 @@ class Element:
         return found[0] if found else None
 
     def child(self, tag: str, example: str) -> "Element":
-        """The child of that name; SceneError where it is missing."""
+        """The child of that name; SceneError where it is missing.
+
+        ``example``: what it is to be, or "such as" and an example of its text
+        """
         found = self.maybe(tag)
         if found is None:
             self._check_map()
-            raise self.error(f"{tag} is missing: expected {example}")
+            named = "an element of that name, " if example.startswith("such as") else ""
+            raise self.error(f"{tag} is missing: expected {named}{example}")
         return found
 
     def _check_map(self) -> None:

@@ -143,8 +143,10 @@ def _area(element: Element, matrix: Floats64, pi: float) -> dict[str, Any]:
     normal = element.child("Normal", "such as 0 -1 0").direction()
     size = element.child("Size", "such as 2").number(0, above=True)
     # Some files call it an intensity.
-    radiance = element.maybe("Radiance") or element.child(
-        "Intensity", "or Radiance, such as 10 10 10"
+    radiance = (
+        element.maybe("Radiance")
+        or element.maybe("Intensity")
+        or element.child("Radiance", "such as 10 10 10")
     )
     center = point(matrix, position)
     # Its size is in the world: no step changes it.

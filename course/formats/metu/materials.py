@@ -5,7 +5,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from course.formats.metu.brdfs import FACETS, Brdf, brdf_of
+from course.errors import SceneError
+from course.formats.metu.brdfs import FACETS, Brdf, brdf_of, refused_brdf
 from course.formats.metu.element import Element, Notes
 
 TYPES = ("mirror", "conductor", "dielectric")
@@ -27,7 +28,7 @@ DEGAMMA = 2.2
 
 @dataclass(frozen=True)
 class Body:
-    """What textures need of a material.
+    """What objects and textures need of a material.
 
     Attributes
     ----------
@@ -35,12 +36,14 @@ class Body:
     by : what that is multiplied by
     highlight : the keys of its highlight where its specular reflectance is 1
     degamma : true if its own reflectances are codes of a screen
+    refused : why no object can have it
     """
 
     diffuse: list[float]
     by: float
     highlight: dict[str, Any]
     degamma: bool
+    refused: SceneError | None
 
 
 def material_name(number: str) -> str:
@@ -87,7 +90,7 @@ def _material(
         material |= {"specular": [factor * value for value in specular]}
     if any(specular) or brdf.model == FACETS:
         material |= shine
-    body = Body(diffuse, by, {"specular": factor} | shine, degamma)
+    body = Body(diffuse, by, {"specular": factor} | shine, degamma, refused_brdf(brdf))
     if kind in ("mirror", "conductor"):
         material["mirror"] = list(
             element.child("MirrorReflectance", "such as 0.9 0.9 0.9").color(1)

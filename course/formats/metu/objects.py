@@ -311,6 +311,8 @@ class Objects:
                 raise material.unexpected(
                     f"the id of a material; {suggest(name, sorted(self.materials))}"
                 )
+            if (refused := self.textures.bodies[name].refused) is not None:
+                raise refused
             keys["material"] = material_name(name)
             if textures:
                 named = self.textures.material(list(textures), name, self.materials[name])

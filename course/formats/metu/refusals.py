@@ -1,6 +1,7 @@
 """What is refused: parts of METU's format that change the picture, and that this course has nothing for.
 
-Parts that nobody knows are left out with a warning; these are known, so a picture without them would be a wrong one.
+Parts that nobody knows are left out with a warning; but without these a picture would be a wrong one: parts that are
+known, and lights and objects of any name.
 """
 
 import re
@@ -9,6 +10,8 @@ from collections.abc import Iterable
 from course.errors import SceneError
 
 REFUSED = {
+    "Lights/*": "this course has no such light",
+    "Objects/*": "this course has no such object",
     "Objects/*/Textures": "only a Mesh, a Sphere, and instances by their meshes, have textures",
     "Transparency": "no material of this course lets light straight through",
 }
@@ -35,6 +38,7 @@ def refuse(left_over: Iterable[tuple[str, str]]) -> None:
 def _reason(path: str) -> str | None:
     names = re.sub(r"\[\d+\]", "", path)
     for end, why in REFUSED.items():
-        if re.search(f"(^|/){re.escape(end).replace(re.escape('*'), '[^/]+')}$", names):
+        # No comma: behind one is an attribute, or a text.
+        if re.search(f"(^|/){re.escape(end).replace(re.escape('*'), '[^/,]+')}$", names):
             return why
     return None

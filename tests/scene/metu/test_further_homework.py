@@ -265,7 +265,10 @@ REFUSED: dict[str, tuple[Tree, tuple[str, ...]]] = {
     ),
     "torrance": (
         {"BRDFs": {"TorranceSparrow": {"_id": "1", "_kdfresnel": "true", "Exponent": "3"}}},
-        ("Scene/Materials/Material: RefractionIndex is missing: expected 1.5",),
+        (
+            "Scene/Materials/Material: RefractionIndex is missing: expected an element of that name, ",
+            "such as 1.5, for its BRDF is TorranceSparrow",
+        ),
     ),
     "kdfresnel": (
         {"BRDFs": {"ModifiedPhong": {"_id": "1", "_kdfresnel": "true", "Exponent": "3"}}},
@@ -274,6 +277,26 @@ REFUSED: dict[str, tuple[Tree, tuple[str, ...]]] = {
     "no such brdf": (
         {"BRDFs": {"ModifiedBlinnPhong": {"_id": "2", "Exponent": "3"}}},
         ("Scene/Materials/Material: BRDF is 1: expected the id of one",),
+    ),
+    "unknown brdf": (
+        {"BRDFs": {"DisneyPrincipled": {"_id": "1", "Exponent": "3"}}},
+        (
+            "Scene/BRDFs/DisneyPrincipled is refused: this course has no such model, only OriginalBlinnPhong, ",
+            "take the attribute BRDF from its materials to render without it",
+        ),
+    ),
+    "unknown light": (
+        {
+            "lights": {
+                "EnvironmentLight": {"_id": "1"},
+                "TriangularLight": [{"_id": "1"}, {"_id": "2"}],
+            },
+            "objects": {"Mesh": WALL_MESH, "Cylinder": {"_id": "1", "Radius": "2"}},
+        },
+        (
+            "Scene/Lights/EnvironmentLight is refused: this course has no such light; remove it",
+            " to render without it; refused are also: Scene/Lights/TriangularLight, Scene/Objects/Cylinder",
+        ),
     ),
     "normalized": (
         {"BRDFs": {"OriginalBlinnPhong": {"_id": "1", "_normalized": "1", "Exponent": "3"}}},
@@ -341,6 +364,15 @@ def test_textures_of_planes_and_lamps_are_refused(metu: Metu) -> None:
     message = refused(metu, tree(objects={"Plane": plane, "LightMesh": lamp}))
     assert "Scene/Objects/Plane/Textures is refused: only a Mesh, a Sphere" in message
     assert "refused are also: Scene/Objects/LightMesh/Textures" in message
+
+
+def test_an_unknown_brdf_of_a_material_that_no_object_has_is_left_out_with_a_warning(
+    metu: Metu,
+) -> None:
+    scene = tree(materials=[MATT, DARK | {"_BRDF": "1"}], BRDFs={"Velvet": {"_id": "1"}})
+    metu.load(scene)
+    (warning,) = metu.warnings
+    assert "Scene/BRDFs/Velvet is not known, and was left out" in warning
 
 
 def test_a_brdf_that_no_material_has_is_no_loss(metu: Metu) -> None:

@@ -31,9 +31,9 @@ Cameras/Camera/ApertureSize -> 1 | Camera: FocusDistance is missing or 0: expect
 Cameras/Camera/_handedness -> both | Camera: handedness is "both": expected right or left
 Cameras/Camera/_type -> fisheye | Camera: type is 'fisheye': expected lookAt or none
 Cameras/Camera -> {"_id": "1", "_type": "lookAt", "ImageResolution": "4 4", "Position": "0 0 5", "Up": "0 1 0"} |
-    Camera: Gaze is missing: expected such as 0 0 -1, or a GazePoint
+    Camera: Gaze is missing: expected an element of that name, such as 0 0 -1, or a GazePoint
 Materials/Material/_type -> plastic | Material: type is 'plastic': expected mirror, conductor, dielectric or none
-Materials/Material/_type -> conductor | Material: MirrorReflectance is missing: expected such as 0.9 0.9 0.9
+Materials/Material/_type -> conductor | Material: MirrorReflectance is missing: expected an element
 Materials/Material/DiffuseReflectance -> -2 0 0 | DiffuseReflectance is "-2 0 0": expected 3 numbers from 0
 Lights/PointLight -> {"_id": "1", "Position": "0 0 0"} | Lights/PointLight: Intensity is missing
 Lights/AmbientLight -> -1 0 0 | AmbientLight is "-1 0 0": expected 3 numbers from 0
@@ -183,8 +183,9 @@ def test_missing_files_and_folders_are_told(tmp_path: Path) -> None:
 def test_what_is_not_known_is_named_once_a_kind(metu: Metu) -> None:
     scene = tree(
         camera={"Tonemap": {"TMO": "ACES", "Gamma": "2.2"}, "_fovAxis": "x"},
-        lights={"AmbientLight": "9 9 9", "Candle": [{"_id": "1"}, {"_id": "2"}, {"_id": "3"}]},
+        lights={"AmbientLight": {"_data": "9 9 9", "_hue": "warm"}},
         Shaders={"Shader": ""},
+        BRDFs={"Velvet": [{"_id": "1"}, {"_id": "2"}, {"_id": "3"}]},
     )
     scene["Objects"]["Mesh"] |= {"Shaders": "1", "_lod": "2"}
     metu.load(scene)
@@ -192,13 +193,14 @@ def test_what_is_not_known_is_named_once_a_kind(metu: Metu) -> None:
     for part in (
         "Scene/Cameras/Camera/Tonemap has TMO ACES: only Photographic is known, so it was left out",
         "Scene/Cameras/Camera, attribute fovAxis is not known",
-        "Scene/Lights/Candle[1] is not known, and was left out (and 2 more of this kind)",
+        "Scene/Lights/AmbientLight, attribute hue is not known",
+        "Scene/BRDFs/Velvet[1] is not known, and was left out (and 2 more of this kind)",
         "Scene/Shaders is not known",
         "Scene/Objects/Mesh/Shaders is not known",
         "Scene/Objects/Mesh, attribute lod is not known",
     ):
         assert part in warnings
-    assert len(metu.warnings) == 6
+    assert len(metu.warnings) == 7
 
 
 def test_every_kind_is_named_however_many_there_are(metu: Metu) -> None:

@@ -45,6 +45,13 @@ def test_what_is_out_of_range_is_refused(metu: Metu, changed: dict[str, str], to
         metu.load(tree(camera={"Tonemap": TONEMAP | changed}))
 
 
+def test_what_is_missing_is_told_with_an_example(metu: Metu) -> None:
+    tonemap = {key: value for key, value in TONEMAP.items() if key != "Saturation"}
+    told = "Tonemap: Saturation is missing: expected an element of that name, such as 1$"
+    with pytest.raises(SceneError, match=told):
+        metu.load(tree(camera={"Tonemap": tonemap}))
+
+
 def test_only_the_first_photographic_tonemap_counts(metu: Metu) -> None:
     others = [{"TMO": "ACES", "Gamma": "2.2"}, TONEMAP, TONEMAP | {"Gamma": "1"}]
     tone = metu.load(tree(camera={"Tonemap": others})).loaded.description.film.tone
