@@ -16,6 +16,9 @@ DTYPES |= {name: getattr(np, name) for name in ("float32", "float64", "int32", "
 
 _KINDS = {np.bool_: "bool", "int": "whole", np.int32: "whole", np.uint32: "whole"}
 
+BELOW = "below:"
+"""Begins the word for a range."""
+
 Size = int | str | tuple[tuple[str, ...], int]
 """A number, a word, or words whose sizes are multiplied and then divided by a number."""
 
@@ -30,6 +33,7 @@ class Result:
     dtype : None for that of the batch arguments; a kind ("int", "floating") where any of it does
     finite : whether it is, for every legal argument
     unit : whether it is directions of length 1
+    below : of whole numbers the size or number that they are below, from 0 on; "" where any will do
     """
 
     name: str
@@ -37,6 +41,7 @@ class Result:
     dtype: Any = None
     finite: bool = True
     unit: bool = False
+    below: str = ""
 
     @cached_property
     def kind(self) -> str:
@@ -98,7 +103,10 @@ def parsed(text: str) -> Contract:
     for part in after.split(","):
         name, _, rest = part.partition(":")
         words = rest.split()
-        said = {word for word in words if word in DTYPES or word in ("unit", "infinite", "*")}
+        below = next((word for word in words if word.startswith(BELOW)), "")
+        said = {
+            word for word in words if word in DTYPES or word in ("unit", "infinite", "*", below)
+        }
         results.append(
             Result(
                 name.strip(),
@@ -106,6 +114,7 @@ def parsed(text: str) -> Contract:
                 next((DTYPES[word] for word in words if word in DTYPES), None),
                 "infinite" not in said,
                 "unit" in said,
+                below.removeprefix(BELOW),
             )
         )
     return Contract(arguments, tuple(results), several)

@@ -17,6 +17,8 @@ from types import ModuleType, SimpleNamespace
 from typing import Any
 
 from course.errors import CourseWarning, EffectError, Ended
+from course.inputs import Bound as MostRead
+from course.inputs import opened
 from course.modules import COURSE
 
 PACKAGE = Path(__file__).resolve().parent
@@ -46,6 +48,10 @@ def _way() -> str:
     names = [os.path.relpath(folder) for folder in (above[:1] or below[:3])]
     ways = [f'`cd "{name}"`' if " " in name else f"`cd {name}`" for name in names]
     return f"{' or '.join(ways)} goes to your course" if ways else ""
+
+
+LARGEST_FILE = 2_000_000
+"""Bytes of a file of functions."""
 
 
 @dataclass(frozen=True)
@@ -295,6 +301,8 @@ def _import_file(path: Path) -> ModuleType:
     """Import a file under a name of its own, so that two folders with equal names don't meet."""
     if not path.is_file():
         raise EffectError(f"{path} is missing; the scene needs its functions")
+    with opened(path, "file of functions", MostRead(LARGEST_FILE), EffectError):
+        pass  # Python would read all of it, whatever its size.
     name = f"course_effects.{path.parent.name}.{path.stem}"
     spec = spec_from_file_location(name, path)
     if spec is None or spec.loader is None:

@@ -57,7 +57,9 @@ class Guard:
         Raises FunctionError: it raised an exception, or returned another kind of value than its contract says.
         """
         try:
-            value = self._function(*map(_lent, arguments))
+            # What a function sets NumPy to do with overflows and zeros is its own business.
+            with np.errstate():
+                value = self._function(*map(_lent, arguments))
         except PASSED:
             raise
         except BaseException as error:
@@ -109,6 +111,13 @@ class Guard:
             expected = f"{called} {_written(shape)}"
             raise self._error(f"{which}{told(value)}; expected {expected}", arguments)
         if result.kind in ("bool", "whole"):
+            most = known.get(result.below, int(result.below) if result.below.isdigit() else 0)
+            if most and value.size and not (value.min() >= 0 and value.max() < most):
+                worst = value.min() if value.min() < 0 else value.max()
+                expected = f"whole numbers from 0 to {most - 1}"
+                raise self._error(
+                    f"{which}{told(value)} with {worst}; expected {expected}", arguments
+                )
             return value
         wanted = np.dtype(np.float64 if result.dtype is np.float64 else np.float32)
         if value.dtype != wanted:
@@ -126,12 +135,15 @@ class Guard:
     def _warn(self, dtype: np.dtype[Any], wanted: np.dtype[Any]) -> None:
         if not self._warned:
             self._warned = True
-            warnings.warn(
-                f"{self._name} ({self._place()}) returned {dtype}, which is converted to {wanted}; "
-                "a result has the dtype of the arguments, or the one that is asked for: see `course check`",
-                CourseWarning,
-                stacklevel=2,
-            )
+            with warnings.catch_warnings():
+                # A module of a student's may have made errors of all warnings.
+                warnings.simplefilter("always", CourseWarning)
+                warnings.warn(
+                    f"{self._name} ({self._place()}) returned {dtype}, which is converted to {wanted}; "
+                    "a result has the dtype of the arguments, or the one that is asked for: see `course check`",
+                    CourseWarning,
+                    stacklevel=2,
+                )
 
     def _raised(self, error: BaseException, arguments: tuple[Any, ...]) -> FunctionError:
         """The error that tells of an exception, and of the last line of the student's own that led to it."""

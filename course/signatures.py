@@ -5,7 +5,8 @@ A contract is written "arguments -> results", separated by commas. An argument i
 what the arguments of a call don't say of it, the results may choose, and ``k*k`` and ``k/2`` are computed. ``*`` stands
 for a list of arrays.
 
-A result is what it is called, and its shape, after what its numbers are: floating, of the batch arguments' dtype, and
+``below:K`` stands for whole numbers from 0 to below a size or a number. A result is what it is called, and its shape,
+after what its numbers are: floating, of the batch arguments' dtype, and
 finite where nothing is said; ``unit`` for directions of length 1, ``infinite`` where infinity is legal, ``whole``
 or ``bool``, or the very dtype that the checks ask for. To the renderer a dtype is floating, or whole.
 """
@@ -51,8 +52,8 @@ CONTRACTS = {
     "environment_light.cumulate": "weights: H W -> rows: float64 H, columns: float64 H W",
     "environment_light.sample_direction": "rows: H, columns: H W, u: 2 N -> the directions: unit 3 N",
     "environment_light.density": "weights: H W, direction: 3 N -> the density: N",
-    "environment_light.alias_table": "weights: K -> probability: float64 K, alias: whole K",
-    "environment_light.draw_alias": "probability: K, alias: K, u: N -> outcome: whole N, rest: N",
+    "environment_light.alias_table": "weights: K -> probability: float64 K, alias: whole K below:K",
+    "environment_light.draw_alias": "probability: K, alias: K, u: N -> outcome: whole N below:K, rest: N",
     "microfacets.smith_g1": "cos: N, alpha -> the shares: N",
     "microfacets.smith_g2": "cos_o: N, cos_i: N, alpha -> the shares: N",
     "microfacets.sample_visible_normal": "wo: 3 N, alpha, u: 2 N -> the normals: unit 3 N",
@@ -79,7 +80,7 @@ CONTRACTS = {
     "blue_noise.shuffled_z_order": "x: N, y: N, levels, seed -> the order: whole N",
     "blue_noise.void_and_cluster": "u: H W, sigma -> the ranks: whole H W",
     "blue_noise.dithered_points": "points: 2 s, masks: 2 H W, x: N, y: N -> the points: 2 N s",
-    "many_lights.power_choice": "power: L, u: N -> lamp: whole N, probability: N",
+    "many_lights.power_choice": "power: L, u: N -> lamp: whole N below:L, probability: N",
     "many_lights.light_tree": "lo: 3 L, hi: 3 L, axis: 3 L, angle: L, power: L"
     " -> lo: 3 M, hi: 3 M, axis: unit 3 M, angle: M, power: M, order: whole L",
     "many_lights.tree_choice": "tree, p: 3 N, n: 3 N, u: N -> lamp: whole N, probability: N",
@@ -103,6 +104,6 @@ CONTRACTS = {
     "film.photographic": "radiance: 3 N, key, burn, saturation -> the colours: 3 N",
     "film.encode_srgb": "linear: 3 N -> the encoded colours: 3 N",
     "film.convert_gamut": "rgb: 3 N, source: 2 4, target: 2 4 -> the colours: 3 N",
-    "film.quantize": "encoded: 3 N, u: 3 N -> the codes: whole 3 N",
+    "film.quantize": "encoded: 3 N, u: 3 N -> the codes: whole 3 N below:256",
 }
 """Every function that the renderer calls, "module.function", and its contract."""

@@ -210,8 +210,13 @@ def warn_of_gaps(loaded: Loaded, extents: Extents, frame: Frame, meshes: Sequenc
         reach = np.maximum(-shared[0], shared[1])[:, :, others].max(axis=2)
         beside = (shared[1] - shared[0])[:, :, others].min(axis=2)
         gap = way[:, :, axis]
-        # What lies closer than float32's coordinates is meant to touch.
-        thin = (gap > reach * 2.0**-23) & (gap < THIN * OFFSET * reach) & (beside > 4 * gap)
+        # What lies closer than float32 can tell is meant to touch.
+        place = np.maximum(np.abs(low), np.abs(high))[:, axis]
+        thin = (
+            (gap > np.maximum(place[:, None], place[None]) * 2.0**-22)
+            & (gap < THIN * OFFSET * reach)
+            & (beside > 4 * gap)
+        )
         for i, j in np.argwhere(thin).tolist():
             first, second = int(some[i]), int(some[j])
             sides = (0, 1) if i == j else (1, 0)

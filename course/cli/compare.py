@@ -18,6 +18,9 @@ if TYPE_CHECKING:
     from course.comparing.comparison import Comparison
 
 DIFFERENT = 1
+FEW = 0.5
+"""Share of pixels that differ, below which the pictures are equal where there is noise, too, or have little."""
+
 TROUBLE = 2
 """Exit codes as those of `diff` and `cmp`, which scripts know: 0 the same, 1 different, 2 trouble."""
 
@@ -99,6 +102,13 @@ def _sections(found: Comparison, different: bool, significance: float) -> list[S
     place = f"{width} x {height} pixels from column {left}, row {top}"
     sign = "<" if different else ">="
     verdict = "different" if different else "no difference but noise"
+    most, column, row = found.largest
+    share = f"{found.differing:.2%}"
+    # Noise of one's own makes nearly all pixels of two pictures differ.
+    few = 0 < found.differing < FEW and not different
+    hint = (
+        f"; but only {share} of the pixels differ: look at these with --difference" if few else ""
+    )
     channel = ("red", "green", "blue")[found.channel]
     means = [
         f"{name} {d:+.3g} ({d / m:+.3%})" if m else f"{name} {d:+.3g}"
@@ -110,7 +120,7 @@ def _sections(found: Comparison, different: bool, significance: float) -> list[S
         ("values", "as 8 bits show them, decoded" if found.coded else "as the files hold them"),
     ]
     return [
-        ("", [("verdict", f"{verdict} (p-value {sign} {significance:g})")]),
+        ("", [("verdict", f"{verdict} (p-value {sign} {significance:g}){hint}")]),
         (
             "p-value",
             [
@@ -124,6 +134,7 @@ def _sections(found: Comparison, different: bool, significance: float) -> list[S
             [
                 ("mean", ", ".join(means)),
                 ("RMSE", f"{found.rmse:.4g}"),
+                ("pixels", f"{share} differ, most by {most:+.3g} at column {column}, row {row}"),
                 ("largest block", f"{channel} {found.block_difference:+.3g} in {place}"),
             ],
         ),

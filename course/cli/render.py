@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from contextlib import closing
 from functools import cache
 from pathlib import Path
@@ -204,7 +205,7 @@ def _render_one(
     from course.rendering.reading_ahead import ReadingAhead
     from course.scene.darkness import warn_of_darkness
 
-    began, ahead = monotonic(), ReadingAhead()
+    began, ahead, here = monotonic(), ReadingAhead(), Path.cwd()
 
     def described(settings: Settings) -> None:
         if reads_loops_first(settings, **choices):
@@ -220,6 +221,8 @@ def _render_one(
         choices = choices | {"since": began}
     with progress_bar(out.name) as progress:
         picture = render_picture(world, progress=progress, **choices)
+    # A function may have gone to another folder; outputs are named from this one.
+    os.chdir(here)
     if picture.interrupted:
         partial = out.with_name(f"{out.stem}.partial{out.suffix}")
         picture.save(partial)

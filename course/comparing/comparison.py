@@ -12,6 +12,9 @@ brightness say, long before one block alone could.
 
 If both pictures have the same noise, d is as often positive as negative, whatever its tails; a t is then too large
 less often than Student's law says (Efron, "Student's t-test under symmetry conditions", 1969).
+
+A place that is smaller than a block's cells, or lies across the borders of some, can't be told from noise so. How many
+pixels differ at all, and which one most, is told beside it.
 """
 
 from dataclasses import dataclass
@@ -48,6 +51,8 @@ class Comparison:
     block : column and row of the upper left pixel of the most significant block, large or small, its width and height
     channel : 0, 1 or 2, of that block
     block_difference : mean of a - b there [radiance]
+    differing : share of the usable pixels that are not equal
+    largest : the largest difference a - b of one pixel and channel [radiance], and the pixel's column and row
     blocks : large ones that were compared
     clipped : share of the pixels that were left out, for they or a neighbour are cut off at white
     coded : whether the pictures were compared as 8 bits show them
@@ -62,6 +67,8 @@ class Comparison:
     block: tuple[int, int, int, int]
     channel: int
     block_difference: float
+    differing: float
+    largest: tuple[float, int, int]
     blocks: int
     clipped: float
     coded: bool
@@ -149,10 +156,19 @@ def _test(
         block=tested.blocks.place(int(worst)),
         channel=int(channel),
         block_difference=float(tested.mean[worst, channel]),
+        differing=float((difference != 0).any(axis=1).mean()),
+        largest=_largest(a - b, usable),
         blocks=kept,
         clipped=1 - float(usable.mean()),
         coded=steps[0] is None,
     )
+
+
+def _largest(difference: Floats64, usable: Mask) -> tuple[float, int, int]:
+    """The largest of a picture (H, W, 3), with its sign, and its column and row."""
+    size = np.where(usable[..., None], np.abs(difference), 0)
+    row, column, channel = np.unravel_index(int(size.argmax()), size.shape)
+    return float(difference[row, column, channel]), int(column), int(row)
 
 
 def _too_small(width: int, height: int, clipped: float = 0.0) -> CourseError:

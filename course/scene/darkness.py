@@ -6,6 +6,7 @@ lamps are turned away from each other. No function of a student is called, and w
 said.
 """
 
+import math
 import warnings
 from functools import partial
 from pathlib import Path
@@ -27,6 +28,7 @@ from course.core.types import Floats32, Floats64, Mask
 from course.errors import CourseWarning
 from course.extras.materials import FullMaterials
 from course.extras.mesh_light import MeshLight
+from course.extras.spot_light import SpotLight
 from course.extras.visible_sphere import VisibleSphereLight
 from course.extras.world import FullWorld
 from course.formats.yaml import description as d
@@ -69,6 +71,9 @@ FEW = 64
 
 FAR = np.float32(1e6)
 """Distance at which directional lights are placed, in the unit of the compiled scene."""
+
+BESIDE = 0.3
+"""Radians around the cone of a spot light, in which what lies between the rays may be lit."""
 
 _AROUND = np.array(
     [(x, y, z) for x in (-1, 0, 1) for y in (-1, 0, 1) for z in (-1, 0, 1) if x or y or z],
@@ -209,7 +214,12 @@ def _ways(light: Light, points: Floats32) -> Floats32:
 
 
 def _shines_at(light: Light, points: Floats32) -> Mask:
-    """(n,) which points are in front of a light."""
+    """(n,) which points are in front of a light, or not far beside the cone of one."""
+    if isinstance(light, SpotLight):
+        way = points - light.position[:, None]
+        far = np.sqrt((way * way).sum(axis=0))
+        wide = math.cos(min(light.outer + BESIDE, math.pi))
+        return np.asarray(light.axis @ way > far * np.float32(wide))
     if (
         not isinstance(light, PointLight | RectangleLight)
         or light.normal is None
@@ -230,14 +240,18 @@ def _turned_away(scene: Scene, seen: Hits) -> str:
     if not any(_shines_at(light, seen.p).any() for light in lights):
         bounds = np.concatenate(scene.compiled.bounds)
         box = _corners(scene.compiled.frame.position(bounds)).astype(np.float32)
-        if scene.compiled.world.paths is None or not any(
-            _shines_at(light, box).any() for light in lights
+        # Between the corners of the box a cone may light something.
+        spots = any(isinstance(light, SpotLight) for light in lights)
+        if scene.compiled.world.paths is None or not (
+            spots or any(_shines_at(light, box).any() for light in lights)
         ):
             names = [light.name for light in lights]
+            ways = ["turn the direction of spots"] if spots else []
+            if not all(isinstance(light, SpotLight) for light in lights):
+                ways.append("exchange edge_u and edge_v, or set two_sided")
             return (
                 "the picture is likely to be black: nothing that is seen is in front of a light "
-                f"({', '.join(names[:3])}{', ...' if len(names) > 3 else ''}): exchange edge_u and edge_v, or set "
-                "two_sided"
+                f"({', '.join(names[:3])}{', ...' if len(names) > 3 else ''}): {', or '.join(ways)}"
             )
     elif scene.compiled.world.paths is None and not any(
         (_shines_at(light, seen.p) & _faced(light, seen)).any() for light in lights

@@ -97,3 +97,17 @@ def test_trouble_is_one_line_and_exit_code_2(
     assert result.stderr.startswith("error: ")
     assert told in result.stderr
     assert len(result.stderr.splitlines()) == 1
+
+
+def test_a_small_place_in_equal_pictures_is_pointed_out(run: Run, tmp_path: Path) -> None:
+    """No block's spread can tell it from noise, and nothing else in the pictures is noise."""
+    plain = np.full((3, 64, 96), 0.25, np.float32)
+    other = plain.copy()
+    other[:, 30:36, 43:49] += np.float32(0.3)
+    other[1, 33, 45] += np.float32(0.1)
+    save(tmp_path / "plain.exr", plain)
+    save(tmp_path / "other.exr", other)
+    result = run("compare", "other.exr", "plain.exr")
+    assert "but only 0.59% of the pixels differ" in result.stdout
+    assert "most by +0.4 at column 45, row 33" in result.stdout
+    assert "but only" not in run("compare", "a.exr", "b.exr").stdout

@@ -2,6 +2,7 @@
 
 import pickle
 import re
+import warnings
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -315,3 +316,39 @@ def test_a_function_that_a_scene_calls_when_it_is_loaded_has_its_line(tmp_path: 
         FunctionError, match=r"returned float32 \(3,\); .*scene\.yaml:13: lights\.0 asks"
     ):
         load_scene(scene, tmp_path / "mine")
+
+
+@pytest.mark.parametrize(
+    ("path", "number"),
+    [(path, n) for path in CONTRACTS for n, r in enumerate(contract(path).results) if r.below],
+)
+def test_whole_numbers_out_of_their_range_are_refused(path: str, number: int) -> None:
+    """They had been numbers of other lamps, or codes modulo 256."""
+    spoiled(path, lambda a: a, number)()
+    for off in (-1, 100_000):
+        with pytest.raises(FunctionError, match=r"expected whole numbers from 0 to \d+ \("):
+            spoiled(path, lambda a, off=off: put(off)(a.astype(np.int64)), number)()
+
+
+def test_what_a_function_tells_numpy_and_python_to_do_is_its_own_business() -> None:
+    """Overflows had then been errors of the renderer, and so had its warning of another dtype."""
+
+    def throughput(color: Any, *_: Any) -> Any:
+        np.seterr(all="raise")
+        warnings.simplefilter("error")
+        return np.zeros(color.shape)
+
+    before = np.geterr()
+    with warnings.catch_warnings(record=True) as told:
+        guarded = Guard("path_tracing.throughput", throughput, Path("mine") / "path_tracing.py")
+        guarded(*arguments("path_tracing.throughput", 1, 7))
+    assert np.geterr() == before
+    assert len(told) == 1
+    assert "returned float64" in str(told[0].message)
+
+
+def test_a_file_of_functions_that_is_too_large_is_not_read(tmp_path: Path) -> None:
+    with (tmp_path / "glossy.py").open("wb") as file:
+        file.truncate(20 << 30)
+    with pytest.raises(EffectError, match=r"glossy\.py: more than 2,000,000 bytes: too large"):
+        Effects(tmp_path).function("glossy", "keep_above")

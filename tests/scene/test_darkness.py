@@ -24,6 +24,8 @@ BALL = {"shape": "sphere", "material": "grey"}
 HIGH = BALL | {"transform": [{"translate": [0, 9, 0]}]}
 POINT = {"type": "point", "position": [0, 5, 0], "intensity": 10}
 SUN = {"type": "directional", "direction": [0.1, -1, 0.2], "irradiance": 1}
+SPOT = {"type": "spot", "position": [0, 5, 0], "direction": [0, -1, 0], "intensity": 10}
+SPOT |= {"inner_angle": 2, "outer_angle": 4}
 LAMP = {"type": "rectangle", "corner": [-1, 3, -1], "radiance": 5, "visible": False}
 DOWN = LAMP | {"edge_u": [2, 0, 0], "edge_v": [0, 0, 2]}
 UP = LAMP | {"edge_u": [0, 0, 2], "edge_v": [2, 0, 0]}
@@ -97,11 +99,26 @@ def test_what_is_seen_from_its_dark_side(make_scene: MakeScene, light: dict[str,
     assert why_dark(make_scene(**parts | {"camera": OUTSIDE})) == ""
 
 
+def test_a_spot_light_that_shines_elsewhere_is_told(make_scene: MakeScene) -> None:
+    away = SPOT | {"direction": [0, 1, 0.2]}
+    parts = {"objects": [FLOOR], "lights": [away], "camera": OUTSIDE}
+    scene = make_scene(**parts)
+    assert why_dark(scene).endswith("(light 0): turn the direction of spots")
+    assert not render(scene, spp=4).linear.any()
+    assert why_dark(make_scene(**parts, integrator={"type": "path"})) == ""
+    told = why_dark(make_scene(**parts | {"lights": [away, UP]}))
+    assert told.endswith(
+        "turn the direction of spots, or exchange edge_u and edge_v, or set two_sided"
+    )
+
+
 @pytest.mark.parametrize(
     "parts",
     [
         {"objects": [FLOOR], "lights": [DOWN]},
         {"objects": [FLOOR], "lights": [UP, DOWN]},
+        {"objects": [FLOOR], "lights": [SPOT]},
+        {"objects": [FLOOR], "lights": [SPOT | {"direction": [2, -1, 0]}, POINT]},
         {"objects": [FLOOR], "lights": [UP | {"two_sided": True}]},
         {"objects": [FLOOR], "lights": [UP], "environment": SKY},
         {"objects": [FLOOR], "lights": [POINT], "environment": SKY, "camera": AWAY},
