@@ -54,16 +54,18 @@ def inline_mesh(
     used, triangles = np.unique(corners, return_inverse=True)
     triangles = triangles.reshape(-1, 3)
     own = vertices[used]
-    uv = None
-    if places is not None:
-        number = used - offset + aside
-        if len(number) and not 0 <= number.min() <= number.max() < len(places):
-            raise faces.error(
-                f"has a texture, and refers to texture coordinates {number.min() + 1} to {number.max() + 1}: expected"
-                f" numbers from 1 to {len(places)}, as TexCoordData has"
-            )
-        uv = places[number]
+    uv = None if places is None else places_of(faces, used - offset + aside, places)
     return Mesh(own, triangles, area_normals(own, triangles) if smooth else None, uv)
+
+
+def places_of(element: Element, numbers: Indices, places: Floats64) -> Floats64:
+    """Texture coordinates (n, 2) of numbers (n,) from 0 on; SceneError for one that TexCoordData doesn't have."""
+    if len(numbers) and not 0 <= numbers.min() <= numbers.max() < len(places):
+        raise element.error(
+            f"has a texture, and refers to texture coordinates {numbers.min() + 1} to {numbers.max() + 1}: expected"
+            f" numbers from 1 to {len(places)}, as TexCoordData has"
+        )
+    return places[numbers]
 
 
 def offset_of(faces: Element, name: str) -> int:

@@ -7,7 +7,7 @@ mesh file, which is read once.
 import json
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import product
 from pathlib import Path
 from typing import Any
@@ -26,6 +26,7 @@ from course.formats.metu.meshes import (
     inline_mesh,
     mesh_file,
     offset_of,
+    places_of,
     plane_mesh,
 )
 from course.formats.metu.textures import Texture, Textures
@@ -49,6 +50,22 @@ CUBE = np.array(list(product((-1, 1), repeat=3)))
 
 INHERITED = ("shape", "file", "shading", "normals", "material")
 """What an instance has from its base; how that moves is its own affair."""
+
+
+@dataclass(frozen=True)
+class Surface:
+    """What an instance with textures needs of its mesh.
+
+    Attributes
+    ----------
+    faces : the element
+    mode : smooth, flat or None for what its file says
+    material : the id of its material
+    """
+
+    faces: Element
+    mode: str | None
+    material: str
 
 
 @dataclass
@@ -78,6 +95,8 @@ class Objects:
     textures: Textures
     lamps: dict[str, dict[str, Any]] = field(default_factory=dict)
     _bases: dict[str, dict[str, Any]] = field(default_factory=dict)
+    _surfaces: dict[str, Surface] = field(default_factory=dict)
+    _textured: int = 0
 
     def read(self, scene: Element) -> list[dict[str, Any]]:
         """All objects of a scene; `meshes.write` then writes the meshes that it holds itself."""
@@ -100,52 +119,73 @@ class Objects:
         things += self._planes(parent.all("Plane"), things)
         return [{key: value for key, value in thing.items() if value != []} for thing in things]
 
+    def _materials(self) -> dict[str, dict[str, Any]]:
+        """All materials by their names."""
+        named = {material_name(number): keys for number, keys in self.materials.items()}
+        return named | self.lamps | self.textures.made
+
     def _set_from_behind(self, thing: dict[str, Any]) -> None:
         """Camera rays pass through backs of flat triangles, and find other normals as they are; but for glass."""
-        named = {material_name(number): keys for number, keys in self.materials.items()}
-        named |= self.lamps | self.textures.made
-        if "dielectric" not in named[thing["material"]]:
+        if "dielectric" not in self._materials()[thing["material"]]:
             thing["from_behind"] = "unseen" if thing.get("shading") == "flat" else "kept"
 
     def _mesh(self, element: Element) -> dict[str, Any]:
         number = element.id(self._bases)
         thing = self._faces(element, "mesh", f"mesh {number}")
         self._bases[number] = thing
+        self._surfaces[number] = Surface(
+            element.child("Faces", ""), element.attribute("shadingMode"), _material_of(element)
+        )
         return thing
 
     def _lamp(self, element: Element, thing: dict[str, Any]) -> dict[str, Any]:
         """An object that is a light: it has a material of its own, which shines."""
         name = f"light {len(self.lamps) + 1}"
-        material = self.materials[" ".join(element.child("Material", "an id").words())]
-        emission = list(element.child("Radiance", "such as 30 30 30").color())
-        if not any(emission):
+        material = self._materials()[thing["material"]]
+        radiance = np.array(element.child("Radiance", "such as 30 30 30").color())
+        if not radiance.any():
             raise element.error("Radiance is 0 0 0: expected a light that shines")
-        self.lamps[name] = material | {"emission": emission}
+        if "unlit" in material:
+            raise element.child("Textures", "").refused(
+                "a light shows its Radiance, and a texture that replaces all would hide it; remove it to render"
+                " without it"
+            )
+        # That of a texture is its ambient light.
+        shown = radiance + material.get("emission", 0.0)
+        self.lamps[name] = material | {"emission": shown.tolist()}
         return thing | {"name": name, "material": name}
 
     def _faces(self, element: Element, stem: str, name: str) -> dict[str, Any]:
         """The keys of a mesh with a name; its file, if the scene holds it itself, has a name of that stem."""
         element.attribute("id")
-        textures = self.textures.of(element) if stem == "mesh" else []
-        placed = [texture for texture in textures if texture.has_places]
+        textures = self.textures.of(element)
         common = self._common(element, textures=textures)
         given = element.attribute("shadingMode")
-        mode = given or "flat"
-        if mode not in ("flat", "smooth"):
-            raise element.error(f"shadingMode is {show(mode)}: expected flat or smooth")
+        if given not in (None, "", "flat", "smooth"):
+            raise element.error(f"shadingMode is {show(given)}: expected flat or smooth")
         faces = element.child("Faces", "triples of vertex numbers, or a plyFile")
         if faces.attributes.get("type") == "triangle":
             faces.attribute("type")
+        offset = offset_of(faces, "vertexOffset")
+        if faces.attribute("plyFile") and offset:
+            self.notes.add(
+                faces,
+                f"has vertexOffset {offset}, which counts only for vertex numbers in the scene itself:"
+                " a PLY file has its own vertices",
+            )
+        count = len(self._bases if stem == "mesh" else self.lamps)
+        shape = self._shape(faces, given, textures, f"{stem}-{count + 1}")
+        return {"shape": "mesh", "name": name, **shape, **common}
+
+    def _shape(
+        self, faces: Element, given: str | None, textures: list[Texture], stem: str
+    ) -> dict[str, Any]:
+        """The file of a mesh, and its shading; a file that is written has a name of that stem."""
+        placed = [texture for texture in textures if texture.has_places]
+        mode = given or "flat"
         file = faces.attribute("plyFile")
         normals = {}
         if file:
-            offset = offset_of(faces, "vertexOffset")
-            if offset:
-                self.notes.add(
-                    faces,
-                    f"has vertexOffset {offset}, which counts only for vertex numbers in the scene itself:"
-                    " a PLY file has its own vertices",
-                )
             found = mesh_file(faces, file, self.source)
             faces.attribute("textureOffset")
             if not given and has_normals(found):
@@ -159,9 +199,8 @@ class Objects:
         if mesh is not None:
             if placed:
                 mesh = self.textures.placed(placed, mesh)
-            count = len(self._bases if stem == "mesh" else self.lamps)
-            path = self.meshes.add_own(mesh, f"{stem}-{count + 1}", faces)
-        return {"shape": "mesh", "name": name, "file": path, "shading": mode, **normals, **common}
+            path = self.meshes.add_own(mesh, stem, faces)
+        return {"file": path, "shading": mode, **normals}
 
     def _with_uv(self, file: Path, faces: Element) -> Mesh:
         """A mesh of a file that has texture coordinates; SceneError where it has none."""
@@ -211,15 +250,27 @@ class Objects:
         number = element.id()
         inherited = {key: base[key] for key in INHERITED if key in base}
         thing = inherited | {"name": f"instance {number}"}
-        thing |= self._common(element, element.maybe("Material") is None)
+        textures = self.textures.of(element)
+        surface = self._surfaces[_base_of(element)]
+        if element.maybe("Material") is not None:
+            surface = replace(surface, material=_material_of(element))
+        thing |= self._common(element, surface.material, textures)
+        if not textures and element.maybe("Material") is None:
+            # With the textures of its mesh.
+            thing["material"] = base["material"]
+        if any(texture.has_places for texture in textures):
+            self._textured += 1
+            stem = f"instance-{self._textured}"
+            thing |= self._shape(surface.faces, surface.mode, textures, stem)
         if not element.flag("resetTransform"):
             thing["transform"] = base["transform"] + thing["transform"]
-        if base["material"] in self.textures.made and thing["material"] != base["material"]:
+        if base["material"] in self.textures.made and not textures and element.maybe("Material"):
             self.notes.add(
                 element, "has a Material of its own, and with it none of its mesh's Textures"
             )
         # Meshes and instances are counted apart in some files; then a mesh keeps its number.
         self._bases.setdefault(number, thing)
+        self._surfaces.setdefault(number, surface)
         return thing
 
     def _sphere(self, element: Element, segments: int) -> dict[str, Any]:
@@ -240,19 +291,27 @@ class Objects:
 
     def _triangles(self, elements: list[Element]) -> list[dict[str, Any]]:
         """Single triangles; those that look and move alike make one mesh."""
-        groups: dict[str, tuple[dict[str, Any], list[Indices], Element]] = {}
+        groups: dict[str, tuple[dict[str, Any], list[Indices], Element, list[Texture]]] = {}
         for element in elements:
             element.attribute("id")
             indices = element.child("Indices", "three vertex numbers, such as 1 2 3")
             corners = corners_of(indices, self.vertices)
             if len(corners) != 1:
                 raise indices.unexpected("three vertex numbers, such as 1 2 3")
-            common = self._common(element)
-            groups.setdefault(json.dumps(common), (common, [], element))[1].append(corners)
+            textures = self.textures.of(element)
+            common = self._common(element, textures=textures)
+            placed = [texture for texture in textures if texture.has_places]
+            if placed:
+                # Those of a triangle have the numbers of its vertices.
+                places_of(indices, corners.ravel(), self.textures.places)
+            alike = json.dumps(common)
+            groups.setdefault(alike, (common, [], element, placed))[1].append(corners)
         things = []
-        for count, (common, found, first) in enumerate(groups.values(), start=1):
+        for count, (common, found, first, placed) in enumerate(groups.values(), start=1):
             used, triangles = np.unique(np.concatenate(found), return_inverse=True)
-            mesh = Mesh(self.vertices[used], triangles.reshape(-1, 3))
+            uv = self.textures.places[used] if placed else None
+            mesh = Mesh(self.vertices[used], triangles.reshape(-1, 3), None, uv)
+            mesh = self.textures.placed(placed, mesh) if placed else mesh
             path = self.meshes.add_own(mesh, f"triangles-{count}", first)
             things.append({"shape": "mesh", "file": path, "shading": "flat", **common})
         return things
@@ -300,29 +359,34 @@ class Objects:
         return found
 
     def _common(
-        self, element: Element, inherits_material: bool = False, textures: Sequence[Texture] = ()
+        self, element: Element, inherited: str | None = None, textures: Sequence[Texture] = ()
     ) -> dict[str, Any]:
-        """Material, transform and motion of an object."""
-        keys: dict[str, Any] = {}
-        if not inherits_material:
+        """Material, transform and motion of an object.
+
+        ``inherited``: the id of a material that is given by another element, and has been checked
+        """
+        name = inherited or _material_of(element)
+        if name not in self.materials:
             material = element.child("Material", "the id of a material")
-            name = " ".join(material.words())
-            if name not in self.materials:
-                raise material.unexpected(
-                    f"the id of a material; {suggest(name, sorted(self.materials))}"
-                )
-            if (refused := self.textures.bodies[name].refused) is not None:
-                raise refused
-            keys["material"] = material_name(name)
-            if textures:
-                named = self.textures.material(list(textures), name, self.materials[name])
-                keys["material"] = named
+            raise material.unexpected(
+                f"the id of a material; {suggest(name, sorted(self.materials))}"
+            )
+        if (refused := self.textures.bodies[name].refused) is not None:
+            raise refused
+        keys: dict[str, Any] = {"material": material_name(name)}
+        if textures:
+            keys["material"] = self.textures.material(list(textures), name, self.materials[name])
         keys["transform"] = transform_of(element, self.steps)
         blur = element.maybe("MotionBlur")
         if blur is not None and any(velocity := blur.vector()):
             # The shutter of the converted scene is open from 0 to 1.
             keys["motion"] = {"velocity": list(velocity)}
         return keys
+
+
+def _material_of(element: Element) -> str:
+    """The id of the material that an object names."""
+    return " ".join(element.child("Material", "the id of a material").words())
 
 
 def _base_of(element: Element) -> str:

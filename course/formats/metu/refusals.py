@@ -12,7 +12,7 @@ from course.errors import SceneError
 REFUSED = {
     "Lights/*": "this course has no such light",
     "Objects/*": "this course has no such object",
-    "Objects/*/Textures": "only a Mesh, a Sphere, and instances by their meshes, have textures",
+    "Objects/*/Textures": "a Plane and a LightSphere have none here, only meshes, triangles and a Sphere",
     "Transparency": "no material of this course lets light straight through",
 }
 """Elements by their names, or by the ends of their paths, in which * is any name; and why they are refused."""

@@ -360,10 +360,10 @@ def test_what_is_not_converted_is_refused_by_its_name_and_place(metu: Metu, name
 
 def test_textures_of_planes_and_lamps_are_refused(metu: Metu) -> None:
     plane = {"_id": "1", "Material": "1", "Textures": "1", "Point": "1", "Normal": "0 0 1"}
-    lamp = WALL_MESH | {"Textures": "1", "Radiance": "1 1 1"}
-    message = refused(metu, tree(objects={"Plane": plane, "LightMesh": lamp}))
-    assert "Scene/Objects/Plane/Textures is refused: only a Mesh, a Sphere" in message
-    assert "refused are also: Scene/Objects/LightMesh/Textures" in message
+    lamp = {"_id": "1", "Material": "1", "Center": "1", "Radius": "1", "Radiance": "1 1 1"}
+    message = refused(metu, tree(objects={"Plane": plane, "LightSphere": lamp | {"Textures": "1"}}))
+    assert "Scene/Objects/Plane/Textures is refused: a Plane and a LightSphere" in message
+    assert "refused are also: Scene/Objects/LightSphere/Textures" in message
 
 
 def test_an_unknown_brdf_of_a_material_that_no_object_has_is_left_out_with_a_warning(

@@ -448,6 +448,83 @@ def test_what_is_not_converted_is_refused_by_its_name(
         xml.load(scene)
 
 
+def triangles(**more: str) -> list[Tree]:
+    """Those of the wall, which have its vertices' places."""
+    return [
+        {"_id": str(number), "Material": "1", "Indices": corners, **more}
+        for number, corners in enumerate(("1 2 3", "1 3 4"), start=1)
+    ]
+
+
+@pytest.mark.parametrize(("between", "found"), [("nearest", nearest), ("bilinear", bilinear)])
+@pytest.mark.parametrize("place", PLACES)
+def test_a_triangle_has_the_places_of_its_vertices(
+    metu: Metu, between: str, found: Any, place: tuple[float, float]
+) -> None:
+    objects = {"Triangle": triangles(Textures="1")}
+    scene = textured(metu.folder, between=between, camera=look(*place), objects=objects)
+    expected = AMBIENT + 100 * found(*place)
+    np.testing.assert_allclose(metu.pixel(scene), expected, rtol=1e-3, atol=0.05)
+    assert metu.warnings == []
+
+
+def test_triangles_without_places_are_refused_but_for_noise(xml: Metu) -> None:
+    scene = textured(xml.folder, objects={"Triangle": triangles(Textures="1")}, TexCoordData="0 0")
+    with pytest.raises(SceneError, match=r"Triangle\[1\]/Indices: has a texture, and refers to"):
+        xml.load(scene)
+    scene["Textures"]["TextureMap"] |= {"_type": "perlin"}
+    (thing,) = xml.load(scene).loaded.description.objects
+    assert thing.material == "material 1 with texture 1"
+
+
+@pytest.mark.parametrize("of_base", ["", "1", "2"])
+@pytest.mark.parametrize("own_material", [False, True])
+@pytest.mark.parametrize("of_file", [False, True])
+def test_an_instance_may_have_textures_of_its_own(
+    metu: Metu, of_base: str, own_material: bool, of_file: bool
+) -> None:
+    """In the place of those of its mesh, which lies aside; with texels of its own interpolation."""
+    if of_file:
+        vertices = np.array(WALL.split(), float).reshape(-1, 3)
+        uv = np.array(CORNERS.split(), float).reshape(-1, 2)
+        mesh = Mesh(vertices, np.array([[0, 1, 2], [0, 2, 3]], np.int32), None, uv)
+        save_ply(mesh, metu.folder / "wall.ply")
+    scene = textured(metu.folder, camera=look(*PLACES[1]))
+    table = scene["Textures"]
+    bilinear_one = table["TextureMap"] | {"_id": "2", "Interpolation": "bilinear"}
+    table["TextureMap"] = [table["TextureMap"], bilinear_one]
+    wall = scene["Objects"]["Mesh"] | {"Textures": of_base, "Transformations": "t1"}
+    wall |= {"Faces": {"_plyFile": "wall.ply"}} if of_file else {}
+    # An instance of an instance, which has nothing of its own.
+    scene["Objects"] = {
+        "Mesh": wall,
+        "MeshInstance": [
+            {"_id": "3", "_baseMeshId": "1"},
+            {"_id": "2", "_baseMeshId": "3", "_resetTransform": "true", "Textures": "2"},
+        ],
+    }
+    ambient = AMBIENT
+    if own_material:
+        scene["Materials"]["Material"].append(MATT | {"_id": "2", "AmbientReflectance": "0 0 0"})
+        scene["Objects"]["MeshInstance"][1]["Material"] = "2"
+        ambient = np.zeros(3)
+    scene["Transformations"] = {"Translation": {"_id": "1", "_data": "40 0 0"}}
+    expected = ambient + 100 * bilinear(*PLACES[1])
+    np.testing.assert_allclose(metu.pixel(scene), expected, rtol=1e-3, atol=0.05)
+    assert metu.warnings == []
+
+
+def test_a_lamp_shines_and_reflects_as_its_texture_says(metu: Metu) -> None:
+    lamp = {"_id": "1", "Material": "1", "Textures": "1", "Faces": "1 2 3 1 3 4"}
+    lamp |= {"Radiance": "7 8 9"}
+    scene = textured(metu.folder, camera=look(*PLACES[2]), objects={"LightMesh": lamp})
+    expected = np.array([7, 8, 9]) + AMBIENT + 100 * nearest(*PLACES[2])
+    np.testing.assert_allclose(metu.pixel(scene), expected, rtol=1e-3, atol=0.05)
+    scene["Textures"]["TextureMap"]["DecalMode"] = "replace_all"
+    with pytest.raises(SceneError, match="LightMesh/Textures is refused: a light shows its Rad"):
+        metu.load(scene)
+
+
 def test_an_instance_with_a_material_of_its_own_has_no_texture_and_a_warning(xml: Metu) -> None:
     scene = textured(xml.folder)
     scene["Objects"]["MeshInstance"] = [
