@@ -69,6 +69,25 @@ def test_rough_glass_shares_the_light_out_alike_by_both_integrators(make_scene: 
     assert 0.7 < one.mean() < 0.99
 
 
+@pytest.mark.parametrize(("alpha", "share"), [(0.1, 0.952), (0.3, 0.760), (0.5, 0.593), (1, 0.358)])
+def test_a_ball_of_rough_glass_loses_as_much_as_another_renderer_s(
+    make_scene: MakeScene, alpha: float, share: float
+) -> None:
+    """In even light: the shares are those of Mitsuba 3.9.1's `roughdielectric` in the same picture.
+
+    Mitsuba's masking is a product of two, so the shares are alike to .01 only.
+    """
+    scene = make_scene(
+        camera={"eye": [0, 0, 5], "look_at": [0, 0, 0], "vertical_fov": 20},
+        film={"width": 24, "height": 24},
+        environment={"type": "constant", "radiance": 1},
+        materials={"white": glass(alpha) | {"color": 0}},
+        objects=[{"shape": "sphere", "radius": 1, "segments": 128, "material": "white"}],
+        integrator={"max_depth": 60},
+    )
+    assert abs(render(scene, spp=64).linear.mean() - share) < 0.012
+
+
 def test_from_the_inside_rough_glass_refracts_what_is_not_totally_reflected(
     make_scene: MakeScene,
 ) -> None:
