@@ -174,7 +174,11 @@ def _common(
         "materials": {material_name(number): keys for number, keys in materials.items()}
         | objects.lamps
         | textures.made,
-        "lights": lights + [{"type": "object", "object": name} for name in objects.lamps],
+        "lights": [
+            *lights,
+            *({"type": "object", "object": name} for name in objects.lamps),
+            *objects.balls,
+        ],
         "objects": things,
     }
 

@@ -45,6 +45,14 @@ FEWEST_SEGMENTS = 64
 LAMP_SEGMENTS = 128
 """Flat pieces around a ball that is a light; each of its triangles is one that shadow rays may look for."""
 
+UNEVEN = 1e-9
+"""Relative difference of scales, squared, up to which a ball stays one."""
+
+TINY = 1e-290
+
+BLACK = {"color": [0.0, 0.0, 0.0]}
+"""A material that reflects nothing."""
+
 CUBE = np.array(list(product((-1, 1), repeat=3)))
 """Corners of the cube of edge 2 about the origin, (8, 3)."""
 
@@ -83,6 +91,7 @@ class Objects:
     eyes : where the cameras stand
     textures : of the scene
     lamps : materials of the objects that are lights, by the objects' names; made as they are read
+    balls : lights that are balls, which are no objects; made as they are read
     """
 
     vertices: Floats64
@@ -94,6 +103,7 @@ class Objects:
     eyes: list[list[float]]
     textures: Textures
     lamps: dict[str, dict[str, Any]] = field(default_factory=dict)
+    balls: list[dict[str, Any]] = field(default_factory=list)
     _bases: dict[str, dict[str, Any]] = field(default_factory=dict)
     _surfaces: dict[str, Surface] = field(default_factory=dict)
     _textured: int = 0
@@ -109,14 +119,19 @@ class Objects:
         things += [
             self._lamp(each, self._faces(each, "light", "")) for each in parent.all("LightMesh")
         ]
-        things += [
-            self._lamp(each, self._sphere(each, LAMP_SEGMENTS))
-            for each in parent.all("LightSphere")
-        ]
+        balls = []
+        for element in parent.all("LightSphere"):
+            thing = self._sphere(element, LAMP_SEGMENTS)
+            ball = self._ball(element, thing)
+            if ball is None:
+                things.append(self._lamp(element, thing))
+            else:
+                balls.append(thing)
+                self.balls.append(ball)
         things += self._triangles(parent.all("Triangle"))
         for thing in things:
             self._set_from_behind(thing)
-        things += self._planes(parent.all("Plane"), things)
+        things += self._planes(parent.all("Plane"), things + balls)
         return [{key: value for key, value in thing.items() if value != []} for thing in things]
 
     def _materials(self) -> dict[str, dict[str, Any]]:
@@ -142,9 +157,7 @@ class Objects:
         """An object that is a light: it has a material of its own, which shines."""
         name = f"light {len(self.lamps) + 1}"
         material = self._materials()[thing["material"]]
-        radiance = np.array(element.child("Radiance", "such as 30 30 30").color())
-        if not radiance.any():
-            raise element.error("Radiance is 0 0 0: expected a light that shines")
+        radiance = _radiance(element)
         if "unlit" in material:
             raise element.child("Textures", "").refused(
                 "a light shows its Radiance, and a texture that replaces all would hide it; remove it to render"
@@ -154,6 +167,25 @@ class Objects:
         shown = radiance + material.get("emission", 0.0)
         self.lamps[name] = material | {"emission": shown.tolist()}
         return thing | {"name": name, "material": name}
+
+    def _ball(self, element: Element, thing: dict[str, Any]) -> dict[str, Any] | None:
+        """A light of type sphere, looked for where it can be seen from; None where only a mesh is the same.
+
+        It reflects nothing, has no other shape than a ball, and is dark inside.
+        """
+        matrix = matrix_of_steps(thing["transform"])
+        linear = matrix[:3, :3] / (scale := np.abs(matrix[:3, :3]).max())
+        squares = linear.T @ linear
+        even = np.abs(squares - np.eye(3) * squares[0, 0]).max() <= UNEVEN * squares[0, 0]
+        radius = float(thing["radius"] * np.sqrt(squares[0, 0]) * scale)
+        center, motion = matrix[:3, 3], thing.get("motion", {})
+        ends = center, center + motion.get("velocity", np.zeros(3))
+        outside = all(_distance(np.array(eye), *ends) > radius for eye in self.eyes)
+        if not even or not outside or self._materials()[thing["material"]] != BLACK:
+            return None
+        light = {"type": "sphere", "center": center.tolist(), "radius": radius}
+        light |= {"radiance": _radiance(element).tolist(), "samples": "visible"}
+        return light | ({"motion": motion} if motion else {})
 
     def _faces(self, element: Element, stem: str, name: str) -> dict[str, Any]:
         """The keys of a mesh with a name; its file, if the scene holds it itself, has a name of that stem."""
@@ -382,6 +414,21 @@ class Objects:
             # The shutter of the converted scene is open from 0 to 1.
             keys["motion"] = {"velocity": list(velocity)}
         return keys
+
+
+def _radiance(lamp: Element) -> Floats64:
+    """That of an object that is a light, (3,)."""
+    radiance = np.array(lamp.child("Radiance", "such as 30 30 30").color())
+    if not radiance.any():
+        raise lamp.error("Radiance is 0 0 0: expected a light that shines")
+    return radiance
+
+
+def _distance(point: Floats64, start: Floats64, end: Floats64) -> float:
+    """From a point to the line between two others."""
+    along = end - start
+    share = np.clip((point - start) @ along / max(along @ along, TINY), 0, 1)
+    return float(np.linalg.norm(point - start - share * along))
 
 
 def _material_of(element: Element) -> str:

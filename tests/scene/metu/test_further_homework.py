@@ -9,6 +9,7 @@ import pytest
 
 from course.errors import SceneError
 from course.formats.pictures.files import write_exr
+from course.formats.yaml.description import ObjectLight, SphereLight
 from tests.scene.metu.conftest import MATT, WALL, Metu, Tree, tree
 
 NARROW = {"NearPlane": "-1e-3 1e-3 -1e-3 1e-3"}
@@ -161,6 +162,80 @@ def test_a_ball_sends_its_radiance_to_the_eye_and_pi_times_its_solid_angle_to_a_
     np.testing.assert_allclose(xml.pixel(ball("0 0 2", camera=many)), expected, rtol=0.02)
     seen = xml.pixel(ball("0 0 -3", camera=NARROW | camera))
     np.testing.assert_allclose(seen, [30, 20, 90], rtol=1e-5)
+
+
+def test_a_ball_is_looked_for_in_the_cone_that_it_fills(xml: Metu) -> None:
+    """64 samples are within 0.1% of the closed form: all have nearly one value. Those of a mesh differ by 30%."""
+    scene = ball("0 0 2", camera=NARROW | {"NumSamples": "64"})
+    expected = KD * [30, 20, 90] * math.pi / 36
+    np.testing.assert_allclose(xml.pixel(scene), expected, rtol=1e-3)
+    light = xml.load(scene).loaded.description.lights[-1]
+    assert isinstance(light, SphereLight)
+    assert light.samples == "visible"
+
+
+@pytest.mark.parametrize(
+    ("steps", "center", "radius", "kind"),
+    [
+        ({}, [1, 2, -6], 1, SphereLight),
+        ({"Scaling": "2 2 2"}, [2, 4, -12], 2, SphereLight),
+        ({"Scaling": "-2 2 2", "Rotation": "90 0 1 0"}, [-12, 4, 2], 2, SphereLight),
+        ({"Rotation": "180 0 1 0", "Translation": "5 6 7"}, [4, 8, 13], 1, SphereLight),
+        ({"Scaling": "2 2 2.001"}, None, None, ObjectLight),
+        ({"Composite": "1 0.1 0 0  0 1 0 0  0 0 1 0  0 0 0 1"}, None, None, ObjectLight),
+    ],
+)
+def test_only_what_is_a_ball_still_is_a_light_of_type_sphere(
+    xml: Metu, steps: Tree, center: Any, radius: Any, kind: type
+) -> None:
+    scene = ball("1 2 -6")
+    names = {"Scaling": "s1", "Rotation": "r1", "Translation": "t1", "Composite": "c1"}
+    scene["Objects"]["LightSphere"]["Transformations"] = " ".join(names[step] for step in steps)
+    scene["Transformations"] = {step: {"_id": "1", "_data": steps[step]} for step in steps}
+    light = xml.load(scene).loaded.description.lights[-1]
+    assert isinstance(light, kind)
+    if isinstance(light, SphereLight):
+        np.testing.assert_allclose(light.center, center, atol=1e-12)
+        assert light.radius == pytest.approx(radius)
+
+
+def test_a_ball_that_reflects_or_holds_a_camera_is_an_object(xml: Metu) -> None:
+    """The camera is at the origin; a ball may reach it on its way."""
+
+    def light(center: str, **more: str) -> Any:
+        scene = ball(center)
+        scene["Objects"]["LightSphere"] |= more
+        return xml.load(scene).loaded.description.lights[-1]
+
+    assert isinstance(light("0 0 -3"), SphereLight)
+    assert isinstance(light("0 0 -0.9"), ObjectLight)
+    assert isinstance(light("0 0 -3", MotionBlur="0 0 2.5"), ObjectLight)
+    assert light("0 0 -3", MotionBlur="1 2 1.5").motion.velocity == (1, 2, 1.5)
+    for reflectance in ("Ambient", "Diffuse", "Specular"):
+        shiny = ball("0 0 -3")
+        shiny["Materials"]["Material"][1] = DARK | {f"{reflectance}Reflectance": "0 0.1 0"}
+        assert isinstance(xml.load(shiny).loaded.description.lights[-1], ObjectLight)
+
+
+@pytest.mark.parametrize("camera", [{}, PATHS], ids=["direct", "paths"])
+def test_both_forms_of_a_ball_make_one_picture(xml: Metu, camera: Tree) -> None:
+    """Of a wall, a mirror and the ball itself; a scaling that is hardly uneven makes a mesh of it.
+
+    Over 12 seeds the means had standard deviations of up to 0.8%, so 4% is 3.6 of those of a difference.
+    """
+    many = {"ImageResolution": "24 16", "NumSamples": "64"} | camera
+    means = []
+    for scaling in ("1 1 1", "1 1 1.00001"):
+        scene = ball("-1 0.5 -2.5", camera=many)
+        scene["Materials"]["Material"].append(
+            {"_id": "3", "_type": "mirror", "MirrorReflectance": "1 1 1"}
+        )
+        scene["VertexData"] += "  1.5 0 -3"
+        scene["Objects"]["Sphere"] = {"_id": "1", "Material": "3", "Center": "6", "Radius": "0.8"}
+        scene["Objects"]["LightSphere"]["Transformations"] = "s1"
+        scene["Transformations"] = {"Scaling": {"_id": "1", "_data": scaling}}
+        means.append(xml.picture(scene).mean(axis=(0, 1)))
+    np.testing.assert_allclose(*means, rtol=0.04)
 
 
 def test_a_mesh_lights_a_wall_as_the_rectangle_that_it_is(xml: Metu) -> None:
