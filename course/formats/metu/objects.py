@@ -174,7 +174,8 @@ class Objects:
         It reflects nothing, has no other shape than a ball, and is dark inside.
         """
         matrix = matrix_of_steps(thing["transform"])
-        linear = matrix[:3, :3] / (scale := np.abs(matrix[:3, :3]).max())
+        scale = float(np.abs(matrix[:3, :3]).max())
+        linear = matrix[:3, :3] / scale
         squares = linear.T @ linear
         even = np.abs(squares - np.eye(3) * squares[0, 0]).max() <= UNEVEN * squares[0, 0]
         radius = float(thing["radius"] * np.sqrt(squares[0, 0]) * scale)
@@ -427,7 +428,7 @@ def _radiance(lamp: Element) -> Floats64:
 def _distance(point: Floats64, start: Floats64, end: Floats64) -> float:
     """From a point to the line between two others."""
     along = end - start
-    share = np.clip((point - start) @ along / max(along @ along, TINY), 0, 1)
+    share = np.clip((point - start) @ along / max(float(along @ along), TINY), 0, 1)
     return float(np.linalg.norm(point - start - share * along))
 
 
