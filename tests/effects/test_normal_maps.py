@@ -41,7 +41,8 @@ def lit(
 ) -> Any:
     """Cosines at a point for light along x, y and z and against them, (6,): the normal, and minus it."""
     found = []
-    material = {"color": 1} | ({} if image is None else {"normal_map": {"image": image}})
+    drawn = {"interpolation": more.pop("interpolation", "bilinear")}
+    material = {"color": 1} | ({} if image is None else {"normal_map": {"image": image} | drawn})
     if "bump" in more:
         material["bump"] = more.pop("bump")
     compiled = more.pop("compiled", False)
@@ -81,6 +82,21 @@ def test_a_constant_map_on_a_quad_is_a_turned_normal(
     expected = M[0] * X - M[1] * Z + M[2] * Y
     visible = np.array([*np.maximum(expected, 0), *np.maximum(-expected, 0)])
     np.testing.assert_allclose(found[:5], visible[:5], atol=2e-4)
+
+
+def test_a_nearest_map_has_no_mixtures(make_scene: MakeScene, tmp_path: Path) -> None:
+    """Two pixels side by side; at u = 0.45, two fifths of the way between their middles."""
+    color = np.stack(((M + 1) / 2, (np.array([0, 0, 1]) + 1) / 2), axis=1)[:, None]
+    write_exr(tmp_path / "map.exr", color.astype(np.float32))
+    place = (-0.1, 0, 0.2), (0.1, 2, 0)
+    found = lit(make_scene, QUAD, *place, interpolation="nearest")
+    expected = M[0] * X - M[1] * Z + M[2] * Y
+    visible = np.array([*np.maximum(expected, 0), *np.maximum(-expected, 0)])
+    np.testing.assert_allclose(found[:5], visible[:5], atol=2e-4)
+    mixed = M * 0.6 + np.array([0, 0, 1]) * 0.4
+    mixed /= np.linalg.norm(mixed)
+    found = lit(make_scene, QUAD, *place)
+    np.testing.assert_allclose(found[:3], [mixed[0], mixed[2], -mixed[1]], atol=2e-4)
 
 
 def test_its_back_has_the_normal_turned_round(make_scene: MakeScene, tmp_path: Path) -> None:

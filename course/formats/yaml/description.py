@@ -275,7 +275,9 @@ class NormalMapDescription(Map, frozen=True, kw_only=True):
     ] = (1.0, 1.0)
     interpolation: Annotated[
         Literal["bilinear", "nearest"],
-        about("Which normal there is between the middles of pixels: a mixture, or the nearest one."),
+        about(
+            "Which normal there is between the middles of pixels: a mixture, or the nearest one."
+        ),
     ] = "bilinear"
 
 
