@@ -105,7 +105,8 @@ class Story:
         n = radiance.shape[1]
         if len(wrong):
             values = ", ".join(f"{v:g}" for v in radiance[:, wrong[0]])
-            return f"{_of(len(wrong), n, 'sample')} {_are(len(wrong))} not finite: number {wrong[0]} is ({values})"
+            some = f"{_of(len(wrong), n, 'sample')} {_some(len(wrong), 'is', 'are')}"
+            return f"{some} not finite: number {wrong[0]} is ({values})"
         if not recording.weights.sum():
             made = f": {WEIGHTS} returned them" if WEIGHTS in recording.asked else ""
             return f"the weights of all samples sum to 0{made}"
@@ -132,7 +133,7 @@ class Story:
         dark = ""
         if blocked:
             ends = _counted(one.met for one in blocked)
-            dark = f"; {_of(len(blocked), len(shadows), 'shadow ray')} end at {ends}"
+            dark = f"; {_ending(len(blocked), len(shadows))} at {ends}"
         other = ""
         if RESOLVE in recording.asked and not np.allclose(self.color, self.mean, OTHER, OTHER / 10):
             other = f"; {RESOLVE} made {_rgb(self.color)} of samples whose weighted mean is {_rgb(self.mean)}"
@@ -151,11 +152,12 @@ class Story:
         reasons = []
         if blocked := [one for one in shadows if one.blocked]:
             by = _counted(one.met for one in blocked)
-            reasons.append(f"{_of(len(blocked), len(shadows), 'shadow ray')} end at {by}")
+            reasons.append(f"{_ending(len(blocked), len(shadows))} at {by}")
         if dark := [one for one in shadows if not one.blocked]:
             by = _counted(str(one.material) for one in reached)
             reasons.append(
-                f"{_of(len(dark), len(shadows), 'shadow ray')} reach a light, but the material reflects none"
+                f"{_of(len(dark), len(shadows), 'shadow ray')} {_some(len(dark), 'reaches', 'reach')} a light, but"
+                " the material reflects none"
                 f" of it ({by})"
             )
         words = {
@@ -167,13 +169,28 @@ class Story:
             whole = "" if count == len(reached) else f" at {_of(count, len(reached), 'hit')}"
             reasons.append(words[why].format(light) + whole)
         if not reasons:
-            lamps = len(self.recording.scene.compiled.world.lights)
-            return "nothing lights it: " + (
-                "what it shows reflects no light of lamps"
-                if lamps
-                else "the scene has no light that shows anything"
-            )
+            return self._why_unlit(reached)
         return "no light arrives: " + _listed(reasons)
+
+    def _why_unlit(self, reached: Sequence[Segment]) -> str:
+        """Why nothing arrives where no ray asked a light."""
+        world = self.recording.scene.compiled.world
+        left = {one.parent for one in self.segments}
+        last = [one for one in self.segments if one.light is None and one.number not in left]
+        missed = [one for one in last if one.met == ENVIRONMENT]
+        asked = Counter(call.function for one in self.segments for call in one.calls)
+        if missed and any(one.depth for one in missed):
+            chosen = f"; {_listed([*asked][:MOST_NAMES])} chose their directions" if asked else ""
+            return (
+                f"no light arrives: {_of(len(missed), len(last), 'path')} {_some(len(missed), 'leaves', 'leave')} the"
+                f" scene, where it is black{chosen}"
+            )
+        lit = bool(world.lights) or bool(world.ambient.any())
+        return "nothing lights it: " + (
+            f"what it shows ({_counted(one.met for one in reached)}) reflects no light of lamps"
+            if lit
+            else "the scene has no light that shows anything"
+        )
 
     @property
     def tree(self) -> Line:
@@ -211,7 +228,8 @@ class Story:
             own = [one for one in group if any(one.radiance)]
             light = f", bring {self._share(own)}" if own else ""
             line = Line(
-                f"{len(group)} {kind} rays meet {_counted(one.met for one in group)}{light}"
+                f"{len(group)} {kind} {_some(len(group), 'ray meets', 'rays meet')}"
+                f" {_counted(one.met for one in group)}{light}"
             )
             line.below += self._functions(group)
             numbers = {one.number for one in group}
@@ -232,7 +250,7 @@ class Story:
         for light, group in _by(shadows, lambda one: str(one.light)).items():
             blocked = [one for one in group if one.blocked]
             text = (
-                f"{light}: {_of(len(blocked), len(group), 'shadow ray')} end at {_counted(o.met for o in blocked)}"
+                f"{light}: {_ending(len(blocked), len(group))} at {_counted(o.met for o in blocked)}"
                 if blocked
                 else f"{light}: all {len(group)} shadow rays arrive"
                 if len(group) > 1
@@ -251,9 +269,8 @@ class Story:
             if why == "material":
                 continue
             which = {
-                "surface": "face away from it",
-                "light": "are behind it",
-                "material": "reflect none of it",
+                "surface": _some(count, "faces away from it", "face away from it"),
+                "light": _some(count, "is behind it", "are behind it"),
             }[why]
             lines.append(Line(f"{light}: {_of(count, len(hits), 'hit')} {which}"))
         return lines
@@ -285,7 +302,8 @@ class Story:
             except ValueError:
                 mean = None
             said = "" if mean is None or len(mean) > 4 else f"; mean {_numbers(mean)}"
-            lines.append(Line(f"{name} was asked {len(values)} times{said}"))
+            times = _some(len(values), "once", f"{len(values)} times")
+            lines.append(Line(f"{name} was asked {times}{said}"))
         return lines
 
     def _share(self, segments: Iterable[Segment]) -> str:
@@ -370,8 +388,12 @@ def _of(count: int, whole: int, noun: str) -> str:
     return f"{count} of {whole} {noun}s"
 
 
-def _are(count: int) -> str:
-    return "is" if count == 1 else "are"
+def _ending(count: int, whole: int) -> str:
+    return f"{_of(count, whole, 'shadow ray')} {_some(count, 'ends', 'end')}"
+
+
+def _some(count: int, one: str, many: str) -> str:
+    return one if count == 1 else many
 
 
 def _bounces(depth: int) -> str:

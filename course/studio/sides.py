@@ -35,7 +35,7 @@ class Side:
     shot, shots : the latest picture, and those of complete passes
     trouble : why it can't go on, until something changes; empty if it can
     note : what is going on, for the page
-    ready : whether it has its functions; before, it may be silent while it reads files
+    ready : whether it has its functions, or has been told to read them; before, it may be silent while it reads files
     awaiting : whether it builds the scene, and reads its functions only then: saves until then need no other process
     """
 
@@ -98,6 +98,8 @@ class Side:
         """Have the functions read that the worker has waited for; the scene is there."""
         if self.awaiting and self.worker is not None:
             self.awaiting = False
+            self.ready = True
+            self.heard = monotonic()
             self.worker.send(do="load")
 
     def keep_spare(self, file: str, values: list[Any]) -> None:

@@ -70,3 +70,17 @@ def test_without_scripts_both_pictures_stand_side_by_side(browser: Any, site: Pa
     assert left["y"] == right["y"]
     assert page.locator(".before-after input").count() == 0
     context.close()
+
+
+@pytest.mark.parametrize("page_name", ["soft_shadows", "supersampling"])
+def test_words_that_a_search_has_found_are_marked(browser: Any, site: Path, page_name: str) -> None:
+    """Sphinx's script had failed at the first title of a drawing that holds the word."""
+    page = browser.new_page()
+    failed: list[str] = []
+    page.on("pageerror", lambda error: failed.append(str(error)))
+    address = (site / "modules" / f"{page_name}.html").as_uri()
+    page.goto(f"{address}?highlight=light+sample+picture")
+    page.wait_for_selector("span.highlighted")
+    page.wait_for_timeout(100)
+    assert not failed
+    page.close()

@@ -254,3 +254,17 @@ def test_another_colour_than_the_samples_mean_is_told(make_scene: MakeScene) -> 
     assert "resolve" not in story.reason
     other = Story(replace(story.recording, linear=story.recording.linear * np.float32(1.01)))
     assert "; supersampling.resolve made " in other.reason
+
+
+def test_paths_that_leave_a_lit_scene_are_told_with_what_sent_them(make_scene: MakeScene) -> None:
+    """It had been told that no light shows anything, where an ambient light shows all but the mirror."""
+    brushed = {"color": 0, "mirror": 0.9, "gloss": {"lobe": "plane", "roughness": 0.2}}
+    scene = make_scene(
+        objects=[BALL],
+        materials={"grey": brushed},
+        lights=[{"type": "ambient", "radiance": 1}],
+        integrator={"max_depth": 1},
+    )
+    told = pixel(scene, 16, 16).reason
+    assert told.startswith("no light arrives: all 4 paths leave the scene, where it is black; ")
+    assert "glossy.jitter_on_plane" in told

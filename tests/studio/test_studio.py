@@ -424,6 +424,19 @@ def test_a_studio_that_was_stopped_for_a_while_ends_nobody(
     assert not mine(studio)["trouble"]
 
 
+def test_a_file_that_lets_nobody_else_run_is_told_and_ended(studio: Studio, work: Path) -> None:
+    """A number that takes minutes, in the file itself, had been "rendering" for ever."""
+    write(work, RIGHT)
+    until(lambda: mine(studio)["yours"] and mine(studio)["samples"] == DONE)
+    file = work / "assignments" / "soft_shadows.py"
+    text = file.read_text(encoding="utf-8")
+    file.write_text("import re\nre.match('(a+)+b', 60 * 'a')\n" + text, encoding="utf-8")
+    assert until(lambda: mine(studio)["note"]).startswith("no sign of life for")
+    assert "no sign of life" in until(lambda: mine(studio)["trouble"])
+    write(work, RIGHT)
+    until(lambda: mine(studio)["samples"] == DONE and not mine(studio)["trouble"])
+
+
 def test_a_failure_of_the_studio_itself_is_told_until_something_works(
     studio: Studio, monkeypatch: pytest.MonkeyPatch
 ) -> None:
