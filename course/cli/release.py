@@ -30,13 +30,20 @@ SHOWN = 16
 @click.option(
     "--out", type=PATH, help="Write the whole student archive there, a folder or a .zip file."
 )
-def release(check: bool, force: bool, out: Path | None) -> None:
+@click.option(
+    "--site",
+    type=PATH,
+    help="Put the built site in, too, which `make docs` makes: the pages with their pictures.",
+)
+def release(check: bool, force: bool, out: Path | None, site: Path | None) -> None:
     """Make the stubs in assignments/ from solutions/, or with --out all that students get.
 
     A stub is its solution without what stands between ### BEGIN SOLUTION and ### END SOLUTION.
     """
     from course.grading.release.stubs import make_stubs
 
+    if site is not None and out is None:
+        raise click.UsageError("--site is put into the archive of --out")
     if out is not None:
         from course.grading.release.archive import write_archive
 
@@ -44,7 +51,7 @@ def release(check: bool, force: bool, out: Path | None) -> None:
             # Before the references are made, which takes a while. A folder is made where there is none.
             check_outputs(files=[("--out", out)])
         click.echo("making the references of all checks, which takes up to a minute", err=True)
-        files = write_archive(PROJECT, out)
+        files = write_archive(PROJECT, out, site)
         click.echo(f"{out}: {count(files, 'file')}, searched for solutions and free of them")
         return
     stubs = make_stubs(SOLUTIONS)

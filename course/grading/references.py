@@ -25,7 +25,9 @@ SOLUTIONS = PROJECT / "solutions"
 
 
 def reference(module: str) -> Caller:
-    """The reference solution of a module; ``EffectError`` where it isn't there."""
+    """The reference solution of a module; ``CourseError`` where it isn't there."""
+    if not SOLUTIONS.is_dir():
+        raise CourseError("what is right is made with the solutions, and this copy has none")
     effects = Effects(SOLUTIONS)
     if module == NAME:
         return Together({name: reference(name) for name in ALL})

@@ -20,6 +20,7 @@ from typing import Any, Final
 
 import yaml
 
+from course.effects import CHECKOUT, begin
 from course.errors import SceneError
 from course.formats.yaml.document import LONGEST, Document, Key, Lines, show, spell
 from course.inputs import LARGEST_SCENE, Bound, read_input, shown
@@ -327,10 +328,17 @@ def _read(path: Path, what: str) -> bytes:
         raise
 
 
+def _elsewhere() -> str:
+    """What to do where the current folder is none of the course; empty where it has scenes."""
+    if CHECKOUT or Path("scenes").is_dir():
+        return ""
+    return f": {begin()}"
+
+
 def _near(path: Path) -> str:
     """Which file may be meant: beside it, or in a folder `scenes` there."""
     if not path.parent.is_dir():
-        return "; its folder is missing too"
+        return f"; its folder is missing too{_elsewhere()}"
     found: dict[str, Path] = {}
     for folder in (path.parent, path.parent / "scenes"):
         # A folder that can't be read has nothing to tell.

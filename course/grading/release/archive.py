@@ -58,20 +58,46 @@ class LeakError(CourseError):
     """A file of the archive holds a line of a solution."""
 
 
-def archive_contents(project: Path) -> dict[str, bytes]:
+def archive_contents(project: Path, site: Path | None = None) -> dict[str, bytes]:
     """Path in the archive -> content, for everything that students get.
 
-    Raises LeakError: a line of a solution stands somewhere in it; names the file and the line.
+    Raises
+    ------
+    LeakError
+        A line of a solution stands somewhere in it; names the file and the line.
+    CourseError
+        There is no site in ``site``.
+
+    Parameters
+    ----------
+    site : folder of the built site, which is put in as ``site/``; None for pages without pictures alone
     """
-    contents = made_contents(project / "solutions", copy=True)
+    contents = made_contents(project / "solutions", copy=True, site=site is not None)
+    if site is not None:
+        contents |= _site(site)
     contents |= plain_pages(project_files(project, FILES, FOLDERS))
     contents[REFERENCES] = reference_file((*COURSE, NAME), USUAL_SEED)
     _search(contents, project)
     return contents
 
 
-def write_archive(project: Path, out: Path) -> int:
+def _site(folder: Path) -> dict[str, bytes]:
+    """The files of the built site, as they are read in a browser."""
+    if not (folder / "index.html").is_file():
+        raise CourseError(
+            f"{folder}: no index.html there: expected the built site, as `make docs` makes it"
+        )
+    return {
+        f"site/{path.relative_to(folder).as_posix()}": path.read_bytes()
+        for path in sorted(folder.rglob("*"))
+        if path.is_file() and not {"_sources", ".doctrees"} & {*path.relative_to(folder).parts}
+    }
+
+
+def write_archive(project: Path, out: Path, site: Path | None = None) -> int:
     """Write the student archive as a folder or, if ``out`` ends in .zip, as a zip file; the number of files.
+
+    ``site``: see ``archive_contents``
 
     Raises
     ------
@@ -80,7 +106,7 @@ def write_archive(project: Path, out: Path) -> int:
     LeakError
         See ``archive_contents``.
     """
-    contents = archive_contents(project)
+    contents = archive_contents(project, site)
     if out.suffix == ".zip":
         return write_zip({f"penumbra/{name}": text for name, text in contents.items()}, out)
     return write_folder(contents, out)

@@ -37,15 +37,19 @@ def from_template(package: str, name: str, values: Mapping[str, Any]) -> bytes:
     return environment.get_template(f"{name}.jinja").render(values).encode()
 
 
-def made_contents(solutions: Path, *, copy: bool, instructor: bool = False) -> dict[str, bytes]:
+def made_contents(
+    solutions: Path, *, copy: bool, instructor: bool = False, site: bool = False
+) -> dict[str, bytes]:
     """Path -> content of the files that are made anew for each folder.
 
     Parameters
     ----------
     copy : true for a student's copy, which holds the course; false for a folder beside an installed course
     instructor : true where the README tells how to grade
+    site : true where the built site lies in ``site/``
     """
-    values = {"copy": copy, "instructor": instructor, "version": __version__, "modules": TAUGHT}
+    values: dict[str, Any] = {"copy": copy, "instructor": instructor, "site": site}
+    values |= {"version": __version__, "modules": TAUGHT}
     contents = {
         name: from_template("course.grading.release", template, values)
         for name, template in (TEMPLATES | (OF_A_COPY if copy else {})).items()

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from course.errors import OutputError
+from course.errors import CourseError, OutputError
 from course.grading.references import make_references
 from course.grading.release.archive import (
     LICENSES,
@@ -165,3 +165,29 @@ def test_a_students_copy_shows_pictures_before_the_first_function(copy: Path) ->
     done = python(*RENDER, *options, folder=copy, path=copy, environment=alone)
     assert (copy / "box.png").is_file()
     assert "soft_shadows.point_on_rectangle: the lamp is a point" in done.stdout
+
+
+def test_the_built_site_is_put_in_and_searched(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("course.grading.release.archive.reference_file", lambda *_: b"")
+    site = tmp_path / "site"
+    (site / "modules").mkdir(parents=True)
+    (site / "_sources").mkdir()
+    (site / "index.html").write_text("<title>Penumbra</title>")
+    (site / "modules" / "glossy.html").write_text("<p>a page</p>")
+    (site / "_sources" / "glossy.md.txt").write_text("its source")
+    write_archive(ROOT, tmp_path / "copy", site)
+    found = tmp_path / "copy"
+    assert (found / "site" / "modules" / "glossy.html").read_text() == "<p>a page</p>"
+    assert not (found / "site" / "_sources").exists()
+    assert "Open `site/index.html`" in (found / "README.md").read_text()
+    assert "open site/index.html" in (found / "Makefile").read_text()
+    line = max(solution_lines(ROOT / "solutions"), key=len)
+    (site / "modules" / "glossy.html").write_text(f"<pre>\n{line}\n</pre>")
+    with pytest.raises(LeakError, match=r"site/modules/glossy\.html:2 holds a line"):
+        write_archive(ROOT, tmp_path / "leaky", site)
+    assert not (tmp_path / "leaky").exists()
+    (site / "index.html").unlink()
+    with pytest.raises(CourseError, match=r"no index\.html there"):
+        write_archive(ROOT, tmp_path / "none", site)
