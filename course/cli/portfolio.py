@@ -32,7 +32,7 @@ def portfolio(
     """Write a page of pictures by one's own functions: before and after, errors, receipts.
 
     Files that have changed since they were checked last are checked first, as by `course status`,
-    which the time limit doesn't count. Functions that are not written have those of the course in
+    which the time limit doesn't count, nor what is compiled. Functions that are not written have those of the course in
     their place, or none. The page is one file without a script, and needs no network.
     """
     check_outputs(files=[("-o", output)])
@@ -46,7 +46,11 @@ def portfolio(
     found = list(progress(folder, modules, lambda module: say(f"checking {module}")))
     effects = Effects(folder, filled=True)
     where = scenes or next(p for p in (Path("scenes"), PROJECT / "scenes") if p.is_dir())
-    write_text(
-        output, page(found, effects, where, time_limit, lambda module: say(f"rendering {module}"))
-    )
+    made = page(found, effects, where, time_limit, lambda module: say(f"rendering {module}"))
+    write_text(output, made.text)
     click.echo(f"{output} ({output.stat().st_size / 1000:.0f} kB)")
+    if made.short:
+        say(
+            f"pictures of {', '.join(made.short)} got fewer samples for want of time: "
+            f"a larger --time-limit than {time_limit:g} gives them more"
+        )

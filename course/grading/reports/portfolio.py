@@ -6,13 +6,15 @@ error of each, without a converged picture.
 """
 
 import math
+import sys
 from collections.abc import Callable, Iterator
+from contextlib import ExitStack
 from dataclasses import dataclass
 from io import BytesIO
 from itertools import count
 from pathlib import Path
 from time import monotonic
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from markupsafe import Markup
@@ -26,7 +28,7 @@ from course.grading.reports.drawing import data_uri, draw_curve, with_own_ids
 from course.grading.reports.order import place
 from course.grading.reports.page import render as fill
 from course.jobs.picture import Picture
-from course.render_scene import render
+from course.render_scene import reads_loops_first, render
 from course.scene.scene import Scene, load_scene
 
 SECONDS = 60.0
@@ -65,6 +67,7 @@ class Shown:
     receipt : what the picture has cost, as pairs
     problem : why there is no picture; empty where there is one
     functions : how far each function is
+    few : samples a pixel of before and after where the time was too short for ``SAMPLES``, else 0
     """
 
     module: str
@@ -77,11 +80,41 @@ class Shown:
     receipt: tuple[tuple[str, str], ...]
     problem: str
     functions: tuple[Progress, ...]
+    few: tuple[int, int] = (0, 0)
 
     @property
     def title(self) -> str:
         """For people."""
         return self.module.replace("_", " ").capitalize()
+
+
+class Page(NamedTuple):
+    """A portfolio.
+
+    Attributes
+    ----------
+    text : HTML
+    short : modules with a picture that has fewer samples than ``SAMPLES``, for want of time
+    """
+
+    text: str
+    short: tuple[str, ...]
+
+
+class _Clock:
+    """Seconds, without those in which this process compiles loops: that is done once, and no picture is rendered."""
+
+    def __init__(self) -> None:
+        self.compiled = 0.0
+        """Seconds of compiling so far."""
+
+    def now(self) -> float:
+        """Since some moment."""
+        return monotonic() - self.compiled
+
+    def add(self, seconds: float) -> None:
+        """It has compiled so long."""
+        self.compiled += seconds
 
 
 def portfolio(
@@ -90,7 +123,7 @@ def portfolio(
     scenes: Path,
     seconds: float = SECONDS,
     before: Callable[[str], None] = lambda _module: None,
-) -> str:
+) -> Page:
     """The page, in one file that needs no network.
 
     Parameters
@@ -98,15 +131,20 @@ def portfolio(
     found : the functions of each module, see `course.grading.progress.progress`
     effects : whose functions are called; those that aren't written are replaced
     scenes : a folder with a scene for each module, and in `before` the same without it
-    seconds : for all pictures together
+    seconds : for all pictures together; what is spent on compiling loops doesn't count
     before : called with the name of each module whose pictures are rendered
     """
     found = sorted(filter(None, found), key=lambda functions: place(functions[0].module))
     begun = [functions for functions in found if any(f.state != "to do" for f in functions)]
     plots = count(1)
-    return fill(
+    modules = list(_shown(begun, effects, scenes, seconds, before))
+    short = tuple(one.module for one in modules if any(one.few))
+    text = fill(
         "portfolio.html.jinja",
-        modules=list(_shown(begun, effects, scenes, seconds, before)),
+        modules=modules,
+        short=[one for one in modules if one.module in short],
+        samples=SAMPLES,
+        seconds=seconds,
         right=sum(one.state == "right" for functions in found for one in functions),
         points=sum(one.points for functions in found for one in functions),
         of=sum(one.of for functions in found for one in functions),
@@ -114,6 +152,7 @@ def portfolio(
         left=[f[0].module for f in found if f not in begun],
         plot=lambda svg: Markup(with_own_ids(svg, f"p{next(plots)}")),
     )
+    return Page(text, short)
 
 
 def _shown(
@@ -123,34 +162,42 @@ def _shown(
     seconds: float,
     before: Callable[[str], None],
 ) -> Iterator[Shown]:
-    end = monotonic() + seconds
+    clock = _Clock()
+    end = clock.now() + seconds
     for number, functions in enumerate(begun):
         module = functions[0].module
         before(module)
         # What a module leaves over is for those after it.
-        share = max(end - monotonic(), 1.0) / (len(begun) - number)
+        share = max(end - clock.now(), 1.0) / (len(begun) - number)
         try:
-            yield _rendered(module, tuple(functions), effects, scenes, share)
+            yield _rendered(module, tuple(functions), effects, scenes, share, clock)
         except (CourseError, NotImplementedError) as error:
             said = str(error) or type(error).__name__
             yield Shown(module, (), "", "", (0, 0), "", None, (), said, tuple(functions))
 
 
 def _rendered(
-    module: str, functions: tuple[Progress, ...], effects: Effects, scenes: Path, seconds: float
+    module: str,
+    functions: tuple[Progress, ...],
+    effects: Effects,
+    scenes: Path,
+    seconds: float,
+    clock: _Clock,
 ) -> Shown:
-    began = monotonic()
+    began = clock.now()
     path = scenes / f"{module}.yaml"
     if not path.is_file():
         return Shown(module, (), "", "", (0, 0), "", None, (), f"no scene {path}", functions)
     scene = load_scene(path, effects)
-    points = tuple(_errors(scene, began + 0.5 * seconds))
-    left = seconds - (monotonic() - began)
-    after = _picture(scene, 0.7 * left)
+    points = tuple(_errors(scene, began + 0.5 * seconds, clock))
+    left = seconds - (clock.now() - began)
+    after, few = _picture(scene, 0.7 * left, clock)
     without = scenes / "before" / f"{module}.yaml"
-    earlier = ""
+    earlier, few_before = "", 0
     if without.is_file():
-        earlier = _webp(_picture(load_scene(without, effects), seconds - (monotonic() - began)))
+        left = seconds - (clock.now() - began)
+        picture, few_before = _picture(load_scene(without, effects), left, clock)
+        earlier = _webp(picture)
     receipt = after.receipt
     rays = sum(receipt.rays.values())
     height, width = after.film.samples.shape
@@ -171,19 +218,20 @@ def _rendered(
         ),
         "",
         functions,
+        (few_before, few),
     )
 
 
-def _errors(scene: Scene, end: float) -> Iterator[tuple[int, float]]:
+def _errors(scene: Scene, end: float, clock: _Clock) -> Iterator[tuple[int, float]]:
     """Samples a pixel and root-mean-square errors [radiance], until the next one would end too late."""
     size = _within(scene, CURVE_WIDTH)
     if _fixed(scene):
         return
     for samples in COUNTS:
-        began = monotonic()
-        a, b = (_whole(scene, spp=samples, size=size, seed=seed).linear for seed in (1, 2))
+        began = clock.now()
+        a, b = (_whole(scene, clock, spp=samples, size=size, seed=seed).linear for seed in (1, 2))
         yield samples, math.sqrt(float(((a - b) ** 2).mean(dtype=np.float64)) / 2)
-        if monotonic() + 4 * (monotonic() - began) > end:
+        if clock.now() + 4 * (clock.now() - began) > end:
             return
 
 
@@ -203,21 +251,37 @@ def _slope(points: tuple[tuple[int, float], ...]) -> float | None:
     return float(-np.polyfit(n, error, 1)[0])
 
 
-def _picture(scene: Scene, seconds: float) -> Picture:
-    """With the most samples, a power of 2, that seem to fit into the time; all pixels have them."""
+def _picture(scene: Scene, seconds: float, clock: _Clock) -> tuple[Picture, int]:
+    """With the most samples, a power of 2, that seem to fit into the time; all pixels have them.
+
+    Returns Picture, and their number if the time is too short for ``SAMPLES``, else 0.
+    """
     size = _within(scene, WIDTH)
     if _fixed(scene):
-        return _whole(scene, size=size)
-    small, began = _within(scene, CURVE_WIDTH), monotonic()
-    _whole(scene, spp=TRIED, size=small)
-    each = (monotonic() - began) / TRIED * math.prod(size) / math.prod(small)
+        return _whole(scene, clock, size=size), 0
+    small = _within(scene, CURVE_WIDTH)
+    for _ in range(2):
+        began, compiled = clock.now(), clock.compiled
+        _whole(scene, clock, spp=TRIED, size=small)
+        took = clock.now() - began
+        # A render in which loops were compiled doesn't tell how fast they are.
+        if clock.compiled == compiled:
+            break
+    each = took / TRIED * math.prod(size) / math.prod(small)
     fitting = min(max(seconds / each, 1.0), SAMPLES)
-    return _whole(scene, spp=2 ** int(math.log2(fitting)), size=size)
+    samples = 2 ** int(math.log2(fitting))
+    return _whole(scene, clock, spp=samples, size=size), samples if samples < SAMPLES else 0
 
 
-def _whole(scene: Scene, **settings: Any) -> Picture:
+def _whole(scene: Scene, clock: _Clock, **settings: Any) -> Picture:
     """A picture that all of its samples are in; Ctrl-C, which would leave a part of it, ends the page."""
-    picture = render(scene, **settings)
+    with ExitStack() as closed:
+        # Numba takes a second to be imported, and small pictures do without.
+        if "numba" in sys.modules or reads_loops_first(scene.settings, **settings):
+            from numba.core import event
+
+            closed.enter_context(event.install_timer("numba:compile", clock.add))
+        picture = render(scene, **settings)
     if picture.interrupted:
         raise KeyboardInterrupt
     return picture

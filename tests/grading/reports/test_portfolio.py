@@ -6,19 +6,25 @@ from base64 import b64decode
 from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
+from time import sleep
+from typing import Any
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 from PIL import Image
 
+from course.cli.main import commands
 from course.effects import PROJECT, Effects
 from course.errors import FunctionError
 from course.grading.progress import Progress
 from course.grading.reports import portfolio as made
 from course.grading.reports.drawing import Panel, draw_curve
 from course.grading.reports.page import render as fill
-from course.grading.reports.portfolio import Shown, portfolio
-from course.scene.scene import load_scene
+from course.grading.reports.portfolio import Page, Shown, portfolio
+from course.jobs.picture import Picture
+from course.render_scene import render
+from course.scene.scene import Scene, load_scene
 
 SCENE = """\
 film: {width: 24, height: 16, filter: box}
@@ -56,7 +62,7 @@ FOUND = [
 def test_only_what_is_begun_is_shown_with_both_pictures_a_curve_and_whose_functions_it_called(
     folder: Path,
 ) -> None:
-    page = portfolio(FOUND, Effects(folder, filled=True), folder, seconds=4)
+    page = portfolio(FOUND, Effects(folder, filled=True), folder, seconds=4).text
     pictures = re.findall(r'src="(data:image/webp;base64,[^"]+)"', page)
     assert len(pictures) == 2
     assert pictures[0] != pictures[1]
@@ -73,7 +79,7 @@ def test_a_function_that_fails_is_told_and_the_others_go_on(folder: Path) -> Non
     (folder / "soft_shadows.py").write_text(broken, encoding="utf-8")
     shutil.copy(folder / "before" / "soft_shadows.yaml", folder / "thin_lens.yaml")
     found = [FOUND[0], [progress("thin_lens", "lens_rays", "wrong")]]
-    page = portfolio(found, Effects(folder, filled=True), folder, seconds=4)
+    page = portfolio(found, Effects(folder, filled=True), folder, seconds=4).text
     assert "not a &lt;lamp&gt;" in page
     assert page.count("data:image/webp") == 1
     assert "None of one's own functions is called here" in page
@@ -87,7 +93,7 @@ def test_which_line_asks_for_a_function_is_told_once(
         raise asked.asked_by("film.yaml:16", ("film", "tone"))
 
     monkeypatch.setattr(made, "_rendered", rendered)
-    page = portfolio(FOUND[:1], Effects(folder, filled=True), folder, seconds=4)
+    page = portfolio(FOUND[:1], Effects(folder, filled=True), folder, seconds=4).text
     assert page.count("film.yaml:16: film.tone asks for it") == 1
     assert "1 of 1 function is right" in page
 
@@ -95,7 +101,7 @@ def test_which_line_asks_for_a_function_is_told_once(
 def test_the_warm_up_comes_first(monkeypatch: pytest.MonkeyPatch, folder: Path) -> None:
     monkeypatch.setattr(made, "_rendered", lambda module, *_: replace(shown(""), module=module))
     found = [FOUND[0], [progress("sampling", "disk_by_polar", "right")]]
-    page = portfolio(found, Effects(folder, filled=True), folder, seconds=4)
+    page = portfolio(found, Effects(folder, filled=True), folder, seconds=4).text
     assert page.index('id="sampling"') < page.index('id="soft_shadows"')
 
 
@@ -112,7 +118,79 @@ def shown(address: str) -> Shown:
     return Shown("thin_lens", (), "", address, (300, 300), "", None, (), "", ())
 
 
-EMPTY = {"right": 0, "points": 0, "of": 0, "functions": 0, "left": [], "plot": str}
+EMPTY: dict[str, Any] = {"right": 0, "points": 0, "of": 0, "functions": 0, "left": [], "plot": str}
+EMPTY |= {"short": [], "samples": 64, "seconds": 60}
+
+
+class Slow:
+    """A stand-in for rendering: a sample of 24 x 16 pixels takes so many seconds, and loops are compiled at first."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch, seconds: float, compiling: float = 0.0):
+        self._each, self._compiling, self.time = seconds, compiling, 0.0
+        monkeypatch.setattr(made, "monotonic", lambda: self.time)
+        monkeypatch.setattr(made, "render", self.render)
+
+    def render(self, scene: Scene, **settings: Any) -> Picture:
+        compiling, self._compiling = self._compiling, 0.0
+        if compiling:
+            from numba.core import event
+
+            with event.trigger_event("numba:compile"):
+                sleep(compiling)
+        self.time += compiling + self._each * settings["spp"]
+        return render(scene, **settings)
+
+
+def test_pictures_that_the_time_was_too_short_for_are_named_on_the_page(
+    monkeypatch: pytest.MonkeyPatch, folder: Path
+) -> None:
+    Slow(monkeypatch, seconds=0.25)
+    page = portfolio(FOUND, Effects(folder, filled=True), folder, seconds=8)
+    assert page.short == ("soft_shadows",)
+    assert 'pictures of <a href="#soft_shadows">soft_shadows</a> have fewer than 64' in page.text
+    assert "A larger <code>--time-limit</code> than 8 seconds" in page.text
+    captions = re.findall("<figcaption>(.*?)</figcaption>", page.text)
+    counts = [
+        re.findall(r"(\d+) of 64 samples a pixel: the time ran short", one) for one in captions
+    ]
+    (shown,) = re.findall(r"<dt>samples a pixel</dt><dd>(\d+)</dd>", page.text)
+    assert counts[1] == [shown]
+    assert len(counts[0]) == 1
+
+
+def test_of_pictures_with_all_samples_nothing_is_said(
+    monkeypatch: pytest.MonkeyPatch, folder: Path
+) -> None:
+    Slow(monkeypatch, seconds=1e-4)
+    page = portfolio(FOUND, Effects(folder, filled=True), folder, seconds=8)
+    assert page.short == ()
+    assert "ran short" not in page.text
+    assert "time-limit" not in page.text
+
+
+def test_the_time_in_which_loops_are_compiled_is_not_taken_from_the_pictures(
+    monkeypatch: pytest.MonkeyPatch, folder: Path
+) -> None:
+    """The whole second would go on it; the pictures need a third of one."""
+    pytest.importorskip("numba")
+    Slow(monkeypatch, seconds=0.001, compiling=1.0)
+    page = portfolio(FOUND, Effects(folder, filled=True), folder, seconds=1)
+    assert page.short == ()
+
+
+def test_the_terminal_names_the_modules_whose_pictures_got_fewer_samples(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    short = Page("<p>", ("glossy", "thin_lens"))
+    monkeypatch.setattr(made, "portfolio", lambda *_: short)
+    monkeypatch.setattr("course.grading.progress.progress", lambda *_: [])
+    said = CliRunner().invoke(commands, ["portfolio", "--folder", ".", "--time-limit", "5"])
+    assert said.exit_code == 0, said.output
+    assert said.stderr.splitlines()[-1] == (
+        "pictures of glossy, thin_lens got fewer samples for want of time: "
+        "a larger --time-limit than 5 gives them more"
+    )
 
 
 @pytest.mark.parametrize("noise", [0.5, 2.0])
@@ -129,7 +207,8 @@ def test_half_of_the_squared_difference_of_two_pictures_is_the_squared_error(
 
     monkeypatch.setattr(made, "render", lambda _, spp, size, seed: Noisy(spp, seed))  # noqa: ARG005
     scene = load_scene(folder / "soft_shadows.yaml", Effects(folder, filled=True))
-    points = tuple(made._errors(scene, made.monotonic() + 60))
+    clock = made._Clock()
+    points = tuple(made._errors(scene, clock.now() + 60, clock))
     assert [n for n, _ in points] == list(made.COUNTS)
     for n, error in points:
         assert error == pytest.approx(noise / n**0.5, rel=0.02)
@@ -139,7 +218,7 @@ def test_half_of_the_squared_difference_of_two_pictures_is_the_squared_error(
 def test_ctrl_c_ends_the_page_and_not_a_picture_of_it(
     monkeypatch: pytest.MonkeyPatch, folder: Path
 ) -> None:
-    picture = made.render(load_scene(folder / "soft_shadows.yaml", Effects(folder, filled=True)))
+    picture = render(load_scene(folder / "soft_shadows.yaml", Effects(folder, filled=True)))
     monkeypatch.setattr(made, "render", lambda *_, **__: replace(picture, interrupted=True))
     with pytest.raises(KeyboardInterrupt):
         portfolio(FOUND, Effects(folder, filled=True), folder, seconds=4)
@@ -152,7 +231,7 @@ def test_modules_share_what_is_left_of_the_time(
     now = [0.0]
 
     def rendered(
-        module: str, functions: tuple[Progress, ...], _e: object, _s: object, t: float
+        module: str, functions: tuple[Progress, ...], _e: object, _s: object, t: float, _c: object
     ) -> Shown:
         shares.append(t)
         now[0] += 10
