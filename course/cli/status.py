@@ -26,12 +26,14 @@ def status(modules: tuple[str, ...], folder: Path, as_json: bool) -> None:
     the folder, in .course/checked.json.
     """
     from course.grading.progress import as_data, next_one, progress
+    from course.modules import TAUGHT
 
     def before(module: str) -> None:
         if not as_json:
             click.echo(f"checking {module}", err=True)
 
-    found = list(progress(folder, modules, before))
+    of = dict(zip(modules, progress(folder, modules, before), strict=True))
+    found = [of[module] for module in TAUGHT if module in of]
     every = [function for functions in found for function in functions]
     coming = next_one(every)
     if as_json:

@@ -3,7 +3,12 @@
 import re
 from pathlib import Path
 
-from course.modules import COURSE
+import pytest
+from click.testing import CliRunner
+
+from course.cli.main import commands
+from course.grading import progress
+from course.modules import COURSE, TAUGHT
 
 
 def test_each_module_has_a_card_in_the_order_of_the_course(site: Path) -> None:
@@ -19,3 +24,18 @@ def test_cards_say_how_long_it_takes_and_after_what(site: Path) -> None:
     assert "You write the functions that choose points on a light" in card[1]
     assert re.search(r"long: \d+ \+ 150 minutes, after sampling and supersampling", card[1])
     assert "<img" in card[1]
+
+
+def test_status_lists_modules_in_the_order_of_the_cards(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def unwritten(
+        _folder: Path, module: str, _sources: dict[str, bytes]
+    ) -> list[dict[str, object]]:
+        told = {"title": "", "found": "", "again": "", "page": ""}
+        return [{"module": module, "name": "f", "state": "to do", "points": 0, "of": 10, **told}]
+
+    monkeypatch.setattr(progress, "_checked", unwritten)
+    result = CliRunner().invoke(commands, ["status", "--folder", str(tmp_path)])
+    assert result.exit_code == 0, result.output
+    assert re.findall(r"^(\w+)  +to do ", result.stdout, re.MULTILINE) == list(TAUGHT)
