@@ -1,7 +1,8 @@
 """The glossary: a list in Markdown becomes Sphinx's own, and a search for a term leads to the page that explains it.
 
-In ``docs/glossary.md`` a line is ``- **Term**, **synonym**: what it means``. Its first link to a module's page says
-where it is explained: there the terms become entries of the index, which the site's search prefers.
+In ``docs/glossary.md`` a line is ``- **Term**, **synonym**: what it means``. Its first link to a page that teaches says
+where it is explained: there the terms become entries of the index, which the site's search prefers. `SOUGHT` has words
+that are no terms.
 """
 
 import re
@@ -13,7 +14,14 @@ from pathlib import Path
 FILE = Path(__file__).parents[1] / "glossary.md"
 
 ENTRY = re.compile(r"^- (\*\*.+?\*\*): (.*(?:\n  .*)*)\n", re.MULTILINE)
-LINK = re.compile(r"\]\(modules/(\w+)\.md(?:#([\w-]+))?\)")
+LINK = re.compile(r"\]\((modules/\w+|accuracy|architecture)\.md(?:#([\w-]+))?\)")
+
+SOUGHT = {
+    ("guides/start", "get-the-course"): ("install", "installation", "download"),
+    ("guides/start", "two-commands"): ("Windows", "macOS", "Linux", "setup", "requirements"),
+    ("guides/teaching", "six-weeks-the-core"): ("syllabus", "schedule", "curriculum"),
+}
+"""Page and heading -> what readers look for there, though it is no term of the course."""
 
 
 @dataclass(frozen=True)
@@ -24,12 +32,12 @@ class Entry:
     ----------
     terms : the term, and its synonyms
     meaning : Markdown of one paragraph
-    module, place : page of a module that explains it, and the heading there; "" for none, or for the page as a whole
+    page, place : the page that explains it, and the heading there; "" for none, or for the page as a whole
     """
 
     terms: tuple[str, ...]
     meaning: str
-    module: str
+    page: str
     place: str
 
 
@@ -42,9 +50,9 @@ def entries(text: str) -> tuple[Entry, ...]:
 def _entry(match: re.Match[str]) -> Entry:
     terms, meaning = match.groups()
     link = None if "*Named only" in meaning else LINK.search(meaning)
-    module, place = (link[1], link[2] or "") if link else ("", "")
+    page, place = (link[1], link[2] or "") if link else ("", "")
     meaning = " ".join(meaning.split())
-    return Entry(tuple(re.findall(r"\*\*(.+?)\*\*", terms)), meaning, module, place)
+    return Entry(tuple(re.findall(r"\*\*(.+?)\*\*", terms)), meaning, page, place)
 
 
 def directives(text: str) -> str:
@@ -61,12 +69,15 @@ def _directive(items: str) -> Iterator[str]:
     yield "```"
 
 
-def indexed(module: str, text: str) -> str:
-    """Return a module's page, from ``docs/modules``, with entries of the index where it explains a term."""
+def indexed(page: str, text: str) -> str:
+    """Return a page, called as in ``docs`` without its suffix, with entries of the index where it explains a term."""
     found: dict[str, list[str]] = {}
     for entry in entries(FILE.read_text(encoding="utf-8")):
-        if entry.module == module:
+        if entry.page == page:
             found.setdefault(entry.place, []).extend(entry.terms)
+    for (where, place), words in SOUGHT.items():
+        if where == page:
+            found.setdefault(place, []).extend(words)
 
     def mark(match: re.Match[str]) -> str:
         # The page as a whole is meant by its title; a comment in code begins like one, but not the text.

@@ -138,8 +138,8 @@ class Site:
     def expanded(self, page: str, text: str) -> str:
         """Return a page's Markdown with its generated parts."""
         folder, _, module = page.rpartition("/")
+        text = indexed(page, linked(module, text) if folder == "modules" else text)
         if folder == "modules":
-            text = indexed(module, linked(module, text))
             heading = f"\n<!-- site: objectives {module} -->\n\n## The phenomenon\n"
             if module not in INSTEAD and pictures.scene_path(f"before/{module}").is_file():
                 heading += f"\n<!-- site: before_after {module} -->\n"

@@ -1,8 +1,8 @@
-// What a search finds first: of entries of the index, the page of a module that explains the term, then the glossary.
+// What a search finds first: of entries of the index, the page that explains the term, then the glossary.
 // The other numbers are Sphinx's own.
 var Scorer = {
   score: ([page, , , , score, , kind]) =>
-    kind === "index" && page.startsWith("modules/") ? score + 1 : score,
+    kind === "index" && page !== "glossary" ? score + 1 : score,
   objNameMatch: 11,
   objPartialMatch: 6,
   objPrio: { 0: 15, 1: 5, 2: -5 },

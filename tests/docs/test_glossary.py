@@ -8,7 +8,7 @@ import pytest
 
 pytest.importorskip("sphinx", reason='the site needs: pip install -e ".[docs]"')
 
-from sitebuild.glossary import FILE, directives, entries, indexed, slug
+from sitebuild.glossary import FILE, SOUGHT, directives, entries, indexed, slug
 
 from course.effects import PROJECT
 from course.modules import COURSE
@@ -16,9 +16,11 @@ from course.modules import COURSE
 TEXT = FILE.read_text(encoding="utf-8")
 ENTRIES = entries(TEXT)
 
+NAMES = {f"modules/{module}" for module in COURSE} | {entry.page for entry in ENTRIES} - {""}
+NAMES |= {page for page, _ in SOUGHT}
+
 PAGES = {
-    module: (PROJECT / "docs" / "modules" / f"{module}.md").read_text(encoding="utf-8")
-    for module in COURSE
+    name: (PROJECT / "docs" / f"{name}.md").read_text(encoding="utf-8") for name in sorted(NAMES)
 }
 
 ASKED = {
@@ -28,6 +30,19 @@ ASKED = {
     "aliasing": "modules/supersampling",
     "next-event estimation": "modules/path_tracing",
     "cite": "cite",
+    "MIS": "modules/multiple_importance",
+    "Sobol": "modules/quasi_monte_carlo",
+    "gamma": "modules/film",
+    "defocus": "modules/thin_lens",
+    "HDRI": "modules/environment_light",
+    "acne": "architecture",
+    "shadow acne": "architecture",
+    "light leak": "architecture",
+    "ground truth": "accuracy",
+    "ambient occlusion": "modules/path_tracing",
+    "install": "guides/start",
+    "Windows": "guides/start",
+    "syllabus": "guides/teaching",
 }
 """What readers look for, and the page that they should find first."""
 
@@ -47,24 +62,26 @@ def test_every_line_of_its_lists_is_an_entry_and_no_term_stands_twice() -> None:
 
 
 def test_terms_lead_to_headings_that_there_are() -> None:
-    for entry in ENTRIES:
-        if entry.module:
-            headings = re.findall(r"^##+ (.+)$", PAGES[entry.module], re.MULTILINE)
-            assert entry.place in {"", *map(slug, headings)}, entry.terms
+    places = [(entry.page, entry.place) for entry in ENTRIES if entry.page]
+    for page, place in [*places, *SOUGHT]:
+        # Those that entries of the index can stand before.
+        headings = re.findall(r"^## (.+)$", PAGES[page], re.MULTILINE)
+        assert place in {"", *map(slug, headings)}, page
 
 
 def test_every_module_explains_a_term() -> None:
-    assert {entry.module for entry in ENTRIES} >= set(COURSE)
+    assert {entry.page for entry in ENTRIES} >= {f"modules/{module}" for module in COURSE}
 
 
-@pytest.mark.parametrize("module", COURSE)
-def test_a_page_gets_entries_of_the_index_and_nothing_else(module: str) -> None:
-    page = indexed(module, PAGES[module])
+@pytest.mark.parametrize("name", PAGES)
+def test_a_page_gets_entries_of_the_index_and_nothing_else(name: str) -> None:
+    page = indexed(name, PAGES[name])
     found = re.findall(r"```\{index\} (.+)\n```\n", page)
     terms = {term.removeprefix("! ") for line in found for term in line.split(", ")}
-    assert terms == {term for entry in ENTRIES if entry.module == module for term in entry.terms}
+    wanted = {term for entry in ENTRIES if entry.page == name for term in entry.terms}
+    assert terms == wanted.union(*(words for (where, _), words in SOUGHT.items() if where == name))
     rest = re.sub(r"```\{index\} .+\n```\n", "", page)
-    assert re.sub(r"\n\n+", "\n\n", rest) == re.sub(r"\n\n+", "\n\n", PAGES[module])
+    assert re.sub(r"\n\n+", "\n\n", rest) == re.sub(r"\n\n+", "\n\n", PAGES[name])
 
 
 def test_a_list_becomes_a_directive() -> None:
@@ -77,10 +94,10 @@ def test_a_list_becomes_a_directive() -> None:
 
 
 def test_a_search_finds_first_the_page_that_explains(site: Path, browser: Any) -> None:
-    asked = dict(ASKED)
-    for entry in ENTRIES:
-        for term in entry.terms:
-            page = f"modules/{entry.module}" if entry.module else "glossary"
+    asked = {term.lower(): page for term, page in ASKED.items()}
+    places = [(entry.terms, entry.page or "glossary") for entry in ENTRIES]
+    for terms, page in [*places, *((words, page) for (page, _), words in SOUGHT.items())]:
+        for term in terms:
             assert asked.setdefault(term.lower(), page) == page
     page = browser.new_page()
     page.goto((site / "search.html").as_uri())
