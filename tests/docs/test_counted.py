@@ -24,6 +24,7 @@ WORDS = {
     "eighteen": 18,
     "nineteen": 19,
     "twenty": 20,
+    "thirty": 30,
 }
 """Numbers that pages write as words."""
 
@@ -76,6 +77,8 @@ def test_every_function_of_the_course_is_counted() -> None:
     "page", ["CONTRIBUTING.md", "docs/grading.md", "docs/guides/new_module.md"]
 )
 def test_modules_have_as_many_known_submissions_as_pages_say(page: str) -> None:
+    paper = " ".join(text_of(PROJECT / "paper" / "paper.md").split())
+    (published,) = re.findall(r"wrong submissions, at least (\w+) for each module", paper)
     text = " ".join(text_of(PROJECT / page).split())
     rights = re.findall(r"(?:at least )?(\w+) right ones", text)
     wrongs = re.findall(r"(\w+) (?:wrong ones|submissions with typical mistakes)", text)
@@ -83,3 +86,4 @@ def test_modules_have_as_many_known_submissions_as_pages_say(page: str) -> None:
         (least,) = {number(word) for word in words if word.lower() in WORDS}
         for module in COURSE:
             assert sum(each.right == right for each in known(module)) >= least, module
+    assert least == number(published)
