@@ -170,9 +170,7 @@ def _print_lines(report: Report, folder: Path) -> None:
     for module in grouped(report):
         path = folder / f"{module.name}.py"
         if module.trouble and module.functions[0].state != "to do":
-            # Where Python has stopped: the last of its lines that is of this file.
-            lines = re.findall(rf"{module.name}\.py\"?, line (\d+)", clean(module.trouble.where))
-            line = lines[-1] if lines else 1
+            line = _stopped(module.name, module.trouble) or 1
             click.echo(f"{path}:{line}: error: {_short(clean(module.trouble.found))}")
             continue
         for function in module.functions:
@@ -181,8 +179,17 @@ def _print_lines(report: Report, folder: Path) -> None:
             severity = "warning" if function.state == "to do" else "error"
             told = function.told[:1] if severity == "error" else ()
             text = "".join(f"{one.title}: {_short(clean(one.found))}" for one in told)
-            line = line_of(path, function.name)
+            stopped = _stopped(module.name, told[0]) if told else 0
+            line = stopped or line_of(path, function.name)
             click.echo(f"{path}:{line}: {severity}: {function.name}: {text or function.state}")
+
+
+def _stopped(module: str, result: Result) -> int:
+    """Where Python has stopped: the last line of its traceback that is of the module's file; 0 if there is none."""
+    from course.grading.reports.formats import clean
+
+    lines = re.findall(rf"^ *File \"{module}\.py\", line (\d+)", clean(result.where), re.MULTILINE)
+    return int(lines[-1]) if lines else 0
 
 
 def _chooser(only: str | None) -> Callable[[Check], bool] | None:

@@ -164,6 +164,27 @@ def test_an_editor_is_told_the_line_of_a_syntax_error_once(run: Run, folder: Pat
     assert told[-1].startswith(f"{folder / 'motion_blur.py'}:2: error: motion_blur.py can't be")
 
 
+def test_an_editor_is_told_the_line_that_failed_and_not_where_its_function_begins(
+    run: Run, folder: Path
+) -> None:
+    own = "\n\ndef displacement(velocity, time):\n    return _way(velocity, time)\n"
+    own += "\n\ndef _way(velocity, time):\n    far = velocity\n    return np.outer(fast, time)\n"
+    own += "\n\ndef shutter_times(open, close, u):\n    return u\n"
+    text = SOLUTION.replace("def shutter_times(", "def _right(") + own
+    (folder / "motion_blur.py").write_text(text, encoding="utf-8")
+    rows = text.splitlines()
+    failed = rows.index("    return np.outer(fast, time)") + 1
+    begins = rows.index("def shutter_times(open, close, u):") + 1
+    path = folder / "motion_blur.py"
+    told = run("check", "motion_blur", "--folder", folder, "--lines").stdout.splitlines()
+    (name,) = [line for line in told if ": error: displacement: " in line]
+    assert name.startswith(f"{path}:{failed}: error: ")
+    assert name.endswith("NameError: name 'fast' is not defined")
+    # What raises nothing is told where the function begins.
+    (value,) = [line for line in told if ": error: shutter_times: " in line]
+    assert value.startswith(f"{path}:{begins}: error: ")
+
+
 def test_a_long_exception_is_cut_and_told_once(run: Run, folder: Path) -> None:
     own = "\n\ndef displacement(*_):\n    raise KeyError('long ' * 800)\n"
     (folder / "motion_blur.py").write_text(SOLUTION + own, encoding="utf-8")
