@@ -31,7 +31,8 @@ class Figure:
         "pictures" two pictures and their difference, "rays" those of a pixel in their scene
     title : str
     arrays : what is drawn, by name: ``yours`` and, if there is one, ``expected``; pictures are (3, H, W) linear
-        RGB, and rays ``data``, a view as JSON, deflated
+        RGB, and rays ``data``, a view as JSON, deflated; a histogram may have ``u``, the numbers that the values
+        were made from, one by one
     """
 
     kind: FigureKind

@@ -52,7 +52,7 @@ def _moments(a: Arguments, r: Array) -> tuple[Any, ...]:
 
 def _histogram(trial: Trial, a: Arguments, r: Array) -> None:
     share = (r - a.open) / (a.close - a.open)
-    trial.show("histogram", "Times, as a share of the exposure", yours=share)
+    trial.show("histogram", "Times, as a share of the exposure", yours=share, u=a.u)
 
 
 SHUTTER_TIMES = function(

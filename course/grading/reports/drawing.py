@@ -49,6 +49,9 @@ _DIVERGING = np.array(
 YOURS, EXPECTED = "#d9622b", "#3f8fc9"
 """Readable on white and on black, and told apart with any colour vision."""
 
+ALIKE = 0.05
+"""Values are alike if their shares below any number differ by less: nobody sees it in their histograms."""
+
 MOST_POINTS = 2500
 FURTHEST = 1e12
 """Beyond this nothing is drawn: the axes could not be labelled."""
@@ -418,7 +421,13 @@ def _scatter(
 
 
 def draw_histogram(figure: Figure) -> Drawing:
-    """Draw how often the values of ``expected``, if they are there, and of ``yours`` occur, over the same axis."""
+    """Draw how often the values of ``expected``, if they are there, and of ``yours`` occur, over the same axis.
+
+    Where ``u`` is there and that doesn't tell the two apart, each value is drawn over its number.
+    """
+    graphs = _graphs(figure)
+    if graphs and len(graphs.panels) > 1 and are_alike(*(array for _, array in _in_order(figure))):
+        return graphs
     notes: list[str] = []
     sets = {
         name: _within(array.astype(np.float64).ravel(), _LABELS[name], "values", notes)
@@ -441,7 +450,56 @@ def draw_histogram(figure: Figure) -> Drawing:
         )
         for name, values in sets.items()
     )
+    if graphs and len(panels) == 1:
+        panels += graphs.panels
     return Drawing(figure.title, panels, tuple(notes))
+
+
+def are_alike(one: Array, other: Array) -> bool:
+    """Whether histograms of the values look the same."""
+    first, second = (np.sort(array.astype(np.float64), axis=None) for array in (one, other))
+    values = np.concatenate((first, second))
+    if not np.isfinite(values).all():
+        return False
+    below = [np.searchsorted(each, values, "right") / each.size for each in (first, second)]
+    return bool(np.abs(below[0] - below[1]).max() < ALIKE)
+
+
+def _graphs(figure: Figure) -> Drawing | None:
+    """Each value of ``expected``, if they are there, and of ``yours`` over its ``u``; None without numbers u."""
+    u = figure.arrays.get("u")
+    sets = _in_order(figure)
+    if u is None or any(array.shape != u.shape for _, array in sets):
+        return None
+    notes: list[str] = []
+    points = {
+        name: _within(np.stack((u, array)).astype(np.float64), _LABELS[name], "values", notes)
+        for name, array in sets
+    }
+    low, high = _view(points, 0.0)
+    panels = tuple(
+        _graph(
+            drawn,
+            _TITLES[name] if len(sets) > 1 else "Each value over its u",
+            YOURS if name == "yours" else EXPECTED,
+            low,
+            high,
+        )
+        for name, drawn in points.items()
+    )
+    return Drawing(figure.title, panels, tuple(notes))
+
+
+def _graph(points: Floats64, title: str, color: str, low: Floats64, high: Floats64) -> Panel:
+    u, values = points
+    ends = "; ".join(f"{values[k]:.3g} at u = {u[k]:.3g}" for k in (u.argmin(), u.argmax()))
+    canvas, axes = _axes((4.2, 2.9))
+    axes.scatter(u, values, s=5, color=color, lw=0, rasterized=True)
+    axes.set_xlim(low[0], high[0])
+    axes.set_ylim(low[1], high[1])
+    axes.set_xlabel("u")
+    axes.set_ylabel("value")
+    return Panel(title, f"{title}: {u.size} values over u; {ends}.", ends, svg=_svg(canvas))
 
 
 def _bars(values: Floats64, title: str, color: str, ends: tuple[float, float]) -> Panel:

@@ -1,12 +1,13 @@
 """What a class has understood: mistakes by name, failures alike without one, and what handing in again has changed."""
 
 from collections import Counter, defaultdict
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, lru_cache
 from itertools import count
 from pathlib import Path
 
+import numpy as np
 from markupsafe import Markup
 
 from course.atomic import write_text
@@ -232,11 +233,33 @@ def _example(module: str, function: str, mistake: str) -> Example | None:
 
 
 def _figure(results: Iterable[Result]) -> Figure | None:
-    """The first figure that can be shown, with what is right in it; None if there is none."""
-    shown = ((result, f) for result in results for f in result.figures if f.kind != "rays")
-    result, figure = next(shown, (None, None))
-    if result is None or figure is None or "expected" in figure.arrays:
-        return figure
+    """The first figure that shows what is wrong, with what is right in it; None if there is none."""
+    for result in results:
+        figures = [figure for figure in result.figures if figure.kind != "rays"]
+        found = next(filter(_tells, _beside_right(result, figures)), None) if figures else None
+        if found is not None:
+            return found
+    return None
+
+
+def _tells(figure: Figure) -> bool:
+    """Whether the two in a figure differ at all: a call whose result is right is no example of a mistake."""
+    from course.grading.reports.drawing import are_alike
+
+    yours, expected = (figure.arrays.get(name) for name in ("yours", "expected"))
+    if yours is None or expected is None or yours.shape != expected.shape:
+        return True
+    if np.allclose(yours, expected, rtol=1e-5, atol=1e-5, equal_nan=True):
+        return False
+    # Of values that come as often as they should, only their numbers u say more.
+    return figure.kind != "histogram" or "u" in figure.arrays or not are_alike(yours, expected)
+
+
+def _beside_right(result: Result, figures: Sequence[Figure]) -> Iterator[Figure]:
+    """The figures of a check, each with what is right beside it if that can be had."""
+    if all("expected" in figure.arrays for figure in figures):
+        yield from figures
+        return
     right = run_checks(
         module_checks(result.module),
         reference(result.module),
@@ -244,11 +267,19 @@ def _figure(results: Iterable[Result]) -> Figure | None:
         USUAL_SEED,
         lambda check: (check.function, check.name) == (result.function, result.check),
     )
-    for one in (one for passed in right for one in passed.figures):
-        if (one.kind, one.title) == (figure.kind, figure.title):
-            arrays = {"yours": figure.arrays["yours"], "expected": one.arrays["yours"]}
-            return replace(figure, arrays=arrays)
-    return figure
+    # Both make the same calls in the same order, as far as the one with the mistake comes.
+    calls: dict[tuple[str, str], Iterator[Figure]] = {}
+    drawn = [one for passed in right for one in passed.figures]
+    for figure in figures:
+        kind = figure.kind, figure.title
+        alike = calls.setdefault(
+            kind, iter([one for one in drawn if (one.kind, one.title) == kind])
+        )
+        one = next(alike, None)
+        if one is None or "expected" in figure.arrays:
+            yield figure
+        else:
+            yield replace(figure, arrays={**figure.arrays, "expected": one.arrays["yours"]})
 
 
 @cache

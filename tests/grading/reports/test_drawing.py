@@ -214,6 +214,16 @@ def test_points_that_lie_far_off_are_told() -> None:
     assert "1 of them outside" in drawing.panels[0].caption
 
 
+def test_beside_a_histogram_is_each_value_over_its_number() -> None:
+    """By how often its values come, a function that runs backwards is right."""
+    u = np.random.default_rng(0).random(1000)
+    alone = draw(Figure("histogram", "", {"yours": 1 - u, "u": u})).panels
+    assert [one.title for one in alone] == ["How often each value occurs", "Each value over its u"]
+    assert "<image" in alone[1].svg
+    unknown = draw(Figure("histogram", "", {"yours": 1 - u, "u": u[:7]})).panels
+    assert len(unknown) == 1
+
+
 def test_a_histogram_says_its_range() -> None:
     drawing = draw(Figure("histogram", "", {"yours": np.linspace(0, 1, 1000) ** 2}))
     assert "1000 values from 0 to 1, mean 0.33" in drawing.panels[0].caption

@@ -135,6 +135,32 @@ def test_beside_a_mistake_is_what_is_right(tmp_path: Path) -> None:
     assert not re.search(r"\b([Yy]ours|[Rr]eference|noise)\b", re.sub("<p class=.says.*", "", text))
 
 
+def test_a_mistake_of_order_is_drawn_over_the_numbers_and_not_as_two_equal_histograms(
+    tmp_path: Path,
+) -> None:
+    paths = "motion_blur.backwards", "motion_blur.squared_u"
+    graded = [report(path, made(path)) for path in paths]
+    write_lecture_page(graded, tmp_path / "lecture.html")
+    text = (tmp_path / "lecture.html").read_text(encoding="utf-8")
+    sections = re.findall('<section class="misconception">(.*?)</section>', text, re.DOTALL)
+    backwards, squared = (re.findall('aria-label="(.*?)"', one) for one in sections)
+    assert "backwards" in sections[0]
+    right, wrong = backwards
+    assert re.fullmatch(r"As it should be: 1000 values over u; 0.00\d+ at .*; 0.99\d* at .*", right)
+    assert re.fullmatch(r"With this mistake: .*; 0.99\d* at .*; 0.00\d+ at .*", wrong)
+    # Where how often a value comes tells the two apart, that is drawn.
+    assert [one.partition(":")[0] for one in squared] == ["Histogram", "Histogram"]
+
+
+def test_a_call_whose_result_is_right_is_no_picture_of_a_mistake(tmp_path: Path) -> None:
+    """Only its third coordinate is wrong, and the other two are drawn."""
+    graded = [report("ada", made("importance_sampling.cosine_not_lifted"))]
+    write_lecture_page(graded, tmp_path / "lecture.html")
+    text = (tmp_path / "lecture.html").read_text(encoding="utf-8")
+    assert "No picture shows it" in text
+    assert "<svg" not in text
+
+
 def test_a_page_of_500_students_is_small_and_leads_to_each(tmp_path: Path) -> None:
     rng = np.random.default_rng(0)
     checks = [f"check {k}" for k in range(6)]
