@@ -28,7 +28,9 @@ class CompiledTreeChoice(TreeChoice):
         cone = *axis, radius, radius / 20, np.cos(angle), np.sin(angle)
         return np.stack((*(lo + half), *half, *cone, power), axis=1)
 
-    def _walk(self, p: Floats32, n: Floats32, u: Floats32) -> tuple[Indices, Floats32]:
+    def _walk(
+        self, p: Floats32, n: Floats32, u: Floats32, _which: Indices | None
+    ) -> tuple[Indices, Floats32]:
         from course.compiled.light_tree_kernels import walk
 
         assert self.tree is not None

@@ -56,7 +56,7 @@ class TreeChoice(LightChoice):
         if self.tree is None:
             number, probability = self._by_power(u)
         elif not len(self.outside):
-            number, probability = self._walk(hits.near_origin, hits.ns, u)
+            number, probability = self._walk(hits.near_origin, hits.ns, u, None)
         else:
             number, probability = self._by_power(u)
             walks = np.flatnonzero(number < 0)
@@ -64,7 +64,7 @@ class TreeChoice(LightChoice):
             share = self.powers[-1] / self.powers.sum()
             left = np.clip((u.take(walks) - (1 - share)) / share, 0, 1 - np.float32(2.0**-24))
             found = self._walk(
-                hits.near_origin.take(walks, axis=1), hits.ns.take(walks, axis=1), left
+                hits.near_origin.take(walks, axis=1), hits.ns.take(walks, axis=1), left, walks
             )
             number[walks] = found[0]
             probability[walks] *= found[1]
@@ -78,7 +78,10 @@ class TreeChoice(LightChoice):
         lights = self.outside if self.tree is None else np.append(self.outside, -1)
         return lights.take(number, mode="clip"), np.array(probability, np.float32)
 
-    def _walk(self, p: Floats32, n: Floats32, u: Floats32) -> tuple[Indices, Floats32]:
+    def _walk(
+        self, p: Floats32, n: Floats32, u: Floats32, _which: Indices | None
+    ) -> tuple[Indices, Floats32]:
+        """Numbers (n,) of lights in the tree, and their probability, for the hits ``_which``, None for all."""
         number, probability = np.empty(len(u), np.intp), np.empty(len(u), np.float32)
         for first in range(0, len(u), TOGETHER):
             some = slice(first, first + TOGETHER)

@@ -142,8 +142,12 @@ class Recorder:
 
     def draw(self, name: str, ids: Indices, u: Floats32) -> None:
         """Numbers (width, n) that rays ``ids`` (n,) have drawn."""
-        self._known.append((u, ids))
+        self.knows(u, ids)
         self.drawn.add(self.kept(ids), id=ids, name=name, u=u)
+
+    def knows(self, array: Any, ids: Indices) -> None:
+        """The columns of an array belong to these rays, and so do those of a call that is given it or a slice of it."""
+        self._known.append((array, ids))
 
     def called(self, name: str, arguments: tuple[Any, ...], result: Any) -> None:
         """The function "module.function" was called."""
@@ -168,12 +172,17 @@ class Recorder:
 
     def _columns(self, name: str, arguments: tuple[Any, ...]) -> Indices | None:
         """The rays that the columns of a call belong to: those of an array that was drawn or made before, or all."""
-        size = contract(name).sizes(arguments).get("N")
+        size = contract(name).sizes(arguments).get("N", -1)
         arrays = [a for a in arguments if isinstance(a, np.ndarray)]
         columns: Indices
         for known, columns in reversed(self._known):
-            if len(columns) == size and any(np.may_share_memory(a, known) for a in arrays):
+            shares = (a for a in arrays if np.may_share_memory(a, known))
+            if len(columns) == size and any(True for _ in shares):
                 return columns
+            for array in shares:
+                # Hits may be looked at some at a time.
+                if (first := _begins(array, known)) is not None and first + size <= len(columns):
+                    return columns[first : first + size]
         if len(self.ids) == size:
             return self.ids
         if self.material is None:
@@ -181,6 +190,16 @@ class Recorder:
         materials, counts = np.unique(self.material, return_counts=True)
         some = materials[counts == size]
         return self.ids.compress(self.material == some[0]) if len(some) == 1 else None
+
+
+def _begins(part: Any, whole: Any) -> int | None:
+    """The column of an array (..., n) at which a slice of it begins; None where it is none of some columns."""
+    size = whole.itemsize
+    if part.dtype != whole.dtype or {part.strides[-1], whole.strides[-1]} != {size}:
+        return None
+    begin = part.__array_interface__["data"][0] - whole.__array_interface__["data"][0]
+    row = whole.strides[-2] if whole.ndim > 1 else whole.nbytes
+    return int(begin % row // size) if 0 <= begin < whole.nbytes else None
 
 
 def _column(value: Any, columns: int) -> Any:

@@ -18,6 +18,7 @@ from course.core.tracer import Tracer
 from course.core.types import Floats32, Indices, Mask, Media, Numbers
 from course.core.vectors import dot
 from course.effects import Effects
+from course.extras.light_tree import TreeChoice
 from course.extras.painting import ColorAt, Painting
 from course.extras.path_bounce import PathBounce
 from course.extras.path_tracing import PathIntegrator
@@ -135,6 +136,8 @@ def recorded(tracer: Tracer, recorder: Recorder) -> Tracer:
         if choice is not None:
             # Each light by itself, so that its rays have its name.
             seen["choice"] = replace(choice, together=False)
+            if isinstance(choice, TreeChoice):
+                seen["choice"] = _as(RecordedTree, seen["choice"], recorder)
         changed["direct"] = _as(RecordedDirect, integrator.direct, recorder, **seen)
     if integrator.scatter is not None:
         changed["scatter"] = _as(RecordedScatter, integrator.scatter, recorder)
@@ -343,6 +346,19 @@ class RecordedDirect(DirectLight):
             triangle=triangle,
             value=shown.take(which, axis=1),
         )
+
+
+class RecordedTree(TreeChoice):
+    """Tells which hits walk down the light tree."""
+
+    recorder: Recorder
+
+    def _walk(
+        self, p: Floats32, n: Floats32, u: Floats32, which: Indices | None
+    ) -> tuple[Indices, Floats32]:
+        recorder, ids = self.recorder, self.recorder.ids
+        recorder.knows(u, ids if which is None else ids.take(which))
+        return super()._walk(p, n, u, which)
 
 
 class RecordedSky(Sky):

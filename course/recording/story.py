@@ -211,6 +211,14 @@ class Story:
             Line(f"{step.function} made {_rgb(step.after)} of {_rgb(step.before)}")
             for step in self.developed
         ]
+        told = {call.function for one in self.segments for call in one.calls}
+        root.below += [
+            Line(
+                f"{name} was asked {_some(count, 'once', f'{count} times')}, for many rays at once"
+            )
+            for name, count in recording.asked.items()
+            if name not in told
+        ]
         if any(one.calls for one in self.segments):
             frame = recording.scene.compiled.frame
             root.below.append(
@@ -226,7 +234,8 @@ class Story:
         lines = []
         for kind, group in _by(rays, lambda one: one.kind).items():
             own = [one for one in group if any(one.radiance)]
-            light = f", bring {self._share(own)}" if own else ""
+            brings = _some(len(group), "brings", "bring")
+            light = f", {brings} {self._share(own)}" if own else ""
             line = Line(
                 f"{len(group)} {kind} {_some(len(group), 'ray meets', 'rays meet')}"
                 f" {_counted(one.met for one in group)}{light}"
@@ -257,7 +266,7 @@ class Story:
                 else f"{light}: 1 shadow ray arrives"
             )
             line = Line(
-                f"{text}, bring {self._share(group)}"
+                f"{text}, {_some(len(group), 'brings', 'bring')} {self._share(group)}"
                 if any(any(o.radiance) for o in group)
                 else text
             )

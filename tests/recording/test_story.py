@@ -268,3 +268,17 @@ def test_paths_that_leave_a_lit_scene_are_told_with_what_sent_them(make_scene: M
     told = pixel(scene, 16, 16).reason
     assert told.startswith("no light arrives: all 4 paths leave the scene, where it is black; ")
     assert "glossy.jitter_on_plane" in told
+
+
+def test_each_hit_s_walk_down_the_light_tree_is_recorded() -> None:
+    """Hits walk some thousands at a time, and only those that chose the tree do."""
+    scene = PROJECT / "scenes" / "many_lights.yaml"
+    story = pixel(scene, 40, 50, spp=8, size=(96, 64))
+    calls = [
+        call
+        for one in story.segments
+        for call in one.calls
+        if call.function == "many_lights.tree_choice"
+    ]
+    assert len(calls) == story.recording.asked["many_lights.tree_choice"] == 8
+    assert all(0 < call.results["probability"] <= 1 for call in calls)
