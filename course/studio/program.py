@@ -189,7 +189,12 @@ class Program:
         assert self._scene is not None
         scene = self._scene
         needs = [need.function for need in needs_of(scene, settings_of(scene))]
-        self.effects.load(Effects(self._folder), needs)
+        with warnings.catch_warnings(record=True) as told:
+            warnings.simplefilter("always", CourseWarning)
+            self.effects.load(Effects(self._folder), needs)
+        for each in told:
+            # A function whose name is spelt wrongly is not called; the page shows it beside what functions print.
+            sys.stderr.write(f"{each.message}\n")
         if self._early:
             # What was worked out before belongs to other functions.
             with self.effects.building():

@@ -437,6 +437,15 @@ def test_a_file_that_lets_nobody_else_run_is_told_and_ended(studio: Studio, work
     until(lambda: mine(studio)["samples"] == DONE and not mine(studio)["trouble"])
 
 
+def test_a_function_whose_name_is_spelt_wrongly_is_told(studio: Studio, work: Path) -> None:
+    until(lambda: mine(studio)["samples"] == DONE)
+    file = work / "assignments" / "soft_shadows.py"
+    text = file.read_text(encoding="utf-8").replace("def point_on_sphere(", "def point_on_spheres(")
+    file.write_text(text.replace("raise NotImplementedError", "return 1  #"), encoding="utf-8")
+    told = until(lambda: mine(studio).get("printed"))
+    assert "has no point_on_sphere, and a point_on_spheres" in told
+
+
 def test_a_failure_of_the_studio_itself_is_told_until_something_works(
     studio: Studio, monkeypatch: pytest.MonkeyPatch
 ) -> None:
