@@ -82,20 +82,41 @@
     return box;
   };
 
-  // The largest type with which a slide fits: the text over its figure, over a smaller one, or beside it, where a wide
-  // formula takes half of the slide. What doesn't fit at all scrolls.
+  // How high a figure's pictures may be, in hundredths of the window's height.
+  const PICTURES = [76, 69, 62, 56, 50, 45, 40, 35, 30];
+
+  const wear = (seen, { size, layout, picture }) => {
+    seen.className = `seen ${layout}`;
+    seen.style.fontSize = `${size}%`;
+    seen.style.setProperty("--picture", `${picture}vh`);
+  };
+
+  // Square pixels of all pictures in a figure.
+  const area = (figure) =>
+    [...figure.querySelectorAll("img, svg, canvas, iframe")].reduce((sum, part) => sum + part.clientWidth * part.clientHeight, 0);
+
+  // The largest type with which a slide fits, or up to two steps less where the figure gains more by it. The figure is
+  // below the text, or beside it, where a wide formula takes half of the slide. What doesn't fit at all scrolls.
   const fit = (box) => {
     const seen = box.querySelector(".seen");
-    const both = seen.querySelector(".text").children.length && seen.querySelector(".last").children.length;
-    const layouts = both ? [["", 62], ["", 45], ["beside", 62], ["beside even", 62]] : [["", 62], ["", 45]];
-    const ways = [100, 90, 80, 70, 60, 50].flatMap((size) => layouts.map(([layout, picture]) => [size, layout, picture]));
-    for (const [size, layout, picture] of ways) {
-      seen.className = `seen ${layout}`;
-      seen.style.fontSize = `${size}%`;
-      seen.style.setProperty("--picture", `${picture}vh`);
-      const fits = (part) => part.scrollWidth <= part.clientWidth + 2;
-      if (seen.scrollHeight <= seen.clientHeight && [seen, ...seen.querySelectorAll(".formula, pre")].every(fits)) break;
+    const last = seen.querySelector(".last");
+    const fits = (part) => part.scrollWidth <= part.clientWidth + 2;
+    const layouts = seen.querySelector(".text").children.length && last.children.length ? ["", "beside", "beside even"] : [""];
+    let best = null;
+    for (const size of [100, 90, 80, 70, 60, 50]) {
+      if (best && size < Math.max(best.largest - 20, 70)) break;
+      for (const layout of layouts) {
+        for (const picture of PICTURES) {
+          const way = { size, layout, picture };
+          wear(seen, way);
+          if (seen.scrollHeight > seen.clientHeight || ![seen, ...seen.querySelectorAll(".formula, pre")].every(fits)) continue;
+          const worth = area(last) * size ** 2;
+          if (!best || worth > best.worth) best = { ...way, worth, largest: best?.largest ?? size };
+          break;
+        }
+      }
     }
+    wear(seen, best ?? { size: 50, layout: layouts.at(-1), picture: 62 });
   };
 
   const show = () => {

@@ -85,3 +85,22 @@ def test_the_speakers_window_follows_and_leads(browser: Any, site: Path) -> None
         speaker.wait_for_url("**/glossy.html?slides=4&notes")
         speaker.keyboard.press("ArrowRight")
         page.wait_for_url("**/glossy.html?slides=5")
+
+
+WIDEST = """() => Math.max(...[...document.querySelectorAll(".slide.now .last :is(img, svg)")]
+  .map((each) => each.getBoundingClientRect().width)) / innerWidth"""
+
+
+def test_a_figure_uses_the_room_of_its_slide(browser: Any, site: Path) -> None:
+    with untroubled(browser, viewport={"width": 1280, "height": 720}) as page:
+        page.goto(f"{(site / 'modules' / 'thin_lens.html').as_uri()}?slides")
+        page.wait_for_selector(DECK)
+        widest: dict[str, list[float]] = {}
+        for _ in range(page.locator(".slide").count()):
+            for kind in (".series", ".diagram:has(.of-1)", ".mistakes:not(:has(:nth-child(3)))"):
+                if page.locator(f"{DECK} .last > {kind}").count():
+                    widest.setdefault(kind, []).append(page.evaluate(WIDEST))
+            page.keyboard.press("ArrowRight")
+        assert len(widest) == 3
+        # Beside the text a figure has at least half of the width.
+        assert {kind: shares for kind, shares in widest.items() if min(shares) < 0.44} == {}
