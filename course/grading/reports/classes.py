@@ -6,6 +6,8 @@ from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from io import StringIO
+from itertools import groupby
+from operator import attrgetter
 from pathlib import Path
 from statistics import fmean, median
 from types import MappingProxyType
@@ -29,6 +31,9 @@ BARS = 10
 
 PAIRS = 200
 """Submissions that are alike are listed up to this many pairs, the most alike first."""
+
+MOST = 3
+"""Misconceptions that are named before all others, whichever module they are of."""
 
 _BAR_HEIGHT = 165
 _LONG = 20
@@ -186,6 +191,7 @@ def write_class_page(
         for report in reports
     ]
     scores = sorted(finite(report.score) for report in graded)
+    found, by_module = misconceptions(graded), attrgetter("module")
     page = render(
         "classes.html.jinja",
         reports=reports,
@@ -198,8 +204,10 @@ def write_class_page(
         median=median(scores) if scores else 0.0,
         bars=_bars(scores),
         failures=_failures(graded),
+        misconceptions=[(module, list(made)) for module, made in groupby(found, by_module)],
+        fold=len(found) > _LONG,
         # Stable: those that as many make stay in the order of the course.
-        misconceptions=sorted(misconceptions(graded), key=lambda one: -len(one.students)),
+        most=sorted(found, key=lambda one: -len(one.students))[:MOST],
         unnamed=without_name(graded),
         changes=changes(earlier, graded),
         counts=[

@@ -161,6 +161,40 @@ def test_a_call_whose_result_is_right_is_no_picture_of_a_mistake(tmp_path: Path)
     assert "<svg" not in text
 
 
+def test_misconceptions_stand_by_module_as_taught_and_the_most_frequent_of_all_first(
+    tmp_path: Path,
+) -> None:
+    often = {"thin_lens.rare": 1, "thin_lens.often": 3, "sampling.warm": 2, "glossy.most": 5}
+    graded = [
+        report(f"student {k}", *(result(f, "c", f"m-{f}") for f, n in often.items() if k < n))
+        for k in range(6)
+    ]
+    write_class_page(graded, [], tmp_path / "class.html")
+    text = (tmp_path / "class.html").read_text(encoding="utf-8")
+    (section,) = re.findall('<section id="misconceptions">(.*?)</section>', text, re.DOTALL)
+    assert re.findall('<h3 id="made-.*?">(.*?)</h3>', section) == [
+        "sampling",
+        "glossy",
+        "thin_lens",
+    ]
+    (first,) = re.findall("<p>Most frequent: (.*?)</p>", section)
+    names = ["glossy.most", "thin_lens.often", "sampling.warm"]
+    assert re.findall("<code>(.*?)</code>", first) == names
+    assert "(5 of 5)" in first
+    for module in re.findall('href="#(.*?)"', first):
+        assert f'id="{module}"' in section
+    rows = re.findall('<th scope="row"><code>(.*?)</code>', section)
+    assert rows == ["sampling.warm", "glossy.most", "thin_lens.often", "thin_lens.rare"]
+
+
+def test_many_misconceptions_are_folded_module_by_module(tmp_path: Path) -> None:
+    made = [result(f"{m}.f", f"c{k}", f"m{k}") for m in ("glossy", "film") for k in range(11)]
+    write_class_page([report("ada", *made)], [], tmp_path / "class.html")
+    text = (tmp_path / "class.html").read_text(encoding="utf-8")
+    folded = "<details><summary>11 mistakes; most often <code>f</code>: m0, by 1 of 1</summary>"
+    assert text.count(folded) == 2
+
+
 def test_a_page_of_500_students_is_small_and_leads_to_each(tmp_path: Path) -> None:
     rng = np.random.default_rng(0)
     checks = [f"check {k}" for k in range(6)]
