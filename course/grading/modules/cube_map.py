@@ -19,11 +19,11 @@ DOWN_COLUMN = np.array([(0, -2, 0), (0, -2, 0), (0, 0, 2), (0, 0, -2), (0, -2, 0
 
 LENGTHS = (1e-6, 1e-3, 1e3, 1e6)
 
-NEAR = 1e-6
+NEAR = 1e-5
 """How near to an edge directions of no tie come: nearer, rounding may decide between two faces."""
 
 NEAREST = -6, -3
-"""Of a tenth of the places, the exponents of ten between which they lie away from an edge: a tie is a tie exactly."""
+"""Exponents of ten between which directions beside an edge lie away from it: rounding is six times smaller still."""
 
 
 def _on_cube(face: Array, u: Array, v: Array) -> Array:
@@ -48,10 +48,7 @@ def _directions(draw: Draw) -> Array:
         choice = np.array(((1, 0.5, 0), (-1, 0, 0.5), (0.5, 1, 0), (0, -1, 0.5), (0, 0.5, 1)))
         return draw.scale * choice.T[:, draw.rng.integers(0, 5, draw.n)]
     face = draw.rng.integers(0, 6, draw.n)
-    places = draw.uniform(NEAR, 1 - NEAR, 2, draw.n)
-    near = 10 ** draw.uniform(*NEAREST, 2, draw.n)
-    near = np.where(draw.rng.random(near.shape) < 0.5, near, 1 - near)
-    d = _on_cube(face, *np.where(draw.rng.random(near.shape) < 0.1, near, places))
+    d = _on_cube(face, *draw.uniform(NEAR, 1 - NEAR, 2, draw.n))
     return np.asarray(draw.scale * d / np.linalg.norm(d, axis=0))
 
 
@@ -80,6 +77,17 @@ def _nearly(draw: Draw) -> Mapping[str, Any]:
     """On edges and corners, but for a few of the dtype's last places."""
     steps = draw.rng.integers(0, 4, (3, draw.n))
     return {"direction": _edge(draw) * (1 - np.finfo(draw.dtype).eps * steps)}
+
+
+def _beside(draw: Draw) -> Mapping[str, Any]:
+    """Directions that pass an edge closely, where one component is larger by little."""
+    away = 10 ** draw.uniform(*NEAREST, draw.n)
+    places = np.stack(
+        (np.where(draw.rng.random(draw.n) < 0.5, away, 1 - away), draw.uniform(0.1, 0.9, draw.n))
+    )
+    turned = draw.rng.random(draw.n) < 0.5
+    u, v = np.where(turned, places[::-1], places)
+    return {"direction": _on_cube(draw.rng.integers(0, 6, draw.n), u, v)}
 
 
 def _all_three(a: Arguments, r: Any) -> tuple[Any, ...]:
@@ -117,6 +125,14 @@ FACE_AND_UV = function(
             "Edges and corners belong to one face each.",
             shows=lambda _, r: r[0],
             case=lambda d: {"direction": _edge(d)},
+        ),
+        close(
+            "beside",
+            "Beside an edge the larger component decides",
+            _all_three,
+            "Only equal components are a tie: one that is larger by little is larger.",
+            what="beside an edge, face (row 0), u (1) or v (2):",
+            case=_beside,
         ),
         close(
             "uv",

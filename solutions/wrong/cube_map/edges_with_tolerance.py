@@ -3,7 +3,7 @@
 import numpy as np
 
 FUNCTION = "face_and_uv"
-CAUGHT_BY = "uv"
+CAUGHT_BY = "beside"
 MISTAKE = None
 
 
