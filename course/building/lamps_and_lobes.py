@@ -48,7 +48,8 @@ def compile_combining(
         if type(lobe) is Lobe and lobe.kind == "phong" and not materials.refracts[lobe.material]:
             exponents[lobe.material] = lobe.parameter
     surfaces = _surfaces(scene, materials)
-    bare = tuple(light for light in lights if light.name not in surfaces) if metals else ()
+    met = {f"light {k}" for k, light in enumerate(scene.lights) if _can_be_met(light)}
+    bare = tuple(light for light in lights if metals and light.name not in met)
     known = {light.name: light for light in lights if light.velocity is None}
     found = [(light, surfaces[name]) for name, light in known.items() if name in surfaces]
     found = [pair for pair in found if _has_density(pair[0])]
@@ -87,10 +88,21 @@ def _surfaces(scene: d.SceneDescription, materials: MaterialTable) -> dict[str, 
     names = [
         f"light {number}"
         for number, light in enumerate(scene.lights)
-        if (isinstance(light, d.SphereLight) and light.radiance is not None)
-        or (isinstance(light, d.RectangleLight) and light.radiance is not None and light.visible)
+        if _can_be_met(light) and not isinstance(light, d.ObjectLight)
     ]
     return dict(zip(names, columns, strict=True))
+
+
+def _can_be_met(light: d.Light) -> bool:
+    """Whether rays can meet a light: then a lobe finds it, and its points alone would count it twice."""
+    match light:
+        case d.ObjectLight():
+            return True
+        case d.SphereLight():
+            return light.radiance is not None
+        case d.RectangleLight():
+            return light.radiance is not None and light.visible
+    return False
 
 
 def _has_density(light: Light) -> bool:

@@ -313,6 +313,40 @@ def test_rough_metals_find_lamps_in_all_ways_alike(
         assert np.abs(mean - RADIANCE * area * total / s.size).max() <= spread.max() + 2e-3
 
 
+@pytest.mark.parametrize("kind", ["distribution", "path"])
+@pytest.mark.parametrize(
+    "lamp",
+    [
+        {"type": "object", "object": "bulb"},
+        SHEET | {"samples": "grid 3"},
+        BALL | {"samples": "sphere"},
+        BALL | {"motion": {"velocity": [0.1, 0, 0]}},
+    ],
+    ids=["object", "grid", "other points", "moving"],
+)
+def test_lamps_of_other_kinds_are_left_to_the_lobe(
+    make_scene: MakeScene, lamp: dict[str, Any], kind: str
+) -> None:
+    """Their points aren't weighed, so that of a lamp that rays meet none is looked for."""
+    bulb = {"shape": "sphere", "radius": 0.5, "material": "glow", "name": "bulb"}
+    bulb |= {"transform": [{"translate": BALL["center"]}], "segments": 64}
+    plain = {"shape": "quad", "material": "glossy", "width": 2, "depth": 2}
+    parts: dict[str, Any] = {
+        "materials": metal(0.3) | {"glow": {"color": 0, "emission": RADIANCE}},
+        "objects": [plain, *([bulb] if lamp["type"] == "object" else [])],
+        "camera": {"eye": [4, 4, 0], "look_at": [0, 0, 0], "vertical_fov": 1e-4}
+        | {"shutter": {"open": 0, "close": 1}},
+    }
+    pictures = [
+        render(
+            plate(make_scene, "", lamp, **parts, integrator={"type": kind} | rules),
+            compiled=False,
+        ).linear
+        for rules in ({"gloss_sampling": "lobe", "max_depth": 1}, {"max_depth": 1})
+    ]
+    np.testing.assert_array_equal(*pictures)
+
+
 def test_a_metal_that_nothing_shines_on_asks_for_no_density(make_scene: MakeScene) -> None:
     """What a scene doesn't need isn't called."""
     sky = {"type": "constant", "radiance": 1}
