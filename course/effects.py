@@ -17,8 +17,6 @@ from types import ModuleType, SimpleNamespace
 from typing import Any
 
 from course.errors import CourseWarning, EffectError, Ended
-from course.inputs import Bound as MostRead
-from course.inputs import opened
 from course.modules import COURSE
 
 PACKAGE = Path(__file__).resolve().parent
@@ -301,8 +299,11 @@ def _import_file(path: Path) -> ModuleType:
     """Import a file under a name of its own, so that two folders with equal names don't meet."""
     if not path.is_file():
         raise EffectError(f"{path} is missing; the scene needs its functions")
-    with opened(path, "file of functions", MostRead(LARGEST_FILE), EffectError):
-        pass  # Python would read all of it, whatever its size.
+    if path.stat().st_size > LARGEST_FILE:
+        # Python would read all of it, whatever its size.
+        raise EffectError(
+            f"{path}: more than {LARGEST_FILE:,} bytes: too large for a file of functions"
+        )
     name = f"course_effects.{path.parent.name}.{path.stem}"
     spec = spec_from_file_location(name, path)
     if spec is None or spec.loader is None:

@@ -370,6 +370,7 @@ def sheets(make_scene: MakeScene, distances: list[float], tilt: bool, sun: Any =
     return render(scene).linear
 
 
+@pytest.mark.filterwarnings("ignore:.*is a gap of:course.errors.CourseWarning")
 @pytest.mark.parametrize("tilt", [False, True])
 @pytest.mark.parametrize("distance", [0.0, 1e-8, 1e-7, 1e-6, 1e-5, 1e-3])
 def test_coincident_and_nearly_coincident_sheets_show_no_speckle(
