@@ -16,9 +16,6 @@ DTYPES |= {name: getattr(np, name) for name in ("float32", "float64", "int32", "
 
 _KINDS = {np.bool_: "bool", "int": "whole", np.int32: "whole", np.uint32: "whole"}
 
-BELOW = "below:"
-"""Begins the word for a range."""
-
 Size = int | str | tuple[tuple[str, ...], int]
 """A number, a word, or words whose sizes are multiplied and then divided by a number."""
 
@@ -103,10 +100,8 @@ def parsed(text: str) -> Contract:
     for part in after.split(","):
         name, _, rest = part.partition(":")
         words = rest.split()
-        below = next((word for word in words if word.startswith(BELOW)), "")
-        said = {
-            word for word in words if word in DTYPES or word in ("unit", "infinite", "*", below)
-        }
+        below = next((word for word in words if word.startswith("below:")), "")
+        said = {*DTYPES, "unit", "infinite", "*", below} & {*words}
         results.append(
             Result(
                 name.strip(),
@@ -114,7 +109,7 @@ def parsed(text: str) -> Contract:
                 next((DTYPES[word] for word in words if word in DTYPES), None),
                 "infinite" not in said,
                 "unit" in said,
-                below.removeprefix(BELOW),
+                below[6:],
             )
         )
     return Contract(arguments, tuple(results), several)

@@ -212,11 +212,9 @@ def warn_of_gaps(loaded: Loaded, extents: Extents, frame: Frame, meshes: Sequenc
         gap = way[:, :, axis]
         # What lies closer than float32 can tell is meant to touch.
         place = np.maximum(np.abs(low), np.abs(high))[:, axis]
-        thin = (
-            (gap > np.maximum(place[:, None], place[None]) * 2.0**-22)
-            & (gap < THIN * OFFSET * reach)
-            & (beside > 4 * gap)
-        )
+        least = np.maximum(place[:, None], place[None]) * 2.0**-22
+        least = np.maximum(least, reach / LARGEST_RATIO)
+        thin = (gap > least) & (gap < THIN * OFFSET * reach) & (beside > 4 * gap)
         for i, j in np.argwhere(thin).tolist():
             first, second = int(some[i]), int(some[j])
             sides = (0, 1) if i == j else (1, 0)
