@@ -103,5 +103,5 @@ def test_files_that_a_scene_names_are_watched_too(tmp_path: Path) -> None:
     scene = tmp_path / "textures.yaml"
     shutil.copy(PROJECT / "scenes" / "textures.yaml", scene)
     names = {path.name for path in _named(scene, *times([scene]))}
-    assert names == {"studio.exr", "tiles.png", "globe.png", "weave.png"}
+    assert names == {"studio.exr", "tiles.png", "globe.png", "weave.png", "vase.obj"}
     assert _named(tmp_path / "none.yaml", 0) == []
