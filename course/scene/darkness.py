@@ -28,7 +28,6 @@ from course.core.types import Floats32, Floats64, Mask
 from course.errors import CourseWarning
 from course.extras.materials import FullMaterials
 from course.extras.mesh_light import MeshLight
-from course.extras.spot_light import SpotLight
 from course.extras.visible_sphere import VisibleSphereLight
 from course.extras.world import FullWorld
 from course.formats.yaml import description as d
@@ -213,13 +212,19 @@ def _ways(light: Light, points: Floats32) -> Floats32:
     return ways
 
 
+def _cone(light: Light) -> tuple[Floats32, float] | None:
+    """Axis and outer angle of a spot light, whose class only scenes with one import; None of other lights."""
+    return (light.axis, light.outer) if hasattr(light, "outer") else None  # type: ignore[attr-defined]
+
+
 def _shines_at(light: Light, points: Floats32) -> Mask:
     """(n,) which points are in front of a light, or not far beside the cone of one."""
-    if isinstance(light, SpotLight):
-        way = points - light.position[:, None]
+    if (cone := _cone(light)) is not None:
+        axis, outer = cone
+        way = points - _points(light)
         far = np.sqrt((way * way).sum(axis=0))
-        wide = math.cos(min(light.outer + BESIDE, math.pi))
-        return np.asarray(light.axis @ way > far * np.float32(wide))
+        wide = math.cos(min(outer + BESIDE, math.pi))
+        return np.asarray(axis @ way > far * np.float32(wide))
     if (
         not isinstance(light, PointLight | RectangleLight)
         or light.normal is None
@@ -241,13 +246,13 @@ def _turned_away(scene: Scene, seen: Hits) -> str:
         bounds = np.concatenate(scene.compiled.bounds)
         box = _corners(scene.compiled.frame.position(bounds)).astype(np.float32)
         # Between the corners of the box a cone may light something.
-        spots = any(isinstance(light, SpotLight) for light in lights)
+        spots = any(_cone(light) for light in lights)
         if scene.compiled.world.paths is None or not (
             spots or any(_shines_at(light, box).any() for light in lights)
         ):
             names = [light.name for light in lights]
             ways = ["turn the direction of spots"] if spots else []
-            if not all(isinstance(light, SpotLight) for light in lights):
+            if not all(_cone(light) for light in lights):
                 ways.append("exchange edge_u and edge_v, or set two_sided")
             return (
                 "the picture is likely to be black: nothing that is seen is in front of a light "
